@@ -1,0 +1,1 @@
+"""From a Timed Rebeca model to a ROS package."""

@@ -1,0 +1,1 @@
+"""The grammars, and the parsers that turn text into values."""

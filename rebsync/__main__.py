@@ -1,0 +1,6 @@
+"""`python -m rebsync`."""
+
+from rebsync.cli import main
+
+if __name__ == "__main__":
+    main()

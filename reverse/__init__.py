@@ -1,0 +1,1 @@
+"""From the code of a ROS package to a Timed Rebeca model."""

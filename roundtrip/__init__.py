@@ -1,0 +1,1 @@
+"""Keeps a model and its package in step: markers, manifest, differences."""
