@@ -33,7 +33,20 @@ ROBOTIC: dict[str, str] = {}
 
 GENERATION: dict[str, str] = {}
 
-FILES: dict[str, str] = {}
+FILES = {
+    "RS801": "a file or directory that does not exist",
+    "RS802": "a directory where a file is wanted, or the reverse",
+    "RS803": "a file or directory that may not be read or written",
+    "RS804": "a file that is not UTF-8 text",
+    "RS805": "a disk that is full",
+    "RS806": "a file operation that the operating system refuses",
+    "RS807": "a configuration file that is not valid TOML",
+    "RS808": "an unknown key in a configuration file",
+    "RS809": "a value that a key of a configuration file cannot have",
+    "RS810": "a missing key in a configuration file",
+    "RS811": "a directory without anything to read",
+    "RS812": "a file whose kind cannot be told from its name",
+}
 
 PROPERTIES: dict[str, str] = {}
 

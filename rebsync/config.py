@@ -1,0 +1,180 @@
+"""`rebsync.toml` beside a model: what the command line would otherwise repeat."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal, TypeAlias, cast
+
+from rebsync.diagnostics import Findings, RebsyncError, did_you_mean
+from rebsync.source import Source
+from rebsync.toml import Table, read_toml
+
+FILE_NAME = "rebsync.toml"
+TARGETS = ("ros1-cpp",)
+DRIVES = ("holonomic", "differential")
+
+Drive: TypeAlias = Literal["holonomic", "differential"]
+
+_PACKAGE = re.compile(r"[a-z][a-z0-9_]*\Z")
+_VERSION = re.compile(r"\d+\.\d+\.\d+\Z")
+_EMAIL = re.compile(r"[^@\s]+@[^@\s]+\Z")
+_SERVER = re.compile(r"[^\W\d][\w$]*\.[^\W\d][\w$]*\Z")
+_TOPIC = re.compile(r"[~/]?[A-Za-z][\w/]*\Z")
+_MESSAGE_TYPE = re.compile(r"[a-z]\w*/(?:msg/)?[A-Z]\w*\Z")
+
+
+@dataclass(frozen=True, slots=True)
+class Maintainer:
+    """Who answers for the generated package."""
+
+    name: str
+    email: str
+
+
+@dataclass(frozen=True, slots=True)
+class SensorBinding:
+    """The real sensor behind a `@Sensor` server; `seen` is the user's function on its message."""
+
+    server: str
+    topic: str
+    type: str
+    seen: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Config:
+    """The settings of one model; times in seconds, lengths in metres, angles in radians."""
+
+    package: str | None = None
+    target: str = "ros1-cpp"
+    time_unit: float = 1.0
+    slack: float = 0.1
+    seed: int = 0
+    cell_size: float = 1.0
+    drive: Drive = "holonomic"
+    heading: float = 0.0
+    maintainers: tuple[Maintainer, ...] = ()
+    license: str | None = None
+    version: str = "0.1.0"
+    description: str | None = None
+    sensors: tuple[SensorBinding, ...] = ()
+
+    def sensor(self, class_name: str, server: str) -> SensorBinding | None:
+        """The binding of the server `class_name.server`, if the user gave one."""
+        wanted = f"{class_name}.{server}"
+        return next((s for s in self.sensors if s.server == wanted), None)
+
+
+def parse_config(source: Source) -> Config:
+    """The settings in a text; a RebsyncError with all its mistakes when there are any."""
+    table = read_toml(source)
+    config = _config(table)
+    table.finish()
+    if table.diagnostics:
+        found = tuple(sorted(table.diagnostics, key=lambda d: d.span.start))
+        raise RebsyncError([Findings(source, found)])
+    return config
+
+
+def _config(table: Table) -> Config:
+    default = Config()
+    return Config(
+        package=_matching(table, "package", None, _PACKAGE, "lower case, digits and `_`"),
+        target=_one_of(table, "target", TARGETS, default.target),
+        time_unit=_number(table, "time_unit", default.time_unit, _positive, "above 0"),
+        slack=_number(table, "slack", default.slack, _not_negative, "0 or more"),
+        seed=_seed(table, default.seed),
+        cell_size=_number(table, "cell_size", default.cell_size, _positive, "above 0"),
+        drive=cast("Drive", _one_of(table, "drive", DRIVES, default.drive)),
+        heading=_number(table, "heading", default.heading, _finite, "finite"),
+        maintainers=_maintainers(table),
+        license=table.text("license"),
+        version=_matching(table, "version", default.version, _VERSION, "like 1.2.3")
+        or default.version,
+        description=table.text("description"),
+        sensors=_sensors(table),
+    )
+
+
+def _maintainers(table: Table) -> tuple[Maintainer, ...]:
+    people = []
+    for entry in table.tables("maintainers"):
+        for key in ("name", "email"):
+            entry.require(key)
+        name = entry.text("name", "") or ""
+        email = _matching(entry, "email", "", _EMAIL, "an address such as ada@example.org") or ""
+        entry.finish()
+        people.append(Maintainer(name, email))
+    return tuple(people)
+
+
+def _sensors(table: Table) -> tuple[SensorBinding, ...]:
+    bindings = []
+    sensors = table.table("sensors")
+    for server, entry in sensors.named_tables() if sensors else ():
+        if not _SERVER.match(server):
+            entry.report(
+                "RS809",
+                entry.place(),
+                f'"{server}" does not name a server',
+                'write [sensors."Class.server"], with the quotes',
+            )
+            continue
+        for key in ("topic", "type"):
+            entry.require(key)
+        topic = _matching(entry, "topic", "", _TOPIC, "a topic such as /scan") or ""
+        kind = _matching(entry, "type", "", _MESSAGE_TYPE, "like sensor_msgs/LaserScan") or ""
+        bindings.append(SensorBinding(server, topic, kind, entry.text("seen")))
+        entry.finish()
+    return tuple(bindings)
+
+
+def _matching(
+    table: Table, key: str, default: str | None, pattern: re.Pattern[str], wanted: str
+) -> str | None:
+    value = table.text(key, default)
+    if value and value != default and not pattern.match(value):
+        table.wrong(key, f'`{key}` cannot be "{value}"', f"it must be {wanted}")
+        return default
+    return value
+
+
+def _one_of(table: Table, key: str, known: tuple[str, ...], default: str) -> str:
+    value = table.text(key, default) or default
+    if value not in known:
+        hint = did_you_mean(value, known) or f"known: {', '.join(known)}"
+        table.wrong(key, f'`{key}` cannot be "{value}"', hint)
+        return default
+    return value
+
+
+def _number(
+    table: Table, key: str, default: float, accepts: Callable[[float], bool], wanted: str
+) -> float:
+    value = table.number(key, default)
+    if value is None or not accepts(value):
+        table.wrong(key, f"`{key}` must be {wanted}")
+        return default
+    return value
+
+
+def _seed(table: Table, default: int) -> int:
+    seed = table.integer("seed", default)
+    if seed is None or not 0 <= seed < 2**31:
+        table.wrong("seed", "`seed` must be a whole number from 0 to 2147483647")
+        return default
+    return seed
+
+
+def _finite(value: float) -> bool:
+    return abs(value) < float("inf")
+
+
+def _positive(value: float) -> bool:
+    return _finite(value) and value > 0
+
+
+def _not_negative(value: float) -> bool:
+    return _finite(value) and value >= 0
