@@ -18,6 +18,7 @@ SYNTAX = {
     "RS108": "a parameter without a type",
     "RS109": "the end of the file comes too early",
     "RS110": "a part of the language that rebsync recognises and refuses",
+    "RS112": "a part of the model in the wrong place",
     "RS111": "nesting deeper than rebsync reads",
 }
 
