@@ -1,0 +1,94 @@
+"""The command line: the roof of the house."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from contextlib import suppress
+
+import click
+
+from rebsync import __version__
+from rebsync.cli.group import LazyGroup
+from rebsync.cli.status import Status
+from rebsync.diagnostics import RebsyncError
+
+
+@click.command(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, "-V", "--version", message="%(prog)s %(version)s")
+def rebsync() -> None:
+    """Keeps verified Timed Rebeca models and the ROS code made from them in step."""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command; what it returns is the exit status."""
+    _print_whatever_the_encoding()
+    try:
+        status = rebsync.main(
+            list(arguments) if arguments is not None else None,
+            prog_name="rebsync",
+            standalone_mode=False,
+        )
+        sys.stdout.flush()
+    except RebsyncError as error:
+        status = _report(error)
+    except click.Abort:
+        status = _say("interrupted", Status.INTERRUPTED)
+    except KeyboardInterrupt:
+        status = _say("interrupted", Status.INTERRUPTED)
+    except click.ClickException as error:
+        status = _usage(error)
+    except BrokenPipeError:
+        status = Status.BROKEN_PIPE
+    except OSError as error:
+        status = _os_error(error)
+    except SystemExit as error:  # click's own answer to a broken pipe
+        status = Status.BROKEN_PIPE if error.code == 1 else error.code
+    return _closed(int(status or Status.CLEAN))
+
+
+def _print_whatever_the_encoding() -> None:
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(AttributeError, ValueError):
+            stream.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
+
+
+def _report(error: RebsyncError) -> Status:
+    from rebsync.report import print_report
+
+    with suppress(BrokenPipeError):
+        sys.stdout.flush()
+        print_report(error.findings, sys.stderr)
+    return Status.UNUSABLE
+
+
+def _os_error(error: OSError) -> Status:
+    from rebsync.files import os_mistake
+
+    return _report(os_mistake(str(error.filename or "standard output"), error))
+
+
+def _usage(error: click.ClickException) -> Status:
+    with suppress(BrokenPipeError):
+        error.show()
+    return Status.UNUSABLE
+
+
+def _say(message: str, status: Status) -> Status:
+    with suppress(BrokenPipeError):
+        click.echo(message, err=True)
+    return status
+
+
+def _closed(status: int) -> int:
+    """Flush what is left; a reader that has gone must not make the interpreter complain."""
+    try:
+        sys.stdout.flush()
+    except OSError as error:
+        with suppress(OSError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if not isinstance(error, BrokenPipeError) and status in (Status.CLEAN, Status.FINDINGS):
+            return _os_error(error)
+        return Status.BROKEN_PIPE if isinstance(error, BrokenPipeError) else status
+    return status

@@ -1,0 +1,43 @@
+"""The commands by name; the module of a command is imported when it runs."""
+
+from __future__ import annotations
+
+from importlib import import_module
+
+import click
+
+from rebsync.diagnostics import did_you_mean
+
+COMMANDS = {
+    "export": "Print a model in the form that another tool accepts.",
+    "fmt": "Bring models into the canonical layout.",
+    "generate": "Write the ROS package of a model.",
+    "lint": "Report mistakes in models and properties.",
+    "new": "Begin a model from a conceptual model in TOML.",
+}
+
+
+class LazyGroup(click.Group):
+    """A group that knows its commands without having loaded them."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        if cmd_name not in COMMANDS:
+            return None
+        command = import_module(f"rebsync.cli.{cmd_name}").command
+        assert isinstance(command, click.Command)
+        return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        if args[0] not in COMMANDS and not args[0].startswith("-"):
+            hint = did_you_mean(args[0], COMMANDS)
+            raise click.UsageError(f'no command "{args[0]}"{"; " + hint if hint else ""}', ctx)
+        return super().resolve_command(ctx, args)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))

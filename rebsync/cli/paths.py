@@ -1,0 +1,44 @@
+"""Which files a command line means: a directory stands for what lies below it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from rebsync.diagnostics import RebsyncError
+from rebsync.files import STANDARD_INPUT, os_mistake
+
+MODEL = ".rebeca"
+PROPERTY = ".property"
+
+
+def expand(paths: Sequence[str], suffixes: tuple[str, ...]) -> Iterator[str | RebsyncError]:
+    """The files meant, in order, each once; a path that cannot be used gives its error."""
+    seen: set[str] = set()
+    for path in paths:
+        for found in _files(path, suffixes):
+            if isinstance(found, RebsyncError):
+                yield found
+            elif found not in seen:
+                seen.add(found)
+                yield found
+
+
+def _files(path: str, suffixes: tuple[str, ...]) -> Iterator[str | RebsyncError]:
+    if path == STANDARD_INPUT or not Path(path).is_dir():
+        yield path
+        return
+    errors: list[OSError] = []
+    found = False
+    for folder, folders, names in os.walk(path, onerror=errors.append):
+        folders[:] = sorted(name for name in folders if not name.startswith("."))
+        for name in sorted(names):
+            if name.endswith(suffixes) and not name.startswith("."):
+                found = True
+                yield str(Path(folder, name))
+    for error in errors:
+        yield os_mistake(str(error.filename or path), error)
+    if not found and not errors:
+        wanted = " or ".join(f"*{suffix}" for suffix in suffixes)
+        yield RebsyncError.of(path, "RS811", f"there is no {wanted} below this directory")

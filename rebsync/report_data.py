@@ -1,0 +1,173 @@
+"""Findings for other programs: JSON, SARIF 2.1.0, GitHub workflow commands."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any, TypeAlias
+from urllib.parse import quote
+
+from rebsync import __version__
+from rebsync.codes import CODES
+from rebsync.diagnostics import Diagnostic, Findings, Severity
+from rebsync.source import NOWHERE, Source, Span
+
+Json: TypeAlias = dict[str, Any]
+
+_SARIF_SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
+_GITHUB = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: "notice"}
+
+
+def as_json(findings: Sequence[Findings]) -> str:
+    """One object; its `findings` are flat, in the order in which the text prints them."""
+    found = [_json_finding(source, diagnostic) for source, diagnostic in _flat(findings)]
+    return _dump({"version": 1, "findings": found})
+
+
+def as_sarif(findings: Sequence[Findings]) -> str:
+    """A SARIF 2.1.0 log with one run."""
+    used = sorted({diagnostic.code for _, diagnostic in _flat(findings)})
+    prints = _fingerprints(findings)
+    results = [
+        _sarif_result(source, diagnostic, used, next(prints))
+        for source, diagnostic in _flat(findings)
+    ]
+    driver = {
+        "name": "rebsync",
+        "version": __version__,
+        "rules": [{"id": c, "shortDescription": {"text": CODES.get(c, c)}} for c in used],
+    }
+    run = {"tool": {"driver": driver}, "columnKind": "unicodeCodePoints", "results": results}
+    return _dump({"$schema": _SARIF_SCHEMA, "version": "2.1.0", "runs": [run]})
+
+
+def as_github(findings: Sequence[Findings]) -> str:
+    """Workflow commands that GitHub shows beside the changed lines."""
+    return "".join(f"{_github_line(source, d)}\n" for source, d in _flat(findings))
+
+
+def _flat(findings: Sequence[Findings]) -> Iterator[tuple[Source, Diagnostic]]:
+    return ((each.source, diagnostic) for each in findings for diagnostic in each.diagnostics)
+
+
+def _dump(value: Json) -> str:
+    return json.dumps(value, indent=2, ensure_ascii=False) + "\n"
+
+
+def _region(source: Source, span: Span) -> dict[str, int]:
+    start, end = source.position(span.start), source.position(max(span.end, span.start))
+    return {
+        "startLine": start.line,
+        "startColumn": start.column,
+        "endLine": end.line,
+        "endColumn": end.column,
+    }
+
+
+# --- JSON --------------------------------------------------------------------------------------
+
+
+def _json_finding(source: Source, diagnostic: Diagnostic) -> Json:
+    return {
+        "code": diagnostic.code,
+        "title": CODES.get(diagnostic.code),
+        "severity": diagnostic.severity.value,
+        "message": diagnostic.message,
+        "hint": diagnostic.hint,
+        "path": source.path,
+        "region": None if diagnostic.span is NOWHERE else _region(source, diagnostic.span),
+        "fix": [{"region": _region(source, e.span), "text": e.text} for e in diagnostic.edits],
+        "related": [
+            {"region": _region(source, span), "message": remark}
+            for span, remark in diagnostic.related
+        ],
+    }
+
+
+# --- SARIF -------------------------------------------------------------------------------------
+
+
+def _sarif_result(source: Source, diagnostic: Diagnostic, used: list[str], print_: str) -> Json:
+    message = diagnostic.message + (f" ({diagnostic.hint})" if diagnostic.hint else "")
+    result: Json = {
+        "ruleId": diagnostic.code,
+        "ruleIndex": used.index(diagnostic.code),
+        "level": diagnostic.severity.value,
+        "message": {"text": message},
+        "locations": [_sarif_location(source, diagnostic.span)],
+        "partialFingerprints": {"rebsyncFinding/v1": print_},
+    }
+    if diagnostic.related:
+        result["relatedLocations"] = [
+            {"id": i, **_sarif_location(source, span), "message": {"text": remark}}
+            for i, (span, remark) in enumerate(diagnostic.related, start=1)
+        ]
+    if diagnostic.edits:
+        result["fixes"] = [_sarif_fix(source, diagnostic)]
+    return result
+
+
+def _sarif_location(source: Source, span: Span) -> Json:
+    place: Json = {"artifactLocation": _sarif_artifact(source)}
+    if span is not NOWHERE:
+        place["region"] = _region(source, span)
+    return {"physicalLocation": place}
+
+
+def _sarif_artifact(source: Source) -> Json:
+    path = Path(source.path)
+    if path.is_absolute():
+        return {"uri": path.as_uri()}
+    return {"uri": quote(path.as_posix())}
+
+
+def _sarif_fix(source: Source, diagnostic: Diagnostic) -> Json:
+    changes = [
+        {"deletedRegion": _region(source, e.span), "insertedContent": {"text": e.text}}
+        for e in diagnostic.edits
+    ]
+    change = {"artifactLocation": _sarif_artifact(source), "replacements": changes}
+    fix: Json = {"artifactChanges": [change]}
+    if diagnostic.hint:
+        fix["description"] = {"text": diagnostic.hint}
+    return fix
+
+
+def _fingerprints(findings: Sequence[Findings]) -> Iterator[str]:
+    """Codes of the findings that do not change when lines above them come or go."""
+    seen: Counter[tuple[str, str, str, str]] = Counter()
+    for source, diagnostic in _flat(findings):
+        line = ""
+        if diagnostic.span is not NOWHERE:
+            line = source.line(source.position(diagnostic.span.start).line).strip()
+        key = (Path(source.path).as_posix(), diagnostic.code, diagnostic.message, line)
+        seen[key] += 1
+        yield hashlib.sha256("\0".join((*key, str(seen[key]))).encode()).hexdigest()[:32]
+
+
+# --- GitHub ------------------------------------------------------------------------------------
+
+
+def _github_line(source: Source, diagnostic: Diagnostic) -> str:
+    properties = {"file": source.path}
+    if diagnostic.span is not NOWHERE:
+        region = _region(source, diagnostic.span)
+        properties |= {"line": str(region["startLine"]), "col": str(region["startColumn"])}
+        properties["endLine"] = str(region["endLine"])
+        if region["endLine"] == region["startLine"]:
+            properties["endColumn"] = str(region["endColumn"])
+    properties["title"] = diagnostic.code
+    listed = ",".join(f"{k}={_github_property(v)}" for k, v in properties.items())
+    message = diagnostic.message + (f"\n{diagnostic.hint}" if diagnostic.hint else "")
+    return f"::{_GITHUB[diagnostic.severity]} {listed}::{_github_data(message)}"
+
+
+def _github_data(text: str) -> str:
+    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+
+
+def _github_property(text: str) -> str:
+    return _github_data(text).replace(":", "%3A").replace(",", "%2C")

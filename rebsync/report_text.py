@@ -1,0 +1,88 @@
+"""One finding for people: `file:line:col: code message`, the source line, a caret, the hint."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from unicodedata import east_asian_width
+
+from rebsync.diagnostics import Diagnostic, Severity
+from rebsync.source import NOWHERE, Source, Span
+
+_WIDTH = 120
+_CLIPPED = "..."
+_STYLES = {Severity.ERROR: "bold red", Severity.WARNING: "bold yellow", Severity.NOTE: "bold cyan"}
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """A stretch of text and the style it has on a terminal."""
+
+    text: str
+    style: str = ""
+
+
+def finding_pieces(source: Source, diagnostic: Diagnostic) -> Iterator[Piece]:
+    """The lines that show one diagnostic."""
+    style = _STYLES[diagnostic.severity]
+    yield Piece(_place(source, diagnostic.span), "bold")
+    yield Piece(": ")
+    yield Piece(diagnostic.code, style)
+    yield Piece(f" {_printable(diagnostic.message)}\n")
+    yield from _excerpt(source, diagnostic.span, style)
+    if diagnostic.hint:
+        yield Piece("hint: ", "bold green")
+        yield Piece(f"{_printable(diagnostic.hint)}\n")
+    for span, remark in diagnostic.related:
+        yield Piece(_place(source, span), "bold")
+        yield Piece(f": note: {_printable(remark)}\n")
+        yield from _excerpt(source, span, "cyan")
+
+
+def _place(source: Source, span: Span) -> str:
+    path = _printable(source.path)
+    if span is NOWHERE:
+        return path
+    position = source.position(span.start)
+    return f"{path}:{position.line}:{position.column}"
+
+
+def _excerpt(source: Source, span: Span, style: str) -> Iterator[Piece]:
+    if span is NOWHERE:
+        return
+    position = source.position(span.start)
+    line = source.line(position.line)
+    start = position.column - 1
+    end = min(start + max(span.end - span.start, 1), max(len(line), start + 1))
+    line, start, end = _clipped(line, start, end)
+    yield Piece(f"  {_printable(line)}\n")
+    blank = "".join("\t" if c == "\t" else " " * _width(c) for c in line[:start])
+    marked = sum(_width(c) for c in line[start:end])
+    yield Piece(f"  {blank}")
+    yield Piece("^" + "~" * (max(marked, 1) - 1), style)
+    yield Piece("\n")
+
+
+def _clipped(line: str, start: int, end: int) -> tuple[str, int, int]:
+    """A very long line cut down to the part around the place."""
+    if len(line) <= _WIDTH:
+        return line, start, end
+    left = max(0, min(start - _WIDTH // 4, len(line) - _WIDTH))
+    right = left + _WIDTH
+    before = _CLIPPED if left else ""
+    after = _CLIPPED if right < len(line) else ""
+    shift = len(before) - left
+    return before + line[left:right] + after, start + shift, min(end, right) + shift
+
+
+def _printable(text: str) -> str:
+    """Control characters must not reach a terminal."""
+    if text.isprintable():
+        return text
+    return "".join(
+        c if c.isprintable() or c in "\t\n" else "\N{REPLACEMENT CHARACTER}" for c in text
+    )
+
+
+def _width(character: str) -> int:
+    return 2 if east_asian_width(character) in "WF" else 1
