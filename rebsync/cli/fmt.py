@@ -1,0 +1,78 @@
+"""`rebsync fmt`: bring models into the canonical layout."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable
+
+import click
+
+from rebsync.cli.options import write_output
+from rebsync.cli.paths import MODEL, expand
+from rebsync.cli.status import Status, worst
+from rebsync.diagnostics import Findings, RebsyncError, Severity
+from rebsync.files import STANDARD_INPUT, read_source, replace_text
+from rebsync.report import print_report
+from rebsync.source import Source
+
+
+@click.command("fmt")
+@click.argument("paths", metavar="FILE...", nargs=-1, required=True)
+@click.option("--check", is_flag=True, help="Write nothing; exit 1 if a file would change.")
+@click.option("--diff", is_flag=True, help="Write nothing; show what would change.")
+def command(paths: tuple[str, ...], check: bool, diff: bool) -> Status:
+    """Bring models into the canonical layout.
+
+    A directory stands for all models below it; `-` reads standard input and writes the result to
+    standard output.
+    """
+    outcomes = [_one(path, check, diff) for path in expand(paths, (MODEL,))]
+    return worst(outcomes)
+
+
+def _one(path: str | RebsyncError, check: bool, diff: bool) -> Status:
+    try:
+        if isinstance(path, RebsyncError):
+            raise path
+        source = read_source(path)
+        text = formatted(source)
+    except RebsyncError as error:
+        print_report(error.findings, sys.stderr)
+        return Status.UNUSABLE
+    if check or diff:
+        return _compare(source, text, diff)
+    if path == STANDARD_INPUT:
+        write_output("-", text)
+    elif replace_text(path, text):
+        click.echo(f"formatted {path}", err=True)
+    return Status.CLEAN
+
+
+def formatted(source: Source) -> str:
+    """The text of a model laid out; a RebsyncError with its errors when it does not parse."""
+    from rebsync.grammars.formatting import format_text
+    from rebsync.grammars.parser import parse_model
+
+    parsed = parse_model(source)
+    errors = tuple(d for d in parsed.diagnostics if d.severity is Severity.ERROR)
+    if errors:
+        raise RebsyncError([Findings(source, errors)])
+    return format_text(source.text)
+
+
+def _compare(source: Source, text: str, diff: bool) -> Status:
+    if text == source.text:
+        return Status.CLEAN
+    if diff:
+        write_output("-", "".join(_unified(source, text)))
+    else:
+        click.echo(f"would format {source.path}", err=True)
+    return Status.FINDINGS
+
+
+def _unified(source: Source, text: str) -> Iterable[str]:
+    from difflib import unified_diff
+
+    old, new = (t.splitlines(keepends=True) for t in (source.text, text))
+    for line in unified_diff(old, new, source.path, f"{source.path} (formatted)"):
+        yield line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n"
