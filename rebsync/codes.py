@@ -22,15 +22,113 @@ SYNTAX = {
     "RS111": "nesting deeper than rebsync reads",
 }
 
-NAMES: dict[str, str] = {}
+NAMES = {
+    "RS201": "a type, class or interface that is not declared",
+    "RS203": "a variable that is not declared",
+    "RS204": "a message server, method or function that is not declared",
+    "RS205": "a variable that the class does not have",
+    "RS206": "a variable declared twice",
+    "RS207": "a class or interface declared twice",
+    "RS208": "a message server, method or constructor declared twice",
+    "RS209": "a rebec of `main` whose name is taken",
+    "RS210": "the name of a type, used for something else",
+    "RS211": "a variable or method of another rebec",
+    "RS212": "a rebec that `main` does not declare",
+    "RS213": "`sender` outside of a message server",
+    "RS214": "`super` in a class that extends no other",
+}
 
-TYPES: dict[str, str] = {}
+TYPES = {
+    "RS301": "an operator that is not defined for its operands",
+    "RS302": "a value that does not fit the type of its place",
+    "RS303": "a cast that goes neither up nor down",
+    "RS304": "a condition that is not boolean",
+    "RS305": "a number that is too large",
+    "RS306": "a switch or case on something other than integers",
+    "RS307": "alternatives that have no common type",
+    "RS308": "an index into something that has no elements",
+    "RS309": "an index that is not an integer",
+    "RS310": "arguments that do not fit the declaration",
+    "RS311": "arguments that fit several declarations",
+    "RS312": "a time that is not an integer",
+    "RS313": "`instanceof` on something other than rebecs and classes",
+    "RS314": "an assignment to something that is not a variable",
+    "RS315": "an assignment to a constant, a known rebec or a built-in variable",
+    "RS316": "a list of initial values that does not fit its array",
+    "RS317": "a text outside of `assertion`",
+    "RS318": "a message to something that takes none",
+    "RS319": "a message to `sender` whose class is not known",
+    "RS320": "a value returned where none is wanted, or none where one is",
+}
 
-STRUCTURE: dict[str, str] = {}
+STRUCTURE = {
+    "RS401": "a model without `main`",
+    "RS402": "a model without classes",
+    "RS403": "an env variable without a value",
+    "RS404": "an env variable whose type or value is no constant",
+    "RS405": "an initial value of a state variable or known rebec",
+    "RS406": "a class or interface that descends from itself",
+    "RS407": "a parent of the wrong kind",
+    "RS408": "a class that leaves an inherited body open",
+    "RS409": "a body that is missing, or one too many",
+    "RS410": "an instance of something that has no instances",
+    "RS411": "bindings that do not fit the known rebecs",
+    "RS412": "a member without a type that is not the constructor",
+    "RS413": "a message server or method with the name of its class",
+    "RS414": "a member that does not fit the inherited one",
+    "RS415": "`break` outside of a loop or switch",
+    "RS416": "`continue` outside of a loop",
+    "RS417": "a case that is not constant",
+    "RS418": "a case that stands twice",
+    "RS419": "a switch without cases, or a `default` out of place",
+    "RS420": "a nondeterministic expression with fewer than two options",
+    "RS421": "an option of a nondeterministic expression that is not constant",
+    "RS422": "a nondeterministic expression outside of a message server",
+    "RS423": "`after` or `deadline` on something other than a message",
+    "RS424": "a constructor that sends to another rebec",
+    "RS425": "a negative time",
+    "RS426": "a known rebec that is no rebec",
+    "RS427": "an annotation where it does not belong",
+    "RS428": "a `@Move` that is not of the form `@Move(X+1, Y)`",
+    "RS429": "a priority that is not a constant integer",
+    "RS430": "`@priority` and `@globalPriority` in one model",
+    "RS431": "a queue or an array without places",
+    "RS432": "an abstract member of a class that is not abstract",
+}
 
-WARNINGS: dict[str, str] = {}
+WARNINGS = {
+    "RS501": "a state variable that is read before it is set",
+    "RS502": "a known rebec that is never used",
+    "RS503": "a message server that no one sends to",
+    "RS504": "a state variable that is never read",
+    "RS505": "a local variable that is never used",
+    "RS506": "a deadline that is over before the message arrives",
+    "RS507": "a statement that is never reached",
+    "RS508": "a queue that the rebec's own messages overflow",
+    "RS510": "an assertion whose outcome is known",
+    "RS511": "a name that hides a built-in",
+    "RS512": "an option of a nondeterministic expression that stands twice",
+    "RS513": "a constant index outside of its array",
+    "RS514": "a division by the constant zero",
+    "RS515": "an env variable that is never used",
+    "RS516": "a method that is never called",
+    "RS517": "a class without an instance",
+    "RS518": "a statement without effect",
+    "RS519": "a priority where it has no effect",
+    "RS520": "a method that can end without returning its value",
+}
 
-ROBOTIC: dict[str, str] = {}
+ROBOTIC = {
+    "RS601": "a controller that does not know a robot",
+    "RS602": "a robot that does not know the controller",
+    "RS603": "a sensor that does not send to itself after its rate",
+    "RS604": "a sensor that is never started",
+    "RS605": "a robot commanded other than through its port",
+    "RS606": "a robot without a port for its controller",
+    "RS607": "a class that moves but is no robot",
+    "RS608": "an activity that moves without taking time",
+    "RS609": "a port of a class that is no robot",
+}
 
 GENERATION: dict[str, str] = {}
 

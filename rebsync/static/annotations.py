@@ -1,0 +1,112 @@
+"""The rules of the annotations that rebsync knows; others are let through."""
+
+from __future__ import annotations
+
+from rebsync.model import Annotation, Empty, Statement
+from rebsync.static.constants import constant
+from rebsync.static.expressions import type_of
+from rebsync.static.facts import Facts, Move
+from rebsync.static.movement import movement
+from rebsync.static.scope import Body
+from rebsync.static.types import is_integer
+
+_PRIORITIES = frozenset(("priority", "globalPriority"))
+_PLACES = {
+    "Robot": "a class",
+    "Controller": "a class",
+    "Sensor": "a message server",
+    "Port": "a message server",
+    "Move": "an empty statement: @Move(X+1, Y);",
+}
+_LEGAL = {
+    "a class": frozenset(("Robot", "Controller")),
+    "a message server": frozenset(("Sensor", "Port")) | _PRIORITIES,
+    "an instance": _PRIORITIES,
+}
+_EXCLUSIVE = frozenset(("Robot", "Controller", "Sensor", "Port"))
+
+
+def check_annotations(facts: Facts, annotations: tuple[Annotation, ...], of: str) -> None:
+    """Checks the annotations of `of`: "a class", "a message server", "a method", ..."""
+    seen: dict[str, Annotation] = {}
+    for annotation in annotations:
+        name = annotation.name
+        if name == "feature":
+            hint = "a generated ROS system has no features: keep one model per variant"
+            facts.error("RS110", annotation.span, '"@feature" is not supported', hint)
+        elif name in _PRIORITIES:
+            _check_priority(facts, annotation, of)
+        elif name in _PLACES:
+            _check_place(facts, annotation, of, seen)
+            seen.setdefault(name, annotation)
+
+
+def _check_place(
+    facts: Facts, annotation: Annotation, of: str, seen: dict[str, Annotation]
+) -> None:
+    name, span = annotation.name, annotation.span
+    if name not in _LEGAL.get(of, ()):
+        message = f"@{name} does not belong to {of}"
+        facts.error("RS427", span, message, f"it belongs to {_PLACES[name]}")
+        return
+    if annotation.arguments is not None:
+        facts.error("RS427", span, f"@{name} takes no arguments")
+    for other, first in seen.items():
+        if other in _EXCLUSIVE:
+            twice = "stands here twice" if other == name else f"and @{other} exclude each other"
+            place = ((first.span, f"@{other} stands here"),)
+            facts.error("RS427", span, f"@{name} {twice}", related=place)
+
+
+def _check_priority(facts: Facts, annotation: Annotation, of: str) -> None:
+    name, span = annotation.name, annotation.span
+    if name not in _LEGAL.get(of, ()):
+        hint = "it orders message servers and the instances in main"
+        facts.warn("RS519", span, f"@{name} has no effect on {of}", hint)
+        return
+    first = facts.priority
+    if first is None:
+        facts.priority = annotation
+    elif first.name != name:
+        message = f"@{name} and @{first.name} cannot be mixed in one model"
+        facts.error("RS430", span, message, related=((first.span, f"@{first.name} stands here"),))
+    arguments = annotation.arguments or ()
+    if len(arguments) != 1:
+        facts.error("RS429", span, f"@{name} takes one integer, such as @{name}(1)")
+        return
+    value = constant(arguments[0])
+    if isinstance(value, bool) or not isinstance(value, int):
+        message = f"the value of @{name} must be a constant integer"
+        facts.error("RS429", arguments[0].span, message, "write it as a literal")
+
+
+def check_statement_annotations(statement: Statement, body: Body) -> None:
+    """Checks the annotations of a statement: `@Move` on an empty one."""
+    others: list[Annotation] = []
+    for annotation in statement.annotations:
+        if annotation.name == "Move" and isinstance(statement, Empty):
+            _check_move(annotation, body)
+        else:
+            others.append(annotation)
+    check_annotations(body.facts, tuple(others), "this statement")
+
+
+def _check_move(annotation: Annotation, body: Body) -> None:
+    step = movement(annotation)
+    if step is None:
+        message = "@Move takes the new X and the new Y"
+        hint = "write each as X, X+e or X-e: @Move(X+1, Y), @Move(X, Y-(a+b))"
+        body.facts.error("RS428", annotation.span, message, hint)
+        return
+    body.events.append(Move(annotation))
+    for offset in (step.x, step.y):
+        if offset.amount is None:
+            continue
+        type_ = type_of(offset.amount, body)
+        if type_ is not None and not is_integer(type_):
+            message = f'a robot moves by whole cells, not by "{type_}"'
+            body.facts.error("RS428", offset.amount.span, message)
+    if body.owner is not None and not body.owner.annotated("Robot"):
+        message = f'"{body.owner.name}" moves but is not a @Robot'
+        hint = f"write @Robot before reactiveclass {body.owner.name}"
+        body.facts.warn("RS607", annotation.span, message, hint)
