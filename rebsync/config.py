@@ -50,7 +50,7 @@ class Config:
     package: str | None = None
     target: str = "ros1-cpp"
     time_unit: float = 1.0
-    slack: float = 0.1
+    slack: float = 0.5
     seed: int = 0
     cell_size: float = 1.0
     drive: Drive = "holonomic"

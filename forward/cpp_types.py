@@ -1,0 +1,48 @@
+"""The types of the model in C++."""
+
+from __future__ import annotations
+
+from rebsync.model import Type
+from rebsync.package import Value
+
+_PLAIN = {
+    "byte": "int8_t",
+    "short": "int16_t",
+    "int": "int32_t",
+    "float": "float",
+    "double": "double",
+    "boolean": "bool",
+    "void": "void",
+}
+
+
+def cpp_type(type_: Type) -> str:
+    """`int32_t`, `std::array<bool, 2>`, `std::string` for the name of a rebec."""
+    text = _PLAIN.get(type_.name, "std::string")
+    for length in reversed(type_.dimensions):
+        text = f"std::array<{text}, {length}>"
+    return text
+
+
+def parameter_type(type_: Type) -> str:
+    """How a value of the type is passed: by value where it is small."""
+    text = cpp_type(type_)
+    return text if text in _PLAIN.values() else f"const {text}&"
+
+
+def is_text(type_: Type) -> bool:
+    """Whether values of the type are names of rebecs."""
+    return type_.name not in _PLAIN
+
+
+def cpp_value(value: Value) -> str:
+    """A constant in C++; nested braces for arrays."""
+    match value:
+        case bool():
+            return "true" if value else "false"
+        case str():
+            return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+        case tuple():
+            return "{{" + ", ".join(cpp_value(v) for v in value) + "}}"
+        case _:
+            return repr(value)

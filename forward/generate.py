@@ -1,0 +1,53 @@
+"""Generation as one expression over stages: model -> package value -> files."""
+
+from __future__ import annotations
+
+import re
+from importlib.resources import files
+
+from rebsync.config import Config
+from rebsync.forward.remarks import Comment, Remarks
+from rebsync.forward.view import view
+from rebsync.model import Model
+from rebsync.names import CPP_KEYWORDS, PYTHON_KEYWORDS, snake_case
+from rebsync.static import Analysis
+
+
+_ROS_PACKAGES = frozenset(
+    {
+        *("catkin", "genmsg", "geometry_msgs", "message_generation", "message_runtime", "nav_msgs"),
+        *("rosconsole", "roscpp", "rosgraph_msgs", "roslaunch", "rospy", "sensor_msgs", "std_msgs"),
+    }
+)
+
+
+def package_name(stem: str, config: Config) -> str:
+    """The name of the package: as configured, else after the model's file (REP 144)."""
+    if config.package:
+        return config.package
+    name = re.sub(r"[^a-z0-9_]+", "_", snake_case(re.sub(r"[^\w$]+", "_", stem))).strip("_")
+    name = re.sub(r"_+", "_", name)
+    name = name if name[:1].isalpha() else f"model_{name}".rstrip("_")
+    return f"{name}_nodes" if is_taken(name) else name
+
+
+def is_taken(name: str) -> bool:
+    """Whether ROS, C or C++ use the name, so that no package can have it."""
+    if name in _ROS_PACKAGES or name in CPP_KEYWORDS | PYTHON_KEYWORDS:
+        return True
+    text = files("rebsync.forward").joinpath("c_names.txt").read_text(encoding="ascii")
+    return name in text.split("\n")
+
+
+def generate(
+    model: Model,
+    comments: tuple[Comment, ...],
+    analysis: Analysis,
+    config: Config,
+    stem: str,
+) -> dict[str, str]:
+    """The files of the package by path; `analysis` must be free of errors."""
+    from rebsync.forward.ros1_cpp import render
+
+    package, topics = view(model, analysis, config, package_name(stem, config))
+    return render(package, analysis, topics, Remarks(comments), f"{stem}.rebeca")

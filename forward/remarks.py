@@ -1,0 +1,46 @@
+"""The comments of the model, for the generated code: users read them, extraction does not."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from rebsync.source import Span
+
+
+class Comment(Protocol):
+    """A comment as the parser gives it."""
+
+    @property
+    def text(self) -> str: ...
+
+    @property
+    def span(self) -> Span: ...
+
+
+@dataclass(frozen=True, slots=True)
+class Remarks:
+    """Comments in order of place."""
+
+    comments: Sequence[Comment] = ()
+
+    def between(self, start: int, end: int) -> Iterator[str]:
+        """The lines of the comments that lie between two places, as `//` comments."""
+        first = bisect_left(self.comments, start, key=lambda c: c.span.start)
+        for comment in self.comments[first:]:
+            if comment.span.end > end:
+                break
+            yield from (f"// {line}".rstrip() for line in comment_lines(comment.text))
+
+
+def comment_lines(text: str) -> Iterator[str]:
+    """The words of a comment, line by line, without its delimiters."""
+    if text.startswith("//"):
+        yield text[2:].strip()
+        return
+    for line in text[2:-2].splitlines():
+        words = line.strip().lstrip("*").strip()
+        if words:
+            yield words

@@ -1,0 +1,194 @@
+"""Which topic and message type every message server has (mapping: one each per server).
+
+Servers that redefine one another across classes and interfaces are one topic family: they share
+the message type, which is named after the class that declares the server first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from rebsync.model import (
+    Interface,
+    MessageServer,
+    Model,
+    Name,
+    Parameter,
+    ReactiveClass,
+    Type,
+    walk,
+)
+from rebsync.names import camel_case, carry, field_names, graph_name, unique
+from rebsync.package import Field, MessageType, StateType
+from rebsync.static import Analysis
+from rebsync.static.symbols import BuiltinSymbol, ClassInfo, ServerSymbol
+
+RUNTIME_CLASSES = frozenset(
+    {
+        *("Drive", "Inherited", "Mailbox", "Pose", "Publishers", "Sensor", "Served", "Server"),
+        *("Startup", "Stopped", "Timing", "Violation", "When"),
+    }
+)
+RUNTIME_FIELDS = ("timing", "sender")
+STATE_FIELDS = ("server", "arguments", "arrival", "start", "now")
+Signature = tuple[str, tuple[str, ...]]
+
+
+@dataclass(frozen=True, slots=True)
+class ServerTopic:
+    """One family of servers: its key (last segment of the topic), type, and port annotation."""
+
+    root: str
+    name: str
+    key: str
+    parameters: tuple[Parameter, ...]
+    message: MessageType
+    port: bool
+
+
+def signature(name: str, parameters: tuple[Parameter, ...]) -> Signature:
+    """What tells a server from its overloads."""
+    return name, tuple(str(p.type) for p in parameters)
+
+
+def declared_servers(declaration: ReactiveClass | Interface) -> tuple[MessageServer, ...]:
+    """The servers that a class or interface declares itself."""
+    if isinstance(declaration, Interface):
+        return declaration.servers
+    return tuple(m for m in declaration.members if isinstance(m, MessageServer))
+
+
+class Topics:
+    """The topic family of every server of a model."""
+
+    def __init__(self, model: Model, analysis: Analysis) -> None:
+        self._analysis = analysis
+        self._order = {c.name: i for i, c in enumerate(model.classes)}
+        self._declared: dict[tuple[str, Signature], MessageServer] = {
+            (c.name, signature(s.name, s.parameters)): s
+            for c in model.classes
+            for s in declared_servers(c)
+        }
+        self._families = self._unite(model)
+        self.class_types = {c.name: carry(c.name, RUNTIME_CLASSES) for c in model.classes}
+        self._used_types = set(self.class_types.values()) | RUNTIME_CLASSES
+        self._topics = {root: self._topic(root) for root in self._roots()}
+        self.states = {c.name: self._state(analysis.classes[c.name]) for c in model.classes}
+
+    @property
+    def messages(self) -> tuple[MessageType, ...]:
+        """All message types, in the order in which the model declares their servers."""
+        return tuple(self._topics[root].message for root in self._roots())
+
+    def of(self, class_name: str, wanted: Signature) -> ServerTopic:
+        """The topic of a server as a class declares or inherits it."""
+        return self._topics[self._find(self._declaring(class_name, wanted))]
+
+    def called(self, server: ServerSymbol) -> ServerTopic:
+        """The topic of a server that a call refers to."""
+        declaration = server.declaration
+        return self.of(server.owner, signature(server.name, declaration.parameters))
+
+    def signatures(self, class_name: str) -> Iterator[Signature]:
+        """The servers that a class declares or inherits."""
+        for server in self._analysis.classes[class_name].servers:
+            yield signature(server.name, server.declaration.parameters)
+
+    def subscriber(self, class_name: str, wanted: Signature) -> str:
+        """The reactive class in the lineage that makes the subscription: the topmost to have it."""
+        lineage = self._analysis.classes[class_name].lineage
+        for name in reversed(lineage):
+            info = self._analysis.classes[name]
+            if not info.is_interface and wanted in set(self.signatures(name)):
+                return name
+        return class_name
+
+    # --- families -------------------------------------------------------------------------------
+
+    def _unite(self, model: Model) -> dict[tuple[str, Signature], tuple[str, Signature]]:
+        families = {place: place for place in self._declared}
+        self._families = families
+        for c in model.classes:
+            lineage = self._analysis.classes[c.name].lineage
+            for wanted in set(self.signatures(c.name)):
+                places = [(n, wanted) for n in lineage if (n, wanted) in self._declared]
+                for other in places[1:]:
+                    first, second = self._find(places[0]), self._find(other)
+                    earlier, later = sorted((first, second), key=self._place_order)
+                    families[later] = earlier
+        return families
+
+    def _place_order(self, place: tuple[str, Signature]) -> int:
+        return self._order[place[0]]
+
+    def _find(self, place: tuple[str, Signature]) -> tuple[str, Signature]:
+        while self._families[place] != place:
+            place = self._families[place]
+        return place
+
+    def _declaring(self, class_name: str, wanted: Signature) -> tuple[str, Signature]:
+        for name in self._analysis.classes[class_name].lineage:
+            if (name, wanted) in self._declared:
+                return name, wanted
+        raise KeyError((class_name, wanted))
+
+    def _roots(self) -> list[tuple[str, Signature]]:
+        return [place for place in self._declared if self._find(place) == place]
+
+    def _family(self, root: tuple[str, Signature]) -> list[MessageServer]:
+        return [s for place, s in self._declared.items() if self._find(place) == root]
+
+    # --- what a family is called ----------------------------------------------------------------
+
+    def _topic(self, root: tuple[str, Signature]) -> ServerTopic:
+        class_name, (name, types) = root
+        parameters = self._declared[root].parameters
+        key = graph_name(name)
+        if self._is_overloaded(root):
+            words = "_".join(t.replace("[", "_").replace("]", "") for t in types) or "void"
+            key = f"{key}_{words}"
+        family = self._family(root)
+        message = MessageType(
+            unique(camel_case(class_name) + camel_case(key), self._used_types, ""),
+            message_fields(parameters, RUNTIME_FIELDS),
+            any(map(self._uses_sender, family)),
+            f"{class_name}.{name}",
+        )
+        port = any(a.name == "Port" for s in family for a in s.annotations)
+        return ServerTopic(class_name, name, key, parameters, message, port)
+
+    def _is_overloaded(self, root: tuple[str, Signature]) -> bool:
+        """Whether some class has another server of the same name beside one of this family."""
+        name = root[1][0]
+        members = {place for place in self._declared if self._find(place) == root}
+        for class_name, info in self._analysis.classes.items():
+            same = {s for s in self.signatures(class_name) if s[0] == name}
+            if len(same) > 1 and any((n, root[1]) in members for n in info.lineage):
+                return True
+        return False
+
+    def _uses_sender(self, server: MessageServer) -> bool:
+        if server.body is None:
+            return False
+        symbols: Mapping[int, object] = self._analysis.symbols
+        return any(
+            isinstance(node, Name)
+            and node.name == "sender"
+            and isinstance(symbols.get(id(node)), BuiltinSymbol)
+            for node in walk(server.body)
+        )
+
+    def _state(self, info: ClassInfo) -> StateType:
+        variables = [(s.name, s.type or Type("int")) for s in info.state]
+        fields = field_names([name for name, _ in variables], STATE_FIELDS)
+        return StateType(
+            unique(f"{camel_case(info.name)}State", self._used_types, ""),
+            tuple(Field(f, t, n) for f, (n, t) in zip(fields, variables, strict=True)),
+        )
+
+
+def message_fields(parameters: tuple[Parameter, ...], taken: tuple[str, ...]) -> tuple[Field, ...]:
+    """One field a parameter, in their order."""
+    names = field_names([p.name for p in parameters], taken)
+    return tuple(Field(n, p.type, p.name) for n, p in zip(names, parameters, strict=True))

@@ -1,0 +1,283 @@
+"""A ROS package as a value that knows no dialect: ROS 1 or 2, C++ or Python render or read it.
+
+Bodies of callbacks are Rebeca statements. Topics are given as one node sees them: `~` stands for the
+node's own name. What belongs to one class is in its `NodeClass`; what `main` instantiates is in
+`instances`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from rebsync.model import Annotation, Block, Parameter, Type
+
+Value: TypeAlias = "int | float | bool | str | tuple[Value, ...]"
+
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """A field of a message: its name in ROS, its type, and the name that it has in the model."""
+
+    name: str
+    type: Type
+    source: str
+
+
+@dataclass(frozen=True, slots=True)
+class MessageType:
+    """The type of a topic: made from the class that declares a server first, and the server."""
+
+    name: str
+    fields: tuple[Field, ...]
+    carries_sender: bool
+    path: str
+
+
+@dataclass(frozen=True, slots=True)
+class StateType:
+    """What a node publishes about itself after each body: one field a state variable."""
+
+    name: str
+    fields: tuple[Field, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Draw:
+    """One `?(...)` of a sensor server: the type drawn, its alternatives, and its field."""
+
+    field: str
+    type: Type
+    alternatives: tuple[Value, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Sensor:
+    """The real sensor of a `@Sensor` server, or the stand-in that plays it.
+
+    `topic` is where the data comes from (None: the stand-in's own topic), `type` the message type,
+    `seen` the user's expression on `msg` for the first draw, `period` the rate in model time.
+    """
+
+    server: str
+    name: str
+    type: str
+    topic: str | None
+    draws: tuple[Draw, ...]
+    period: float
+    seen: str | None = None
+
+    @property
+    def stands_in(self) -> bool:
+        return self.topic is None
+
+
+@dataclass(frozen=True, slots=True)
+class Subscription:
+    """The topic of a message server and the callback that serves it.
+
+    `topic` is relative to the node's private name, or for a controller to
+    `control_bridge/<node>/`. `body` is None for an abstract server; `inherited` says that an
+    ancestor has made the subscription already and this is its new body.
+    """
+
+    server: str
+    key: str
+    topic: str
+    on_bridge: bool
+    message: MessageType
+    parameters: tuple[Parameter, ...]
+    body: Block | None
+    path: str
+    annotations: tuple[Annotation, ...] = ()
+    priority: int | None = None
+    inherited: bool = False
+    overridden: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Publisher:
+    """Where a class sends one server's messages.
+
+    To a known rebec (`known` is its name) or, `known` being None, to any rebec of the class
+    `target`, chosen by name at run time. `topic` is private: the launch file remaps it.
+    """
+
+    key: str
+    target: str
+    known: str | None
+    server: str
+    topic: str
+    message: MessageType
+    parameters: tuple[Parameter, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class SelfSend:
+    """A server that the class sends to itself."""
+
+    key: str
+    server: str
+    parameters: tuple[Parameter, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """A state variable."""
+
+    name: str
+    type: Type
+    path: str
+
+
+@dataclass(frozen=True, slots=True)
+class KnownRebec:
+    """A known rebec: a member with the rebec's name, set by the launch file."""
+
+    name: str
+    type: str
+    path: str
+
+
+@dataclass(frozen=True, slots=True)
+class GlobalParameter:
+    """An `env` variable: an entry of the parameter server with the model's value as default."""
+
+    name: str
+    key: str
+    type: Type
+    value: Value
+
+
+@dataclass(frozen=True, slots=True)
+class ConstructorOf:
+    """A constructor: its parameters are private parameters of the node."""
+
+    parameters: tuple[Parameter, ...]
+    keys: tuple[str, ...]
+    body: Block | None
+    annotations: tuple[Annotation, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Function:
+    """A local method."""
+
+    name: str
+    type: Type
+    parameters: tuple[Parameter, ...]
+    body: Block | None
+    path: str
+    overridden: bool = False
+    overrides: bool = False
+    annotations: tuple[Annotation, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class NodeClass:
+    """A reactive class or interface as a class of ROS nodes; inherited parts stay with `bases`."""
+
+    name: str
+    file: str
+    bases: tuple[str, ...]
+    queue_length: int
+    abstract: bool
+    interface: bool
+    robot: bool
+    controller: bool
+    moves: bool
+    inherited_from: bool
+    annotations: tuple[Annotation, ...]
+    members: tuple[Member, ...]
+    known: tuple[KnownRebec, ...]
+    env: tuple[GlobalParameter, ...]
+    constructors: tuple[ConstructorOf, ...]
+    subscriptions: tuple[Subscription, ...]
+    publishers: tuple[Publisher, ...]
+    self_sends: tuple[SelfSend, ...]
+    functions: tuple[Function, ...]
+    sensors: tuple[Sensor, ...]
+    state: StateType
+    executable: bool
+    tests_types: bool
+
+
+@dataclass(frozen=True, slots=True)
+class NodeParameter:
+    """A private parameter of one node."""
+
+    key: str
+    type: Type
+    value: Value
+
+
+@dataclass(frozen=True, slots=True)
+class Remap:
+    """A private name of a node and what it stands for, relative to the launch file's namespace."""
+
+    private: str
+    target: str
+
+
+@dataclass(frozen=True, slots=True)
+class Instance:
+    """A rebec: one ROS node."""
+
+    name: str
+    rebec: str
+    class_name: str
+    parameters: tuple[NodeParameter, ...]
+    remaps: tuple[Remap, ...]
+    annotations: tuple[Annotation, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class StandIn:
+    """A node that plays the unbound sensors of one rebec."""
+
+    name: str
+    class_name: str
+    remaps: tuple[Remap, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Maintainer:
+    name: str
+    email: str
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """What the run-time part reads: times in seconds, lengths in metres, angles in radians."""
+
+    time_unit: float = 1.0
+    slack: float = 0.5
+    seed: int = 0
+    cell_size: float = 1.0
+    drive: str = "holonomic"
+    heading: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Package:
+    """The whole package."""
+
+    name: str
+    version: str
+    description: str
+    license: str
+    maintainers: tuple[Maintainer, ...]
+    settings: Settings
+    messages: tuple[MessageType, ...]
+    env: tuple[GlobalParameter, ...]
+    classes: tuple[NodeClass, ...]
+    instances: tuple[Instance, ...]
+    stand_ins: tuple[StandIn, ...]
+    instances_of: tuple[tuple[str, tuple[str, ...]], ...]
+
+    def node_class(self, name: str) -> NodeClass:
+        """The class of that name; KeyError when there is none."""
+        for node in self.classes:
+            if node.name == name:
+                return node
+        raise KeyError(name)
