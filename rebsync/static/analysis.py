@@ -105,8 +105,10 @@ def _check(facts: Facts, model: Model) -> None:
 
 
 def _check_whole(facts: Facts, model: Model) -> None:
-    end = Span(model.span.end, model.span.end)
-    if model.main is None and not facts.fragment:
+    if facts.fragment or facts.incomplete:
+        return
+    start, end = (Span(at, at) for at in (model.span.start, model.span.end))
+    if model.main is None:
         facts.error("RS401", end, "the model has no main", "declare its rebecs: main { ... }")
-    if not model.classes and not facts.fragment:
-        facts.error("RS402", Span(model.span.start, model.span.start), "the model has no class")
+    if not model.classes:
+        facts.error("RS402", start, "the model has no class")

@@ -38,7 +38,6 @@ def check_annotations(facts: Facts, annotations: tuple[Annotation, ...], of: str
             _check_priority(facts, annotation, of)
         elif name in _PLACES:
             _check_place(facts, annotation, of, seen)
-            seen.setdefault(name, annotation)
 
 
 def _check_place(
@@ -56,6 +55,7 @@ def _check_place(
             twice = "stands here twice" if other == name else f"and @{other} exclude each other"
             place = ((first.span, f"@{other} stands here"),)
             facts.error("RS427", span, f"@{name} {twice}", related=place)
+    seen.setdefault(name, annotation)
 
 
 def _check_priority(facts: Facts, annotation: Annotation, of: str) -> None:

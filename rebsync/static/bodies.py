@@ -63,7 +63,6 @@ def _check_body(
     with body.block():
         for parameter in member.parameters:
             symbol = ParameterSymbol(parameter.name, known(facts, parameter.type), parameter)
-            facts.symbols[id(parameter)] = symbol
             body.declare(symbol)
         if member.body is not None:
             check_statements(member.body.statements, body)

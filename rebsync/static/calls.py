@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rebsync.model import Call, Expression, Type
+from rebsync.model import BoolLiteral, Call, Expression, Type
 from rebsync.static.constants import constant
 from rebsync.static.conversions import check_condition
 from rebsync.static.facts import Delay, Invocation, Send
@@ -187,7 +187,8 @@ def _check_assertion(call: Call, arguments: Arguments, body: Body) -> None:
     condition = call.arguments[0]
     check_condition(condition, arguments[0], "assertion", body)
     value = constant(condition)
-    if isinstance(value, bool):
+    # `assertion(false)` on its own is the way to say that a place must not be reached.
+    if isinstance(value, bool) and condition != BoolLiteral(False):
         always = "never fails" if value else "always fails"
         body.facts.warn("RS510", condition.span, f"this assertion {always}")
     text = arguments[1] if len(arguments) > 1 else None

@@ -8,6 +8,13 @@ from rebsync.static.scope import Body, Kind
 from rebsync.static.symbols import EnvSymbol
 from rebsync.static.types import common
 
+_HERE = {
+    Kind.CONSTRUCTOR: "a constructor",
+    Kind.METHOD: "a method",
+    Kind.MAIN: "main",
+    Kind.ENV: "an env variable",
+}
+
 
 def check_choice(choice: Choice, types: list[Type | None], body: Body) -> Type | None:
     """The type of a choice: the widest of its options."""
@@ -16,7 +23,7 @@ def check_choice(choice: Choice, types: list[Type | None], body: Body) -> Type |
         hint = "write at least two options, or the value alone"
         facts.error("RS420", choice.span, "there is nothing to choose from", hint)
     if body.kind is not Kind.SERVER:
-        message = f"a {body.kind.value} cannot choose: only a message server can"
+        message = f"{_HERE[body.kind]} cannot choose: only a message server can"
         hint = "choose in the server and pass the value on"
         facts.error("RS422", choice.span, message, hint)
     seen: list[Value] = []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 from rebsync.model import (
     ClassMember,
@@ -33,6 +34,7 @@ from rebsync.static.symbols import (
 )
 from rebsync.static.types import is_rebec
 
+V = TypeVar("V", StateSymbol, KnownRebecSymbol)
 Key = tuple[str, tuple[str, ...]]
 
 
@@ -73,20 +75,23 @@ def _build(facts: Facts, heritage: Heritage, parents: list[ClassInfo]) -> ClassI
         for server in declaration.servers:
             _add_callable(members, _server(members, server))
     everything = {**members.overridden, **members.callables}
-    variables = {**members.inherited, **members.variables}
     return ClassInfo(
         declaration.name,
         declaration,
         tuple(dict.fromkeys(name for p in parents for name in p.lineage)),
-        tuple(v for v in variables.values() if isinstance(v, StateSymbol)),
-        tuple(v for v in variables.values() if isinstance(v, KnownRebecSymbol)),
+        (*(v for p in parents for v in p.state), *_of_kind(members, StateSymbol)),
+        (*(v for p in parents for v in p.known), *_of_kind(members, KnownRebecSymbol)),
         tuple(c for c in everything.values() if isinstance(c, ServerSymbol)),
         tuple(c for c in everything.values() if isinstance(c, MethodSymbol)),
         tuple(members.constructors.values()),
-        variables,
+        {**members.inherited, **members.variables},
         _by_name(everything),
         heritage.partial or any(p.partial for p in parents),
     )
+
+
+def _of_kind(members: _Members, kind: type[V]) -> tuple[V, ...]:
+    return tuple(v for v in members.variables.values() if isinstance(v, kind))
 
 
 def _by_name(everything: dict[Key, Callable]) -> dict[str, tuple[Callable, ...]]:
@@ -154,14 +159,15 @@ def _add_variable(members: _Members, symbol: StateSymbol | KnownRebecSymbol) -> 
     span, facts = symbol.declaration.name_span, members.facts
     check_name(facts, symbol.name, span)
     own = members.variables.get(symbol.name)
-    inherited = members.inherited.get(symbol.name)
     if own is not None:
         redeclared(facts, symbol.name, span, own.declaration)
-    elif inherited is not None:
-        where = f' in class "{inherited.owner}"'
-        redeclared(facts, symbol.name, span, inherited.declaration, where)
-    else:
-        members.variables[symbol.name] = symbol
+        return
+    inherited = members.inherited.get(symbol.name)
+    if inherited is not None:
+        message = f'"{symbol.name}" hides the variable that "{inherited.owner}" declares'
+        place = ((inherited.declaration.name_span, "the hidden one"),)
+        facts.warn("RS511", span, message, "choose another name", related=place)
+    members.variables[symbol.name] = symbol
 
 
 def _signature(facts: Facts, parameters: tuple[Parameter, ...]) -> tuple[Type | None, ...]:

@@ -43,8 +43,8 @@ def constant(expression: Expression, lookup: Lookup = nothing) -> Value | None:
             return lookup(expression)
         case Unary(op, operand):
             return _unary(op, constant(operand, lookup))
-        case Binary(op, left, right):
-            return _binary(op, constant(left, lookup), constant(right, lookup))
+        case Binary():
+            return _chain(expression, lookup)
         case Cast(type=type_, operand=operand):
             return _cast(type_.name, constant(operand, lookup))
         case Conditional(condition, then, otherwise):
@@ -54,6 +54,17 @@ def constant(expression: Expression, lookup: Lookup = nothing) -> Value | None:
             return constant(then if chosen else otherwise, lookup)
         case _:
             return None
+
+
+def _chain(expression: Binary, lookup: Lookup) -> Value | None:
+    """The value of a chain such as `a + b + c`, which nests as deep as it is long."""
+    spine = [expression]
+    while isinstance(spine[-1].left, Binary):
+        spine.append(spine[-1].left)
+    value = constant(spine[-1].left, lookup)
+    for node in reversed(spine):
+        value = _binary(node.operator, value, constant(node.right, lookup))
+    return value
 
 
 def float_value(text: str) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from rebsync.diagnostics import Severity
 from rebsync.model import (
     ArrayInitializer,
     Declaration,
@@ -44,7 +45,8 @@ def _check_declarator(facts: Facts, declarator: Declarator, type_: Type | None) 
         reported = len(facts.diagnostics)
         check_initializer(declarator.initial, type_, body)
         facts.outside.extend(e for e in body.events if isinstance(e, Access))
-        if len(facts.diagnostics) == reported:
+        found = facts.diagnostics[reported:]
+        if type_ is not None and not any(d.severity is Severity.ERROR for d in found):
             value = _value(facts, declarator.initial, type_)
     if name in facts.env:
         redeclared(facts, name, span, facts.env[name].declaration)

@@ -118,12 +118,8 @@ def _integer(literal: Expression, value: int, body: Body) -> Type | None:
 
 
 def _string(literal: StringLiteral, body: Body) -> Type | None:
-    if literal.text.startswith("'"):
-        message, hint = 'values of type "char" are not supported', "use a number"
-        body.facts.error("RS110", literal.span, message, hint)
-    else:
-        message = "a text may stand only as the second argument of assertion"
-        body.facts.error("RS317", literal.span, message)
+    message = "a text may stand only as the second argument of assertion"
+    body.facts.error("RS317", literal.span, message)
     return None
 
 

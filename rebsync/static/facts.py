@@ -37,6 +37,9 @@ from rebsync.static.symbols import (
 # Looking for close words is the one thing here that costs more than linear time.
 _COMPARISONS = 20_000
 
+# What has no near name may have been declared in text that could not be read.
+_LOST_DECLARATIONS = frozenset(("RS201", "RS204"))
+
 
 class Use(Enum):
     """How a body uses a variable."""
@@ -163,6 +166,8 @@ class Facts:
         underscores only, or when the caller says so.
         """
         close = self._close(word, legal)
+        if self.incomplete and not close and code in _LOST_DECLARATIONS:
+            return
         sure = len(close) == 1 and (certain or _folded(word) == _folded(close[0]))
         edits = (Edit(span, close[0]),) if sure else ()
         advice = f'did you mean "{close[0]}"?' if close else hint
@@ -186,7 +191,9 @@ class Facts:
     @property
     def knows_uses(self) -> bool:
         """Whether all uses of names are known, so that an unused one can be told."""
-        return not self.incomplete and not any(d.code in _LOSING for d in self.diagnostics)
+        if self.incomplete or any(info.partial for info in self.infos):
+            return False
+        return not any(d.code in _LOSING for d in self.diagnostics)
 
     def note_type(self, expression: Expression, type_: Type | None) -> Type | None:
         """Remembers the static type of an expression."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rebsync.model import Expression, Member, Name, Paren, ReactiveClass, Self, Super, Type
 from rebsync.static.scope import Body, Kind
-from rebsync.static.symbols import BuiltinSymbol, EnvSymbol, KnownRebecSymbol, Variable
+from rebsync.static.symbols import BuiltinSymbol, ClassInfo, EnvSymbol, KnownRebecSymbol, Variable
 from rebsync.static.types import is_rebec
 
 
@@ -104,12 +104,17 @@ def _field(member: Member, body: Body) -> Variable | None:
     if not isinstance(inner, Self | Super):
         member_type(member, inner, body.facts.types.get(id(member.target)), body)
         return None
-    symbol = body.owner.variables.get(member.name)
+    owner: ClassInfo | None = body.owner
+    if isinstance(inner, Super):
+        target = body.facts.types.get(id(member.target))
+        owner = body.facts.classes.get(target.name) if target is not None else None
+    if owner is None:
+        return None
+    symbol = owner.variables.get(member.name)
     if symbol is None:
         if not body.is_partial:
-            message = f'"{body.owner.name}" has no variable "{member.name}"'
-            legal = body.owner.variables
-            body.facts.unknown("RS205", member.name_span, message, member.name, legal)
+            message = f'"{owner.name}" has no variable "{member.name}"'
+            body.facts.unknown("RS205", member.name_span, message, member.name, owner.variables)
         return None
     body.facts.symbols[id(member)] = symbol
     return symbol

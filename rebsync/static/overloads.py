@@ -40,6 +40,8 @@ def select(
     exact = [c for c in fitting if list(c.signature) == list(arguments)]
     if len(fitting) == 1 or exact:
         return (exact or fitting)[0]
+    if any(None in c.signature for c in fitting):
+        return None
     if fitting:
         message = f'"{name}{_listed(arguments)}" fits {len(fitting)} declarations'
         hint = f"cast an argument so that one fits: {_signatures(name, fitting)}"

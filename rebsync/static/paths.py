@@ -162,10 +162,20 @@ def calls_always_made(expression: Expression | None) -> Iterator[Call]:
             yield from calls_always_made(inner)
         case Conditional(condition, _, _):
             yield from calls_always_made(condition)
-        case Binary(operator, left, right):
-            yield from calls_always_made(left)
-            if operator not in ("&&", "||"):
-                yield from calls_always_made(right)
+        case Binary():
+            *operands, first = _spine(expression)
+            yield from calls_always_made(first.left)
+            for node in (first, *reversed(operands)):
+                if node.operator not in ("&&", "||"):
+                    yield from calls_always_made(node.right)
+
+
+def _spine(expression: Binary) -> list[Binary]:
+    """The operators of a chain such as `a + b + c`, the last one first."""
+    spine = [expression]
+    while isinstance(spine[-1].left, Binary):
+        spine.append(spine[-1].left)
+    return spine
 
 
 def _then(first: Outcome, second: Outcome) -> Outcome:

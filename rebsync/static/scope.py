@@ -28,7 +28,7 @@ class Kind(Enum):
     SERVER = "message server"
     METHOD = "method"
     MAIN = "main"
-    ENV = "env"
+    ENV = "env variable"
 
 
 CLOCK = {
@@ -103,6 +103,7 @@ class Body:
             redeclared(self.facts, symbol.name, span, scope[symbol.name].declaration)
         else:
             scope[symbol.name] = symbol
+            self.facts.symbols[id(symbol.declaration)] = symbol
 
     def read(self, symbol: Variable, span: Span) -> None:
         self.events.append(Access(Use.READ, symbol, span))
@@ -126,9 +127,7 @@ def check_name(facts: Facts, name: str, span: Span) -> None:
         )
 
 
-def redeclared(
-    facts: Facts, name: str, span: Span, first: Declarator | Parameter, where: str = ""
-) -> None:
+def redeclared(facts: Facts, name: str, span: Span, first: Declarator | Parameter) -> None:
     """Reports the second declaration of a variable."""
     place = ((first.name_span, "first declared here"),)
-    facts.error("RS206", span, f'"{name}" is already declared{where}', related=place)
+    facts.error("RS206", span, f'"{name}" is already declared', related=place)

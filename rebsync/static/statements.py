@@ -107,9 +107,7 @@ def check_local(declaration: Declaration, body: Body) -> None:
     for declarator in declaration.declarators:
         if declarator.initial is not None:
             check_initializer(declarator.initial, type_, body)
-        symbol = LocalSymbol(declarator.name, type_, declarator)
-        body.facts.symbols[id(declarator)] = symbol
-        body.declare(symbol)
+        body.declare(LocalSymbol(declarator.name, type_, declarator))
 
 
 def check_initializer(initial: Initializer, type_: Type | None, body: Body) -> None:

@@ -62,7 +62,9 @@ def check_unset(facts: Facts) -> None:
     for body in facts.bodies:
         by_class.setdefault(id(body.owner), []).append(body)
     for info in facts.infos:
-        own = {v for v in info.state if v.owner == info.name} - below
+        own = {v for v in info.state if v.owner == info.name}
+        if info.is_abstract or not info.constructors:
+            own -= below
         _check_class(facts, info, own, by_class.get(id(info), []), summaries)
 
 
