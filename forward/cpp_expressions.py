@@ -74,9 +74,9 @@ class CppExpressions:
             case m.Cast(type_, operand):
                 return self._cast(type_, operand)
             case m.Unary(operator, operand):
-                inner = self.text(operand)
-                gap = " " if inner[:1] == operator[-1] else ""
-                return f"{operator}{gap}{inner}"
+                text = self.text(operand)
+                gap = " " if text[:1] == operator[-1] else ""
+                return f"{operator}{gap}{text}"
             case m.Postfix(operator, operand):
                 return f"{self.text(operand)}{operator}"
             case m.Binary():

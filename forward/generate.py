@@ -12,7 +12,6 @@ from rebsync.model import Model
 from rebsync.names import CPP_KEYWORDS, PYTHON_KEYWORDS, snake_case
 from rebsync.static import Analysis
 
-
 _ROS_PACKAGES = frozenset(
     {
         *("catkin", "genmsg", "geometry_msgs", "message_generation", "message_runtime", "nav_msgs"),

@@ -238,7 +238,7 @@ def _sensor_lines(package: Package) -> list[str]:
             what = f"`{node.name}.{sensor.server}` samples `<node>/sensor/{sensor.name}`"
             if sensor.stands_in:
                 lines.append(
-                    f"* {what}, which a stand-in fills with random data. To bind a real sensor, give "
+                    f"* {what}, which a stand-in fills with random data. To bind a sensor, give "
                     "its topic and type in `rebsync.toml` under "
                     f'`[sensors."{node.name}.{sensor.server}"]`.'
                 )

@@ -130,7 +130,15 @@ ROBOTIC = {
     "RS609": "a port of a class that is no robot",
 }
 
-GENERATION: dict[str, str] = {}
+GENERATION = {
+    "RS701": "a generated file that was edited by hand and would be overwritten",
+    "RS702": "a package name that ROS, C or C++ uses already",
+    "RS703": "an array of known rebecs",
+    "RS704": "a priority between rebecs, which ROS cannot carry out",
+    "RS705": "rebecs of one class with different constructors",
+    "RS706": "a global priority, which holds only within a rebec",
+    "RS707": "a sensor binding without its sensor",
+}
 
 FILES = {
     "RS801": "a file or directory that does not exist",
@@ -144,10 +152,21 @@ FILES = {
     "RS809": "a value that a key of a configuration file cannot have",
     "RS810": "a missing key in a configuration file",
     "RS811": "a directory without anything to read",
-    "RS812": "a file whose kind cannot be told from its name",
 }
 
-PROPERTIES: dict[str, str] = {}
+PROPERTIES = {
+    "RS901": "a name in a property that stands for nothing",
+    "RS902": "a state variable that the class of a rebec does not have",
+    "RS903": "a part of a property that is of the wrong type",
+    "RS904": "a definition that depends on itself",
+    "RS905": "a definition or property that is given twice",
+    "RS906": "an operator that does not belong in this section",
+    "RS907": "a temporal operator with the wrong operands",
+    "RS908": "an expression that cannot stand in a property",
+    "RS909": "an index that the array does not have",
+    "RS910": "a definition that is never used",
+    "RS911": "a property file without its model",
+}
 
 CODES: dict[str, str] = {
     **SYNTAX,

@@ -1,0 +1,127 @@
+"""What a model asks for that no ROS package can give, or gives only in part."""
+
+from __future__ import annotations
+
+from rebsync.config import Config
+from rebsync.diagnostics import Diagnostic, Severity
+from rebsync.forward.generate import is_taken, package_name
+from rebsync.model import (
+    KnownRebecs,
+    MessageServer,
+    Model,
+    ReactiveClass,
+)
+from rebsync.source import NOWHERE
+from rebsync.static import Analysis
+
+
+def limits(model: Model, analysis: Analysis, config: Config, stem: str) -> tuple[Diagnostic, ...]:
+    """Errors where generation must stop, warnings where ROS does less than the model says."""
+    found = [*_package(config, stem), *_sensors(model, config), *_instances(model, analysis)]
+    for c in model.classes:
+        if isinstance(c, ReactiveClass):
+            found += _known_arrays(c)
+            found += _global_priorities(c)
+    return tuple(sorted(found, key=lambda d: (d.span.start, d.code)))
+
+
+def _package(config: Config, stem: str) -> list[Diagnostic]:
+    name = package_name(stem, config)
+    if not is_taken(name):
+        return []
+    return [
+        Diagnostic(
+            "RS702",
+            NOWHERE,
+            f'a package cannot be named "{name}": the name belongs to ROS, C or C++',
+            "choose another `package` in rebsync.toml",
+        )
+    ]
+
+
+def _known_arrays(declaration: ReactiveClass) -> list[Diagnostic]:
+    return [
+        Diagnostic(
+            "RS703",
+            known.span,
+            "known rebecs cannot be arrays in a ROS package: each one has a topic of its own",
+            "declare them one by one",
+        )
+        for member in declaration.members
+        if isinstance(member, KnownRebecs)
+        for known in member.declarations
+        if known.type.dimensions
+    ]
+
+
+def _instances(model: Model, analysis: Analysis) -> list[Diagnostic]:
+    found = []
+    used: dict[str, set[int]] = {}
+    for rebec in model.main.rebecs if model.main else ():
+        for annotation in rebec.annotations:
+            if annotation.name in ("priority", "globalPriority"):
+                found.append(
+                    Diagnostic(
+                        "RS704",
+                        annotation.span,
+                        "ROS cannot order different nodes: this priority is not carried out",
+                        "what was verified with it holds only while the order does not matter",
+                        severity=Severity.WARNING,
+                    )
+                )
+        info = analysis.classes[rebec.type.name]
+        if len(info.constructors) > 1:
+            used.setdefault(rebec.type.name, set()).add(len(rebec.arguments))
+            if len(used[rebec.type.name]) > 1 or _same_length(analysis, rebec.type.name):
+                found.append(
+                    Diagnostic(
+                        "RS705",
+                        rebec.span,
+                        f'the rebecs of "{rebec.type.name}" use different constructors, but its '
+                        "node has one",
+                        "give the class one constructor, or one class to each",
+                    )
+                )
+    return found
+
+
+def _same_length(analysis: Analysis, class_name: str) -> bool:
+    lengths = [len(c.signature) for c in analysis.classes[class_name].constructors]
+    return len(set(lengths)) < len(lengths)
+
+
+def _global_priorities(declaration: ReactiveClass) -> list[Diagnostic]:
+    return [
+        Diagnostic(
+            "RS706",
+            annotation.span,
+            "ROS cannot order different nodes: this priority holds within each rebec only",
+            "use @priority, or make sure that the order between rebecs does not matter",
+            severity=Severity.WARNING,
+        )
+        for member in declaration.members
+        if isinstance(member, MessageServer)
+        for annotation in member.annotations
+        if annotation.name == "globalPriority"
+    ]
+
+
+def _sensors(model: Model, config: Config) -> list[Diagnostic]:
+    """Bindings of rebsync.toml that no sensor server has."""
+    servers = {
+        f"{c.name}.{m.name}"
+        for c in model.classes
+        if isinstance(c, ReactiveClass)
+        for m in c.members
+        if isinstance(m, MessageServer) and any(a.name == "Sensor" for a in m.annotations)
+    }
+    return [
+        Diagnostic(
+            "RS707",
+            NOWHERE,
+            f'rebsync.toml binds "{binding.server}", which is no @Sensor server of the model',
+            f"sensors: {', '.join(sorted(servers)) or 'none'}",
+        )
+        for binding in config.sensors
+        if binding.server not in servers
+    ]

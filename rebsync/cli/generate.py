@@ -1,0 +1,125 @@
+"""`rebsync generate`: write the ROS package of a model."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import click
+
+from rebsync.cli.status import Status
+from rebsync.config import FILE_NAME, TARGETS, Config, parse_config
+from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
+from rebsync.files import read_source, replace_tree
+from rebsync.report import print_report
+from rebsync.roundtrip.plan import Action, Step, plan
+from rebsync.source import NOWHERE, Source
+
+_SHOWN = (Action.CREATE, Action.UPDATE, Action.DELETE)
+
+
+@click.command("generate")
+@click.argument("model", metavar="MODEL")
+@click.option("-o", "--output", default=".", metavar="DIR", help="Where the package's folder goes.")
+@click.option("--target", type=click.Choice(TARGETS), help="The dialect of the generated code.")
+@click.option("--list", "only_list", is_flag=True, help="List the files; write nothing.")
+@click.option("--diff", "only_diff", is_flag=True, help="Show what would change; write nothing.")
+@click.option(
+    "--force", is_flag=True, help="Overwrite files edited by hand, keeping each as FILE.orig."
+)
+def command(
+    model: str, output: str, target: str | None, only_list: bool, only_diff: bool, force: bool
+) -> Status:
+    """Write the ROS package of a model to DIR/<package>.
+
+    Settings come from `rebsync.toml` beside the model. Files edited by hand are never overwritten
+    silently.
+    """
+    config = _config(model)
+    if target is not None:
+        config = replace(config, target=target)
+    name, files = package_files(read_source(model), config)
+    folder = Path(output) / name
+    if only_list:
+        click.echo("".join(f"{folder / path}\n" for path in sorted(files)), nl=False)
+        return Status.CLEAN
+    steps = plan(folder, files)
+    if only_diff:
+        return _show(steps)
+    return _write(folder, steps, force)
+
+
+def _config(model: str) -> Config:
+    path = Path(model).parent / FILE_NAME
+    return parse_config(read_source(str(path))) if path.is_file() else Config()
+
+
+def package_files(source: Source, config: Config) -> tuple[str, dict[str, str]]:
+    """The package's name and all its files, `.rebsync/` included; warnings go to stderr."""
+    from rebsync.forward.generate import generate, package_name
+    from rebsync.forward.limits import limits
+    from rebsync.grammars.parser import parse_model
+    from rebsync.roundtrip.manifest import with_manifest
+    from rebsync.static import analyse
+
+    parsed = parse_model(source)
+    analysis = analyse(parsed.model)
+    findings = Findings(source, (*parsed.diagnostics, *analysis.diagnostics))
+    if findings.errors:
+        raise RebsyncError([Findings(source, findings.errors)])
+    stem = Path(source.path).stem if source.path != "-" else "model"
+    found = limits(parsed.model, analysis, config, stem)
+    if any(d.severity is Severity.ERROR for d in found):
+        raise RebsyncError([Findings(source, found)])
+    if found:
+        print_report([Findings(source, found)], sys.stderr)
+    files = generate(parsed.model, parsed.comments, analysis, config, stem)
+    return package_name(stem, config), with_manifest(files, f"{stem}.rebeca", source.text, config)
+
+
+def _show(steps: tuple[Step, ...]) -> Status:
+    changes = [s for s in steps if s.action in (*_SHOWN, Action.CONFLICT)]
+    for step in changes:
+        if not step.path.startswith(".rebsync/"):
+            for line in step.diff():
+                click.echo(
+                    line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n",
+                    nl=False,
+                )
+    return Status.FINDINGS if changes else Status.CLEAN
+
+
+def _write(folder: Path, steps: tuple[Step, ...], force: bool) -> Status:
+    conflicts = [s for s in steps if s.action is Action.CONFLICT]
+    if conflicts and not force:
+        print_report([_refusal(folder, s) for s in conflicts], sys.stderr)
+        return Status.FINDINGS
+    texts = {s.path: s.new for s in steps if s.new is not None and s.action is not Action.KEEP}
+    remove = [s.path for s in steps if s.action is Action.DELETE]
+    for step in conflicts:
+        assert step.old is not None
+        texts[f"{step.path}.orig"] = step.old
+        if step.new is None:
+            remove.append(step.path)
+    written = replace_tree(str(folder), texts, remove=remove)
+    own = [path for path in written if not path.startswith(".rebsync/")]
+    total = sum(not s.path.startswith(".rebsync/") and s.new is not None for s in steps)
+    click.echo(f"{folder}: {total} files, {len(own)} of them written")
+    for step in steps:
+        if step.action is Action.KEEP:
+            click.echo(f"kept your edit of {folder / step.path}")
+    for step in conflicts:
+        click.echo(f"kept your edit as {folder / step.path}.orig")
+    return Status.CLEAN
+
+
+def _refusal(folder: Path, step: Step) -> Findings:
+    what = "generated anew" if step.new is not None else "generated no more"
+    diagnostic = Diagnostic(
+        "RS701",
+        NOWHERE,
+        f"this file was edited by hand and is now {what}; nothing was written",
+        "see --diff; with --force it is kept as FILE.orig",
+    )
+    return Findings(Source(str(folder / step.path), ""), (diagnostic,))

@@ -1,0 +1,42 @@
+"""What `.rebsync/` in a package records: where it came from, and what was generated then."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict
+
+from rebsync import __version__
+from rebsync.config import Config
+from rebsync.roundtrip.markers import digest, elements
+
+FOLDER = ".rebsync"
+MANIFEST = f"{FOLDER}/manifest.json"
+BASE_MODEL = f"{FOLDER}/base.rebeca"
+BASE = f"{FOLDER}/base/"
+FORMAT = 1
+
+
+def with_manifest(
+    files: Mapping[str, str], model_name: str, model_text: str, config: Config
+) -> dict[str, str]:
+    """The files of a package together with its `.rebsync/`: manifest, base model, base texts."""
+    record = {
+        "format": FORMAT,
+        "rebsync": __version__,
+        "model": {"name": model_name, "digest": digest(model_text)},
+        "target": config.target,
+        "options": asdict(config),
+        "files": {path: digest(text) for path, text in sorted(files.items())},
+        "elements": {
+            path: {e.name: e.digest for e in found}
+            for path, text in sorted(files.items())
+            if (found := list(elements(text)))
+        },
+    }
+    return {
+        **files,
+        MANIFEST: json.dumps(record, indent=2, ensure_ascii=False) + "\n",
+        BASE_MODEL: model_text,
+        **{BASE + path: text for path, text in files.items()},
+    }

@@ -1,0 +1,95 @@
+"""Markers: comments of generated code that name the element of the model that follows them."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+_MARKER = re.compile(
+    r"(?P<before>.*?)(?://|\#|<!--)\s*rebsync:\s*(?P<kind>[\w-]+)\s*(?P<path>.*?)\s*(?:-->)?\s*\Z"
+)
+_NOT_ELEMENTS = frozenset({"annotation", "end"})
+
+
+@dataclass(frozen=True, slots=True)
+class Element:
+    """A marked piece of a generated file: its kind and path in the model, and its text."""
+
+    kind: str
+    path: str
+    text: str
+
+    @property
+    def name(self) -> str:
+        """The element's key in the manifest: kind and path."""
+        return f"{self.kind} {self.path}"
+
+    @property
+    def digest(self) -> str:
+        """A digest over the tokens of the text: layout and comments do not count."""
+        return digest(" ".join(_tokens(self.text)))
+
+
+def digest(text: str) -> str:
+    """The digest that the manifest records for a text."""
+    return hashlib.sha256(text.encode("utf-8")).hexdigest()
+
+
+def elements(text: str) -> Iterator[Element]:
+    """The marked elements of a generated text, in their order.
+
+    A marker at the end of a line marks that line, one on a line of its own what follows, up to
+    the line that closes it: the next line that is indented no deeper and ends a block.
+    """
+    lines = text.split("\n")
+    for number, line in enumerate(lines):
+        match = _MARKER.match(line)
+        if match is None or match["kind"] in _NOT_ELEMENTS:
+            continue
+        before = match["before"].strip()
+        body = before if before else "\n".join(_block(lines, number + 1))
+        yield Element(match["kind"], match["path"], body)
+
+
+def _block(lines: list[str], first: int) -> Iterator[str]:
+    indent: int | None = None
+    for line in lines[first:]:
+        depth = len(line) - len(line.lstrip())
+        if indent is None and line.strip() and not _MARKER.match(line):
+            indent = depth
+        yield line
+        closes = line.strip().startswith(("}", "</", "// rebsync: end"))
+        done = line.rstrip().endswith((";", "/>", "{}")) and "{" not in line.rstrip("{};")
+        if indent is not None and depth <= indent and (closes or done):
+            return
+
+
+_TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"|\w+|\S', re.DOTALL)
+
+
+def _tokens(text: str) -> list[str]:
+    return [t for t in _TOKEN.findall(text) if not t.startswith(("//", "/*"))]
+
+
+_USER = re.compile(
+    r"^[^\n]*rebsync: user (?P<name>[^\n]*?)\s*\n(?P<body>.*?)^[^\n]*rebsync: end\b",
+    re.MULTILINE | re.DOTALL,
+)
+
+
+def user_blocks(text: str) -> dict[str, str]:
+    """The user's own code between `rebsync: user NAME` and `rebsync: end`, by name."""
+    return {m["name"]: m["body"] for m in _USER.finditer(text)}
+
+
+def with_user_blocks(text: str, blocks: Mapping[str, str]) -> str:
+    """A text with the user's code put back where its blocks are."""
+
+    def put(match: re.Match[str]) -> str:
+        whole, start = match.group(0), match.start()
+        body = blocks.get(match["name"], match["body"])
+        return whole[: match.start("body") - start] + body + whole[match.end("body") - start :]
+
+    return _USER.sub(put, text)

@@ -1,0 +1,86 @@
+"""What writing a package would do to the files that are there: nothing of the user's is lost."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from difflib import unified_diff
+from enum import Enum
+from pathlib import Path
+
+from rebsync.files import read_source
+from rebsync.roundtrip.manifest import BASE, FOLDER
+from rebsync.roundtrip.markers import user_blocks, with_user_blocks
+
+
+class Action(Enum):
+    """What happens to one file."""
+
+    CREATE = "create"
+    UPDATE = "update"
+    UNCHANGED = "unchanged"
+    KEEP = "keep"  # edited by hand, and nothing new is generated for it
+    CONFLICT = "conflict"  # edited by hand, and something new is generated for it
+    DELETE = "delete"
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """The fate of one file: the text that is there (None: no file) and the one to be."""
+
+    path: str
+    action: Action
+    old: str | None
+    new: str | None
+
+    def diff(self) -> Iterator[str]:
+        """The change as a unified diff."""
+        yield from unified_diff(
+            (self.old or "").splitlines(keepends=True),
+            (self.new or "").splitlines(keepends=True),
+            f"a/{self.path}" if self.old is not None else "/dev/null",
+            f"b/{self.path}" if self.new is not None else "/dev/null",
+        )
+
+
+def plan(folder: Path, files: Mapping[str, str]) -> tuple[Step, ...]:
+    """One step for each file that is generated, and for each that once was."""
+    steps = [_step(folder, path, text) for path, text in sorted(files.items())]
+    base = folder / FOLDER / "base"
+    once = {p.relative_to(base).as_posix() for p in base.rglob("*") if p.is_file()}
+    for path in sorted(once - set(files)):
+        steps += _stale(folder, path)
+    return tuple(steps)
+
+
+def _step(folder: Path, path: str, text: str) -> Step:
+    old = _read(folder / path)
+    if old is None:
+        return Step(path, Action.CREATE, None, text)
+    if path.startswith(f"{FOLDER}/"):
+        return Step(path, Action.UNCHANGED if old == text else Action.UPDATE, old, text)
+    new = with_user_blocks(text, user_blocks(old))
+    if old == new:
+        return Step(path, Action.UNCHANGED, old, new)
+    base = _read(folder / (BASE + path))
+    if base is not None and old == with_user_blocks(base, user_blocks(old)):
+        return Step(path, Action.UPDATE, old, new)
+    if base == text:
+        return Step(path, Action.KEEP, old, old)
+    return Step(path, Action.CONFLICT, old, new)
+
+
+def _stale(folder: Path, path: str) -> list[Step]:
+    """A file that is generated no more goes, unless it was edited; so does its base."""
+    old, base = _read(folder / path), _read(folder / (BASE + path))
+    steps = [Step(BASE + path, Action.DELETE, base, None)]
+    if old is not None:
+        edited = base is None or old != base
+        steps.append(Step(path, Action.CONFLICT if edited else Action.DELETE, old, None))
+    return steps
+
+
+def _read(path: Path) -> str | None:
+    if not path.is_file():
+        return None
+    return read_source(str(path)).text
