@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 
 import click
@@ -10,7 +11,7 @@ import click
 from rebsync.cli.options import format_option
 from rebsync.cli.paths import MODEL, PROPERTY, expand
 from rebsync.cli.status import Status, status_of, worst
-from rebsync.diagnostics import Findings, RebsyncError
+from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.edits import apply_edits, certain_edits
 from rebsync.files import STANDARD_INPUT, read_source, replace_text
 from rebsync.report import print_report, summary
@@ -60,8 +61,8 @@ def lint(source: Source) -> Findings:
     from rebsync.static import analyse
 
     parsed = parse_model(source)
-    found = {*parsed.diagnostics, *analyse(parsed.model).diagnostics}
-    return Findings(source, tuple(sorted(found, key=lambda d: (d.span.start, d.code, d.message))))
+    analysis = analyse(parsed.model, incomplete=not parsed.ok)
+    return _sorted(source, (*parsed.diagnostics, *analysis.diagnostics))
 
 
 def _lint_property(source: Source) -> Findings:
@@ -73,10 +74,19 @@ def _lint_property(source: Source) -> Findings:
     parsed = parse_properties(source)
     model_path = Path(source.path).with_suffix(MODEL)
     if not model_path.is_file():
-        return Findings(source, parsed.diagnostics)
-    model = parse_model(read_source(str(model_path))).model
-    found = {*parsed.diagnostics, *check_properties(parsed.properties, model, analyse(model))}
-    return Findings(source, tuple(sorted(found, key=lambda d: (d.span.start, d.code, d.message))))
+        message = f"the model {model_path.name} is not beside this file"
+        alone = Diagnostic("RS911", parsed.properties.span, message, "names were not checked")
+        return _sorted(source, (*parsed.diagnostics, alone))
+    model = parse_model(read_source(str(model_path)))
+    analysis = analyse(model.model, incomplete=not model.ok)
+    incomplete = not (parsed.complete and model.ok)
+    found = check_properties(parsed.properties, analysis, incomplete=incomplete)
+    return _sorted(source, (*parsed.diagnostics, *found))
+
+
+def _sorted(source: Source, found: Iterable[Diagnostic]) -> Findings:
+    ordered = sorted(dict.fromkeys(found), key=lambda d: (d.span.start, d.code, d.message))
+    return Findings(source, tuple(ordered))
 
 
 def _fixed(source: Source) -> Findings:
