@@ -1,0 +1,71 @@
+"""The workspace that the ROS 1 tests share."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import jinja2
+import pytest
+
+from tests.ros1.workspace import Workspace, build, missing_ros
+
+_HERE = Path(__file__).parent
+_TEMPLATES = _HERE.parents[1] / "forward" / "templates" / "ros1_cpp"
+_HEADERS = ("drive.h", "mailbox.h", "sensor.h", "startup.h", "values.h")
+
+Build = Callable[[str, Sequence[Path]], Workspace]
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark what is here; skip it, loudly, where there is no ROS 1, except in CI."""
+    reason = missing_ros()
+    for item in items:
+        if _HERE not in item.path.parents or not {"probe", "build_workspace"} & set(
+            getattr(item, "fixturenames", ())
+        ):
+            continue
+        item.add_marker(pytest.mark.ros1)
+        if reason is not None and os.environ.get("CI") != "true":
+            item.add_marker(pytest.mark.skip(reason=reason))
+
+
+@pytest.fixture(scope="session")
+def build_workspace(tmp_path_factory: pytest.TempPathFactory) -> Build:
+    """Builds packages in a named workspace that all workers of a test run share.
+
+    REBSYNC_ROS_WORKSPACE names a directory that keeps workspaces from run to run.
+    """
+    reason = missing_ros()
+    if reason is not None:
+        pytest.fail(reason)
+    kept = os.environ.get("REBSYNC_ROS_WORKSPACE")
+    root = Path(kept) if kept else _shared(tmp_path_factory) / "ros1"
+    return lambda name, packages: build(packages, root / name)
+
+
+@pytest.fixture(scope="session")
+def probe(build_workspace: Build, tmp_path_factory: pytest.TempPathFactory) -> Workspace:
+    """The package whose rebecs run scripts, with the run-time headers as they are now."""
+    package = tmp_path_factory.mktemp("packages") / "probe"
+    shutil.copytree(_HERE / "packages" / "probe", package)
+    for name in _HEADERS:
+        (package / "include" / "probe" / name).write_text(render(name, "probe"))
+    return build_workspace("probe", [package])
+
+
+def render(name: str, package: str) -> str:
+    """A run-time header of a package."""
+    loader = jinja2.FileSystemLoader(_TEMPLATES)
+    environment = jinja2.Environment(
+        loader=loader, undefined=jinja2.StrictUndefined, keep_trailing_newline=True
+    )
+    return environment.get_template(f"{name}.j2").render(package=package)
+
+
+def _shared(factory: pytest.TempPathFactory) -> Path:
+    """A directory that is the same for every worker of pytest-xdist."""
+    base = factory.getbasetemp()
+    return base.parent if os.environ.get("PYTEST_XDIST_WORKER") else base

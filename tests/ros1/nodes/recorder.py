@@ -1,0 +1,204 @@
+"""A ROS node that drives the simulated clock and writes what it hears as JSON lines.
+
+Runs under the system's Python, which has rospy: `recorder.py CONFIG.json`. The clock stands still
+until this node is connected to everything that the expected nodes publish, so nothing is missed.
+Says `done` when the run is over, and listens on until its standard input ends.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+import genpy
+import rosgraph
+import roslib.message
+import rospy
+from rosgraph_msgs.msg import Clock, Log
+
+FIRST_TICK = 100.0
+SILENT = ("/clock", "/rosout", "/rosout_agg")
+
+
+def plain(value: object) -> object:
+    """A message as JSON data."""
+    if hasattr(value, "to_sec"):
+        return value.to_sec()
+    if hasattr(value, "__slots__") and hasattr(value, "_type"):
+        return {name: plain(getattr(value, name)) for name in value.__slots__}
+    if isinstance(value, bytes):
+        return list(value)
+    if isinstance(value, (list, tuple)):
+        return [plain(item) for item in value]
+    return value
+
+
+class Recorder:
+    """Hears what the expected nodes publish, and drives their clock."""
+
+    def __init__(self, config: dict[str, Any]) -> None:
+        self.config = config
+        self.master = rosgraph.Master("/recorder")
+        self.lines: list[str] = []
+        self.lock = threading.Lock()
+        self.simulated = config["rate"] is not None
+        self.tick = FIRST_TICK
+        self.announced = {}
+        self.last_served = self.clock
+        self.subscribers = {}
+        self.began = self.clock
+
+    @property
+    def clock(self) -> float:
+        return self.tick if self.simulated else time.time()
+
+    def write(self, kind: str, topic: str, data: object) -> None:
+        line = {"kind": kind, "topic": topic, "stamp": round(self.clock, 6), "data": data}
+        with self.lock:
+            self.lines.append(json.dumps(line))
+
+    def hear(self, message: genpy.Message, topic: str) -> None:
+        data = plain(message)
+        if topic.endswith("/startup"):
+            self.announced[message.frame_id] = message.stamp.to_sec()
+        if hasattr(message, "server"):
+            self.last_served = self.clock
+        self.write("message", topic, data)
+
+    def hear_log(self, message: Log) -> None:
+        if message.name == rospy.get_name():
+            return
+        data = {"node": message.name, "level": message.level, "text": message.msg}
+        self.write("log", "/rosout", data)
+
+    def publications(self) -> dict[str, set[str]]:
+        """Each topic's publishers, of those that the launch file's nodes publish."""
+        expected = set(self.config["nodes"])
+        publishers = {topic: set(nodes) & expected for topic, nodes in self.state()[0]}
+        return {topic: nodes for topic, nodes in publishers.items() if nodes}
+
+    def state(self) -> list[list[tuple[str, list[str]]]]:
+        return self.master.getSystemState()
+
+    def await_nodes(self) -> None:
+        """Wait until all nodes are there and have stopped registering topics."""
+        before, since = None, time.monotonic()
+        while time.monotonic() - since < self.config["settle"]:
+            state = self.state()
+            present = {node for part in state[:2] for _, nodes in part for node in nodes}
+            if state != before or not present >= set(self.config["nodes"]):
+                before, since = state, time.monotonic()
+            self.check_time()
+            time.sleep(0.05)
+
+    def check_time(self) -> None:
+        if time.monotonic() > self.config["deadline"]:
+            raise TimeoutError("the nodes did not come up: " + repr(self.state()))
+
+    def subscribe(self) -> None:
+        types = dict(self.master.getTopicTypes())
+        for topic in self.publications():
+            message_class = roslib.message.get_message_class(types.get(topic, "*"))
+            if topic in SILENT or message_class is None:
+                continue
+            self.subscribers[topic] = rospy.Subscriber(
+                topic, message_class, self.hear, callback_args=topic, tcp_nodelay=True
+            )
+        self.subscribers["/rosout"] = rospy.Subscriber("/rosout", Log, self.hear_log)
+
+    def await_connections(self, clock: rospy.Publisher) -> None:
+        publications = self.publications()
+        while not self.connected(clock, publications):
+            self.check_time()
+            time.sleep(0.02)
+        time.sleep(self.config["settle"])  # a publisher counts a connection a little later
+
+    def connected(self, clock: rospy.Publisher, publications: dict[str, set[str]]) -> bool:
+        listeners = dict(self.state()[1]).get("/clock", [])
+        return clock.get_num_connections() >= len(listeners) and all(
+            subscriber.get_num_connections() >= len(publications.get(topic, ()))
+            for topic, subscriber in self.subscribers.items()
+        )
+
+    def rebecs(self) -> set[str]:
+        """The rebecs that start together, in any namespace."""
+        names = [n for n in rospy.get_param_names() if n.endswith("/mailbox/rebecs")]
+        return {rebec for name in names for rebec in rospy.get_param(name)}
+
+    def await_startup(self, clock: rospy.Publisher) -> None:
+        """Tick, without moving on, until every rebec has announced itself to the others."""
+        expected = self.rebecs()
+        limit = time.monotonic() + self.config["startup"]
+        while not expected <= set(self.announced) and time.monotonic() < limit:
+            self.publish(clock)
+            time.sleep(0.05)
+        time.sleep(self.config["settle"])
+        self.began = self.last_served = self.clock
+
+    def publish(self, clock: rospy.Publisher) -> None:
+        if self.simulated:
+            clock.publish(Clock(rospy.Time.from_sec(self.tick)))
+
+    def run_clock(self, clock: rospy.Publisher) -> None:
+        """Step the clock to the end of the run; a machine that is too slow slows the model."""
+        step, pause = self.config["step"], self.config["step"] / (self.config["rate"] or 1)
+        started, ticks = time.monotonic(), 0
+        while not self.finished():
+            ticks += 1
+            self.tick = FIRST_TICK + ticks * step
+            self.publish(clock)
+            ahead = started + ticks * pause - time.monotonic()
+            if ahead > 0:
+                time.sleep(ahead)
+            else:
+                started = time.monotonic() - ticks * pause
+
+    def finished(self) -> bool:
+        quiet = self.clock - self.last_served
+        return (
+            rospy.is_shutdown()
+            or self.clock - self.began >= self.config["until"]
+            or quiet >= self.config["quiet"]
+            or time.monotonic() > self.config["deadline"]
+        )
+
+    def record(self) -> None:
+        clock = rospy.Publisher("/clock", Clock, queue_size=1000, tcp_nodelay=True)
+        self.await_nodes()
+        self.subscribe()
+        self.await_connections(clock)
+        self.await_startup(clock)
+        self.run_clock(clock)
+        time.sleep(self.config["settle"])
+        self.write("end", "", {"announced": self.announced})
+        print("done", flush=True)
+        sys.stdin.read()
+        with self.lock:
+            Path(self.config["out"]).write_text("\n".join(self.lines))
+
+
+def await_master(limit: float) -> None:
+    while True:
+        try:
+            rosgraph.Master("/recorder").getPid()
+            return
+        except (OSError, rosgraph.MasterException):
+            if time.monotonic() > limit:
+                raise
+            time.sleep(0.05)
+
+
+def main(path: Path) -> None:
+    config = json.loads(path.read_text())
+    config["deadline"] = time.monotonic() + config["timeout"]
+    await_master(config["deadline"])
+    rospy.init_node("recorder", disable_signals=True, disable_rosout=True)
+    Recorder(config).record()
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

@@ -1,0 +1,79 @@
+"""Systems of scripted rebecs: which node runs which script, as a launch file."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from tests.ros1.recording import Recording
+from tests.ros1.run import Clock, run
+from tests.ros1.workspace import Workspace
+
+_USUAL = Clock(until=30, quiet=8)
+_SERVERS = ("plain", "low", "high")
+
+
+@dataclass(frozen=True, slots=True)
+class Rebec:
+    """A node of the probe package: the lines that each of its servers runs.
+
+    `low` has priority 2, `high` priority 1, `plain` none. The sensor hears what is sent to
+    `plain`. The node starts after a `wait`, in seconds of the real clock.
+    """
+
+    constructor: Sequence[str] = ()
+    plain: Sequence[str] = ()
+    low: Sequence[str] = ()
+    high: Sequence[str] = ()
+    capacity: int = 20
+    wait: float = 0.0
+    parameters: Mapping[str, Any] = field(default_factory=dict)
+
+    def private(self, peers: Sequence[str]) -> dict[str, Any]:
+        """The node's private parameters."""
+        scripts = {name: list(getattr(self, name)) for name in ("constructor", *_SERVERS)}
+        own = {"script": scripts, "capacity": self.capacity}
+        return {**own, "peers": list(peers), **self.parameters}
+
+
+def play(
+    workspace: Workspace,
+    directory: Path,
+    rebecs: Mapping[str, Rebec],
+    clock: Clock = _USUAL,
+    parameters: Mapping[str, Any] | None = None,
+    absent: Sequence[str] = (),
+    namespace: str = "",
+) -> Recording:
+    """Run rebecs that each know all others, those that are `absent` included."""
+    names = [*rebecs, *absent]
+    nodes = [_node(n, r, [peer for peer in names if peer != n]) for n, r in rebecs.items()]
+    common = _parameter("mailbox", {"rebecs": names, "instances": {"Script": list(rebecs)}})
+    launch = directory / "probe.launch"
+    system = (
+        f'<group ns="{namespace}">\n{common}{"".join(nodes)}</group>\n'
+        if namespace
+        else (common + "".join(nodes))
+    )
+    launch.write_text(f"<launch>\n{system}</launch>\n")
+    return run(workspace, launch, directory, clock, parameters)
+
+
+def _node(name: str, rebec: Rebec, peers: Sequence[str]) -> str:
+    remaps = "".join(
+        f'<remap from="~{peer}/{server}" to="{peer}/{server}"/>\n'
+        for peer in peers
+        for server in _SERVERS
+    )
+    private = "".join(_parameter(key, value) for key, value in rebec.private(peers).items())
+    prefix = f"sh -c 'sleep {rebec.wait}; exec $0 $*'"
+    start = f'<node name="{name}" pkg="probe" type="script_node" launch-prefix="{prefix}">'
+    sensor = f'<remap from="~sensor" to="{name}/plain"/>\n'
+    return f"{start}\n{private}{remaps}{sensor}</node>\n"
+
+
+def _parameter(name: str, value: object) -> str:
+    return f'<rosparam param="{name}">{json.dumps(value)}</rosparam>\n'
