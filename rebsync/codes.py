@@ -19,6 +19,7 @@ SYNTAX = {
     "RS109": "the end of the file comes too early",
     "RS110": "a part of the language that rebsync recognises and refuses",
     "RS112": "a part of the model in the wrong place",
+    "RS113": "a language beside Timed Rebeca, recognised and refused",
     "RS111": "nesting deeper than rebsync reads",
 }
 
@@ -138,6 +139,9 @@ GENERATION = {
     "RS705": "rebecs of one class with different constructors",
     "RS706": "a global priority, which holds only within a rebec",
     "RS707": "a sensor binding without its sensor",
+    "RS750": "a part of a model that the official compiler or RMC does not take",
+    "RS751": "a part of a model that RMC runs differently",
+    "RS752": "an option that RMC must be given for this model",
 }
 
 FILES = {
