@@ -126,7 +126,8 @@ class CppClass:
         override: bool = False,
         remarks: tuple[str, ...] = (),
     ) -> Piece:
-        passed = [f"{parameter_type(p.type)} {local_name(p.name)}" for p in parameters]
+        # by value, as in the model, where a body may assign its parameters
+        passed = [f"{cpp_type(p.type)} {local_name(p.name)}" for p in parameters]
         before = "virtual " if virtual else ""
         after = (" override" if override else "") + (" = 0" if lines is None else "")
         declaration = call_lines(f"{before}{result} {name}", passed, f"{after};", "  ")

@@ -264,8 +264,7 @@ class CppExpressions:
             case "delay":
                 return f"mailbox_.delay({arguments})"
             case "assertion":
-                text = "" if len(call.arguments) > 1 else ', "assertion"'
-                return f"mailbox_.assertion({arguments}{text})"
+                return f"mailbox_.assertion({arguments})"
             case _:
                 return f"std::{call.name}({arguments})"
 

@@ -18,6 +18,7 @@ from rebsync.model import (
     While,
     walk,
 )
+from rebsync.static.constants import constant
 
 _BITS = frozenset({"&", "|", "^"})
 _SHIFTS = frozenset({"<<", ">>"})
@@ -51,6 +52,14 @@ def _of_binary(operator: str, left: Expression, right: Expression) -> set[str]:
         found.add("-Wparentheses")
     if operator in _COMPARISONS and isinstance(left, Unary) and left.operator == "!":
         found.add("-Wlogical-not-parentheses")
+    if operator in _COMPARISONS and any(_is_wide(e) for e in (left, right)):
+        found.add("-Wtype-limits")
     if operator in _COMPARISONS | {"&&", "||"} and left == right:
         found |= {"-Wtautological-compare", "-Wlogical-op"}
     return found
+
+
+def _is_wide(expression: Expression) -> bool:
+    """Whether an expression is a constant that no byte holds."""
+    value = constant(expression)
+    return isinstance(value, int) and not -128 <= value <= 127

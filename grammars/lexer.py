@@ -28,7 +28,9 @@ _OPERANDS = frozenset(
 _NO_ARGUMENTS = frozenset({"ϕ", "φ", "∅"})
 _SECTIONS = ("knownrebecs", "statevars", "main")
 _BEFORE_NAMED_BRACE = frozenset({"INTERFACE", "EXTENDS", "IMPLEMENTS", "COMMA", "RECORD", "DOT"})
-MAX_NESTING = 200
+_SERVER_WORDS = ("msgsrv",)
+MAX_NESTING = 100
+MAX_CHAIN = 200
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +40,11 @@ class Lexed:
     tokens: list[Token]
     comments: tuple[Token, ...]
     diagnostics: tuple[Diagnostic, ...]
+
+    @property
+    def hopeless(self) -> bool:
+        """Whether parsing would only add follow-up mistakes: another language, or too deep."""
+        return any(d.code in ("RS111", "RS113") for d in self.diagnostics)
 
     @property
     def everything(self) -> list[Token]:
@@ -96,12 +103,26 @@ class _Scan:
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
     def run(self) -> None:
+        self._refuse_other_languages()
         self._refuse_literals()
         self._mend_section_names()
+        self._mend_server_keywords()
         self._drop_empty_set_signs()
         self._mend_angle_choices()
         self._mark_choices()
+        self._measure_chains()
         self._mark_types_and_casts()
+
+    def _refuse_other_languages(self) -> None:
+        """Hybrid and Probabilistic Rebeca are told from a mistake by their first words."""
+        for i in range(len(self.tokens) - 3):
+            one, two, three, four = self.tokens[i : i + 4]
+            if one == "physicalclass" and two.type == "ID":
+                self._refuse(one, f'"{one}" belongs to Hybrid Rebeca', "RS113")
+            elif one == "pAlt" and two == "{":
+                self._refuse(one, f'"{one}" belongs to Probabilistic Rebeca', "RS113")
+            elif one == "?" and two == "(" and three.type == "FLOAT" and four == ":":
+                self._refuse(three, "probabilities belong to Probabilistic Rebeca", "RS113")
 
     def _refuse_literals(self) -> None:
         for token in self.tokens:
@@ -110,8 +131,25 @@ class _Scan:
             elif token.type == "INT" and token[-1] in "lL":
                 self._refuse(token, "there are no long literals; an int has 32 bits")
 
-    def _refuse(self, token: Token, why: str) -> None:
-        self.diagnostics.append(Diagnostic("RS110", token_span(token), why))
+    def _refuse(self, token: Token, why: str, code: str = "RS110") -> None:
+        hint = "rebsync reads Timed Rebeca" if code == "RS113" else None
+        self.diagnostics.append(Diagnostic(code, token_span(token), why, hint))
+
+    def _mend_server_keywords(self) -> None:
+        """`msgserv m(...)` reads like a method that returns a `msgserv`."""
+        names = {
+            str(after)
+            for token, after in zip(self.tokens, self.tokens[1:], strict=False)
+            if token.type in ("REACTIVECLASS", "INTERFACE")
+        }
+        for i in range(1, len(self.tokens) - 2):
+            token, name, bracket = self.tokens[i : i + 3]
+            if token.type != "ID" or name.type != "ID" or bracket != "(" or str(token) in names:
+                continue
+            if self.tokens[i - 1].type in ("LBRACE", "RBRACE", "RPAR", "ABSTRACT") and closest(
+                token, _SERVER_WORDS
+            ):
+                self._misspelled(i, "msgsrv", "a keyword")
 
     def _mend_section_names(self) -> None:
         """A name right before `{` is a misspelled section: nothing else stands there."""
@@ -124,17 +162,14 @@ class _Scan:
             word = closest(token, _SECTIONS)
             if word is None:
                 continue
-            span = token_span(token)
-            self.tokens[i] = retyped(token, word.upper(), word)
-            self.diagnostics.append(
-                Diagnostic(
-                    "RS104",
-                    span,
-                    f'"{token}" is not a section of a model',
-                    f'did you mean "{word}"?',
-                    edits=(Edit(span, word),),
-                )
-            )
+            self._misspelled(i, word, "a section of a model")
+
+    def _misspelled(self, i: int, word: str, what: str) -> None:
+        token, span = self.tokens[i], token_span(self.tokens[i])
+        self.tokens[i] = retyped(token, word.upper(), word)
+        message, hint = f'"{token}" is not {what}', f'did you mean "{word}"?'
+        edits = (Edit(span, word),)
+        self.diagnostics.append(Diagnostic("RS104", span, message, hint, edits=edits))
 
     def _drop_empty_set_signs(self) -> None:
         """`(ϕ)`, the thesis's sign for no arguments, is `()`."""
@@ -178,7 +213,9 @@ class _Scan:
                 case "LPAR" | "LSQB" | "LBRACE":
                     opened.append(i)
                     if len(opened) == MAX_NESTING + 1:
-                        self._too_deep(token)
+                        self._too_deep(
+                            token, f"brackets are nested deeper than {MAX_NESTING} levels"
+                        )
                 case "RPAR" | "RSQB" | "RBRACE":
                     if opened:
                         opened.pop()
@@ -187,20 +224,39 @@ class _Scan:
                     if at >= 0 and self.tokens[at] == "?" and self.tokens[at + 1] == "(":
                         self.tokens[at] = retyped(self.tokens[at], "CHOICE")
 
-    def _too_deep(self, token: Token) -> None:
-        self.diagnostics.append(
-            Diagnostic(
-                "RS111",
-                token_span(token),
-                f"brackets are nested deeper than {MAX_NESTING} levels",
-                "split the expression or move a part into a method",
-            )
-        )
+    def _measure_chains(self) -> None:
+        """Operators in one expression, and `else if` in one statement, nest without brackets."""
+        operators = 0
+        branches = [0]
+        for token, after in zip(self.tokens, [*self.tokens[1:], None], strict=True):
+            match token.type:
+                case "ELSE" if after is not None and after.type == "IF":
+                    branches[-1] += 1
+                    if branches[-1] == MAX_CHAIN + 1:
+                        self._too_deep(token, f"there are more than {MAX_CHAIN} `else if`")
+                case "BINARY" | "PLUS" | "MINUS" | "QMARK" | "EQUAL" | "BANG" | "TILDE":
+                    operators += 1
+                    if operators == MAX_CHAIN + 1:
+                        message = f"there are more than {MAX_CHAIN} operators in one expression"
+                        self._too_deep(token, message)
+                case "LBRACE":
+                    branches.append(0)
+                    operators = 0
+                case "SEMICOLON" | "RBRACE" | "COMMA":
+                    operators = 0
+                    if token.type == "RBRACE" and len(branches) > 1:
+                        branches.pop()
+                    if after is None or after.type != "ELSE":
+                        branches[-1] = 0
+
+    def _too_deep(self, token: Token, message: str) -> None:
+        hint = "split it up, or move a part into a method"
+        self.diagnostics.append(Diagnostic("RS111", token_span(token), message, hint))
 
     def _mark_types_and_casts(self) -> None:
         tokens = self.tokens
         for i, token in enumerate(tokens):
-            if token.type != "ID":
+            if token.type != "ID" or (i and tokens[i - 1] == "@"):
                 continue
             end = self._after_dimensions(i)
             if end >= len(tokens):

@@ -36,11 +36,13 @@ class Parsed:
 def parse_model(source: Source) -> Parsed:
     """Read a model; mistakes become diagnostics, and reading goes on behind them."""
     lexed = lex(source.text)
-    parser = RecoveringParser(rebeca_grammar(), "model", lexed.tokens)
-    model = parser.run()
-    if not isinstance(model, Model):
-        model = Model((), (), None, Span(0, len(source.text)))
-    found = [*lexed.diagnostics, *parser.diagnostics, *_out_of_place(model)]
+    model = Model((), (), None, Span(0, len(source.text)))
+    found = [*lexed.diagnostics]
+    if not lexed.hopeless:
+        parser = RecoveringParser(rebeca_grammar(), "model", lexed.tokens)
+        read = parser.run()
+        model = read if isinstance(read, Model) else model
+        found += [*parser.diagnostics, *_out_of_place(model)]
     return Parsed(
         source,
         model,

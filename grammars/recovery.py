@@ -68,6 +68,8 @@ class RecoveringParser:
 
     def _recover(self, i: int, token: Token) -> int:
         accepted = cast("set[str]", self._parser.accepts())  # type: ignore[no-untyped-call]
+        if token.type == "$END" and "RBRACE" in accepted:
+            return self._close(i, token)
         again = self._reopen_class(i, token)
         if again is not None:
             return again
@@ -84,6 +86,15 @@ class RecoveringParser:
             return i + best.consumed
         self._report(i, self._unexpected(token, accepted))
         return self._skip(i)
+
+    def _close(self, i: int, end: Token) -> int:
+        """At the end of the file, close what is open; one report is enough for all of it."""
+        place = end.start_pos or 0
+        message = "`}` is missing before the end of the file"
+        self._report(i, Diagnostic("RS106", Span(max(place - 1, 0), place), message))
+        self._quiet_until = i
+        self._parser.feed_token(Token("RBRACE", "}", place))
+        return i
 
     def _from(self, i: int) -> list[Token]:
         rest = self.tokens[i : i + _LOOKAHEAD]

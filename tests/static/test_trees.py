@@ -11,15 +11,19 @@ from rebsync.model import (
     Broken,
     Call,
     Choice,
+    Empty,
     Expression,
     ExpressionStatement,
+    If,
     IntLiteral,
     MessageServer,
     Model,
     Name,
     ReactiveClass,
     Return,
+    Statement,
     Type,
+    Unary,
     walk,
 )
 from rebsync.source import Source
@@ -74,15 +78,13 @@ def model_of(text: str) -> Model:
     return parsed.model
 
 
-def with_statement(model: Model, expression: Expression) -> Model:
+def with_statement(model: Model, statement: Statement) -> Model:
     """The model with one more statement at the end of the last server of its last class."""
     *classes, last = model.classes
     assert isinstance(last, ReactiveClass)
     *members, server = last.members
     assert isinstance(server, MessageServer) and server.body is not None
-    body = replace(
-        server.body, statements=(*server.body.statements, ExpressionStatement(expression))
-    )
+    body = replace(server.body, statements=(*server.body.statements, statement))
     changed = replace(last, members=(*members, replace(server, body=body)))
     return replace(model, classes=(*classes, changed))
 
@@ -97,7 +99,7 @@ def test_the_model_of_these_tests_is_clean() -> None:
 
 def test_a_single_option_is_no_choice() -> None:
     tree = Assign("=", Name("x"), Choice((IntLiteral(1),)))
-    assert codes(with_statement(model_of(TEXT), tree)) == ["RS420"]
+    assert codes(with_statement(model_of(TEXT), ExpressionStatement(tree))) == ["RS420"]
 
 
 def test_what_could_not_be_read_is_silent() -> None:
@@ -105,7 +107,8 @@ def test_what_could_not_be_read_is_silent() -> None:
     sum_ = Binary("+", Broken(), Name("x"))
     tree = Assign("=", Name("x"), Call(None, "f", (sum_,), after=None))
     for expression in (broken, tree, Assign("=", Broken(), IntLiteral(1)), Call(Broken(), "m")):
-        assert codes(with_statement(model_of(TEXT), expression)) == []
+        statement = ExpressionStatement(expression)
+        assert codes(with_statement(model_of(TEXT), statement)) == []
 
 
 def test_incomplete_models_say_nothing_of_what_may_be_lost() -> None:
@@ -115,6 +118,12 @@ def test_incomplete_models_say_nothing_of_what_may_be_lost() -> None:
     assert analyse(model, incomplete=True).diagnostics == ()
     misspelled = parse_model(Source("a.rebeca", text.replace("qqq", "reprot"))).model
     assert [d.code for d in analyse(misspelled, incomplete=True).diagnostics] == ["RS204"]
+
+
+def test_a_variable_that_a_property_reads_is_used() -> None:
+    model = model_of(TEXT.replace("if (last != null) ", ""))
+    assert codes(model) == ["RS504"]
+    assert analyse(model, observed=frozenset({"last"})).diagnostics == ()
 
 
 def test_symbols_and_types() -> None:
@@ -200,14 +209,19 @@ def test_two_near_names_are_no_certain_correction() -> None:
 
 
 def test_long_chains_do_not_nest() -> None:
-    terms = " + ".join(["x"] * 5_000)
-    branches = "else ".join(f"if (x == {n}) x = {n}; " for n in range(2_000))
-    text = TEXT.replace("int local = a;", f"int local = a; x = {terms}; {branches}")
-    assert codes(model_of(text)) == []
+    terms: Expression = Name("x")
+    for _ in range(5_000):
+        terms = Binary("+", terms, Name("x"))
+    model = with_statement(model_of(TEXT), ExpressionStatement(Assign("=", Name("x"), terms)))
+    chain: Statement = Empty()
+    for n in range(2_000):
+        chain = If(Binary("==", Name("x"), IntLiteral(n)), Empty(), chain)
+    assert codes(with_statement(model, chain)) == []
 
 
 def test_deep_nesting_is_a_diagnostic() -> None:
-    text = TEXT.replace("x = f(1);", "x = " + "- " * 20_000 + "x;")
-    parsed = parse_model(Source("a.rebeca", text))
-    found = [*parsed.diagnostics, *analyse(parsed.model).diagnostics]
-    assert "RS111" in {d.code for d in found}
+    deep: Expression = Name("x")
+    for _ in range(5_000):
+        deep = Unary("-", deep)
+    model = with_statement(model_of(TEXT), ExpressionStatement(Assign("=", Name("x"), deep)))
+    assert codes(model) == ["RS111"]
