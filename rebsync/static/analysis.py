@@ -63,13 +63,20 @@ class Analysis:
         return symbol.value if isinstance(symbol, EnvSymbol) else None
 
 
-def analyse(model: Model, *, fragment: bool = False, incomplete: bool = False) -> Analysis:
+def analyse(
+    model: Model,
+    *,
+    fragment: bool = False,
+    incomplete: bool = False,
+    observed: frozenset[str] = frozenset(),
+) -> Analysis:
     """Checks a model.
 
     A `fragment` may lack `main` and whatever else would use its classes. Of an `incomplete`
     model some text could not be read, so that nothing is said about what it does not use.
+    `observed` are names of state variables that properties read.
     """
-    facts = Facts(fragment, incomplete)
+    facts = Facts(fragment, incomplete, observed)
     try:
         _check(facts, model)
     except RecursionError:

@@ -29,7 +29,7 @@ def _hint(expression: Expression, source: Type, target: Type, body: Body) -> str
     if is_boolean(target) and is_numeric(source):
         return "write a comparison, such as x != 0"
     if casts(source, target, body.facts.classes):
-        return f"write ({target}) before the value, in parentheses"
+        return f"cast it: ({target}) (...)"
     if is_rebec(source) and is_rebec(target):
         return f'"{source}" does not descend from "{target}"'
     return None

@@ -107,6 +107,7 @@ class Facts:
 
     fragment: bool = False
     incomplete: bool = False
+    observed: frozenset[str] = frozenset()
     diagnostics: list[Diagnostic] = field(default_factory=list)
     types: dict[int, Type] = field(default_factory=dict)
     symbols: dict[int, Symbol] = field(default_factory=dict)

@@ -12,6 +12,7 @@ from rebsync.static.symbols import (
     ClassInfo,
     KnownRebecSymbol,
     LocalSymbol,
+    StateSymbol,
     Variable,
 )
 
@@ -84,6 +85,8 @@ def _collect(facts: Facts) -> _Uses:
 def _check_variables(facts: Facts, info: ClassInfo, uses: _Uses) -> None:
     for name, symbol in info.variables.items():
         if symbol.owner != info.name or symbol in uses.reads:
+            continue
+        if isinstance(symbol, StateSymbol) and name in facts.observed:
             continue
         span = symbol.declaration.name_span
         if isinstance(symbol, KnownRebecSymbol):

@@ -42,9 +42,6 @@ def read_cases(path: Path) -> Iterator[Case]:
         yield Case(heading["title"], path, line, text[heading.start() : end])
 
 
-# What the parser does not read yet, though it is right.
-UNREAD = pytest.mark.xfail(reason="the parser does not read it", raises=AssertionError)
-
 ALL = [case for path in sorted(CASES.glob("*.rebeca")) for case in read_cases(path)]
 
 
@@ -68,17 +65,7 @@ def reported(case: Case) -> list[tuple[int, str, str, str]]:
     ]
 
 
-PARAMETERS = [
-    pytest.param(
-        case,
-        id=f"{case.path.stem}: {case.title}",
-        marks=[UNREAD] if case.title.endswith("(unread)") else [],
-    )
-    for case in ALL
-]
-
-
-@pytest.mark.parametrize("case", PARAMETERS)
+@pytest.mark.parametrize("case", ALL, ids=lambda case: f"{case.path.stem}: {case.title}")
 def test_case(case: Case) -> None:
     wanted, found = expected(case), reported(case)
     assert bool(wanted) != ("// clean" in case.text), "say what is reported, or // clean"
