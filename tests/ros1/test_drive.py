@@ -14,7 +14,9 @@ from tests.ros1.run import Clock
 from tests.ros1.workspace import Workspace
 
 STEPS = ((1, 0), (0, 1), (-1, 0), (1, 1), (-1, -1), (0, -1), (1, -1))
-TOLERANCE = 0.15
+TOLERANCE = 0.2
+# Twists bear no stamp, and the recorder's is late by its latency times the rate of the clock.
+SLOW = 4.0
 
 
 def robot(lines: tuple[str, ...], **drive: object) -> Rebec:
@@ -36,8 +38,8 @@ def near(pose: Pose, x: float, y: float, cell: float = 1.0) -> bool:
 
 @pytest.fixture(scope="module")
 def tour(probe: Workspace, tmp_path_factory: pytest.TempPathFactory) -> Recording:
-    """Robots of several kinds on the same way, one cell every two seconds, with pauses."""
-    lines = tuple(line for dx, dy in STEPS for line in (f"move {dx} {dy}", "delay 2", "delay 1"))
+    """Robots of several kinds on the same way, one cell in four seconds and a pause of one."""
+    lines = tuple(line for dx, dy in STEPS for line in (f"move {dx} {dy}", "delay 4", "delay 1"))
     rebecs = {
         "holonomic": robot(lines, kind="holonomic"),
         "turned": robot(lines, kind="holonomic", heading=0.7),
@@ -45,7 +47,7 @@ def tour(probe: Workspace, tmp_path_factory: pytest.TempPathFactory) -> Recordin
         "small": robot(lines, kind="differential", heading=math.pi / 2, cell_size=0.5),
     }
     directory = tmp_path_factory.mktemp("tour")
-    return play(probe, directory, rebecs, Clock(until=40, quiet=24, rate=8))
+    return play(probe, directory, rebecs, Clock(until=40, quiet=37, rate=SLOW))
 
 
 @pytest.mark.parametrize(
@@ -64,7 +66,7 @@ def test_every_move_ends_in_its_cell(
     for index, (dx, dy) in enumerate(STEPS):
         x, y = x + dx, y + dy
         # In the pause after the move the robot stands in the cell.
-        pose = pose_at(tour, name, 3 * index + 2.9, heading)
+        pose = pose_at(tour, name, 5 * index + 4.9, heading)
         assert near(pose, x, y, cell), f"after move {index + 1}: {pose}, not ({x}, {y})"
 
 
@@ -73,7 +75,7 @@ def test_velocities_come_at_ten_hertz_and_end_with_a_stop(tour: Recording) -> No
         velocities = tour.velocities(name)
         last = velocities[-1]
         assert (last.x, last.y, last.turn) == (0, 0, 0)
-        stamps = [v.stamp for v in velocities if v.stamp < 1.9]
+        stamps = [v.stamp for v in velocities if v.stamp < 3.9]
         gaps = [b - a for a, b in pairwise(stamps)]
         assert 0.05 < sorted(gaps)[len(gaps) // 2] < 0.15
         assert max(gaps) < 0.3
@@ -94,7 +96,7 @@ def test_a_move_takes_the_time_of_the_next_delay_or_the_last_or_a_parameter(
         "none": robot(("move 1 0",), move_time=2.0),
         "quick": robot(("move 1 0", "send self low 0")),
     }
-    recording = play(probe, tmp_path, rebecs, Clock(until=30, quiet=6, rate=8))
+    recording = play(probe, tmp_path, rebecs, Clock(until=30, quiet=6, rate=SLOW))
     assert near(pose_at(recording, "next", 0.9 + 1), 0.45, 0)
     assert near(pose_at(recording, "next", 3.1), 1, 0)
     assert near(pose_at(recording, "next", 5.3), 1, 1)
@@ -113,5 +115,5 @@ def test_moves_queue_up_when_the_model_is_faster(probe: Workspace, tmp_path: Pat
     rebecs = {
         "a": Rebec(rebec.constructor, rebec.plain, ("move 1 0",), (), 20, 0, rebec.parameters)
     }
-    recording = play(probe, tmp_path, rebecs, Clock(until=30, quiet=4, rate=8))
+    recording = play(probe, tmp_path, rebecs, Clock(until=30, quiet=4, rate=SLOW))
     assert near(pose_at(recording, "a", 9), 2, 0)
