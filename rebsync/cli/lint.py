@@ -38,6 +38,7 @@ def command(paths: tuple[str, ...], fix: bool, style: str) -> Status:
         statuses.append(status)
     print_report(findings, sys.stdout, style)
     if style == "text" and (counted := summary(findings)):
+        sys.stdout.flush()
         click.echo(counted, err=True)
     return worst(statuses)
 
