@@ -25,6 +25,7 @@ _OPERANDS = frozenset(
         *("SELF", "SUPER", "NEW", "LPAR", "CHOICE"),
     }
 )
+_OPERAND_ENDS = (_OPERANDS - {"LPAR", "NEW", "CHOICE"}) | {"RPAR", "RSQB", "INC", "DEC"}
 _NO_ARGUMENTS = frozenset({"ϕ", "φ", "∅"})
 _SECTIONS = ("knownrebecs", "statevars", "main")
 _BEFORE_NAMED_BRACE = frozenset({"INTERFACE", "EXTENDS", "IMPLEMENTS", "COMMA", "RECORD", "DOT"})
@@ -206,10 +207,13 @@ class _Scan:
             )
 
     def _mark_choices(self) -> None:
-        """`?` before a parenthesis that holds a comma is a choice, else the `?` of `?:`."""
+        """`?(` is a choice where no operand comes before it, or where the parenthesis holds a comma."""
         opened: list[int] = []
         for i, token in enumerate(self.tokens):
             match token.type:
+                case "QMARK" if i and self.tokens[i - 1].type not in _OPERAND_ENDS:
+                    if self.tokens[i + 1 : i + 2] == ["("]:
+                        self.tokens[i] = retyped(token, "CHOICE")
                 case "LPAR" | "LSQB" | "LBRACE":
                     opened.append(i)
                     if len(opened) == MAX_NESTING + 1:

@@ -1,0 +1,27 @@
+"""Make everything that tests compare with anew: `python tests/regenerate.py`."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+from rebsync.cli import main
+
+EXAMPLES = Path(__file__).parent.parent / "examples"
+
+
+def models() -> tuple[Path, ...]:
+    """The model of every example."""
+    return tuple(sorted(EXAMPLES.glob("*/*.rebeca")))
+
+
+def regenerate_examples() -> None:
+    """The committed package of every example, from nothing."""
+    for model in models():
+        shutil.rmtree(model.parent / model.stem, ignore_errors=True)
+        status = main(["generate", str(model), "-o", str(model.parent)])
+        assert status == 0, f"{model}: exit status {status}"
+
+
+if __name__ == "__main__":
+    regenerate_examples()
