@@ -1,0 +1,64 @@
+// The reactive class ControlNode of experiment2.rebeca: one ROS node for each of its rebecs.
+#ifndef EXPERIMENT2_CONTROL_NODE_H
+#define EXPERIMENT2_CONTROL_NODE_H
+
+#include <ros/ros.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "experiment2/ControlNodeControlTask.h"
+#include "experiment2/R1P1.h"
+#include "experiment2/R2P2.h"
+#include "experiment2/mailbox.h"
+
+namespace experiment2 {
+
+// rebsync: annotation @Controller
+// rebsync: reactiveclass ControlNode
+class ControlNode {
+ public:
+  ControlNode(const ros::NodeHandle& node, int32_t r1x, int32_t r1y, int32_t r2x, int32_t r2y);
+
+  Mailbox& mailbox() { return mailbox_; }
+
+ private:
+  void construct(int32_t r1x, int32_t r1y, int32_t r2x, int32_t r2y);
+
+  void ControlTask(int32_t sender_id, int32_t posX, int32_t posY);
+
+  bool holds1(int32_t x, int32_t y);
+  bool holds2(int32_t x, int32_t y);
+
+  void receiveControlTask(const ControlNodeControlTask::ConstPtr& msg);
+
+  void sendRobot1P1(int32_t cmd, const When& when_ = When());
+  void sendRobot2P2(int32_t cmd, const When& when_ = When());
+
+  void publishState(const Served& served);
+
+  Mailbox mailbox_;
+
+  std::array<int32_t, 2> pos_r1_{};   // rebsync: statevar ControlNode.pos_r1
+  std::array<int32_t, 2> pos_r2_{};   // rebsync: statevar ControlNode.pos_r2
+  std::array<int32_t, 2> next_r1_{};  // rebsync: statevar ControlNode.next_r1
+  std::array<int32_t, 2> next_r2_{};  // rebsync: statevar ControlNode.next_r2
+  std::string robot1_;                // rebsync: knownrebec ControlNode.robot1
+  std::string robot2_;                // rebsync: knownrebec ControlNode.robot2
+  int32_t ec1_{};                     // rebsync: env ec1
+  int32_t r1_goalX_{};                // rebsync: env r1_goalX
+  int32_t r1_goalY_{};                // rebsync: env r1_goalY
+  int32_t r2_goalX_{};                // rebsync: env r2_goalX
+  int32_t r2_goalY_{};                // rebsync: env r2_goalY
+
+  ros::Publisher robot1_P1_pub_;
+  ros::Publisher robot2_P2_pub_;
+  ros::Subscriber ControlTask_sub_;
+  ros::Publisher state_pub_;
+};
+
+}  // namespace experiment2
+
+#endif  // EXPERIMENT2_CONTROL_NODE_H

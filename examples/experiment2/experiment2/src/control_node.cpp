@@ -1,0 +1,116 @@
+#include "experiment2/control_node.h"
+
+#include "experiment2/ControlNodeState.h"
+
+namespace experiment2 {
+
+namespace {
+
+constexpr Server kControlTask{"ControlTask", kNoPriority};
+
+}  // namespace
+
+ControlNode::ControlNode(const ros::NodeHandle& node, int32_t r1x, int32_t r1y, int32_t r2x,
+    int32_t r2y)
+    : mailbox_(node, 4) {
+  robot1_ = node.param<std::string>("knownrebecs/robot1", "");
+  robot2_ = node.param<std::string>("knownrebecs/robot2", "");
+  const ros::NodeHandle global;
+  ec1_ = global.param("ec1", 1);
+  r1_goalX_ = global.param("r1_goalX", 4);
+  r1_goalY_ = global.param("r1_goalY", 2);
+  r2_goalX_ = global.param("r2_goalX", 2);
+  r2_goalY_ = global.param("r2_goalY", 4);
+  robot1_P1_pub_ = mailbox_.advertise<R1P1>("robot1/P1");
+  robot2_P2_pub_ = mailbox_.advertise<R2P2>("robot2/P2");
+  ControlTask_sub_ = mailbox_.subscribeOnBridge("ControlTask", &ControlNode::receiveControlTask, this);
+  state_pub_ = ros::NodeHandle(node).advertise<ControlNodeState>("state", kQueueSize, true);
+  mailbox_.onServed([this](const Served& served) { publishState(served); });
+  mailbox_.construct([=] { construct(r1x, r1y, r2x, r2y); });
+}
+
+// rebsync: constructor ControlNode
+void ControlNode::construct(int32_t r1x, int32_t r1y, int32_t r2x, int32_t r2y) {
+  pos_r1_[0] = r1x;
+  pos_r1_[1] = r1y;
+  pos_r2_[0] = r2x;
+  pos_r2_[1] = r2y;
+  next_r1_ = pos_r1_;
+  next_r2_ = pos_r2_;
+}
+
+// rebsync: msgsrv ControlNode.ControlTask
+void ControlNode::ControlTask(int32_t sender_id, int32_t posX, int32_t posY) {
+  mailbox_.delay(ec1_);
+  if (sender_id == 0) {
+    pos_r1_[0] = posX;
+    pos_r1_[1] = posY;
+    next_r1_ = pos_r1_;
+    if (pos_r1_[0] == r1_goalX_ && pos_r1_[1] == r1_goalY_) {
+      sendRobot1P1(0);
+    } else if (holds2(posX + 1, posY)) {
+      sendRobot1P1(2);
+    } else {
+      next_r1_[0] = posX + 1;
+      sendRobot1P1(1);
+    }
+  } else if (sender_id == 1) {
+    pos_r2_[0] = posX;
+    pos_r2_[1] = posY;
+    next_r2_ = pos_r2_;
+    if (pos_r2_[0] == r2_goalX_ && pos_r2_[1] == r2_goalY_) {
+      sendRobot2P2(0);
+    } else if (holds1(posX, posY + 1)) {
+      sendRobot2P2(2);
+    } else {
+      next_r2_[1] = posY + 1;
+      sendRobot2P2(1);
+    }
+  }
+}
+
+// A robot holds a cell from when it is sent there until it reports from the next one.
+// rebsync: method ControlNode.holds1
+bool ControlNode::holds1(int32_t x, int32_t y) {
+  return (pos_r1_[0] == x && pos_r1_[1] == y) || (next_r1_[0] == x && next_r1_[1] == y);
+}
+
+// rebsync: method ControlNode.holds2
+bool ControlNode::holds2(int32_t x, int32_t y) {
+  return (pos_r2_[0] == x && pos_r2_[1] == y) || (next_r2_[0] == x && next_r2_[1] == y);
+}
+
+void ControlNode::receiveControlTask(const ControlNodeControlTask::ConstPtr& msg) {
+  mailbox_.receive(kControlTask, msg->timing, "", text(msg->sender_id, msg->pos_x, msg->pos_y),
+      [this, msg] { ControlTask(msg->sender_id, msg->pos_x, msg->pos_y); });
+}
+
+// rebsync: send ControlNode.robot1.P1
+void ControlNode::sendRobot1P1(int32_t cmd, const When& when_) {
+  R1P1 msg_;
+  msg_.cmd = cmd;
+  mailbox_.publish(robot1_P1_pub_, msg_, when_);
+}
+
+// rebsync: send ControlNode.robot2.P2
+void ControlNode::sendRobot2P2(int32_t cmd, const When& when_) {
+  R2P2 msg_;
+  msg_.cmd = cmd;
+  mailbox_.publish(robot2_P2_pub_, msg_, when_);
+}
+
+void ControlNode::publishState(const Served& served) {
+  ControlNodeState msg;
+  msg.server = served.server;
+  msg.arguments = served.arguments;
+  msg.arrival = served.arrival;
+  msg.start = served.start;
+  msg.now = served.now;
+  flatten(pos_r1_, msg.pos_r1);
+  flatten(pos_r2_, msg.pos_r2);
+  flatten(next_r1_, msg.next_r1);
+  flatten(next_r2_, msg.next_r2);
+  state_pub_.publish(msg);
+}
+
+}  // namespace experiment2

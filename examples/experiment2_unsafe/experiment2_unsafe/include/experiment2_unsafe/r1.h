@@ -1,0 +1,65 @@
+// The reactive class R1 of experiment2_unsafe.rebeca: one ROS node for each of its rebecs.
+#ifndef EXPERIMENT2_UNSAFE_R1_H
+#define EXPERIMENT2_UNSAFE_R1_H
+
+#include <ros/ros.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "experiment2_unsafe/ControlNodeControlTask.h"
+#include "experiment2_unsafe/R1Begin.h"
+#include "experiment2_unsafe/R1MoveInX.h"
+#include "experiment2_unsafe/R1P1.h"
+#include "experiment2_unsafe/drive.h"
+#include "experiment2_unsafe/mailbox.h"
+
+namespace experiment2_unsafe {
+
+// rebsync: annotation @Robot
+// rebsync: reactiveclass R1
+class R1 {
+ public:
+  R1(const ros::NodeHandle& node, int32_t robot_id, int32_t init_x, int32_t init_y);
+
+  Mailbox& mailbox() { return mailbox_; }
+
+ private:
+  void construct(int32_t robot_id, int32_t init_x, int32_t init_y);
+
+  void begin();
+  void P1(int32_t cmd);
+  void MoveInX();
+
+  void receiveBegin(const R1Begin::ConstPtr& msg);
+  void receiveP1(const R1P1::ConstPtr& msg);
+  void receiveMoveInX(const R1MoveInX::ConstPtr& msg);
+
+  void sendControllerControlTask(int32_t sender_id, int32_t posX, int32_t posY,
+      const When& when_ = When());
+  void sendSelfBegin(const When& when_ = When());
+  void sendSelfMoveInX(const When& when_ = When());
+
+  void publishState(const Served& served);
+
+  Mailbox mailbox_;
+  Drive drive_;
+
+  int32_t id_{};                  // rebsync: statevar R1.id
+  bool stopped_{};                // rebsync: statevar R1.stopped
+  std::array<int32_t, 2> pos_{};  // rebsync: statevar R1.pos
+  std::string controller_;        // rebsync: knownrebec R1.controller
+  int32_t e1_{};                  // rebsync: env e1
+
+  ros::Publisher controller_ControlTask_pub_;
+  ros::Subscriber begin_sub_;
+  ros::Subscriber P1_sub_;
+  ros::Subscriber MoveInX_sub_;
+  ros::Publisher state_pub_;
+};
+
+}  // namespace experiment2_unsafe
+
+#endif  // EXPERIMENT2_UNSAFE_R1_H

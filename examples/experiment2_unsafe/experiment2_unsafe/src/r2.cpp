@@ -1,0 +1,110 @@
+#include "experiment2_unsafe/r2.h"
+
+#include "experiment2_unsafe/R2State.h"
+
+namespace experiment2_unsafe {
+
+namespace {
+
+constexpr Server kBegin{"begin", kNoPriority};
+constexpr Server kP2{"P2", kNoPriority};
+constexpr Server kMoveInY{"MoveInY", kNoPriority};
+
+}  // namespace
+
+R2::R2(const ros::NodeHandle& node, int32_t robot_id, int32_t init_x, int32_t init_y)
+    : mailbox_(node, 2),
+      drive_(node, mailbox_) {
+  controller_ = node.param<std::string>("knownrebecs/controller", "");
+  const ros::NodeHandle global;
+  e2_ = global.param("e2", 1);
+  controller_ControlTask_pub_ = mailbox_.advertise<ControlNodeControlTask>("controller/ControlTask");
+  begin_sub_ = mailbox_.subscribe("begin", &R2::receiveBegin, this);
+  P2_sub_ = mailbox_.subscribe("port/P2", &R2::receiveP2, this);
+  MoveInY_sub_ = mailbox_.subscribe("MoveInY", &R2::receiveMoveInY, this);
+  state_pub_ = ros::NodeHandle(node).advertise<R2State>("state", kQueueSize, true);
+  mailbox_.onServed([this](const Served& served) { publishState(served); });
+  mailbox_.construct([=] { construct(robot_id, init_x, init_y); });
+}
+
+// rebsync: constructor R2
+void R2::construct(int32_t robot_id, int32_t init_x, int32_t init_y) {
+  id_ = robot_id;
+  stopped_ = true;
+  pos_[0] = init_x;
+  pos_[1] = init_y;
+  sendSelfBegin(after(robot_id));
+}
+
+// rebsync: msgsrv R2.begin
+void R2::begin() {
+  sendControllerControlTask(id_, pos_[0], pos_[1]);
+}
+
+// rebsync: msgsrv R2.P2
+// rebsync: annotation @Port
+void R2::P2(int32_t cmd) {
+  if (cmd == 0) {
+    this->stopped_ = true;
+  } else if (cmd == 1) {
+    this->stopped_ = false;
+    sendSelfMoveInY();
+  } else if (cmd == 2) {
+    this->stopped_ = true;
+    sendControllerControlTask(id_, pos_[0], pos_[1], after(1));
+  }
+}
+
+// rebsync: msgsrv R2.MoveInY
+void R2::MoveInY() {
+  drive_.move(0, 1);
+  pos_[1] = pos_[1] + 1;
+  mailbox_.delay(e2_);
+  sendControllerControlTask(id_, pos_[0], pos_[1]);
+}
+
+void R2::receiveBegin(const R2Begin::ConstPtr& msg) {
+  mailbox_.receive(kBegin, msg->timing, "", "", [this] { begin(); });
+}
+
+void R2::receiveP2(const R2P2::ConstPtr& msg) {
+  mailbox_.receive(kP2, msg->timing, "", text(msg->cmd), [this, msg] { P2(msg->cmd); });
+}
+
+void R2::receiveMoveInY(const R2MoveInY::ConstPtr& msg) {
+  mailbox_.receive(kMoveInY, msg->timing, "", "", [this] { MoveInY(); });
+}
+
+// rebsync: send R2.controller.ControlTask
+void R2::sendControllerControlTask(int32_t sender_id, int32_t posX, int32_t posY, const When& when_) {
+  ControlNodeControlTask msg_;
+  msg_.sender_id = sender_id;
+  msg_.pos_x = posX;
+  msg_.pos_y = posY;
+  mailbox_.publish(controller_ControlTask_pub_, msg_, when_);
+}
+
+// rebsync: send R2.self.begin
+void R2::sendSelfBegin(const When& when_) {
+  mailbox_.post(kBegin, when_, "", [=] { begin(); });
+}
+
+// rebsync: send R2.self.MoveInY
+void R2::sendSelfMoveInY(const When& when_) {
+  mailbox_.post(kMoveInY, when_, "", [=] { MoveInY(); });
+}
+
+void R2::publishState(const Served& served) {
+  R2State msg;
+  msg.server = served.server;
+  msg.arguments = served.arguments;
+  msg.arrival = served.arrival;
+  msg.start = served.start;
+  msg.now = served.now;
+  msg.id = id_;
+  msg.stopped = stopped_;
+  flatten(pos_, msg.pos);
+  state_pub_.publish(msg);
+}
+
+}  // namespace experiment2_unsafe

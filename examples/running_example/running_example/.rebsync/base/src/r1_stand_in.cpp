@@ -1,0 +1,34 @@
+// Plays the sensors of R1 with random data, so that the package runs without hardware.
+#include <ros/ros.h>
+
+#include <random>
+
+#include "running_example/R1S11Data.h"
+
+namespace {
+
+template <class T>
+T draw(std::mt19937& random, std::initializer_list<T> choices) {
+  std::uniform_int_distribution<std::size_t> index(0, choices.size() - 1);
+  return choices.begin()[index(random)];
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "r1_stand_in");
+  ros::NodeHandle node("~");
+  const double time_unit = ros::NodeHandle().param("mailbox/time_unit", 1.0);
+  std::mt19937 random(static_cast<uint32_t>(ros::NodeHandle().param("mailbox/seed", 0)));
+
+  const ros::Publisher s11 = node.advertise<running_example::R1S11Data>("s11", 10);
+  const ros::Timer s11_timer = node.createTimer(
+      ros::Duration(2.0 * time_unit), [&](const ros::TimerEvent& /* event */) {
+        running_example::R1S11Data msg;
+        msg.data = draw(random, std::initializer_list<int32_t>{0, 1});
+        s11.publish(msg);
+      });
+
+  ros::spin();
+  return 0;
+}

@@ -1,0 +1,34 @@
+// Plays the sensors of R2 with random data, so that the package runs without hardware.
+#include <ros/ros.h>
+
+#include <random>
+
+#include "running_example/R2S21Data.h"
+
+namespace {
+
+template <class T>
+T draw(std::mt19937& random, std::initializer_list<T> choices) {
+  std::uniform_int_distribution<std::size_t> index(0, choices.size() - 1);
+  return choices.begin()[index(random)];
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "r2_stand_in");
+  ros::NodeHandle node("~");
+  const double time_unit = ros::NodeHandle().param("mailbox/time_unit", 1.0);
+  std::mt19937 random(static_cast<uint32_t>(ros::NodeHandle().param("mailbox/seed", 0)));
+
+  const ros::Publisher s21 = node.advertise<running_example::R2S21Data>("s21", 10);
+  const ros::Timer s21_timer = node.createTimer(
+      ros::Duration(2.0 * time_unit), [&](const ros::TimerEvent& /* event */) {
+        running_example::R2S21Data msg;
+        msg.data = draw(random, std::initializer_list<int32_t>{0, 1});
+        s21.publish(msg);
+      });
+
+  ros::spin();
+  return 0;
+}

@@ -1,0 +1,47 @@
+// A real sensor of a robot: keeps the latest message for the model's periodic sampling.
+#ifndef RUNNING_EXAMPLE_SENSOR_H
+#define RUNNING_EXAMPLE_SENSOR_H
+
+#include <ros/ros.h>
+
+#include <boost/optional.hpp>
+#include <mutex>
+#include <string>
+#include <type_traits>
+
+namespace running_example {
+
+template <class M>
+class Sensor {
+ public:
+  Sensor(ros::NodeHandle node, const std::string& topic)
+      : subscription_(node.subscribe(topic, 1, &Sensor::receive, this)) {}
+
+  /// What `read` makes of the latest message; nothing while none has come.
+  template <class Read>
+  auto seen(Read read) const -> boost::optional<std::decay_t<decltype(read(M()))>> {
+    const typename M::ConstPtr message = latest();
+    if (message) return read(*message);
+    ROS_WARN_STREAM_THROTTLE(5.0, "sensor: nothing on " << subscription_.getTopic());
+    return boost::none;
+  }
+
+ private:
+  void receive(const typename M::ConstPtr& message) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    latest_ = message;
+  }
+
+  typename M::ConstPtr latest() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return latest_;
+  }
+
+  mutable std::mutex mutex_;
+  typename M::ConstPtr latest_;
+  ros::Subscriber subscription_;
+};
+
+}  // namespace running_example
+
+#endif  // RUNNING_EXAMPLE_SENSOR_H

@@ -1,0 +1,62 @@
+// The reactive class Lifter of warehouse.rebeca: one ROS node for each of its rebecs.
+#ifndef WAREHOUSE_LIFTER_H
+#define WAREHOUSE_LIFTER_H
+
+#include <ros/ros.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "warehouse/CarrierServed.h"
+#include "warehouse/LifterServe.h"
+#include "warehouse/LifterWeigh.h"
+#include "warehouse/LifterWeighData.h"
+#include "warehouse/drive.h"
+#include "warehouse/mailbox.h"
+#include "warehouse/sensor.h"
+
+namespace warehouse {
+
+// rebsync: annotation @Robot
+// rebsync: reactiveclass Lifter
+class Lifter {
+ public:
+  Lifter(const ros::NodeHandle& node, int32_t start);
+
+  Mailbox& mailbox() { return mailbox_; }
+
+ private:
+  void construct(int32_t start);
+
+  void serve(std::string carrier, int32_t place);
+  void weigh();
+
+  void receiveServe(const LifterServe::ConstPtr& msg);
+  void receiveWeigh(const LifterWeigh::ConstPtr& msg);
+
+  void sendCarrierServedTo(const std::string& to_, const When& when_ = When());
+  void sendSelfWeigh(const When& when_ = When());
+
+  void publishState(const Served& served);
+
+  Mailbox mailbox_;
+  Drive drive_;
+
+  int32_t x_{};             // rebsync: statevar Lifter.x
+  bool heavy_{};            // rebsync: statevar Lifter.heavy
+  std::string dispatcher_;  // rebsync: knownrebec Lifter.dispatcher
+  int32_t drive_time_{};    // rebsync: env drive_time
+  int32_t lift_time_{};     // rebsync: env lift_time
+  int32_t weigh_rate_{};    // rebsync: env weigh_rate
+
+  Sensor<LifterWeighData> weigh_sensor_;
+  Publishers Carrier_served_pubs_;
+  ros::Subscriber serve_sub_;
+  ros::Subscriber weigh_sub_;
+  ros::Publisher state_pub_;
+};
+
+}  // namespace warehouse
+
+#endif  // WAREHOUSE_LIFTER_H

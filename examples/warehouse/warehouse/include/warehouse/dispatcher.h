@@ -1,0 +1,73 @@
+// The reactive class Dispatcher of warehouse.rebeca: one ROS node for each of its rebecs.
+#ifndef WAREHOUSE_DISPATCHER_H
+#define WAREHOUSE_DISPATCHER_H
+
+#include <ros/ros.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "warehouse/CarrierGo.h"
+#include "warehouse/DispatcherEnter.h"
+#include "warehouse/DispatcherLeft.h"
+#include "warehouse/DispatcherReady.h"
+#include "warehouse/LifterServe.h"
+#include "warehouse/mailbox.h"
+
+namespace warehouse {
+
+// rebsync: annotation @Controller
+// rebsync: reactiveclass Dispatcher
+class Dispatcher {
+ public:
+  Dispatcher(const ros::NodeHandle& node, int32_t cell1, int32_t cell2, int32_t cell3,
+      int32_t cell4);
+
+  Mailbox& mailbox() { return mailbox_; }
+
+ private:
+  void construct(int32_t cell1, int32_t cell2, int32_t cell3, int32_t cell4);
+
+  void left(int32_t cell);
+  void enter(int32_t id, int32_t cell);
+  void ready(int32_t cell);
+
+  void lend(std::string carrier, int32_t cell, int32_t id);
+  std::string carrierOf(int32_t id);
+
+  void receiveLeft(const DispatcherLeft::ConstPtr& msg);
+  void receiveEnter(const DispatcherEnter::ConstPtr& msg);
+  void receiveReady(const DispatcherReady::ConstPtr& msg);
+
+  void sendPickerServe(const std::string& carrier, int32_t place, const When& when_ = When());
+  void sendPackerServe(const std::string& carrier, int32_t place, const When& when_ = When());
+  void sendCarrierGoTo(const std::string& to_, const When& when_ = When());
+
+  void publishState(const Served& served);
+
+  Mailbox mailbox_;
+
+  std::array<int32_t, 8> holder_{};  // rebsync: statevar Dispatcher.holder
+  std::array<bool, 8> wanted_{};     // rebsync: statevar Dispatcher.wanted
+  std::string carrier1_;             // rebsync: knownrebec Dispatcher.carrier1
+  std::string carrier2_;             // rebsync: knownrebec Dispatcher.carrier2
+  std::string carrier3_;             // rebsync: knownrebec Dispatcher.carrier3
+  std::string carrier4_;             // rebsync: knownrebec Dispatcher.carrier4
+  std::string picker_;               // rebsync: knownrebec Dispatcher.picker
+  std::string packer_;               // rebsync: knownrebec Dispatcher.packer
+  int32_t patience_{};               // rebsync: env patience
+
+  ros::Publisher picker_serve_pub_;
+  ros::Publisher packer_serve_pub_;
+  Publishers Carrier_go_pubs_;
+  ros::Subscriber left_sub_;
+  ros::Subscriber enter_sub_;
+  ros::Subscriber ready_sub_;
+  ros::Publisher state_pub_;
+};
+
+}  // namespace warehouse
+
+#endif  // WAREHOUSE_DISPATCHER_H
