@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.resources import files
+from itertools import zip_longest
 
 from lark import Lark, Token
 
@@ -207,7 +208,7 @@ class _Scan:
             )
 
     def _mark_choices(self) -> None:
-        """`?(` is a choice where no operand comes before it, or where the parenthesis holds a comma."""
+        """`?(` is a choice where no operand comes before it, or where a comma is in it."""
         opened: list[int] = []
         for i, token in enumerate(self.tokens):
             match token.type:
@@ -232,7 +233,7 @@ class _Scan:
         """Operators in one expression, and `else if` in one statement, nest without brackets."""
         operators = 0
         branches = [0]
-        for token, after in zip(self.tokens, [*self.tokens[1:], None], strict=True):
+        for token, after in zip_longest(self.tokens, self.tokens[1:]):
             match token.type:
                 case "ELSE" if after is not None and after.type == "IF":
                     branches[-1] += 1
