@@ -14,7 +14,7 @@ from tests.ros1.workspace import Workspace, build, missing_ros
 
 _HERE = Path(__file__).parent
 _TEMPLATES = _HERE.parents[1] / "forward" / "templates" / "ros1_cpp"
-_HEADERS = ("drive.h", "mailbox.h", "sensor.h", "startup.h", "values.h")
+HEADERS = ("drive.h", "mailbox.h", "sensor.h", "startup.h", "values.h")
 
 Build = Callable[[str, Sequence[Path]], Workspace]
 
@@ -51,13 +51,13 @@ def probe(build_workspace: Build, tmp_path_factory: pytest.TempPathFactory) -> W
     """The package whose rebecs run scripts, with the run-time headers as they are now."""
     package = tmp_path_factory.mktemp("packages") / "probe"
     shutil.copytree(_HERE / "packages" / "probe", package)
-    for name in _HEADERS:
+    for name in HEADERS:
         (package / "include" / "probe" / name).write_text(render(name, "probe"))
     return build_workspace("probe", [package])
 
 
 def render(name: str, package: str) -> str:
-    """A run-time header of a package."""
+    """A file of the run-time part of a package."""
     loader = jinja2.FileSystemLoader(_TEMPLATES)
     environment = jinja2.Environment(
         loader=loader, undefined=jinja2.StrictUndefined, keep_trailing_newline=True

@@ -30,6 +30,7 @@ class Rebec:
     high: Sequence[str] = ()
     capacity: int = 20
     wait: float = 0.0
+    respawn: bool = False
     parameters: Mapping[str, Any] = field(default_factory=dict)
 
     def private(self, peers: Sequence[str]) -> dict[str, Any]:
@@ -70,9 +71,10 @@ def _node(name: str, rebec: Rebec, peers: Sequence[str]) -> str:
     )
     private = "".join(_parameter(key, value) for key, value in rebec.private(peers).items())
     prefix = f"sh -c 'sleep {rebec.wait}; exec $0 $*'"
-    start = f'<node name="{name}" pkg="probe" type="script_node" launch-prefix="{prefix}">'
+    start = f'<node name="{name}" pkg="probe" type="script_node" launch-prefix="{prefix}"'
+    respawn = f'respawn="{str(rebec.respawn).lower()}">'
     sensor = f'<remap from="~sensor" to="{name}/plain"/>\n'
-    return f"{start}\n{private}{remaps}{sensor}</node>\n"
+    return f"{start} {respawn}\n{private}{remaps}{sensor}</node>\n"
 
 
 def _parameter(name: str, value: object) -> str:

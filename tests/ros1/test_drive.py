@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -111,9 +112,6 @@ def test_a_move_takes_the_time_of_the_next_delay_or_the_last_or_a_parameter(
 
 def test_moves_queue_up_when_the_model_is_faster(probe: Workspace, tmp_path: Path) -> None:
     lines = ("move 1 0", "send self low 0")
-    rebec = robot(lines, move_time=1.0)
-    rebecs = {
-        "a": Rebec(rebec.constructor, rebec.plain, ("move 1 0",), (), 20, 0, rebec.parameters)
-    }
+    rebecs = {"a": replace(robot(lines, move_time=1.0), low=("move 1 0",))}
     recording = play(probe, tmp_path, rebecs, Clock(until=30, quiet=4, rate=SLOW))
     assert near(pose_at(recording, "a", 9), 2, 0)

@@ -68,6 +68,16 @@ def test_a_namespace_keeps_the_system_together(probe: Workspace, tmp_path: Path)
     assert recording.heard("/field/startup") != ()
 
 
+def test_a_rebec_that_starts_again_is_named(probe: Workspace, tmp_path: Path) -> None:
+    rebecs = {
+        "a": Rebec(constructor=("send self plain 0 after 20",)),
+        "b": Rebec(constructor=("send self plain 0 after 2",), plain=("quit",), respawn=True),
+    }
+    recording = play(probe, tmp_path, rebecs, Clock(until=12, quiet=12, rate=4))
+    restarts = [r.facts for r in recording.reports("startup") if r.rebec == "a"]
+    assert restarts[:1] == ["restarted b"]
+
+
 @pytest.mark.parametrize("rate", [15.0, None], ids=["simulated clock", "real clock"])
 def test_stopping_in_a_long_delay_is_quick_and_sends_nothing(
     probe: Workspace, tmp_path: Path, rate: float | None
