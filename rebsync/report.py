@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from typing import TextIO
 
@@ -32,7 +33,7 @@ def report(findings: Sequence[Findings], style: str = "text") -> str:
 
 def print_report(findings: Sequence[Findings], stream: TextIO, style: str = "text") -> None:
     """Write the findings to a stream; text on a terminal gets colours."""
-    if style == "text" and stream.isatty():
+    if style == "text" and stream.isatty() and not os.environ.get("NO_COLOR"):
         _print_coloured(findings, stream)
     else:
         stream.write(report(findings, style))
