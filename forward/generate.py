@@ -24,9 +24,8 @@ def package_name(stem: str, config: Config) -> str:
     """The name of the package: as configured, else after the model's file (REP 144)."""
     if config.package:
         return config.package
-    name = re.sub(r"[^a-z0-9_]+", "_", snake_case(re.sub(r"[^\w$]+", "_", stem))).strip("_")
-    name = re.sub(r"_+", "_", name)
-    name = name if name[:1].isalpha() else f"model_{name}".rstrip("_")
+    words = re.sub(r"[^A-Za-z0-9]+", "_", stem).strip("_")
+    name = snake_case(words if words[:1].isalpha() else f"model_{words}".rstrip("_"))
     return f"{name}_nodes" if is_taken(name) else name
 
 
