@@ -20,8 +20,8 @@ _SERVERS = ("plain", "low", "high")
 class Rebec:
     """A node of the probe package: the lines that each of its servers runs.
 
-    `low` has priority 2, `high` priority 1, `plain` none. The sensor hears what is sent to
-    `plain`. The node starts after a `wait`, in seconds of the real clock.
+    `low` has priority 2, `high` priority 1, `plain` none. The sensor hears a topic, by default
+    what is sent to `plain`. The node starts after a `wait`, in seconds of the real clock.
     """
 
     constructor: Sequence[str] = ()
@@ -31,6 +31,7 @@ class Rebec:
     capacity: int = 20
     wait: float = 0.0
     respawn: bool = False
+    hears: str = ""
     parameters: Mapping[str, Any] = field(default_factory=dict)
 
     def private(self, peers: Sequence[str]) -> dict[str, Any]:
@@ -73,7 +74,7 @@ def _node(name: str, rebec: Rebec, peers: Sequence[str]) -> str:
     prefix = f"sh -c 'sleep {rebec.wait}; exec $0 $*'"
     start = f'<node name="{name}" pkg="probe" type="script_node" launch-prefix="{prefix}"'
     respawn = f'respawn="{str(rebec.respawn).lower()}">'
-    sensor = f'<remap from="~sensor" to="{name}/plain"/>\n'
+    sensor = f'<remap from="~sensor" to="{rebec.hears or name + "/plain"}"/>\n'
     return f"{start} {respawn}\n{private}{remaps}{sensor}</node>\n"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -33,13 +34,28 @@ def test_nothing_is_lost_however_late_nodes_start(probe: Workspace, tmp_path: Pa
     assert recording.problems() == ()
 
 
+def test_time_0_is_when_the_last_is_ready(probe: Workspace, tmp_path: Path) -> None:
+    rebec = Rebec(constructor=("send self plain 0 after 1",), parameters={"peers": []})
+    rebecs = {"a": replace(rebec, wait=2.0), "b": rebec}
+    recording = play(probe, tmp_path, rebecs, Clock(until=3, rate=None))
+    assert [1 <= recording.bodies(name)[0].stamp < 1.5 for name in rebecs] == [True, True]
+    assert recording.problems() == ()
+
+
 def test_a_missing_node_is_named(probe: Workspace, tmp_path: Path) -> None:
-    rebecs = {"a": Rebec(constructor=("send self plain 0", "send ghost plain 1")), "b": Rebec()}
+    rebecs = {
+        "a": Rebec(constructor=("send self plain 0", "send ghost plain 1")),
+        "spy": Rebec(hears="ghost/plain"),
+    }
     clock = Clock(until=20, quiet=5, startup=3)
-    options = {"mailbox/startup_timeout": 0.5}
+    options = {"mailbox/startup_timeout": 0.5, "mailbox/rebecs": ["a", "ghost"]}
     recording = play(probe, tmp_path, rebecs, clock, options, absent=("ghost",))
     facts = [r.facts for r in recording.reports("startup") if r.rebec == "a"]
-    assert set(facts) == {"no subscriber on /ghost/high /ghost/low /ghost/plain"}
+    # The spy has subscribed to /ghost/plain, but it is no rebec that takes part.
+    topics = [
+        f"/{name}/{server}" for name in ("ghost", "spy") for server in ("high", "low", "plain")
+    ]
+    assert set(facts) == {f"no subscriber on {' '.join(topics)}"}
     assert len(facts) > 1
     assert recording.served == ()
 
