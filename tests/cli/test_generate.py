@@ -275,12 +275,6 @@ def test_bad_input_is_no_traceback(
     assert capsys.readouterr().err
 
 
-@pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
-def test_an_unwritable_directory_is_reported(model: Path) -> None:
-    Path("locked").mkdir(mode=0o500)
-    assert generate("-o", "locked") == 2
-
-
 def test_generation_does_not_depend_on_the_process(model: Path, tmp_path: Path) -> None:
     for seed, locale in (("1", "C"), ("77", "C.UTF-8")):
         subprocess.run(
