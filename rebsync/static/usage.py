@@ -93,6 +93,8 @@ def _check_variables(facts: Facts, info: ClassInfo, uses: _Uses) -> None:
             if not _is_robotic_pair(facts, info, symbol):
                 facts.warn("RS502", span, f'the known rebec "{name}" is never used')
         elif symbol in uses.writes:
+            if info.annotated("Robot") or info.annotated("Controller"):
+                continue  # a property of the robot (thesis, 3.2): its node publishes it
             message = f'the state variable "{name}" is set and never read'
             hint = "of use only if a property reads it"
             facts.warn("RS504", span, message, hint, severity=Severity.NOTE)
