@@ -74,7 +74,7 @@ def _executables(package: Package) -> list[_Executable]:
             found.append(_Executable(f"{node.file}_node", tuple(sorted(sources))))
         if any(s.stands_in for s in node.sensors):
             found.append(_Executable(f"{node.file}_stand_in", (f"{node.file}_stand_in",)))
-    return found
+    return sorted(found, key=lambda e: e.name)
 
 
 def _base_sources(package: Package, node: NodeClass) -> list[str]:

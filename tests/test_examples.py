@@ -46,6 +46,7 @@ def test_all_examples_are_here() -> None:
         "experiment2_unsafe",
         "experiment3",
         "experiment3_unsafe",
+        "hello",
         "running_example",
         "warehouse",
     ]

@@ -24,7 +24,7 @@ Dispatcher::Dispatcher(const ros::NodeHandle& node, int32_t cell1, int32_t cell2
   picker_ = node.param<std::string>("knownrebecs/picker", "");
   packer_ = node.param<std::string>("knownrebecs/packer", "");
   const ros::NodeHandle global;
-  patience_ = global.param("patience", 6);
+  patience_ = global.param("patience", 4);
   picker_serve_pub_ = mailbox_.advertise<LifterServe>("picker/serve");
   packer_serve_pub_ = mailbox_.advertise<LifterServe>("packer/serve");
   Carrier_go_pubs_ = mailbox_.advertiseAll<CarrierGo>("Carrier", "go");

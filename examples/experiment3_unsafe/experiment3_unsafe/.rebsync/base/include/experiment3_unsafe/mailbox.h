@@ -107,9 +107,9 @@ class Mailbox {
     const std::string name = node_.resolveName(topic);
     startup_.expectSubscriber(name);
     return node_.advertise<M>(topic, kQueueSize,
-                              [this, name](const ros::SingleSubscriberPublisher& subscriber) {
-                                startup_.addSubscriber(name, subscriber.getSubscriberName());
-                              });
+        [this, name](const ros::SingleSubscriberPublisher& subscriber) {
+          startup_.addSubscriber(name, subscriber.getSubscriberName());
+        });
   }
 
   /// Publishers to all rebecs of a class, which the launch file lists.
@@ -131,14 +131,14 @@ class Mailbox {
   /// A reliable, deep subscription that hands every message to `object`.
   template <class M, class T>
   ros::Subscriber subscribe(const std::string& topic,
-                            void (T::*shim)(const boost::shared_ptr<const M>&), T* object) {
+      void (T::*shim)(const boost::shared_ptr<const M>&), T* object) {
     return node_.subscribe(topic, kQueueSize, shim, object, ros::TransportHints().tcpNoDelay());
   }
 
   /// The same for a controller, whose topics are below control_bridge.
   template <class M, class T>
   ros::Subscriber subscribeOnBridge(const std::string& server,
-                                    void (T::*shim)(const boost::shared_ptr<const M>&), T* object) {
+      void (T::*shim)(const boost::shared_ptr<const M>&), T* object) {
     return subscribe(ros::names::resolve("control_bridge/" + self_ + "/" + server), shim, object);
   }
 
@@ -156,7 +156,7 @@ class Mailbox {
 
   /// Takes in what another rebec sent.
   void receive(const Server& server, const Timing& timing, std::string sender,
-               std::string arguments, Body serve) {
+      std::string arguments, Body serve) {
     // What is sent in one go may come in any order: give a more urgent message time to come too.
     const bool overtakable = server.priority > best_priority_;
     const ros::Time earliest = overtakable ? ros::Time::now() + settle_ : ros::Time();
@@ -283,7 +283,7 @@ class Mailbox {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (waiting_.size() + (serving_ ? 1 : 0) >= capacity_) {
       report("overflow", message.server,
-             "capacity " + std::to_string(capacity_) + ", " + times(message.timing));
+          "capacity " + std::to_string(capacity_) + ", " + times(message.timing));
       return;
     }
     message.receipt = ++received_;
@@ -339,7 +339,7 @@ class Mailbox {
       report("exception", current_.server, error.what());
     }
     const Served served{current_.server.name, current_.arguments, current_.timing.arrival, start_,
-                        now_};
+        now_};
     atStart([this, served] {
       on_end_(served.now);
       on_served_(served);
@@ -374,9 +374,8 @@ class Mailbox {
   void warnIfLate() const {
     const double lateness = (ros::Time::now() - at(static_cast<double>(now_))).toSec();
     if (lateness <= slack_) return;
-    ROS_WARN_STREAM_THROTTLE(
-        1.0, reportLine("late", self_, current_.server.name,
-                        times(current_.timing) + ", " + std::to_string(lateness) + " s"));
+    const std::string facts = times(current_.timing) + ", " + std::to_string(lateness) + " s";
+    ROS_WARN_STREAM_THROTTLE(1.0, reportLine("late", self_, current_.server.name, facts));
   }
 
   static std::string times(const Timing& timing) {

@@ -23,7 +23,7 @@ struct Stopped {};
 
 /// One line for the log, the same for everything that is reported.
 inline std::string reportLine(const std::string& kind, const std::string& rebec,
-                              const std::string& server, const std::string& facts) {
+    const std::string& server, const std::string& facts) {
   return kind + ": " + rebec + "." + server + " (" + facts + ")";
 }
 
@@ -37,7 +37,7 @@ class Startup {
     timeout_ = std::chrono::duration<double>(node.param("mailbox/startup_timeout", 30.0));
     announcement_ = node.advertise<std_msgs::Header>("startup", 1, true);
     announcements_ = node.subscribe("startup", 1000, &Startup::receive, this,
-                                    ros::TransportHints().tcpNoDelay());
+        ros::TransportHints().tcpNoDelay());
   }
 
   /// The node announces itself only after a rebec has subscribed to this topic.

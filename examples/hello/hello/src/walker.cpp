@@ -1,0 +1,58 @@
+#include "hello/walker.h"
+
+#include "hello/WalkerState.h"
+
+namespace hello {
+
+namespace {
+
+constexpr Server kWalk{"walk", kNoPriority};
+
+}  // namespace
+
+Walker::Walker(const ros::NodeHandle& node)
+    : mailbox_(node, 2),
+      drive_(node, mailbox_) {
+  walk_sub_ = mailbox_.subscribe("walk", &Walker::receiveWalk, this);
+  state_pub_ = ros::NodeHandle(node).advertise<WalkerState>("state", kQueueSize, true);
+  mailbox_.onServed([this](const Served& served) { publishState(served); });
+  mailbox_.construct([=] { construct(); });
+}
+
+// rebsync: constructor Walker
+void Walker::construct() {
+  steps_ = 0;
+  sendSelfWalk();
+}
+
+// rebsync: msgsrv Walker.walk
+void Walker::walk() {
+  drive_.move(1, 0);
+  mailbox_.delay(2);
+  steps_ = steps_ + 1;
+  if (steps_ < 5) {
+    sendSelfWalk(after(1));
+  }
+}
+
+void Walker::receiveWalk(const WalkerWalk::ConstPtr& msg) {
+  mailbox_.receive(kWalk, msg->timing, "", "", [this] { walk(); });
+}
+
+// rebsync: send Walker.self.walk
+void Walker::sendSelfWalk(const When& when_) {
+  mailbox_.post(kWalk, when_, "", [=] { walk(); });
+}
+
+void Walker::publishState(const Served& served) {
+  WalkerState msg;
+  msg.server = served.server;
+  msg.arguments = served.arguments;
+  msg.arrival = served.arrival;
+  msg.start = served.start;
+  msg.now = served.now;
+  msg.steps = steps_;
+  state_pub_.publish(msg);
+}
+
+}  // namespace hello

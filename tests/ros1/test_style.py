@@ -1,0 +1,62 @@
+"""The packages of the examples please the field's own tools."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.regenerate import models
+from tests.ros1.workspace import SYSTEM_PATH
+
+PACKAGES = [m.parent / m.stem for m in models()]
+IDS = [p.name for p in PACKAGES]
+
+
+def tool(name: str) -> str:
+    """The path of a program; without it the test is skipped, and fails in CI."""
+    path = shutil.which(name, path=SYSTEM_PATH)
+    if path is None:
+        message = f"{name} is not installed"
+        if os.environ.get("CI") == "true":
+            pytest.fail(message)
+        pytest.skip(message)
+    return path
+
+
+@pytest.mark.parametrize("package", PACKAGES, ids=IDS)
+def test_clang_format_changes_nothing(package: Path) -> None:
+    formatter = tool("clang-format")
+    sources = [*package.glob("src/*.cpp"), *package.glob("include/*/*.h")]
+    assert sources
+    for source in sources:
+        done = subprocess.run(
+            [formatter, f"--style=file:{package / '.clang-format'}", source.name],
+            cwd=source.parent,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        assert done.stdout == source.read_text(), source
+
+
+@pytest.mark.parametrize("package", PACKAGES, ids=IDS)
+def test_catkin_lint_finds_nothing(package: Path) -> None:
+    done = subprocess.run(
+        [tool("catkin_lint"), "--offline", "-W2", "--strict", str(package)],
+        capture_output=True,
+        text=True,
+        env={"PATH": SYSTEM_PATH, "HOME": os.environ.get("HOME", "/")},
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "checked 1 packages and found 0 problems" in done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("package", PACKAGES, ids=IDS)
+def test_xml_is_well_formed(package: Path) -> None:
+    files = [str(package / "package.xml"), *map(str, package.glob("launch/*"))]
+    done = subprocess.run([tool("xmllint"), "--noout", *files], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
