@@ -1,0 +1,223 @@
+"""The examples on a real roscore: what their nodes do is what their models mean."""
+
+from __future__ import annotations
+
+import fcntl
+import json
+import math
+import os
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from tests.ros1.conftest import Build
+from tests.ros1.paths import Way, nearest, write_paths
+from tests.ros1.recording import WARNING, Recording, Served, read_recording
+from tests.ros1.run import Clock, run
+from tests.ros1.workspace import Workspace
+
+_EXPECTED = Path(__file__).parent / "expected"
+_EXAMPLES = Path(__file__).parents[2] / "examples"
+NAMES = tuple(sorted(path.stem for path in _EXPECTED.glob("*.json")))
+
+# Twists bear no stamp, and the recorder's is late by its latency times the rate of the clock.
+SLOW = 4.0
+QUIET = 15.0
+SOON = 0.1
+STEP = 0.01
+IN_CELL = 0.05  # of a holonomic robot; a differential one adds up the error of each turn
+
+
+@dataclass(frozen=True, slots=True)
+class Example:
+    """An example's run and what is expected of it.
+
+    `expected` has the model time `until` which it ran; `cells`, for each robot the expressions
+    over its state that give its cell; `served` and `final`, or for models that draw at random
+    the servers that each rebec serves `first`, the `invariants` of all states and what has to be
+    `reached` in some state. Robots end up in their cells to `in_cell` cells, keep apart by
+    `keeps_apart`, or come within `comes_within`.
+    """
+
+    name: str
+    expected: Mapping[str, Any]
+    recording: Recording
+
+    def cell(self, served: Served) -> tuple[float, float]:
+        """The cell of a robot after a body."""
+        state = {"__builtins__": {}, **served.state}
+        x, y = (eval(e, dict(state)) for e in self.expected["cells"][served.rebec])
+        return float(x), float(y)
+
+    def way(self, robot: str) -> Way:
+        """The way of a robot, by the velocities that it was told."""
+        constructed = next(s for s in self.recording.served if s.rebec == robot)
+        x, y = self.cell(constructed)
+        path = self.recording.path(robot)
+        times = (0.0, *(stamp for stamp, _ in path))
+        places = ((x, y), *((x + pose.x, y + pose.y) for _, pose in path))
+        return Way(robot, times, places)
+
+    def ways(self) -> tuple[Way, ...]:
+        """The ways of all robots."""
+        return tuple(self.way(robot) for robot in self.expected["cells"])
+
+    def states(self) -> Iterator[Mapping[str, Any]]:
+        """The states of all rebecs, after each body from when all are constructed."""
+        now: dict[str, Any] = {"__builtins__": {}, "len": len, "sum": sum}
+        rebecs = {s.rebec for s in self.recording.served}
+        for served in self.recording.served:
+            now = {**now, served.rebec: SimpleNamespace(**served.state)}
+            if rebecs <= set(now):
+                yield now
+
+
+@pytest.fixture(scope="module")
+def workspace(build_workspace: Build) -> Workspace:
+    return build_workspace("examples", [_EXAMPLES / name / name for name in NAMES])
+
+
+@pytest.fixture(scope="module", params=NAMES)
+def example(
+    request: pytest.FixtureRequest, workspace: Workspace, tmp_path_factory: pytest.TempPathFactory
+) -> Example:
+    name = str(request.param)
+    expected = json.loads((_EXPECTED / f"{name}.json").read_text())
+    directory = _shared(tmp_path_factory) / "runs" / name
+    directory.mkdir(parents=True, exist_ok=True)
+    done = directory / "done"
+    # Every worker of pytest-xdist looks at the same run.
+    with (directory / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not done.exists():
+            launch = _EXAMPLES / name / name / "launch" / f"{name}.launch"
+            clock = Clock(until=expected["until"] + 0.5, quiet=QUIET, rate=SLOW)
+            done.write_text(run(workspace, launch, directory, clock).output)
+    return Example(name, expected, read_recording(directory / "recording.jsonl", done.read_text()))
+
+
+def _shared(factory: pytest.TempPathFactory) -> Path:
+    base = factory.getbasetemp()
+    return base.parent if os.environ.get("PYTEST_XDIST_WORKER") else base
+
+
+def _rebecs(recording: Recording) -> Sequence[str]:
+    return sorted({served.rebec for served in recording.served})
+
+
+# --- order and time ----------------------------------------------------------------------------
+
+
+def test_each_rebec_serves_what_the_model_says(example: Example) -> None:
+    for rebec, expected in example.expected.get("served", {}).items():
+        bodies = example.recording.bodies(rebec)
+        assert [[b.server, b.arguments, b.start] for b in bodies] == expected
+
+
+def test_nothing_is_lost_at_the_start(example: Example) -> None:
+    for rebec, expected in example.expected.get("first", {}).items():
+        bodies = example.recording.bodies(rebec)[: len(expected)]
+        assert sorted(b.server for b in bodies) == sorted(expected)
+        assert all(b.arrival <= 1 for b in bodies)
+
+
+def test_no_message_is_taken_before_it_arrives(example: Example) -> None:
+    for served in example.recording.served:
+        assert served.start >= served.arrival
+        assert served.stamp >= served.now - SOON / 2
+
+
+def test_a_rebec_is_busy_until_its_body_ends(example: Example) -> None:
+    for rebec in _rebecs(example.recording):
+        for body, following in pairwise(example.recording.bodies(rebec)):
+            assert following.start >= body.now
+            assert body.now >= body.start
+
+
+def test_every_message_is_served(example: Example) -> None:
+    served = Counter((s.rebec, s.server, s.arrival) for s in example.recording.served)
+    last = {rebec: example.recording.bodies(rebec)[-1].now for rebec in _rebecs(example.recording)}
+    sent = Counter(_sent(example.recording, last))
+    assert sent or len(last) == 1
+    assert not sent - served
+
+
+def _sent(recording: Recording, last: Mapping[str, int]) -> Iterator[tuple[str, str, int]]:
+    """The messages between rebecs that arrived while their receiver still served others."""
+    for message in recording.messages:
+        *_, receiver, server = message.topic.replace("/port/", "/").split("/")
+        timing = message.fields.get("timing")
+        if timing is not None and timing["arrival"] < last.get(receiver, 0):
+            yield receiver, server, timing["arrival"]
+
+
+# --- states ------------------------------------------------------------------------------------
+
+
+def test_the_run_ends_in_the_state_of_the_model(example: Example) -> None:
+    for rebec, expected in example.expected.get("final", {}).items():
+        assert example.recording.final(rebec) == expected
+
+
+def test_invariants_hold_in_every_state(example: Example) -> None:
+    for state in example.states():
+        for invariant in example.expected.get("invariants", ()):
+            assert eval(invariant, dict(state)), f"{invariant} in {state}"
+
+
+def test_the_run_gets_somewhere(example: Example) -> None:
+    states = [dict(state) for state in example.states()]
+    for goal in example.expected.get("reached", ()):
+        assert any(eval(goal, state) for state in states), goal
+
+
+def test_nothing_is_reported(example: Example) -> None:
+    reported = example.recording.reports()
+    assert [r for r in reported if r.kind != "late"] == []
+    others = [line for line in example.recording.log if line.level >= WARNING]
+    unknown = [line.text for line in others if not line.text.startswith(("late:", "sensor:"))]
+    assert unknown == []
+
+
+# --- ways --------------------------------------------------------------------------------------
+
+
+def test_velocities_take_every_robot_to_its_cells(example: Example) -> None:
+    within = example.expected.get("in_cell", IN_CELL)
+    for robot in example.expected["cells"]:
+        way = example.way(robot)
+        for body in example.recording.bodies(robot):
+            off = _off(way, example.cell(body), body.now)
+            assert off <= within, f"{robot} after {body.server}@{body.now}: {off} cells off"
+
+
+def _off(way: Way, cell: tuple[float, float], end: int) -> float:
+    """How far from a cell a robot is when a body ends, before the next move takes it away."""
+    moments = (end + tick * STEP for tick in range(round(SOON / STEP) + 1))
+    return min(math.dist(way.at(moment), cell) for moment in moments)
+
+
+def test_paths_are_drawn(example: Example, tmp_path: Path) -> None:
+    picture = write_paths(example.name, example.ways(), tmp_path).read_text()
+    for robot in example.expected["cells"]:
+        assert f">{robot}</text>" in picture
+
+
+def test_robots_keep_apart(example: Example) -> None:
+    apart = example.expected.get("keeps_apart")
+    if apart is not None:
+        meeting = nearest(example.ways())
+        assert meeting.distance > apart, meeting
+
+
+def test_the_unsafe_robots_collide(example: Example) -> None:
+    within = example.expected.get("comes_within")
+    if within is not None:
+        meeting = nearest(example.ways())
+        assert meeting.distance < within, meeting
