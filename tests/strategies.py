@@ -13,12 +13,11 @@ from tests.drawing import (
     Scope,
     Signature,
     Variable,
-    draw_block,
-    draw_body,
     draw_expression,
     literal,
     type_of,
 )
+from tests.drawing_bodies import draw_block, draw_body
 
 _WORDS = (
     *("pos", "speed", "maxSpeed", "max_speed", "obstacleDetected", "id", "x1", "_hidden"),
