@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import fcntl
 import json
 import math
-import os
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -18,7 +16,7 @@ import pytest
 
 from tests.ros1.conftest import Build
 from tests.ros1.paths import Way, nearest, write_paths
-from tests.ros1.recording import WARNING, Recording, Served, read_recording
+from tests.ros1.recording import WARNING, Recording, Served
 from tests.ros1.run import Clock, run
 from tests.ros1.workspace import Workspace
 
@@ -89,22 +87,10 @@ def example(
 ) -> Example:
     name = str(request.param)
     expected = json.loads((_EXPECTED / f"{name}.json").read_text())
-    directory = _shared(tmp_path_factory) / "runs" / name
-    directory.mkdir(parents=True, exist_ok=True)
-    done = directory / "done"
-    # Every worker of pytest-xdist looks at the same run.
-    with (directory / "lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        if not done.exists():
-            launch = _EXAMPLES / name / name / "launch" / f"{name}.launch"
-            clock = Clock(until=expected["until"] + 0.5, quiet=QUIET, rate=SLOW)
-            done.write_text(run(workspace, launch, directory, clock).output)
-    return Example(name, expected, read_recording(directory / "recording.jsonl", done.read_text()))
-
-
-def _shared(factory: pytest.TempPathFactory) -> Path:
-    base = factory.getbasetemp()
-    return base.parent if os.environ.get("PYTEST_XDIST_WORKER") else base
+    launch = _EXAMPLES / name / name / "launch" / f"{name}.launch"
+    clock = Clock(until=expected["until"] + 0.5, quiet=QUIET, rate=SLOW)
+    recording = run(workspace, launch, tmp_path_factory.mktemp(name), clock)
+    return Example(name, expected, recording)
 
 
 def _rebecs(recording: Recording) -> Sequence[str]:
