@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import assert_never
 
 from rebsync import model as m
 from rebsync.forward.cpp_names import CppNames, function_name, local_name
@@ -21,6 +20,7 @@ from rebsync.static.symbols import (
     StateSymbol,
 )
 from rebsync.static.types import is_floating, is_integer
+from rebsync.unions import assert_never
 
 _CLOCK = {
     "now": "mailbox_.now()",

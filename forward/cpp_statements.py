@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
-from typing import assert_never
 
 from rebsync import model as m
 from rebsync.forward.cpp_expressions import CppExpressions
@@ -13,6 +12,7 @@ from rebsync.forward.cpp_types import cpp_type
 from rebsync.forward.effects import read_declarations
 from rebsync.forward.remarks import Remarks
 from rebsync.printing import print_line
+from rebsync.unions import assert_never
 
 _INDENT = "  "
 
