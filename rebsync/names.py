@@ -1,9 +1,9 @@
 """Names of the model as ROS, C++ and Python can carry them, by rules that can be reversed.
 
-`carry` keeps a name as it is where that is possible; a reserved one gains `_v`, so does a name that
-looks like a carried one, which makes the rule injective. `graph_name` escapes what ROS graph names
-(and C++) do not allow. `field_names` are lower_snake, as message fields have to be in ROS 2; their
-originals stay in the signature of the handler, matched by position.
+`carry` keeps a name as it is where that is possible; a reserved one gains `_v`, so does a name
+that looks like a carried one, which makes the rule injective. `graph_name` escapes what ROS graph
+names (and C++) do not allow. `field_names` are lower_snake, as message fields have to be in ROS 2;
+their originals stay in the signature of the handler, matched by position.
 """
 
 from __future__ import annotations
@@ -22,6 +22,11 @@ CPP_KEYWORDS = frozenset(
     struct switch template this thread_local throw true try typedef typeid typename union unix
     unsigned using virtual void volatile wchar_t while xor xor_eq NULL EOF INT_MAX INT_MIN M_PI
     int8_t int16_t int32_t int64_t uint8_t uint16_t uint32_t uint64_t
+    alloca offsetof stdin stdout stderr timeradd timercmp timersub va_arg va_copy va_end va_start
+    BIG_ENDIAN BUFSIZ BYTE_ORDER CHAR_BIT CHAR_MAX CHAR_MIN DOMAIN EXIT_FAILURE EXIT_SUCCESS
+    FILENAME_MAX HUGE_VAL INFINITY INT8_MAX INT8_MIN INT16_MAX INT16_MIN INT32_MAX INT32_MIN
+    INT64_MAX INT64_MIN LITTLE_ENDIAN LONG_MAX LONG_MIN MAXFLOAT M_E NAN NZERO OVERFLOW PATH_MAX
+    RAND_MAX SHRT_MAX SHRT_MIN UINT8_MAX UINT16_MAX UINT32_MAX UINT_MAX UNDERFLOW
     """.split()
 )
 PYTHON_KEYWORDS = frozenset(
@@ -31,6 +36,17 @@ PYTHON_KEYWORDS = frozenset(
     return self try type while with yield
     """.split()
 )
+_MESSAGE_METHODS = frozenset(
+    {"serialize", "serialize_numpy", "deserialize", "deserialize_numpy"}  # of Python's messages
+)
+# Nodes and parameters of ROS itself and of the run-time part.
+_TAKEN_NODES = frozenset(
+    {
+        *("control_bridge", "drive", "mailbox", "master", "rosdistro", "roslaunch", "rosout"),
+        *("rosversion", "run_id", "use_sim_time"),
+    }
+)
+_RESERVED_IN_CPP = re.compile(r"_[A-Z]|.*__")
 _LEGAL_GRAPH_NAME = re.compile(r"[A-Za-z](_?[A-Za-z0-9])*_?\Z")
 _ESCAPED = "esc_"
 _CARRIED = re.compile(r"(.+?)((?:_v)*)\Z", re.DOTALL)
@@ -60,7 +76,8 @@ def _stem_is_reserved(name: str, reserved: Collection[str]) -> bool:
 
 
 def _is_word(name: str) -> bool:
-    return name.isascii() and "$" not in name and not name.startswith(_ESCAPED)
+    legal = name.isascii() and "$" not in name and not _RESERVED_IN_CPP.match(name)
+    return legal and not name.startswith(_ESCAPED)
 
 
 def graph_name(name: str) -> str:
@@ -87,6 +104,18 @@ def original(name: str) -> str:
     )
 
 
+def free_name(name: str, taken: Collection[str]) -> str:
+    """A graph name, with `_v` behind it where others have taken it; `uncarry` reverses it too."""
+    plain = graph_name(name)
+    match = _CARRIED.match(plain)
+    return f"{plain}_v" if match and match.group(1) in taken else plain
+
+
+def node_name(rebec: str) -> str:
+    """The name of a rebec's node."""
+    return free_name(rebec, _TAKEN_NODES)
+
+
 def snake_case(name: str) -> str:
     """`moveForward`, `R_1`, `HTTPServer` as `move_forward`, `r_1`, `http_server`."""
     plain = graph_name(name)
@@ -102,7 +131,7 @@ def camel_case(name: str) -> str:
 
 def field_names(names: Iterable[str], taken: Collection[str] = ()) -> tuple[str, ...]:
     """Message fields for parameters or variables, distinct from each other and from `taken`."""
-    reserved = CPP_KEYWORDS | PYTHON_KEYWORDS
+    reserved = CPP_KEYWORDS | PYTHON_KEYWORDS | _MESSAGE_METHODS
     used = set(taken)
     fields = []
     for name in names:
