@@ -11,6 +11,7 @@ from itertools import pairwise
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
+from xml.etree import ElementTree
 
 import pytest
 
@@ -192,8 +193,8 @@ def _off(way: Way, cell: tuple[float, float], end: int) -> float:
 
 def test_paths_are_drawn(example: Example, tmp_path: Path) -> None:
     picture = write_paths(example.name, example.ways(), tmp_path).read_text()
-    for robot in example.expected["cells"]:
-        assert f">{robot}</text>" in picture
+    drawn = {text.text for text in ElementTree.fromstring(picture).iter() if text.text}
+    assert drawn >= set(example.expected["cells"])
 
 
 def test_robots_keep_apart(example: Example) -> None:

@@ -1,0 +1,70 @@
+"""The pages of docs/ are current: codes, commands, settings, links, and what the tutorial shows."""
+
+from __future__ import annotations
+
+import re
+import runpy
+from dataclasses import fields
+from importlib import import_module
+from pathlib import Path
+
+import click
+import pytest
+
+from rebsync.cli.group import COMMANDS
+from rebsync.codes import CODES
+from rebsync.config import TARGETS, Config
+from tests.consoles import ROOT, play
+
+DOCS = ROOT / "docs"
+PAGES = (*sorted(DOCS.rglob("*.md")), *ROOT.glob("*.md"), *sorted(ROOT.glob("examples/*/*.md")))
+REFERENCE = (DOCS / "commands.md").read_text(encoding="utf-8")
+
+
+def test_the_page_of_codes_is_current() -> None:
+    page = runpy.run_path(str(DOCS / "errors.py"))["errors_page"]()
+    assert (DOCS / "errors.md").read_text(encoding="utf-8") == page, "run docs/errors.py"
+
+
+def test_the_page_of_codes_has_every_code() -> None:
+    page = (DOCS / "errors.md").read_text(encoding="utf-8")
+    assert re.findall(r"^\| (RS\d+) ", page, re.MULTILINE) == sorted(CODES)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_option_is_described(name: str) -> None:
+    command = import_module(f"rebsync.cli.{name}").command
+    section = re.search(rf"^## rebsync {name} .*?(?=^## )", REFERENCE, re.MULTILINE | re.DOTALL)
+    assert section is not None
+    described = set(re.findall(r"^\| .*?\|", section[0], re.MULTILINE))
+    shown = {option for row in described for option in re.findall(r"--?[a-z]+", row)}
+    options = [p for p in command.params if isinstance(p, click.Option)]
+    assert shown - {"-cpp"} == {o for option in options for o in option.opts}
+
+
+def test_every_setting_is_described_with_its_default() -> None:
+    rows = dict(re.findall(r"^\| `(\w+)` \| (.*?) \|", REFERENCE, re.MULTILINE))
+    assert set(rows) == {f.name for f in fields(Config)}
+    for field in fields(Config):
+        default = getattr(Config(), field.name)
+        if isinstance(default, (int, float)):
+            assert rows[field.name] == f"`{default}`"
+        elif isinstance(default, str):
+            assert rows[field.name] == f'`"{default}"`'
+
+
+def test_every_target_is_described() -> None:
+    assert all(f"--target {target}" in REFERENCE for target in TARGETS)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda p: p.relative_to(ROOT).as_posix())
+def test_links_lead_somewhere(page: Path) -> None:
+    for target in re.findall(r"\]\(([^)#]+)[^)]*\)", page.read_text(encoding="utf-8")):
+        if not target.startswith("http"):
+            assert (page.parent / target).exists(), target
+
+
+def test_the_tutorial_does_what_it_shows(tmp_path: Path) -> None:
+    page = (DOCS / "tutorial.md").read_text(encoding="utf-8")
+    for command, printed in play(page, tmp_path):
+        assert printed == command.output, command.text
