@@ -1,4 +1,4 @@
-"""The precedence of binary operators: a flat chain of operands becomes a tree."""
+"""A flat chain of operands and binary operators becomes a tree."""
 
 from __future__ import annotations
 
@@ -6,21 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from rebsync import model as m
-
-LEVELS = (
-    ("||",),
-    ("&&",),
-    ("|",),
-    ("^",),
-    ("&",),
-    ("==", "!="),
-    ("instanceof",),
-    ("<=", ">=", "<", ">"),
-    ("<<", ">>"),
-    ("+", "-"),
-    ("*", "/", "%"),
-)
-PRECEDENCE = {operator: level for level, row in enumerate(LEVELS) for operator in row}
+from rebsync.precedence import BINARY
 
 
 def order_chain(items: Sequence[Any]) -> m.Expression:
@@ -28,8 +14,8 @@ def order_chain(items: Sequence[Any]) -> m.Expression:
     operands: list[Any] = [items[0]]
     operators: list[str] = []
     for operator, operand in zip(items[1::2], items[2::2], strict=True):
-        level = PRECEDENCE[operator]
-        while operators and PRECEDENCE[operators[-1]] >= level:
+        level = BINARY[operator]
+        while operators and BINARY[operators[-1]] >= level:
             _combine(operands, operators.pop())
         operators.append(str(operator))
         operands.append(operand)

@@ -10,399 +10,118 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
 from typing import TypeAlias
 
-from rebsync.source import NOWHERE, Span
-
-
-def _span() -> Span:
-    return field(default=NOWHERE, compare=False, repr=False)
-
-
-@dataclass(frozen=True, slots=True)
-class Type:
-    """A type by name, with the lengths of its array dimensions: `int[2][3]`."""
-
-    name: str
-    dimensions: tuple[int, ...] = ()
-    span: Span = _span()
-
-    def __str__(self) -> str:
-        return self.name + "".join(f"[{n}]" for n in self.dimensions)
-
-
-@dataclass(frozen=True, slots=True)
-class Annotation:
-    """`@name` or `@name(arguments)`; `arguments` is None without parentheses."""
-
-    name: str
-    arguments: tuple[Expression, ...] | None = None
-    span: Span = _span()
-
-
-# --- expressions -------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, slots=True)
-class IntLiteral:
-    value: int
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class FloatLiteral:
-    """`text` is the literal as written, since `1.0` and `1.00` print back differently."""
-
-    text: str
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class BoolLiteral:
-    value: bool
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class StringLiteral:
-    """`text` is the literal as written, quotes included."""
-
-    text: str
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class NullLiteral:
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Name:
-    """A variable, a known rebec, `sender`, `now` and its kin: whatever the name resolves to."""
-
-    name: str
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Self:
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Super:
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Member:
-    """`target.name`."""
-
-    target: Expression
-    name: str
-    span: Span = _span()
-    name_span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Index:
-    """`target[index]`."""
-
-    target: Expression
-    index: Expression
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Call:
-    """A send, a method call or a built-in: `target.name(arguments) after(a) deadline(d)`."""
-
-    target: Expression | None
-    name: str
-    arguments: tuple[Expression, ...] = ()
-    after: Expression | None = None
-    deadline: Expression | None = None
-    span: Span = _span()
-    name_span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Paren:
-    """`(inner)`."""
-
-    inner: Expression
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Cast:
-    """`(type) operand`; binds to a primary only: `(int) d / 2` is `((int) d) / 2`."""
-
-    type: Type
-    operand: Expression
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Unary:
-    """A prefix operator: `+ - ! ~ ++ --`."""
-
-    operator: str
-    operand: Expression
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Postfix:
-    """`operand++` or `operand--`."""
-
-    operator: str
-    operand: Expression
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Binary:
-    operator: str
-    left: Expression
-    right: Expression
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class InstanceOf:
-    operand: Expression
-    type: Type
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Conditional:
-    """`condition ? then : otherwise`."""
-
-    condition: Expression
-    then: Expression
-    otherwise: Expression
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Choice:
-    """A nondeterministic expression `?(a, b, ...)`."""
-
-    options: tuple[Expression, ...]
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Assign:
-    """`target operator value`, with `=` or a compound operator such as `+=`."""
-
-    operator: str
-    target: Expression
-    value: Expression
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class New:
-    """`new C(bindings):(arguments)`: part of core 2.2; recognised, then refused."""
-
-    type: Type
-    bindings: tuple[Expression, ...]
-    arguments: tuple[Expression, ...]
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Broken:
-    """Stands where an expression could not be read; its mistake has been reported."""
-
-    span: Span = _span()
-
-
-Expression: TypeAlias = (
-    IntLiteral
-    | FloatLiteral
-    | BoolLiteral
-    | StringLiteral
-    | NullLiteral
-    | Name
-    | Self
-    | Super
-    | Member
-    | Index
-    | Call
-    | Paren
-    | Cast
-    | Unary
-    | Postfix
-    | Binary
-    | InstanceOf
-    | Conditional
-    | Choice
-    | Assign
-    | New
-    | Broken
+from rebsync.expressions import (
+    Annotation,
+    Assign,
+    Binary,
+    BoolLiteral,
+    Broken,
+    Call,
+    Cast,
+    Choice,
+    Conditional,
+    Expression,
+    FloatLiteral,
+    Index,
+    InstanceOf,
+    IntLiteral,
+    Member,
+    Name,
+    New,
+    NullLiteral,
+    Paren,
+    Postfix,
+    Self,
+    StringLiteral,
+    Super,
+    Type,
+    Unary,
+    span_field,
+)
+from rebsync.source import Span
+from rebsync.statements import (
+    ArrayInitializer,
+    Block,
+    Break,
+    Case,
+    Continue,
+    Declaration,
+    Declarator,
+    Empty,
+    ExpressionStatement,
+    For,
+    If,
+    Initializer,
+    Local,
+    Parameter,
+    Return,
+    Statement,
+    Switch,
+    While,
 )
 
-
-# --- declarations of variables -----------------------------------------------------------------
-
-
-@dataclass(frozen=True, slots=True)
-class ArrayInitializer:
-    """`{a, b}` after `=` in a local or env declaration."""
-
-    values: tuple[Initializer, ...]
-    span: Span = _span()
-
-
-Initializer: TypeAlias = "Expression | ArrayInitializer"
-
-
-@dataclass(frozen=True, slots=True)
-class Declarator:
-    """One `name = initial` of a declaration."""
-
-    name: str
-    initial: Initializer | None = None
-    span: Span = _span()
-    name_span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Declaration:
-    """`@annotations type a, b = 1`: state variables, known rebecs, env, locals."""
-
-    type: Type
-    declarators: tuple[Declarator, ...]
-    annotations: tuple[Annotation, ...] = ()
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Parameter:
-    type: Type
-    name: str
-    span: Span = _span()
-    name_span: Span = _span()
-
-
-# --- statements --------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, slots=True)
-class Block:
-    statements: tuple[Statement, ...]
-    annotations: tuple[Annotation, ...] = ()
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class ExpressionStatement:
-    expression: Expression
-    annotations: tuple[Annotation, ...] = ()
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Local:
-    """A declaration of local variables."""
-
-    declaration: Declaration
-    annotations: tuple[Annotation, ...] = ()
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class If:
-    condition: Expression
-    then: Statement
-    otherwise: Statement | None = None
-    annotations: tuple[Annotation, ...] = ()
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class While:
-    condition: Expression
-    body: Statement
-    annotations: tuple[Annotation, ...] = ()
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class For:
-    """`initial` is a declaration, or a list of expressions (perhaps empty)."""
-
-    initial: Declaration | tuple[Expression, ...]
-    condition: Expression | None
-    updates: tuple[Expression, ...]
-    body: Statement
-    annotations: tuple[Annotation, ...] = ()
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Case:
-    """`case value:` with its statements; `value` is None for `default:`."""
-
-    value: Expression | None
-    statements: tuple[Statement, ...]
-    annotations: tuple[Annotation, ...] = ()
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Switch:
-    subject: Expression
-    cases: tuple[Case, ...]
-    annotations: tuple[Annotation, ...] = ()
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Return:
-    value: Expression | None = None
-    annotations: tuple[Annotation, ...] = ()
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Break:
-    annotations: tuple[Annotation, ...] = ()
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Continue:
-    annotations: tuple[Annotation, ...] = ()
-    span: Span = _span()
-
-
-@dataclass(frozen=True, slots=True)
-class Empty:
-    """A lone `;`: what `@Move(X+1, Y);` annotates."""
-
-    annotations: tuple[Annotation, ...] = ()
-    span: Span = _span()
-
-
-Statement: TypeAlias = (
-    Block
-    | ExpressionStatement
-    | Local
-    | If
-    | While
-    | For
-    | Switch
-    | Return
-    | Break
-    | Continue
-    | Empty
-)
-
-
-# --- classes -----------------------------------------------------------------------------------
+__all__ = [
+    "Annotation",
+    "ArrayInitializer",
+    "Assign",
+    "Binary",
+    "Block",
+    "BoolLiteral",
+    "Break",
+    "Broken",
+    "Call",
+    "Case",
+    "Cast",
+    "Choice",
+    "ClassMember",
+    "Conditional",
+    "Constructor",
+    "Continue",
+    "Declaration",
+    "Declarator",
+    "Empty",
+    "Env",
+    "Expression",
+    "ExpressionStatement",
+    "FloatLiteral",
+    "For",
+    "Head",
+    "If",
+    "Index",
+    "Initializer",
+    "InstanceOf",
+    "IntLiteral",
+    "Interface",
+    "KnownRebecs",
+    "Local",
+    "Main",
+    "Member",
+    "MessageServer",
+    "Method",
+    "Model",
+    "Name",
+    "New",
+    "Node",
+    "NullLiteral",
+    "Parameter",
+    "Paren",
+    "Postfix",
+    "ReactiveClass",
+    "Rebec",
+    "Refused",
+    "Return",
+    "Self",
+    "StateVars",
+    "Statement",
+    "StringLiteral",
+    "Super",
+    "Switch",
+    "Type",
+    "Unary",
+    "While",
+    "children",
+    "walk",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -410,7 +129,7 @@ class KnownRebecs:
     """One `knownrebecs { ... }` section; a class may have any number, in any order."""
 
     declarations: tuple[Declaration, ...]
-    span: Span = _span()
+    span: Span = span_field()
 
 
 @dataclass(frozen=True, slots=True)
@@ -418,7 +137,7 @@ class StateVars:
     """One `statevars { ... }` section; a class may have any number, in any order."""
 
     declarations: tuple[Declaration, ...]
-    span: Span = _span()
+    span: Span = span_field()
 
 
 @dataclass(frozen=True, slots=True)
@@ -427,8 +146,8 @@ class Constructor:
     parameters: tuple[Parameter, ...]
     body: Block | None
     annotations: tuple[Annotation, ...] = ()
-    span: Span = _span()
-    name_span: Span = _span()
+    span: Span = span_field()
+    name_span: Span = span_field()
 
 
 @dataclass(frozen=True, slots=True)
@@ -440,8 +159,8 @@ class MessageServer:
     body: Block | None
     abstract: bool = False
     annotations: tuple[Annotation, ...] = ()
-    span: Span = _span()
-    name_span: Span = _span()
+    span: Span = span_field()
+    name_span: Span = span_field()
 
 
 @dataclass(frozen=True, slots=True)
@@ -454,8 +173,8 @@ class Method:
     body: Block | None
     abstract: bool = False
     annotations: tuple[Annotation, ...] = ()
-    span: Span = _span()
-    name_span: Span = _span()
+    span: Span = span_field()
+    name_span: Span = span_field()
 
 
 ClassMember: TypeAlias = KnownRebecs | StateVars | Constructor | MessageServer | Method
@@ -472,11 +191,11 @@ class ReactiveClass:
     extends: str | None = None
     implements: tuple[str, ...] = ()
     annotations: tuple[Annotation, ...] = ()
-    span: Span = _span()
-    name_span: Span = _span()
-    extends_span: Span = _span()
+    span: Span = span_field()
+    name_span: Span = span_field()
+    extends_span: Span = span_field()
     implements_spans: tuple[Span, ...] = field(default=(), compare=False, repr=False)
-    queue_span: Span = _span()
+    queue_span: Span = span_field()
 
 
 @dataclass(frozen=True, slots=True)
@@ -485,12 +204,9 @@ class Interface:
     servers: tuple[MessageServer, ...]
     extends: tuple[str, ...] = ()
     annotations: tuple[Annotation, ...] = ()
-    span: Span = _span()
-    name_span: Span = _span()
+    span: Span = span_field()
+    name_span: Span = span_field()
     extends_spans: tuple[Span, ...] = field(default=(), compare=False, repr=False)
-
-
-# --- the model ---------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, slots=True)
@@ -502,14 +218,14 @@ class Rebec:
     bindings: tuple[Expression, ...]
     arguments: tuple[Expression, ...]
     annotations: tuple[Annotation, ...] = ()
-    span: Span = _span()
-    name_span: Span = _span()
+    span: Span = span_field()
+    name_span: Span = span_field()
 
 
 @dataclass(frozen=True, slots=True)
 class Main:
     rebecs: tuple[Rebec, ...]
-    span: Span = _span()
+    span: Span = span_field()
 
 
 @dataclass(frozen=True, slots=True)
@@ -517,7 +233,7 @@ class Env:
     """`env int a = 1, b = 2;`: constants of the model."""
 
     declaration: Declaration
-    span: Span = _span()
+    span: Span = span_field()
 
 
 @dataclass(frozen=True, slots=True)
@@ -526,7 +242,7 @@ class Refused:
 
     keyword: str
     text: str
-    span: Span = _span()
+    span: Span = span_field()
 
 
 Head: TypeAlias = Env | Refused
@@ -539,7 +255,7 @@ class Model:
     heads: tuple[Head, ...]
     classes: tuple[ReactiveClass | Interface, ...]
     main: Main | None
-    span: Span = _span()
+    span: Span = span_field()
 
 
 Node: TypeAlias = (

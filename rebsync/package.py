@@ -1,8 +1,8 @@
 """A ROS package as a value that knows no dialect: ROS 1 or 2, C++ or Python render or read it.
 
-Bodies of callbacks are Rebeca statements. Topics are given as one node sees them: `~` stands for the
-node's own name. What belongs to one class is in its `NodeClass`; what `main` instantiates is in
-`instances`.
+Bodies of callbacks are Rebeca statements. Topics are given as one node sees them: `~` stands for
+the node's own name. What belongs to one class is in its `NodeClass`; what `main` instantiates is
+in `instances`.
 """
 
 from __future__ import annotations

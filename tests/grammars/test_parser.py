@@ -90,9 +90,8 @@ def test_a_tree_without_mistakes_has_no_broken_parts(model: object) -> None:
 def test_operators_bind_as_in_c() -> None:
     tree = parse_expression("a || b && c == d + e * f - (g)")
     assert isinstance(tree, Binary) and tree.operator == "||"
-    assert tree.right == parse_expression("b && (c)").__class__(
-        "&&", parse_expression("b"), parse_expression("c == d + e * f - (g)")
-    )
+    comparison = parse_expression("c == d + e * f - (g)")
+    assert tree.right == Binary("&&", parse_expression("b"), comparison)
     sum_ = parse_expression("1 - 2 - 3")
     assert isinstance(sum_, Binary) and isinstance(sum_.left, Binary)
     assert isinstance(parse_expression("(a)"), Paren)
