@@ -29,7 +29,8 @@ def robot(lines: tuple[str, ...], **drive: object) -> Rebec:
 def pose_at(recording: Recording, rebec: str, time: float, heading: float = 0.0) -> Pose:
     """Where the robot is at a time, between two of its velocities."""
     path = recording.path(rebec, Pose(heading=heading))
-    return [pose for stamp, pose in path if stamp <= time][-1]
+    before = [Pose(heading=heading), *(pose for stamp, pose in path if stamp <= time)]
+    return before[-1]
 
 
 def near(pose: Pose, x: float, y: float, cell: float = 1.0) -> bool:
@@ -69,6 +70,29 @@ def test_every_move_ends_in_its_cell(
         # In the pause after the move the robot stands in the cell.
         pose = pose_at(tour, name, 5 * index + 4.9, heading)
         assert near(pose, x, y, cell), f"after move {index + 1}: {pose}, not ({x}, {y})"
+
+
+@pytest.mark.parametrize(("name", "heading"), [("holonomic", 0.0), ("turned", 0.7)])
+def test_a_holonomic_robot_moves_straight_and_evenly(
+    tour: Recording, name: str, heading: float
+) -> None:
+    x = y = 0
+    for index, (dx, dy) in enumerate(STEPS):
+        half_way = pose_at(tour, name, 5 * index + 2.1, heading)
+        assert near(half_way, x + dx / 2, y + dy / 2), f"in move {index + 1}: {half_way}"
+        x, y = x + dx, y + dy
+
+
+def test_a_differential_robot_turns_first_and_the_short_way(tour: Recording) -> None:
+    x = y = 0
+    for index, (dx, dy) in enumerate(STEPS):
+        before, turned = (pose_at(tour, "differential", 5 * index + t) for t in (-0.1, 1.5))
+        if index:
+            assert near(turned, x, y), f"in move {index + 1}: {turned}"
+            assert abs(turned.heading - before.heading) < math.pi + 0.3
+        off = math.remainder(turned.heading - math.atan2(dy, dx), 2 * math.pi)
+        assert abs(off) < 0.5, f"in move {index + 1}: {turned}"
+        x, y = x + dx, y + dy
 
 
 def test_velocities_come_at_ten_hertz_and_end_with_a_stop(tour: Recording) -> None:
