@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import fields, replace
+from dataclasses import fields, is_dataclass, replace
 from typing import TypeVar, cast
 
 from hypothesis import given
@@ -38,7 +38,7 @@ def rebuilt(node: _T, change: Callable[[m.Node], m.Node | None]) -> _T:
 def _rebuilt(node: object, change: Callable[[m.Node], m.Node | None]) -> object:
     if isinstance(node, tuple):
         return tuple(_rebuilt(each, change) for each in node)
-    if type(node).__module__ != "rebsync.model":
+    if not is_dataclass(node):
         return node
     tree = cast("m.Block", node)
     kept = {f.name: _rebuilt(getattr(tree, f.name), change) for f in fields(tree) if f.compare}
