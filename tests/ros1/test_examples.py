@@ -37,11 +37,11 @@ IN_CELL = 0.05  # of a holonomic robot; a differential one adds up the error of 
 class Example:
     """An example's run and what is expected of it.
 
-    `expected` has the model time `until` which it ran; `cells`, for each robot the expressions
-    over its state that give its cell; `served` and `final`, or for models that draw at random
-    the servers that each rebec serves `first`, the `invariants` of all states and what has to be
-    `reached` in some state. Robots end up in their cells to `in_cell` cells, keep apart by
-    `keeps_apart`, or come within `comes_within`.
+    `expected` has the model time `until` which it ran, at `rate` units a second; `cells`, for each
+    robot the expressions over its state that give its cell; `served` and `final`, or for models
+    that draw at random the servers that each rebec serves `first`, the `invariants` of all states
+    and what has to be `reached` in some state. Robots end up in their cells to `in_cell` cells,
+    keep apart by `keeps_apart`, or come within `comes_within`.
     """
 
     name: str
@@ -89,7 +89,7 @@ def example(
     name = str(request.param)
     expected = json.loads((_EXPECTED / f"{name}.json").read_text())
     launch = _EXAMPLES / name / name / "launch" / f"{name}.launch"
-    clock = Clock(until=expected["until"] + 0.5, quiet=QUIET, rate=SLOW)
+    clock = Clock(until=expected["until"] + 0.5, quiet=QUIET, rate=expected.get("rate", SLOW))
     recording = run(workspace, launch, tmp_path_factory.mktemp(name), clock)
     return Example(name, expected, recording)
 
