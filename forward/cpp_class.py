@@ -1,32 +1,17 @@
-"""A class of nodes as the pieces of its C++ header and source: declarations and definitions."""
+"""A class of nodes in C++: its handlers, methods and constructors, as in the model."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from rebsync.forward.cpp_layout import call_lines, indented, with_trailing_comments
-from rebsync.forward.cpp_names import (
-    CppNames,
-    function_name,
-    local_name,
-    publisher_place,
-    seen_functions,
-)
+from rebsync.forward.cpp_layout import call_lines, indented
+from rebsync.forward.cpp_names import CppNames
 from rebsync.forward.cpp_statements import CppStatements
-from rebsync.forward.cpp_types import cpp_type, cpp_value, parameter_type
-from rebsync.model import Annotation, Block, Parameter, Type
-from rebsync.names import graph_name
-from rebsync.package import (
-    ConstructorOf,
-    Field,
-    Function,
-    NodeClass,
-    Package,
-    Publisher,
-    SelfSend,
-    Subscription,
-)
+from rebsync.forward.cpp_types import cpp_type
+from rebsync.forward.lineage import ancestors, base_of, interfaces
+from rebsync.model import Annotation, Block, Parameter
+from rebsync.package import Function, NodeClass, Package, Subscription
 from rebsync.printing import print_line
 
 
@@ -41,7 +26,7 @@ class Piece:
 
 @dataclass(frozen=True, slots=True)
 class CppClass:
-    """Writes the C++ of one class; `ros` gives the few words that ROS 1 and 2 spell differently."""
+    """One class with all that its C++ needs to know of the package around it."""
 
     package: Package
     node: NodeClass
@@ -50,6 +35,19 @@ class CppClass:
     names: CppNames
     statements: CppStatements
     above: Mapping[int, tuple[str, ...]]
+
+    @property
+    def ancestors(self) -> list[NodeClass]:
+        """The reactive classes that this one descends from, nearest first."""
+        return ancestors(self.package, self.node)
+
+    @property
+    def owns_mailbox(self) -> bool:
+        return not self.node.interface and base_of(self.package, self.node) is None
+
+    @property
+    def owns_drive(self) -> bool:
+        return self.node.moves and not any(a.moves for a in self.ancestors)
 
     # --- handlers, methods, constructor ---------------------------------------------------------
 
@@ -63,7 +61,7 @@ class CppClass:
         virtual = server.overridden and not inherited
         return self._function(
             "void",
-            function_name(server.server),
+            self.names.function(server.server, server.parameters),
             server.parameters,
             None if server.body is None else self.statements.body(server.body, server.parameters),
             tuple(markers),
@@ -75,9 +73,61 @@ class CppClass:
     def _from_interface(self, server: Subscription) -> bool:
         return any(
             s.key == server.key
-            for base in self.node.bases
-            for s in self.package.node_class(base).subscriptions
+            for interface in interfaces(self.package, self.node)
+            for s in interface.subscriptions
         )
+
+    def forwards(self) -> tuple[Piece, ...]:
+        """Inherited handlers that an interface of this class asks for as well."""
+        base = base_of(self.package, self.node)
+        if base is None:
+            return ()
+        own = {s.key for s in self.node.subscriptions}
+        old = interfaces(self.package, base)
+        new = [i for i in interfaces(self.package, self.node) if i not in old]
+        wanted = {s.key for i in new for s in i.subscriptions}
+        found = {s.key: (s, a) for a in reversed(self.ancestors) for s in a.subscriptions}
+        return tuple(
+            self._forward(server, owner)
+            for key, (server, owner) in found.items()
+            if key in wanted - own and server.body is not None
+        )
+
+    def _forward(self, server: Subscription, owner: NodeClass) -> Piece:
+        name = self.names.function(server.server, server.parameters)
+        names = [self.names.local(p.name) for p in server.parameters]
+        owner_type = self.statements.expressions.class_types[owner.name]
+        return self._function(
+            "void",
+            name,
+            server.parameters,
+            [f"{owner_type}::{name}({', '.join(names)});"],
+            (f"inherited {owner.name}.{server.server}",),
+            override=True,
+        )
+
+    def overloads(self) -> list[str]:
+        """The functions of the base whose other overloads this class would hide."""
+        own = self._signatures(self.node)
+        base = base_of(self.package, self.node)
+        hidden = {
+            name
+            for a in self.ancestors
+            for name, types in self._signatures(a)
+            if (name, types) not in own and any(name == n for n, _ in own)
+        }
+        if base is None:
+            return []
+        type_ = self.statements.expressions.class_types[base.name]
+        return [f"  using {type_}::{name};" for name in sorted(hidden)]
+
+    def _signatures(self, node: NodeClass) -> set[tuple[str, tuple[str, ...]]]:
+        declared = [(s.server, s.parameters) for s in node.subscriptions]
+        declared += [(f.name, f.parameters) for f in node.functions]
+        return {
+            (self.names.function(name, parameters), tuple(cpp_type(p.type) for p in parameters))
+            for name, parameters in declared
+        }
 
     def functions(self) -> tuple[Piece, ...]:
         """The local methods."""
@@ -91,7 +141,7 @@ class CppClass:
                 lines.append("return {};")
         return self._function(
             cpp_type(function.type),
-            function_name(function.name),
+            self.names.function(function.name, function.parameters),
             function.parameters,
             lines,
             (f"method {function.path}", *self._annotations(function.annotations)),
@@ -127,7 +177,7 @@ class CppClass:
         remarks: tuple[str, ...] = (),
     ) -> Piece:
         # by value, as in the model, where a body may assign its parameters
-        passed = [f"{cpp_type(p.type)} {local_name(p.name)}" for p in parameters]
+        passed = [f"{cpp_type(p.type)} {self.names.local(p.name)}" for p in parameters]
         before = "virtual " if virtual else ""
         after = (" override" if override else "") + (" = 0" if lines is None else "")
         declaration = call_lines(f"{before}{result} {name}", passed, f"{after};", "  ")
@@ -147,220 +197,9 @@ class CppClass:
     def _annotations(self, annotations: tuple[Annotation, ...]) -> Iterator[str]:
         return (f"annotation {print_line(a).strip()}" for a in annotations)
 
-    # --- messages in ----------------------------------------------------------------------------
-
-    def own_subscriptions(self) -> tuple[Subscription, ...]:
-        """The servers whose subscription this class makes; its ancestors made the others."""
-        return tuple(s for s in self.node.subscriptions if not s.inherited)
-
-    def shims(self) -> tuple[Piece, ...]:
-        """What unpacks a message and puts it into the mailbox."""
-        return tuple(self._shim(s) for s in self.own_subscriptions())
-
-    def _shim(self, server: Subscription) -> Piece:
-        message = server.message
-        values = [unpacked(f, p) for f, p in zip(message.fields, server.parameters, strict=True)]
-        name = self.names.shims[server.key]
-        head = f"const {message.name}::ConstPtr& msg"
-        sender = "msg->sender" if message.carries_sender else '""'
-        text = f"text({', '.join(values)})" if values else '""'
-        capture = "this, msg" if values else "this"
-        body = f"[{capture}] {{ {function_name(server.server)}({', '.join(values)}); }}"
-        arguments = [self.names.servers[server.key], "msg->timing", sender, text, body]
-        return Piece(
-            "",
-            (f"  void {name}({head});",),
-            tuple(
-                braced(
-                    [f"void {self.type_name}::{name}({head})"],
-                    call_lines("mailbox_.receive", arguments, ";"),
-                )
-            ),
-        )
-
-    # --- messages out ---------------------------------------------------------------------------
-
-    def sends(self) -> tuple[Piece, ...]:
-        """The helpers that fill a message and send it."""
-        return (
-            *(self._send(q) for q in self.node.publishers),
-            *(self._self_send(s) for s in self.node.self_sends),
-        )
-
-    def _send(self, publisher: Publisher) -> Piece:
-        place = publisher_place(publisher)
-        helper, member = self.names.sends[place], self.names.publishers[place]
-        message = publisher.message
-        passed = [f"{parameter_type(p.type)} {local_name(p.name)}" for p in publisher.parameters]
-        where = member
-        if publisher.known is None:
-            passed.insert(0, "const std::string& to_")
-            where = f"to({member}, to_)"
-        lines = [f"{message.name} msg_;"]
-        lines += [packed(f, p) for f, p in zip(message.fields, publisher.parameters, strict=True)]
-        if message.carries_sender:
-            lines.append("msg_.sender = mailbox_.self();")
-        lines.append(f"mailbox_.publish({where}, msg_, when_);")
-        marker = f"send {self.node.name}.{publisher.known or publisher.target}.{publisher.server}"
-        return self._helper(helper, passed, lines, marker)
-
-    def _self_send(self, send: SelfSend) -> Piece:
-        passed = [f"{parameter_type(p.type)} {local_name(p.name)}" for p in send.parameters]
-        names = [local_name(p.name) for p in send.parameters]
-        text = f"text({', '.join(names)})" if names else '""'
-        body = f"[=] {{ {function_name(send.server)}({', '.join(names)}); }}"
-        arguments = [self.names.servers[send.key], "when_", text, body]
-        lines = call_lines("mailbox_.post", arguments, ";")
-        marker = f"send {self.node.name}.self.{send.server}"
-        return self._helper(self.names.self_sends[send.key], passed, lines, marker)
-
-    def _helper(self, name: str, passed: list[str], lines: list[str], marker: str) -> Piece:
-        declared = [*passed, "const When& when_ = When()"]
-        defined = [*passed, "const When& when_"]
-        definition = [f"// rebsync: {marker}"]
-        definition += braced(call_lines(f"void {self.type_name}::{name}", defined, ""), lines)
-        return Piece(
-            marker, tuple(call_lines(f"void {name}", declared, ";", "  ")), tuple(definition)
-        )
-
-    # --- members --------------------------------------------------------------------------------
-
-    def members(self) -> list[str]:
-        """State variables, known rebecs and env values, each with its marker beside it."""
-        lines = [
-            (f"{cpp_type(m.type)} {self.names.members[m.name]}{{}};", f"rebsync: statevar {m.path}")
-            for m in self.node.members
-        ]
-        lines += [
-            (f"std::string {self.names.members[k.name]};", f"rebsync: knownrebec {k.path}")
-            for k in self.node.known
-        ]
-        lines += [
-            (f"{cpp_type(e.type)} {self.names.env[e.name]}{{}};", f"rebsync: env {e.name}")
-            for e in self.node.env
-        ]
-        return indented(with_trailing_comments(lines))
-
-    def ros_members(self) -> list[str]:
-        """Publishers, subscribers and sensors."""
-        lines = [
-            f"  Sensor<{s.type.replace('/', '::')}> {self.names.sensors[s.server]};"
-            for s in self.node.sensors
-        ]
-        for publisher in self.node.publishers:
-            kind = "ros::Publisher" if publisher.known is not None else "Publishers"
-            lines.append(f"  {kind} {self.names.publishers[publisher_place(publisher)]};")
-        lines += [
-            f"  ros::Subscriber {self.names.subscribers[s.key]};" for s in self.own_subscriptions()
-        ]
-        return lines
-
-    # --- wiring ---------------------------------------------------------------------------------
-
-    def servers(self) -> list[str]:
-        """The descriptors of the servers: name and priority."""
-        return [
-            f'constexpr Server {self.names.servers[s.key]}{{"{s.server}", '
-            f"{'kNoPriority' if s.priority is None else s.priority}}};"
-            for s in self.node.subscriptions
-            if not s.inherited or s.priority is not None
-        ]
-
-    def parameters_read(self) -> list[str]:
-        """Reads what the launch file and config/params.yaml set."""
-        lines = []
-        for known in self.node.known:
-            member = self.names.members[known.name]
-            key = f"knownrebecs/{graph_name(known.name)}"
-            lines.append(f'{member} = node.param<std::string>("{key}", "");')
-        if self.node.env:
-            lines.append("const ros::NodeHandle global;")
-        for env in self.node.env:
-            lines += self._read_env(
-                self.names.env[env.name], env.key, env.type, cpp_value(env.value)
-            )
-        return lines
-
-    def _read_env(self, member: str, key: str, type_: Type, value: str) -> list[str]:
-        if type_.dimensions:
-            return [f"{member} = {value};", f'readArray(global, "{key}", {member});']
-        match type_.name:
-            case "byte" | "short":
-                return [f'{member} = narrow<{cpp_type(type_)}>(global.param("{key}", {value}));']
-            case "float":
-                return [f'{member} = static_cast<float>(global.param("{key}", {value}));']
-            case _:
-                return [f'{member} = global.param("{key}", {value});']
-
-    def advertised(self) -> list[str]:
-        """Makes the publishers."""
-        lines = []
-        for publisher in self.node.publishers:
-            member = self.names.publishers[publisher_place(publisher)]
-            message = publisher.message.name
-            if publisher.known is not None:
-                lines.append(f'{member} = mailbox_.advertise<{message}>("{publisher.topic}");')
-            else:
-                target = f'"{publisher.topic}", "{publisher.key}"'
-                lines.append(f"{member} = mailbox_.advertiseAll<{message}>({target});")
-        return lines
-
-    def subscribed(self) -> list[str]:
-        """Makes the subscriptions."""
-        lines = []
-        for server in self.own_subscriptions():
-            member, shim = self.names.subscribers[server.key], self.names.shims[server.key]
-            arguments = f'"{server.topic}", &{self.type_name}::{shim}, this'
-            function = "subscribeOnBridge" if server.on_bridge else "subscribe"
-            lines.append(f"{member} = mailbox_.{function}({arguments});")
-        return lines
-
-    def state_lines(self) -> list[str]:
-        """Fills the state message from the state variables, inherited ones included."""
-        return [_assigned("msg.", f, self.names.members[f.source]) for f in self.node.state.fields]
-
-    def constructor_parameters(self, constructor: ConstructorOf) -> list[str]:
-        """The parameters of the class constructor: the node and the model's own."""
-        own = [f"{parameter_type(p.type)} {local_name(p.name)}" for p in constructor.parameters]
-        return ["const ros::NodeHandle& node", *own]
-
-    def seen(self) -> list[tuple[str, str, str, str]]:
-        """The user functions of the sensors: result, name, message type, expression."""
-        found = []
-        for sensor in self.node.sensors:
-            for index, (draw, name) in enumerate(
-                zip(sensor.draws, seen_functions(sensor), strict=True)
-            ):
-                type_ = sensor.type.replace("/", "::")
-                read = f"msg.{draw.field}" + (" != 0" if draw.type.name == "boolean" else "")
-                if not sensor.stands_in:
-                    first = cpp_value(draw.alternatives[0]) if draw.alternatives else "{}"
-                    read = sensor.seen if sensor.seen and index == 0 else first
-                found.append((cpp_type(draw.type), name, type_, read))
-        return found
-
 
 def braced(head: list[str], lines: list[str]) -> list[str]:
     """A function of these lines."""
     if not lines:
         return [*head[:-1], f"{head[-1]} {{}}"]
     return [*head[:-1], f"{head[-1]} {{", *indented(lines), "}"]
-
-
-def unpacked(field: Field, parameter: Parameter) -> str:
-    """The field of a received message as a value of the parameter's type."""
-    type_ = parameter.type
-    if type_.dimensions:
-        return f"unflatten<{cpp_type(type_)}>(msg->{field.name})"
-    return f"msg->{field.name}" + (" != 0" if type_.name == "boolean" else "")
-
-
-def packed(field: Field, parameter: Parameter) -> str:
-    """The statement that stores a parameter in the field of a message."""
-    return _assigned("msg_.", field, local_name(parameter.name))
-
-
-def _assigned(message: str, field: Field, value: str) -> str:
-    if field.type.dimensions:
-        return f"flatten({value}, {message}{field.name});"
-    return f"{message}{field.name} = {value};"

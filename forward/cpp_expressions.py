@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rebsync import model as m
-from rebsync.forward.cpp_names import CppNames, function_name, local_name
-from rebsync.forward.cpp_types import cpp_type
+from rebsync.forward.cpp_names import CppNames
+from rebsync.forward.cpp_operands import bare, float_literal, is_distance, is_int, when
+from rebsync.forward.cpp_types import LOWEST, cpp_type
 from rebsync.forward.effects import conflicting, writes_to
-from rebsync.forward.sends import ToAny, ToKnown, ToSelf, send_of
+from rebsync.forward.sends import Send, ToAny, ToKnown, ToSelf, send_of
 from rebsync.forward.topics import Topics
+from rebsync.names import graph_name
 from rebsync.static import Analysis
 from rebsync.static.constants import constant
 from rebsync.static.symbols import (
@@ -19,7 +22,7 @@ from rebsync.static.symbols import (
     MethodSymbol,
     StateSymbol,
 )
-from rebsync.static.types import is_floating, is_integer
+from rebsync.static.types import DOUBLE, NULL, is_floating, is_integer
 from rebsync.unions import assert_never
 
 _CLOCK = {
@@ -30,6 +33,8 @@ _CLOCK = {
     "sender": "mailbox_.sender()",
 }
 _NARROW = frozenset({"byte", "short"})
+_EXACT = 2**24  # integers below are floats as well
+_SHIFTS = {"<<": "shiftLeft", ">>": "shiftRight"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,11 +53,11 @@ class CppExpressions:
             case m.IntLiteral():
                 return str(expression.value)
             case m.FloatLiteral():
-                return _float(expression.text)
+                return float_literal(expression.text)
             case m.BoolLiteral():
                 return "true" if expression.value else "false"
             case m.StringLiteral():
-                return expression.text
+                return expression.text.replace("??", "?\\?")  # no trigraphs
             case m.NullLiteral():
                 return "kNull"
             case m.Name():
@@ -73,6 +78,8 @@ class CppExpressions:
                 return f"({self.text(inner)})"
             case m.Cast(type_, operand):
                 return self._cast(type_, operand)
+            case m.Unary("-", m.IntLiteral(0x80000000)):
+                return LOWEST
             case m.Unary(operator, operand):
                 text = self.text(operand)
                 gap = " " if text[:1] == operator[-1] else ""
@@ -82,7 +89,7 @@ class CppExpressions:
             case m.Binary():
                 return self._binary(expression)
             case m.InstanceOf(operand, type_):
-                return f'mailbox_.isA({self.text(operand)}, "{type_.name}")'
+                return f'mailbox_.isA({self.text(operand)}, "{graph_name(type_.name)}")'
             case m.Conditional(condition, then, otherwise):
                 return f"{self.text(condition)} ? {self.text(then)} : {self.text(otherwise)}"
             case m.Choice():
@@ -100,6 +107,29 @@ class CppExpressions:
         if type_.name in _NARROW and not type_.dimensions and self._widens(expression):
             return f"narrow<{cpp_type(type_)}>({text})"
         return text
+
+    def exact(self, expression: m.Expression, type_: m.Type) -> str:
+        """The expression as of just this type in C++ too, so that it chooses among overloads."""
+        given = self.type_of(expression)
+        if given is None or given.dimensions:
+            return self.text(expression)
+        widened = is_integer(given) and is_int(expression)
+        there = "int32_t" if widened else "" if given == NULL else cpp_type(given)
+        wanted = cpp_type(type_)
+        if there == wanted:
+            return self.text(expression)
+        helper = "narrow" if type_.name in _NARROW else "widen"
+        return f"{helper}<{wanted}>({self.text(expression)})"
+
+    def braced(self, expression: m.Expression, type_: m.Type) -> str:
+        """The expression as stored by a list in braces, where C++ refuses what may lose digits."""
+        text, given = self.stored(expression, type_), self.type_of(expression)
+        if given is None or not is_floating(type_) or not is_integer(given):
+            return text
+        value = constant(expression)
+        if value is not None and abs(value) < _EXACT:
+            return text
+        return f"widen<{cpp_type(type_)}>({text})"
 
     def type_of(self, expression: m.Expression) -> m.Type | None:
         """The static type of an expression."""
@@ -130,7 +160,7 @@ class CppExpressions:
             case BuiltinSymbol():
                 return _CLOCK[name.name]
             case _:
-                return local_name(name.name)
+                return self.names.local(name.name)
 
     def _index(self, expression: m.Index) -> str:
         array = self.text(expression.target)
@@ -156,6 +186,8 @@ class CppExpressions:
 
     def _operation(self, expression: m.Binary, left: str, right: str) -> str:
         operator = expression.operator
+        if operator in _SHIFTS and not is_distance(expression.right):
+            return f"{_SHIFTS[operator]}({left}, {right})"
         if operator in ("/", "%") and self._needs_check(expression):
             return f"{'divide' if operator == '/' else 'remainder'}({left}, {right})"
         return f"{left} {operator} {right}"
@@ -170,11 +202,12 @@ class CppExpressions:
         )
 
     def _choice(self, expression: m.Choice) -> str:
+        type_ = self.type_of(expression) or m.Type("int")
         types = {t.name for o in expression.options if (t := self.type_of(o)) is not None}
-        floating = types & {"float", "double"}
+        casts = any(isinstance(n, m.Cast) for n in m.walk(expression))
         template = ""
-        if floating and len(types) > 1:
-            template = "<double>" if "double" in floating else "<float>"
+        if casts or (is_floating(type_) and len(types) > 1):
+            template = f"<{'int32_t' if is_integer(type_) else cpp_type(type_)}>"
         options = ", ".join(self.text(o) for o in expression.options)
         seen = self.seen.get(id(expression))
         return f"mailbox_.choose{template}({{{options}}}{f', {seen}' if seen else ''})"
@@ -191,6 +224,8 @@ class CppExpressions:
         if operator in ("/=", "%=") and checked:
             function = "divideBy" if operator == "/=" else "remainderBy"
             return f"{function}({self.text(target)}, {self.text(value)})"
+        if operator[:-1] in _SHIFTS and not is_distance(value):
+            return f"{_SHIFTS[operator[:-1]]}By({self.text(target)}, {self.text(value)})"
         return f"{self.text(target)} {operator} {self.text(value)}"
 
     def _assign_in_order(self, expression: m.Assign, type_: m.Type) -> str:
@@ -204,6 +239,8 @@ class CppExpressions:
         result = f"op2_ {operator} op3_"
         if operator in ("/", "%"):
             result = f"{'divide' if operator == '/' else 'remainder'}(op2_, op3_)"
+        if operator in _SHIFTS:
+            result = f"{_SHIFTS[operator]}(op2_, op3_)"
         stores = f"auto& op1_ = {target}; const auto op2_ = op1_; const auto op3_ = {value};"
         return f"[&] {{ {stores} return op1_ = static_cast<{cpp_type(type_)}>({result}); }}()"
 
@@ -211,45 +248,44 @@ class CppExpressions:
 
     def _call(self, call: m.Call) -> str:
         send = send_of(call, self.analysis)
-        if send is not None:
-            declaration = send.server.declaration
-            arguments = self._arguments(call, tuple(p.type for p in declaration.parameters))
-            when = self._when(call)
-            everything = [*arguments, *([when] if when else [])]
-            operands = [a for a in (*call.arguments, call.after, call.deadline) if a is not None]
-            in_order = conflicting(operands, self.analysis)
-            if in_order:
-                everything = [f"op{i}_" for i in range(1, len(everything) + 1)]
-            key = self.topics.called(send.server).key
-            match send.target:
-                case ToSelf():
-                    own = self.names.self_sends[key]
-                    helper = own if call.target is not None else f"this->{own}"
-                case ToKnown(known):
-                    helper = self.names.send_to_known(known, key)
-                case ToAny(class_name):
-                    helper = self.names.send_to_any(class_name, key)
-                    everything.insert(0, self.text(_bare(call.target)))
-            text = f"{helper}({', '.join(everything)})"
-            values = [*arguments, *([when] if when else [])]
-            return self._in_order(values, text) if in_order else text
-        return self._function_call(call)
+        if send is None:
+            return self._function_call(call)
+        parameters = send.server.declaration.parameters
+        operands = list(call.arguments)
+        values = self._arguments(call, tuple(p.type for p in parameters))
+        if isinstance(send.target, ToAny):
+            operands.insert(0, bare(call.target))
+            values.insert(0, self.text(operands[0]))
+        times = [t for t in (call.after, call.deadline) if t is not None]
+        timed = [self.text(t) for t in times]
+        helper = self._helper(call, send)
+        if not conflicting([*operands, *times], self.analysis):
+            return f"{helper}({', '.join([*values, *when(call, timed)])})"
+        names = [f"op{i}_" for i in range(1, len(operands) + len(times) + 1)]
+        passed = [*names[: len(operands)], *when(call, names[len(operands) :])]
+        return self._in_order([*values, *timed], f"{helper}({', '.join(passed)})")
 
-    def _when(self, call: m.Call) -> str:
-        parts = []
-        if call.after is not None:
-            parts.append(f"after({self.text(call.after)})")
-        if call.deadline is not None:
-            parts.append(f"deadline({self.text(call.deadline)})")
-        return ".".join(parts)
+    def _helper(self, call: m.Call, send: Send) -> str:
+        key = self.topics.called(send.server).key
+        match send.target:
+            case ToSelf():
+                own = self.names.self_sends[key]
+                return own if call.target is not None else f"this->{own}"
+            case ToKnown(known):
+                return self.names.send_to_known(known, key)
+            case ToAny(class_name):
+                return self.names.send_to_any(class_name, key)
+            case _:
+                assert_never(send.target)
 
     def _function_call(self, call: m.Call) -> str:
         symbol = self.analysis.symbols.get(id(call))
         if isinstance(symbol, MethodSymbol):
             types = tuple(p.type for p in symbol.declaration.parameters)
             values = self._arguments(call, types)
-            in_order = conflicting(call.arguments, self.analysis)
-            passed = [f"op{i}_" for i in range(1, len(values) + 1)] if in_order else values
+            if self._is_overloaded(symbol):
+                pairs = zip(call.arguments, types, strict=True)
+                values = [self.exact(a, t) for a, t in pairs]
             match call.target:
                 case m.Super():
                     prefix = f"{self.class_types[symbol.owner]}::"
@@ -257,43 +293,41 @@ class CppExpressions:
                     prefix = "this->"
                 case _:
                     prefix = ""
-            text = f"{prefix}{function_name(call.name)}({', '.join(passed)})"
-            return self._in_order(values, text) if in_order else text
-        arguments = ", ".join(self.text(a) for a in call.arguments)
-        match call.name:
-            case "delay":
-                return f"mailbox_.delay({arguments})"
-            case "assertion":
-                return f"mailbox_.assertion({arguments})"
-            case _:
-                return f"std::{call.name}({arguments})"
+            function = self.names.function(call.name, symbol.declaration.parameters)
+            return self.call_in_order(f"{prefix}{function}", values, call.arguments)
+        return self._built_in(call)
+
+    def _is_overloaded(self, method: MethodSymbol) -> bool:
+        """Whether C++ may choose another method than the model does."""
+        return any(
+            other.name == method.name and other.signature != method.signature
+            for info in self.analysis.classes.values()
+            for other in info.methods
+        )
+
+    def _built_in(self, call: m.Call) -> str:
+        real = call.name in ("pow", "sqrt")
+        values = [self.exact(a, DOUBLE) if real else self.text(a) for a in call.arguments]
+        return self.call_in_order(
+            f"{'std::' if real else 'mailbox_.'}{call.name}", values, call.arguments
+        )
+
+    def call_in_order(
+        self, function: str, values: Sequence[str], arguments: Sequence[m.Expression]
+    ) -> str:
+        """A call whose arguments are evaluated from left to right where that matters."""
+        if not conflicting(arguments, self.analysis):
+            return f"{function}({', '.join(values)})"
+        passed = ", ".join(f"op{i}_" for i in range(1, len(values) + 1))
+        return self._in_order(values, f"{function}({passed})")
 
     def _arguments(self, call: m.Call, types: tuple[m.Type, ...]) -> list[str]:
         return [self.stored(a, t) for a, t in zip(call.arguments, types, strict=True)]
 
-    def _in_order(self, values: list[str], result: str) -> str:
+    def _in_order(self, values: Sequence[str], result: str) -> str:
         """`result` over `op1_`, `op2_`, ...: the values in the order of the model.
 
         C++14 leaves the order of operands and arguments open; the statements of a lambda have one.
         """
         stores = "".join(f"const auto op{i}_ = {v}; " for i, v in enumerate(values, 1))
         return f"[&] {{ {stores}return {result}; }}()"
-
-
-def _float(literal: str) -> str:
-    """A literal of the model, float unless it says double, in C++, where it is the other way."""
-    digits = literal.replace("_", "")
-    if digits[-1] in "dD":
-        return digits[:-1] if any(c in digits for c in ".eE") else f"{digits[:-1]}.0"
-    if digits[-1] in "fF":
-        digits = digits[:-1]
-        return f"{digits}F" if any(c in digits for c in ".eE") else f"{digits}.0F"
-    return f"{digits}f"
-
-
-def _bare(target: m.Expression | None) -> m.Expression:
-    """The target of a send without the parentheses that its cast needs in the model."""
-    if isinstance(target, m.Paren):
-        return _bare(target.inner)
-    assert target is not None
-    return target

@@ -2,25 +2,33 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from rebsync.forward.cpp_types import cpp_type
+from rebsync.forward.topics import RUNTIME_TYPES, Signature, signature
+from rebsync.model import Parameter
 from rebsync.names import CPP_KEYWORDS, camel_case, carry, graph_name, unique
-from rebsync.package import NodeClass, Package, Publisher, Sensor, Subscription
+from rebsync.package import NodeClass, Package, Publisher, Subscription
 
-_RUNTIME_MEMBERS = frozenset({"mailbox", "drive", "node", "state"})
-_RUNTIME_FUNCTIONS = frozenset({"after", "choose", "deadline", "divide", "mailbox", "narrow"}) | {
-    *("publishState", "remainder", "text", "to", "unused"),
-}
-
-
-def local_name(name: str) -> str:
-    """A local variable or parameter: the model's own name where C++ allows it."""
-    return carry(name, CPP_KEYWORDS)
-
-
-def function_name(name: str) -> str:
-    """A handler or method: the model's own name where C++ and the run-time part allow it."""
-    return carry(name, CPP_KEYWORDS | _RUNTIME_FUNCTIONS)
+_RUNTIME_MEMBERS = frozenset({"mailbox", "drive", "node", "state", "state_pub"})
+_RUNTIME_FUNCTIONS = frozenset(
+    {
+        *("after", "as", "choose", "deadline", "divide", "divideBy", "flatten", "mailbox"),
+        *("narrow", "publishState", "readArray", "remainder", "remainderBy", "shiftLeft"),
+        *("shiftLeftBy", "shiftRight", "shiftRightBy", "text", "to", "unflatten", "unused"),
+        *("widen", "construct"),
+    }
+)
+_RUNTIME_CONSTANTS = frozenset(
+    {
+        *("kAligned", "kFarAway", "kNever", "kNoPriority", "kNull", "kPeriod", "kQueueSize"),
+        "kSoon",
+    }
+)
+_RESERVED = CPP_KEYWORDS | _RUNTIME_FUNCTIONS | _RUNTIME_CONSTANTS | RUNTIME_TYPES
+# What the constructor of a class has beside the parameters of the model.
+_OF_CONSTRUCTOR = frozenset({"node", "global"})
 
 
 @dataclass(slots=True)
@@ -36,7 +44,25 @@ class CppNames:
     shims: dict[str, str] = field(default_factory=dict)
     subscribers: dict[str, str] = field(default_factory=dict)
     sensors: dict[str, str] = field(default_factory=dict)
+    seen: dict[str, tuple[str, ...]] = field(default_factory=dict)
     used: set[str] = field(default_factory=set)
+    callable: set[str] = field(default_factory=set)
+    types: frozenset[str] = frozenset()
+    apart: Mapping[Signature, str] = field(default_factory=dict)
+
+    def local(self, name: str) -> str:
+        """A local variable or parameter: the model's own name where it hides nothing."""
+        carried = carry(name, _RESERVED | self.types | self.callable)
+        return f"{carried}_v" if carried.removesuffix("_v") + "_v" in self.callable else carried
+
+    def argument(self, name: str) -> str:
+        """A parameter of the class's constructor."""
+        return carry(name, _RESERVED | self.types | self.callable | _OF_CONSTRUCTOR)
+
+    def function(self, name: str, parameters: tuple[Parameter, ...]) -> str:
+        """A handler or method: the model's own name where C++ and the run-time part allow it."""
+        name = self.apart.get(signature(name, parameters), name)
+        return carry(name, _RESERVED | self.types)
 
     def send_to_known(self, known: str, key: str) -> str:
         """The helper that sends one server's message to a known rebec."""
@@ -54,16 +80,36 @@ def publisher_place(publisher: Publisher) -> tuple[str, str]:
     return f"any {publisher.target}", publisher.key
 
 
-def class_names(package: Package) -> dict[str, CppNames]:
+def class_names(package: Package, class_types: Mapping[str, str]) -> dict[str, CppNames]:
     """The names of every class of a package."""
     found: dict[str, CppNames] = {}
+    types = {m.name for m in package.messages} | {c.state.name for c in package.classes}
+    types |= set(class_types.values())
+    apart = _apart(package)
     for node in sorted(package.classes, key=lambda c: _depth(package, c)):
-        names = CppNames()
+        names = CppNames(used=set(_RUNTIME_CONSTANTS), types=frozenset(types), apart=apart)
         for base in node.bases:
             _inherit(names, found[base])
         _own(names, node)
         found[node.name] = names
     return found
+
+
+def _apart(package: Package) -> dict[Signature, str]:
+    """Names for overloads that differ only in classes of rebecs, which are all text in C++."""
+    groups: dict[tuple[str, tuple[str, ...]], dict[Signature, None]] = {}
+    for node in package.classes:
+        declared = [(s.server, s.parameters) for s in node.subscriptions]
+        declared += [(f.name, f.parameters) for f in node.functions]
+        for name, parameters in declared:
+            same = name, tuple(cpp_type(p.type) for p in parameters)
+            groups.setdefault(same, {})[signature(name, parameters)] = None
+    return {
+        wanted: f"{wanted[0]}_{'_'.join(wanted[1])}".replace("[", "_").replace("]", "")
+        for group in groups.values()
+        if len(group) > 1
+        for wanted in group
+    }
 
 
 def _depth(package: Package, node: NodeClass) -> int:
@@ -80,19 +126,24 @@ def _inherit(names: CppNames, base: CppNames) -> None:
     names.shims.update(base.shims)
     names.subscribers.update(base.subscribers)
     names.sensors.update(base.sensors)
+    names.seen.update(base.seen)
     names.used |= base.used
+    names.callable |= base.callable
 
 
 def _own(names: CppNames, node: NodeClass) -> None:
     used = names.used
-    used |= {function_name(f.name) for f in node.functions}
-    used |= {function_name(s.server) for s in node.subscriptions}
+    methods = {names.function(f.name, f.parameters) for f in node.functions}
+    used |= methods
+    used |= {names.function(s.server, s.parameters) for s in node.subscriptions}
     for name in (*(m.name for m in node.members), *(k.name for k in node.known)):
         names.members[name] = _member(name, used)
     for variable in node.env:
         names.env[variable.name] = _member(variable.name, used)
     for sensor in node.sensors:
         names.sensors[sensor.server] = unique(f"{graph_name(sensor.server)}_sensor_", used)
+        stem = f"seen{camel_case(sensor.server)}"
+        names.seen[sensor.server] = tuple(unique(stem, used, "") for _ in sensor.draws)
     for subscription in node.subscriptions:
         _name_server(names, subscription)
     for publisher in node.publishers:
@@ -100,6 +151,8 @@ def _own(names: CppNames, node: NodeClass) -> None:
     for send in node.self_sends:
         if send.key not in names.self_sends:
             names.self_sends[send.key] = unique(f"sendSelf{camel_case(send.key)}", used, "")
+    names.callable |= methods | set(names.servers.values())
+    names.callable |= {*names.sends.values(), *names.self_sends.values()}
 
 
 def _member(name: str, used: set[str]) -> str:
@@ -131,9 +184,3 @@ def _name_publisher(names: CppNames, publisher: Publisher) -> None:
         )
     names.sends[place] = unique(helper, names.used, "")
     names.publishers[place] = unique(member, names.used)
-
-
-def seen_functions(sensor: Sensor) -> tuple[str, ...]:
-    """The user's functions of a sensor: one for each `?(...)` of its server."""
-    stem = f"seen{camel_case(sensor.server)}"
-    return tuple(stem if index == 0 else f"{stem}{index + 1}" for index in range(len(sensor.draws)))

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rebsync import model as m
 from rebsync.forward.cpp_expressions import CppExpressions
-from rebsync.forward.cpp_names import local_name
 from rebsync.forward.cpp_types import cpp_type
-from rebsync.forward.effects import read_declarations
+from rebsync.forward.effects import crossing_locals, read_declarations
 from rebsync.forward.remarks import Remarks
 from rebsync.printing import print_line
 from rebsync.unions import assert_never
@@ -24,13 +23,16 @@ class CppStatements:
     expressions: CppExpressions
     remarks: Remarks
     read: Collection[int]
+    hoisted: Collection[int]
 
     def body(self, block: m.Block | None, parameters: tuple[m.Parameter, ...]) -> list[str]:
         """The lines of a body; parameters that it does not use are marked as such."""
         if block is None:
-            return self._unused([(local_name(p.name), p) for p in parameters], frozenset())
+            return self._unused(
+                [(self.expressions.names.local(p.name), p) for p in parameters], frozenset()
+            )
         read = read_declarations([block], self.expressions.analysis)
-        named = [(local_name(p.name), p) for p in parameters]
+        named = [(self.expressions.names.local(p.name), p) for p in parameters]
         return [
             *self._unused(named, read),
             *self._statements(block.statements, block.span.start + 1, block.span.end - 1),
@@ -101,12 +103,26 @@ class CppStatements:
             yield from (_INDENT + line for line in self._statements((body,), body.span.start, 0))
 
     def _expression_statement(self, expression: m.Expression) -> Iterator[str]:
-        text = self.expressions.text(expression)
-        yield f"{text};" if _has_effect(expression) else f"unused({text});"
+        yield f"{self._effect(expression)};"
+
+    def _effect(self, expression: m.Expression) -> str:
+        """An expression for what it does; its value is marked as unused where it does nothing."""
+        text, type_ = self.expressions.text(expression), self.expressions.type_of(expression)
+        void = type_ is not None and type_.name == "void"
+        return text if void or _has_effect(expression) else f"unused({text})"
 
     def _local(self, declaration: m.Declaration) -> Iterator[str]:
-        yield f"{self._declaration(declaration)};"
-        names = [local_name(d.name) for d in declaration.declarators if id(d) not in self.read]
+        here = tuple(d for d in declaration.declarators if id(d) not in self.hoisted)
+        for declarator in declaration.declarators:
+            if id(declarator) in self.hoisted:
+                yield f"{self._declarator(declarator, declaration.type, assigned=True)};"
+        if here:
+            yield f"{self._declaration(replace(declaration, declarators=here))};"
+        names = [
+            self.expressions.names.local(d.name)
+            for d in declaration.declarators
+            if id(d) not in self.read
+        ]
         if names:
             yield f"unused({', '.join(names)});"
 
@@ -128,14 +144,27 @@ class CppStatements:
         if isinstance(statement.initial, m.Declaration):
             initial = self._declaration(statement.initial)
         else:
-            initial = ", ".join(text(e) for e in statement.initial)
+            initial = ", ".join(map(self._effect, statement.initial))
         condition = f" {text(statement.condition)}" if statement.condition is not None else ""
-        updates = ", ".join(text(e) for e in statement.updates)
+        updates = ", ".join(map(self._effect, statement.updates))
         yield f"for ({initial};{condition};{f' {updates}' if updates else ''}) {{"
         yield from self._branch(statement.body)
         yield "}"
 
     def _switch(self, statement: m.Switch) -> Iterator[str]:
+        crossing = crossing_locals(statement, self.expressions.analysis)
+        if not crossing:
+            yield from self._cases(statement)
+            return
+        yield "{"
+        for declaration, declarator in crossing:
+            name = self.expressions.names.local(declarator.name)
+            yield f"{_INDENT}// rebsync: local {declarator.name}"
+            yield f"{_INDENT}{cpp_type(declaration.type)} {name}{{}};"
+        yield from (_INDENT + line for line in self._cases(statement))
+        yield "}"
+
+    def _cases(self, statement: m.Switch) -> Iterator[str]:
         yield f"switch ({self.expressions.text(statement.subject)}) {{"
         for i, case in enumerate(statement.cases):
             label = "default" if case.value is None else f"case {self.expressions.text(case.value)}"
@@ -156,8 +185,9 @@ class CppStatements:
         if not moves:
             yield ";"
         for move in moves:
-            cells = ", ".join(self._offset(a) for a in move.arguments or ())
-            yield f"drive_.move({cells});"
+            arguments = move.arguments or ()
+            cells = [self._offset(a) for a in arguments]
+            yield f"{self.expressions.call_in_order('drive_.move', cells, arguments)};"
 
     def _offset(self, argument: m.Expression) -> str:
         """`X + e` as `e`, `X - e` as `-e`, `X` as 0."""
@@ -180,13 +210,14 @@ class CppStatements:
         parts = [self._declarator(d, type_) for d in declaration.declarators]
         return f"{cpp_type(type_)} {', '.join(parts)}"
 
-    def _declarator(self, declarator: m.Declarator, type_: m.Type) -> str:
-        name = local_name(declarator.name)
+    def _declarator(self, declarator: m.Declarator, type_: m.Type, assigned: bool = False) -> str:
+        name = self.expressions.names.local(declarator.name)
+        before = f"{name} = {cpp_type(type_)}" if assigned else name
         match declarator.initial:
             case None:
-                return f"{name}{{}}"
+                return f"{before}{{}}"
             case m.ArrayInitializer():
-                return f"{name}{self._array(declarator.initial, type_)}"
+                return f"{before}{self._array(declarator.initial, type_)}"
             case expression:
                 return f"{name} = {self.expressions.stored(expression, type_)}"
 
@@ -195,7 +226,7 @@ class CppStatements:
         values = [
             self._array(v, inner)
             if isinstance(v, m.ArrayInitializer)
-            else self.expressions.stored(v, inner)
+            else self.expressions.braced(v, inner)
             for v in initial.values
         ]
         return "{{" + ", ".join(values) + "}}"

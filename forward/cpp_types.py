@@ -15,6 +15,9 @@ _PLAIN = {
     "void": "void",
 }
 
+# A literal of this value would be a long with a minus.
+LOWEST = "INT32_MIN"
+
 
 def cpp_type(type_: Type) -> str:
     """`int32_t`, `std::array<bool, 2>`, `std::string` for the name of a rebec."""
@@ -44,5 +47,7 @@ def cpp_value(value: Value) -> str:
             return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
         case tuple():
             return "{{" + ", ".join(cpp_value(v) for v in value) + "}}"
+        case -0x80000000:
+            return LOWEST
         case _:
             return repr(value)

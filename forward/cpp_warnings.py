@@ -6,6 +6,9 @@ where a compiler asks for more, the file says that it is meant so.
 
 from __future__ import annotations
 
+import operator
+from collections.abc import Callable
+
 from rebsync.model import (
     Assign,
     Binary,
@@ -19,11 +22,19 @@ from rebsync.model import (
     walk,
 )
 from rebsync.static.constants import constant
+from rebsync.static.types import INT_MAX, INT_MIN
 
 _BITS = frozenset({"&", "|", "^"})
 _SHIFTS = frozenset({"<<", ">>"})
 _SUMS = frozenset({"+", "-"})
 _COMPARISONS = frozenset({"<", ">", "<=", ">=", "==", "!="})
+
+_ARITHMETIC: dict[str, Callable[[int, int], int]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "<<": lambda a, b: a << (b & 31),
+}
 
 
 def silenced(declaration: ReactiveClass | Interface) -> list[str]:
@@ -31,8 +42,8 @@ def silenced(declaration: ReactiveClass | Interface) -> list[str]:
     found = set()
     for node in walk(declaration):
         match node:
-            case Binary(operator, left, right):
-                found |= _of_binary(operator, left, right)
+            case Binary(sign, left, right):
+                found |= _of_binary(sign, left, right)
             case If(condition=Assign()) | While(condition=Assign()) | For(condition=Assign()):
                 found.add("-Wparentheses")
             case _:
@@ -40,23 +51,32 @@ def silenced(declaration: ReactiveClass | Interface) -> list[str]:
     return sorted(found)
 
 
-def _of_binary(operator: str, left: Expression, right: Expression) -> set[str]:
+def _of_binary(sign: str, left: Expression, right: Expression) -> set[str]:
     inner = {e.operator for e in (left, right) if isinstance(e, Binary)}
     found = set()
     if (
-        (operator == "||" and "&&" in inner)
-        or (operator in _BITS and inner & (_COMPARISONS | _SUMS | _BITS - {operator}))
-        or (operator in _SHIFTS and inner & _SUMS)
-        or (operator in _COMPARISONS and inner & _COMPARISONS)
+        (sign == "||" and "&&" in inner)
+        or (sign in _BITS and inner & (_COMPARISONS | _SUMS | _BITS - {sign}))
+        or (sign in _SHIFTS and inner & _SUMS)
+        or (sign in _COMPARISONS and inner & _COMPARISONS)
     ):
         found.add("-Wparentheses")
-    if operator in _COMPARISONS and isinstance(left, Unary) and left.operator == "!":
+    if sign in _ARITHMETIC and _overflows(sign, constant(left), constant(right)):
+        found.add("-Woverflow")
+    if sign in _COMPARISONS and isinstance(left, Unary) and left.operator == "!":
         found.add("-Wlogical-not-parentheses")
-    if operator in _COMPARISONS and any(_is_wide(e) for e in (left, right)):
+    if sign in _COMPARISONS and any(_is_wide(e) for e in (left, right)):
         found.add("-Wtype-limits")
-    if operator in _COMPARISONS | {"&&", "||"} and left == right:
+    if sign in _COMPARISONS | {"&&", "||"} and left == right:
         found |= {"-Wtautological-compare", "-Wlogical-op"}
     return found
+
+
+def _overflows(operator: str, left: object, right: object) -> bool:
+    if not isinstance(left, int) or not isinstance(right, int):
+        return False
+    value = _ARITHMETIC[operator](left, right)
+    return not INT_MIN <= value <= INT_MAX
 
 
 def _is_wide(expression: Expression) -> bool:

@@ -9,13 +9,17 @@ from typing import TypeAlias
 from rebsync.model import (
     Assign,
     Call,
+    Declaration,
+    Declarator,
     Expression,
     Index,
+    Local,
     Member,
     Name,
     Node,
     Paren,
     Postfix,
+    Switch,
     Unary,
     walk,
 )
@@ -145,3 +149,25 @@ def read_declarations(nodes: Iterable[Node], analysis: Analysis) -> set[int]:
                 case _:
                     pass
     return read
+
+
+def crossing_locals(switch: Switch, analysis: Analysis) -> list[tuple[Declaration, Declarator]]:
+    """The locals of a case that later cases use: C++ needs their declaration before the cases."""
+    found: dict[int, tuple[Declaration, Declarator]] = {}
+    declared: dict[int, tuple[Declaration, Declarator]] = {}
+    for case in switch.cases:
+        for node in (n for s in case.statements for n in walk(s) if isinstance(n, Name)):
+            key = id(getattr(analysis.symbols.get(id(node)), "declaration", None))
+            if key in declared:
+                found[key] = declared[key]
+        own = [s.declaration for s in case.statements if isinstance(s, Local)]
+        declared |= {
+            id(d): (declaration, d) for declaration in own for d in declaration.declarators
+        }
+    return list(found.values())
+
+
+def hoisted(nodes: Iterable[Node], analysis: Analysis) -> set[int]:
+    """The ids of all declarators that stand before the `switch` in C++."""
+    switches = (n for node in nodes for n in walk(node) if isinstance(n, Switch))
+    return {id(d) for s in switches for _, d in crossing_locals(s, analysis)}

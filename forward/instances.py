@@ -5,7 +5,7 @@ from __future__ import annotations
 from rebsync.forward.topics import Topics
 from rebsync.forward.values import converted
 from rebsync.model import Expression, Model, Name, Rebec, Type
-from rebsync.names import graph_name, unique
+from rebsync.names import graph_name, node_name, unique
 from rebsync.package import Instance, NodeClass, NodeParameter, Publisher, Remap, StandIn, Value
 from rebsync.static import Analysis
 from rebsync.static.constants import constant
@@ -28,7 +28,7 @@ class Instances:
         """One node a rebec, in the order of `main`."""
         return tuple(
             Instance(
-                graph_name(r.name),
+                node_name(r.name),
                 r.name,
                 r.type.name,
                 (*self._known_parameters(r), *self._arguments(r)),
@@ -40,10 +40,10 @@ class Instances:
 
     def stand_ins(self) -> tuple[StandIn, ...]:
         """A node that plays the sensors for each rebec whose sensors are not bound."""
-        used = {graph_name(r.name) for r in self._rebecs}
+        used = {node_name(r.name) for r in self._rebecs}
         found = []
         for rebec in self._rebecs:
-            node = graph_name(rebec.name)
+            node = node_name(rebec.name)
             for name in self._lineage(rebec):
                 sensors = [s for s in self._classes[name].sensors if s.stands_in]
                 if sensors:
@@ -56,7 +56,7 @@ class Instances:
         return tuple(
             (graph_name(c), names)
             for c in self._classes
-            if (names := tuple(graph_name(r) for r in self._of_class(c)))
+            if (names := tuple(node_name(r) for r in self._of_class(c)))
         )
 
     def _of_class(self, class_name: str) -> list[str]:
@@ -87,33 +87,27 @@ class Instances:
     def _known_parameters(self, rebec: Rebec) -> list[NodeParameter]:
         known = {s.name: s.type for s in self._analysis.classes[rebec.type.name].known}
         return [
-            NodeParameter(f"knownrebecs/{graph_name(name)}", type_, graph_name(bound))
+            NodeParameter(f"knownrebecs/{graph_name(name)}", type_, node_name(bound))
             for name, bound in self._bindings(rebec).items()
             if (type_ := known[name]) is not None
         ]
 
     def _arguments(self, rebec: Rebec) -> list[NodeParameter]:
-        constructor = next(
-            (
-                c
-                for c in self._classes[rebec.type.name].constructors
-                if len(c.parameters) == len(rebec.arguments)
-            ),
-            None,
-        )
-        if constructor is None:
-            return []
+        constructor = self._analysis.constructor_of(rebec)
+        parameters = constructor.parameters if constructor is not None else ()
         return [
-            NodeParameter(key, parameter.type, self._argument(argument, parameter.type.name))
-            for key, parameter, argument in zip(
-                constructor.keys, constructor.parameters, rebec.arguments, strict=True
+            NodeParameter(
+                graph_name(parameter.name),
+                parameter.type,
+                self._argument(argument, parameter.type.name),
             )
+            for parameter, argument in zip(parameters, rebec.arguments, strict=True)
         ]
 
     def _argument(self, argument: Expression, type_name: str) -> Value:
         rebec = self._rebec_name(argument)
         if rebec is not None:
-            return graph_name(rebec)
+            return node_name(rebec)
         value = constant(argument, self._env_value)
         if value is None:
             return ""
@@ -145,7 +139,7 @@ class Instances:
             return [Remap(f"~{publisher.topic}", self.topic(receiver, publisher))]
         return [
             Remap(
-                f"~{publisher.topic}/{graph_name(receiver)}/{publisher.key}",
+                f"~{publisher.topic}/{node_name(receiver)}/{publisher.key}",
                 self.topic(receiver, publisher),
             )
             for receiver in self._of_class(publisher.target)
@@ -160,5 +154,5 @@ class Instances:
         subscriber = self._topics.subscriber(class_name, wanted)
         bridge = self._analysis.classes[subscriber].annotated("Controller")
         segments = ["control_bridge"] if bridge else []
-        segments += [graph_name(receiver), *(["port"] if topic.port else []), topic.key]
+        segments += [node_name(receiver), *(["port"] if topic.port else []), topic.key]
         return "/".join(segments)

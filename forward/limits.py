@@ -69,25 +69,19 @@ def _instances(model: Model, analysis: Analysis) -> list[Diagnostic]:
                         severity=Severity.WARNING,
                     )
                 )
-        info = analysis.classes[rebec.type.name]
-        if len(info.constructors) > 1:
-            used.setdefault(rebec.type.name, set()).add(len(rebec.arguments))
-            if len(used[rebec.type.name]) > 1 or _same_length(analysis, rebec.type.name):
-                found.append(
-                    Diagnostic(
-                        "RS705",
-                        rebec.span,
-                        f'the rebecs of "{rebec.type.name}" use different constructors, but its '
-                        "node has one",
-                        "give the class one constructor, or one class to each",
-                    )
+        chosen = used.setdefault(rebec.type.name, set())
+        chosen.add(id(analysis.constructor_of(rebec)))
+        if len(chosen) > 1:
+            found.append(
+                Diagnostic(
+                    "RS705",
+                    rebec.span,
+                    f'the rebecs of "{rebec.type.name}" use different constructors, but its '
+                    "node has one",
+                    "give the class one constructor, or one class to each",
                 )
+            )
     return found
-
-
-def _same_length(analysis: Analysis, class_name: str) -> bool:
-    lengths = [len(c.signature) for c in analysis.classes[class_name].constructors]
-    return len(set(lengths)) < len(lengths)
 
 
 def _global_priorities(declaration: ReactiveClass) -> list[Diagnostic]:

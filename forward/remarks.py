@@ -32,7 +32,13 @@ class Remarks:
         for comment in self.comments[first:]:
             if comment.span.end > end:
                 break
-            yield from (f"// {line}".rstrip() for line in comment_lines(comment.text))
+            yield from (f"// {_harmless(line)}".rstrip() for line in comment_lines(comment.text))
+
+
+def _harmless(line: str) -> str:
+    """The words of a comment as such: not a marker, and not a comment that takes the next line."""
+    words = line.replace("rebsync:", "rebsync -").replace("??/", "?? /")
+    return f"{words} ." if words.endswith("\\") else words
 
 
 def comment_lines(text: str) -> Iterator[str]:

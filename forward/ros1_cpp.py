@@ -6,12 +6,13 @@ from collections.abc import Mapping
 
 from rebsync.forward.cpp_class import CppClass
 from rebsync.forward.cpp_expressions import CppExpressions
-from rebsync.forward.cpp_names import class_names, seen_functions
+from rebsync.forward.cpp_names import CppNames, class_names
 from rebsync.forward.cpp_statements import CppStatements
 from rebsync.forward.cpp_types import cpp_type, cpp_value
-from rebsync.forward.effects import read_declarations
+from rebsync.forward.effects import hoisted, read_declarations
 from rebsync.forward.remarks import Remarks
-from rebsync.forward.ros1_class import header, node_main, sensor_header, source
+from rebsync.forward.ros1_class import header, sensor_header, source
+from rebsync.forward.ros1_constructors import node_main
 from rebsync.forward.ros1_package import (
     cmake_lists,
     launch_file,
@@ -107,7 +108,7 @@ def _field(field: Field) -> str:
 def _classes(
     package: Package, analysis: Analysis, topics: Topics, remarks: Remarks
 ) -> Mapping[str, CppClass]:
-    names = class_names(package)
+    names = class_names(package, topics.class_types)
     found: dict[str, CppClass] = {}
     for node in package.classes:
         declaration = analysis.classes[node.name].declaration
@@ -117,16 +118,18 @@ def _classes(
             topics,
             names[node.name],
             topics.class_types,
-            _seen(node, reactive, names[node.name].sensors),
+            _seen(node, reactive, names[node.name]),
         )
-        read = read_declarations(bodies(reactive), analysis) if reactive else set()
+        own = list(bodies(reactive)) if reactive else []
         found[node.name] = CppClass(
             package,
             node,
             topics.class_types[node.name],
             tuple(topics.class_types[b] for b in node.bases),
             names[node.name],
-            CppStatements(expressions, remarks, read),
+            CppStatements(
+                expressions, remarks, read_declarations(own, analysis), hoisted(own, analysis)
+            ),
             _remarks_above(reactive, remarks) if reactive else {},
         )
     return found
@@ -144,18 +147,16 @@ def _remarks_above(declaration: ReactiveClass, remarks: Remarks) -> dict[int, tu
     return found
 
 
-def _seen(
-    node: NodeClass, declaration: ReactiveClass | None, members: Mapping[str, str]
-) -> dict[int, str]:
+def _seen(node: NodeClass, declaration: ReactiveClass | None, names: CppNames) -> dict[int, str]:
     """For each `?(...)` of a sensor server, the C++ that samples the sensor."""
     if declaration is None:
         return {}
     servers = {m.name: m for m in declaration.members if isinstance(m, MessageServer)}
     return {
-        id(choice): f"{members[sensor.server]}.seen(&{function})"
+        id(choice): f"{names.sensors[sensor.server]}.seen(&{function})"
         for sensor in node.sensors
         for choice, function in zip(
-            draws_of(servers[sensor.server]), seen_functions(sensor), strict=True
+            draws_of(servers[sensor.server]), names.seen[sensor.server], strict=True
         )
     }
 

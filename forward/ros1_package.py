@@ -20,6 +20,8 @@ _TYPES = {
 }
 _PARAMETER_TYPES = {"byte": "int", "short": "int", "int": "int", "boolean": "bool"}
 
+_YAML_WORDS = frozenset({"false", "n", "no", "null", "off", "on", "true", "y", "yes"})
+
 
 def ros1_type(type_: Type) -> str:
     """The type of a message field; arrays of several dimensions are flattened."""
@@ -115,7 +117,12 @@ def launch_file(package: Package) -> str:
         "ros1_cpp/package.launch.j2",
         package=package,
         nodes=nodes,
-        instances_of=package.instances_of if needed or _tests_types(package) else (),
+        rebecs=[yaml_name(i.name) for i in package.instances],
+        instances_of=[
+            (yaml_name(name), [yaml_name(r) for r in rebecs])
+            for name, rebecs in package.instances_of
+            if needed or _tests_types(package)
+        ],
     )
 
 
@@ -124,7 +131,9 @@ def _tests_types(package: Package) -> bool:
 
 
 def _instance(package: Package, instance: Instance) -> _Node:
-    annotations = (f"annotation {print_line(a).strip()}" for a in instance.annotations)
+    annotations = (
+        f"annotation {print_line(a).strip()}".replace("--", "-&#45;") for a in instance.annotations
+    )
     return _Node(
         instance.name,
         f"{package.node_class(instance.class_name).file}_node",
@@ -148,15 +157,23 @@ def yaml_value(value: Value) -> str:
             return "true" if value else "false"
         case tuple():
             return f"[{', '.join(yaml_value(v) for v in value)}]"
+        case float():
+            text = repr(value)  # 1e-07 would be text in YAML 1.1
+            return text if "." in text or "e" not in text else text.replace("e", ".0e")
         case _:
             return str(value)
+
+
+def yaml_name(name: str) -> str:
+    """A name in YAML: in quotes where it would be a truth value."""
+    return f'"{name}"' if name.lower() in _YAML_WORDS else name
 
 
 def parameters(package: Package) -> str:
     """config/params.yaml."""
     return fill(
         "ros1_cpp/params.yaml.j2",
-        env=[(e.key, yaml_value(e.value)) for e in package.env],
+        env=[(yaml_name(e.key), yaml_value(e.value)) for e in package.env],
         settings=package.settings,
         moves=any(c.moves for c in package.classes),
     )

@@ -24,11 +24,15 @@ from rebsync.static.types import INT, is_integer
 
 
 def sensors_of(
-    declaration: ReactiveClass, analysis: Analysis, config: Config, used_types: set[str]
+    declaration: ReactiveClass,
+    analysis: Analysis,
+    config: Config,
+    used_types: set[str],
+    used_names: set[str],
 ) -> tuple[Sensor, ...]:
     """The sensors of a class, in the order of the text."""
     return tuple(
-        _sensor(declaration.name, member, analysis, config, used_types)
+        _sensor(declaration.name, member, analysis, config, used_types, used_names)
         for member in declaration.members
         if isinstance(member, MessageServer)
         and member.body is not None
@@ -49,6 +53,7 @@ def _sensor(
     analysis: Analysis,
     config: Config,
     used_types: set[str],
+    used_names: set[str],
 ) -> Sensor:
     choices = draws_of(server)
     fields = field_names([_drawn_into(server, choice) or server.name for choice in choices])
@@ -57,7 +62,7 @@ def _sensor(
         for field, choice in zip(fields, choices, strict=True)
     )
     binding = config.sensor(class_name, server.name)
-    name, period = snake_case(server.name), _period(server, analysis)
+    name, period = unique(snake_case(server.name), used_names), _period(server, analysis)
     if binding is not None:
         type_ = binding.type.replace("/msg/", "/")
         return Sensor(server.name, name, type_, binding.topic, draws, period, binding.seen)

@@ -6,6 +6,7 @@ the message type, which is named after the class that declares the server first.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
@@ -19,7 +20,15 @@ from rebsync.model import (
     Type,
     walk,
 )
-from rebsync.names import camel_case, carry, field_names, graph_name, unique
+from rebsync.names import (
+    CPP_KEYWORDS,
+    camel_case,
+    carry,
+    field_names,
+    free_name,
+    graph_name,
+    unique,
+)
 from rebsync.package import Field, MessageType, StateType
 from rebsync.static import Analysis
 from rebsync.static.symbols import BuiltinSymbol, ClassInfo, ServerSymbol
@@ -30,6 +39,29 @@ RUNTIME_CLASSES = frozenset(
         *("Startup", "Stopped", "Timing", "Violation", "When"),
     }
 )
+# What the code of a class names in its namespace.
+RUNTIME_TYPES = RUNTIME_CLASSES | {
+    *("Violation", "boost", "detail", "geometry_msgs", "ros", "std", "std_msgs"),
+}
+_NO_CLASSES = (
+    CPP_KEYWORDS
+    | RUNTIME_TYPES
+    | {
+        *(
+            "after",
+            "as",
+            "deadline",
+            "divide",
+            "divideBy",
+            "flatten",
+            "kNull",
+            "narrow",
+            "readArray",
+        ),
+        *("remainder", "remainderBy", "reportLine", "text", "to", "unflatten", "unused", "widen"),
+    }
+)
+RUNTIME_TOPICS = frozenset({"cmd_vel", "state"})
 RUNTIME_FIELDS = ("timing", "sender")
 STATE_FIELDS = ("server", "arguments", "arrival", "start", "now")
 Signature = tuple[str, tuple[str, ...]]
@@ -71,8 +103,9 @@ class Topics:
             for s in declared_servers(c)
         }
         self._families = self._unite(model)
-        self.class_types = {c.name: carry(c.name, RUNTIME_CLASSES) for c in model.classes}
+        self.class_types = {c.name: carry(c.name, _NO_CLASSES) for c in model.classes}
         self._used_types = set(self.class_types.values()) | RUNTIME_CLASSES
+        self._keys = self._named_keys()
         self._topics = {root: self._topic(root) for root in self._roots()}
         self.states = {c.name: self._state(analysis.classes[c.name]) for c in model.classes}
 
@@ -142,12 +175,9 @@ class Topics:
     # --- what a family is called ----------------------------------------------------------------
 
     def _topic(self, root: tuple[str, Signature]) -> ServerTopic:
-        class_name, (name, types) = root
+        class_name, (name, _) = root
         parameters = self._declared[root].parameters
-        key = graph_name(name)
-        if self._is_overloaded(root):
-            words = "_".join(t.replace("[", "_").replace("]", "") for t in types) or "void"
-            key = f"{key}_{words}"
+        key = self._keys[root]
         family = self._family(root)
         message = MessageType(
             unique(camel_case(class_name) + camel_case(key), self._used_types, ""),
@@ -157,6 +187,29 @@ class Topics:
         )
         port = any(a.name == "Port" for s in family for a in s.annotations)
         return ServerTopic(class_name, name, key, parameters, message, port)
+
+    def _named_keys(self) -> dict[tuple[str, Signature], str]:
+        """The last segment of each family's topic; no class has two of one name."""
+        keys: dict[tuple[str, Signature], str] = {}
+        for root in sorted(self._roots(), key=self._is_overloaded):
+            name, types = root[1]
+            key = free_name(name, RUNTIME_TOPICS)
+            if self._is_overloaded(root):
+                words = (graph_name(t.partition("[")[0]) + _lengths(t) for t in types)
+                key = f"{key}_{'_'.join(words) or 'void'}"
+            met = self._classes_of(root)
+            keys[root] = unique(key, {k for r, k in keys.items() if met & self._classes_of(r)})
+        return keys
+
+    def _classes_of(self, root: tuple[str, Signature]) -> frozenset[str]:
+        """The classes that have a server of a family."""
+        wanted = root[1]
+        return frozenset(
+            name
+            for name in self._order
+            if wanted in set(self.signatures(name))
+            and self._find(self._declaring(name, wanted)) == root
+        )
 
     def _is_overloaded(self, root: tuple[str, Signature]) -> bool:
         """Whether some class has another server of the same name beside one of this family."""
@@ -186,6 +239,11 @@ class Topics:
             unique(f"{camel_case(info.name)}State", self._used_types, ""),
             tuple(Field(f, t, n) for f, (n, t) in zip(fields, variables, strict=True)),
         )
+
+
+def _lengths(type_: str) -> str:
+    """The lengths of an array, `_2_3`, for a topic's name."""
+    return "".join(f"_{length}" for length in re.findall(r"\[(\d+)\]", type_))
 
 
 def message_fields(parameters: tuple[Parameter, ...], taken: tuple[str, ...]) -> tuple[Field, ...]:

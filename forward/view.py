@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from rebsync import package as p
 from rebsync.config import Config
+from rebsync.forward.incoming import Incoming
 from rebsync.forward.instances import Instances
-from rebsync.forward.sends import Send, ToAny, ToKnown, ToSelf, bodies, sends
+from rebsync.forward.outgoing import Outgoing
+from rebsync.forward.sends import bodies
 from rebsync.forward.sensors import sensors_of
 from rebsync.forward.topics import (
     RUNTIME_CLASSES,
-    Signature,
     Topics,
-    declared_servers,
-    signature,
 )
 from rebsync.forward.values import env_value
 from rebsync.model import (
@@ -22,17 +21,14 @@ from rebsync.model import (
     InstanceOf,
     Interface,
     KnownRebecs,
-    MessageServer,
-    Method,
     Model,
     Name,
     ReactiveClass,
     StateVars,
     walk,
 )
-from rebsync.names import carry, graph_name, snake_case, unique
+from rebsync.names import free_name, graph_name, node_name, snake_case
 from rebsync.static import Analysis
-from rebsync.static.constants import constant
 from rebsync.static.symbols import EnvSymbol
 
 RESERVED_GLOBALS = frozenset(
@@ -47,6 +43,8 @@ RESERVED_GLOBALS = frozenset(
         "use_sim_time",
     }
 )
+
+_FILES = ("", "_node", "_sensors", "_stand_in")
 
 
 def view(model: Model, analysis: Analysis, config: Config, name: str) -> tuple[p.Package, Topics]:
@@ -65,11 +63,15 @@ class _View:
         self.config = config
         self.topics = Topics(model, analysis)
         self.env = {e.name: e for e in self._globals()}
-        self._files: set[str] = set()
+        self._files = {"drive", "mailbox", "sensor", "startup", "values"}
+        rebecs = model.main.rebecs if model.main is not None else ()
+        self._running = {id(analysis.constructor_of(r)) for r in rebecs}
         self._types = {m.name for m in self.topics.messages} | RUNTIME_CLASSES
         self._types |= {s.name for s in self.topics.states.values()}
         self._types |= set(self.topics.class_types.values())
-        self._publishers: dict[str, tuple[p.Publisher, ...]] = {}
+        self._sensor_names: dict[str, set[str]] = {}
+        self._incoming = Incoming(self.topics, analysis)
+        self._outgoing = Outgoing(self.topics, analysis)
 
     def package(self, name: str) -> p.Package:
         config = self.config
@@ -107,11 +109,14 @@ class _View:
 
     def _globals(self) -> list[p.GlobalParameter]:
         found = []
+        taken = RESERVED_GLOBALS | {
+            node_name(r.name) for r in (self.model.main.rebecs if self.model.main else ())
+        }
         for head in self.model.heads:
             if isinstance(head, Env):
                 type_ = head.declaration.type
                 for declarator in head.declaration.declarators:
-                    key = carry(declarator.name, RESERVED_GLOBALS)
+                    key = free_name(declarator.name, taken)
                     value = env_value(declarator, type_, self.env_constant)
                     found.append(p.GlobalParameter(declarator.name, key, type_, value))
         return found
@@ -126,12 +131,11 @@ class _View:
         info = self.analysis.classes[declaration.name]
         reactive = declaration if isinstance(declaration, ReactiveClass) else None
         name = declaration.name
-        publishers = self._publishers_of(reactive) if reactive else ()
-        self._publishers[name] = publishers
+        publishers = self._outgoing.publishers(reactive) if reactive else ()
         annotations = {a.name for a in declaration.annotations}
         return p.NodeClass(
             name,
-            unique(snake_case(name) or "node", self._files),
+            self._file(name),
             _bases(declaration),
             reactive.queue_length if reactive else 0,
             reactive.abstract if reactive else True,
@@ -145,16 +149,25 @@ class _View:
             self._known(reactive),
             self._env_of(reactive),
             self._constructors(reactive),
-            self._subscriptions(declaration),
+            self._incoming.subscriptions(declaration),
             publishers,
-            self._self_sends(reactive) if reactive else (),
-            self._functions(reactive),
-            sensors_of(reactive, self.analysis, self.config, self._types) if reactive else (),
+            self._outgoing.self_sends(reactive) if reactive else (),
+            self._incoming.functions(reactive),
+            self._sensors(reactive) if reactive else (),
             self.topics.states[name],
             not info.is_abstract,
             reactive is not None
             and any(isinstance(n, InstanceOf) for b in bodies(reactive) for n in walk(b)),
         )
+
+    def _file(self, class_name: str) -> str:
+        """The stem of the class's files, none of which another class has."""
+        stem = snake_case(class_name)
+        candidate, number = stem, 2
+        while any(candidate + suffix in self._files for suffix in _FILES):
+            candidate, number = f"{stem}_{number}", number + 1
+        self._files |= {candidate + suffix for suffix in _FILES}
+        return candidate
 
     def _has_moves(self, declaration: ReactiveClass | None) -> bool:
         """Whether a body moves and no ancestor that is a robot has a drive already."""
@@ -211,123 +224,21 @@ class _View:
         found = [m for m in members if isinstance(m, Constructor)]
         return tuple(
             p.ConstructorOf(
-                c.parameters, tuple(graph_name(a.name) for a in c.parameters), c.body, c.annotations
+                c.parameters,
+                tuple(graph_name(a.name) for a in c.parameters),
+                c.body,
+                c.annotations,
+                runs=id(c) in self._running,
             )
             for c in found
         ) or (p.ConstructorOf((), (), None),)
 
-    # --- servers and methods --------------------------------------------------------------------
-
-    def _subscriptions(self, declaration: ReactiveClass | Interface) -> tuple[p.Subscription, ...]:
-        """The servers declared here, and those of interfaces that this class is first to have."""
-        name = declaration.name
-        found = [self._subscription(name, s) for s in declared_servers(declaration)]
-        if isinstance(declaration, ReactiveClass):
-            declared = {signature(s.name, s.parameters) for s in declared_servers(declaration)}
-            for server in self.analysis.classes[name].servers:
-                wanted = signature(server.name, server.declaration.parameters)
-                first = self.topics.subscriber(name, wanted) == name
-                if wanted not in declared and first and server.owner != name:
-                    found.append(self._subscription(name, server.declaration))
-        return tuple(found)
-
-    def _subscription(self, class_name: str, server: MessageServer) -> p.Subscription:
-        wanted = signature(server.name, server.parameters)
-        topic = self.topics.of(class_name, wanted)
-        subscriber = self.topics.subscriber(class_name, wanted)
-        info = self.analysis.classes[class_name]
-        return p.Subscription(
-            server.name,
-            topic.key,
-            f"port/{topic.key}" if topic.port else topic.key,
-            self.analysis.classes[subscriber].annotated("Controller"),
-            topic.message,
-            server.parameters,
-            server.body,
-            f"{class_name}.{server.name}",
-            server.annotations,
-            priority_of(server.annotations),
-            inherited=subscriber != class_name or self._declared_above(class_name, wanted),
-            overridden=info.is_abstract or self._is_redeclared(class_name, wanted),
-        )
-
-    def _declared_above(self, class_name: str, wanted: Signature) -> bool:
-        """Whether a reactive class above this one has made the subscription already."""
-        return self.topics.subscriber(class_name, wanted) != class_name
-
-    def _is_redeclared(self, class_name: str, wanted: Signature) -> bool:
-        return any(
-            class_name in info.ancestors
-            and wanted
-            in {signature(s.name, s.parameters) for s in declared_servers(info.declaration)}
-            for info in self.analysis.classes.values()
-        )
-
-    def _functions(self, declaration: ReactiveClass | None) -> tuple[p.Function, ...]:
-        members = declaration.members if declaration else ()
-        return tuple(self._function(declaration, m) for m in members if isinstance(m, Method))
-
-    def _function(self, declaration: ReactiveClass | None, method: Method) -> p.Function:
-        assert declaration is not None
-        wanted = signature(method.name, method.parameters)
-        return p.Function(
-            method.name,
-            method.type,
-            method.parameters,
-            method.body,
-            f"{declaration.name}.{method.name}",
-            overridden=any(
-                declaration.name in i.ancestors and wanted in _own_methods(i.declaration)
-                for i in self.analysis.classes.values()
-            ),
-            overrides=any(
-                wanted in _own_methods(self.analysis.classes[a].declaration)
-                for a in self.analysis.classes[declaration.name].ancestors
-            ),
-            annotations=method.annotations,
-        )
-
-    # --- sends ----------------------------------------------------------------------------------
-
-    def _publishers_of(self, declaration: ReactiveClass) -> tuple[p.Publisher, ...]:
-        ancestors = self.analysis.classes[declaration.name].ancestors
-        above = {_place(q) for a in ancestors for q in self._publishers.get(a, ())}
-        found: dict[tuple[str | None, str, str], p.Publisher] = {}
-        for send in sends(declaration, self.analysis):
-            publisher = self._publisher(declaration.name, send)
-            if publisher is not None and _place(publisher) not in above:
-                found.setdefault(_place(publisher), publisher)
-        return tuple(found.values())
-
-    def _publisher(self, class_name: str, send: Send) -> p.Publisher | None:
-        to: str | None
-        match send.target:
-            case ToSelf():
-                return None
-            case ToKnown(known):
-                to, target = known, self._type_of_known(class_name, known)
-                topic = self.topics.called(send.server)
-                private = f"{graph_name(known)}/{topic.key}"
-            case ToAny(target):
-                to = None
-                topic = self.topics.of(target, _signature_of(send.server.declaration))
-                private = graph_name(target)
-        return p.Publisher(
-            topic.key, target, to, topic.name, private, topic.message, topic.parameters
-        )
-
-    def _type_of_known(self, class_name: str, known: str) -> str:
-        symbols = self.analysis.classes[class_name].known
-        return next(s.type.name for s in symbols if s.name == known and s.type is not None)
-
-    def _self_sends(self, declaration: ReactiveClass) -> tuple[p.SelfSend, ...]:
-        found: dict[str, p.SelfSend] = {}
-        for send in sends(declaration, self.analysis):
-            if isinstance(send.target, ToSelf):
-                topic = self.topics.called(send.server)
-                parameters = send.server.declaration.parameters
-                found.setdefault(topic.key, p.SelfSend(topic.key, topic.name, parameters))
-        return tuple(found.values())
+    def _sensors(self, declaration: ReactiveClass) -> tuple[p.Sensor, ...]:
+        above = self.analysis.classes[declaration.name].ancestors
+        taken = {name for a in above for name in self._sensor_names.get(a, ())}
+        found = sensors_of(declaration, self.analysis, self.config, self._types, taken)
+        self._sensor_names[declaration.name] = {s.name for s in found}
+        return found
 
 
 def _bases(declaration: ReactiveClass | Interface) -> tuple[str, ...]:
@@ -335,29 +246,3 @@ def _bases(declaration: ReactiveClass | Interface) -> tuple[str, ...]:
         return declaration.extends
     extends = (declaration.extends,) if declaration.extends else ()
     return (*extends, *declaration.implements)
-
-
-def _own_methods(declaration: ReactiveClass | Interface) -> set[Signature]:
-    if isinstance(declaration, Interface):
-        return set()
-    methods = (m for m in declaration.members if isinstance(m, Method))
-    return {signature(m.name, m.parameters) for m in methods}
-
-
-def _place(publisher: p.Publisher) -> tuple[str | None, str, str]:
-    """What tells the publishers of a class apart."""
-    return publisher.known, "" if publisher.known else publisher.target, publisher.key
-
-
-def _signature_of(server: MessageServer) -> Signature:
-    return signature(server.name, server.parameters)
-
-
-def priority_of(annotations: tuple[Annotation, ...]) -> int | None:
-    """The number of `@priority` or `@globalPriority`, if there is one."""
-    for annotation in annotations:
-        if annotation.name in ("priority", "globalPriority") and annotation.arguments:
-            value = constant(annotation.arguments[0])
-            if isinstance(value, int):
-                return value
-    return None

@@ -151,12 +151,13 @@ class GlobalParameter:
 
 @dataclass(frozen=True, slots=True)
 class ConstructorOf:
-    """A constructor: its parameters are private parameters of the node."""
+    """A constructor: its parameters are the node's; `runs` says that `main` uses it."""
 
     parameters: tuple[Parameter, ...]
     keys: tuple[str, ...]
     body: Block | None
     annotations: tuple[Annotation, ...] = ()
+    runs: bool = False
 
 
 @dataclass(frozen=True, slots=True)

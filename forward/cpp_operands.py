@@ -1,0 +1,53 @@
+"""What single expressions of the model become in C++, whatever class they stand in."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rebsync import model as m
+from rebsync.static.constants import constant
+
+
+def is_int(expression: m.Expression) -> bool:
+    """Whether C++ makes an int of an expression whose type may be smaller in the model."""
+    match expression:
+        case m.Paren(inner):
+            return is_int(inner)
+        case m.IntLiteral() | m.Binary() | m.Choice() | m.Unary(operator="-" | "+" | "~"):
+            return True
+        case m.Conditional(then=then, otherwise=otherwise):
+            return is_int(then) or is_int(otherwise)
+        case _:
+            return False
+
+
+def is_distance(expression: m.Expression) -> bool:
+    """Whether a distance to shift by is a constant for which C++ means what the model does."""
+    value = constant(expression)
+    return isinstance(value, int) and 0 <= value < 32
+
+
+def float_literal(literal: str) -> str:
+    """A literal of the model, float unless it says double, in C++, where it is the other way."""
+    digits = literal.replace("_", "")
+    if digits[-1] in "dD":
+        return digits[:-1] if any(c in digits for c in ".eE") else f"{digits[:-1]}.0"
+    if digits[-1] in "fF":
+        digits = digits[:-1]
+        return f"{digits}F" if any(c in digits for c in ".eE") else f"{digits}.0F"
+    return f"{digits}f"
+
+
+def when(call: m.Call, times: Sequence[str]) -> list[str]:
+    """The last argument of a send that has times."""
+    words = [w for w, t in (("after", call.after), ("deadline", call.deadline)) if t is not None]
+    parts = [f"{word}({time})" for word, time in zip(words, times, strict=True)]
+    return [".".join(parts)] if parts else []
+
+
+def bare(target: m.Expression | None) -> m.Expression:
+    """The target of a send without the parentheses that its cast needs in the model."""
+    if isinstance(target, m.Paren):
+        return bare(target.inner)
+    assert target is not None
+    return target

@@ -1,0 +1,125 @@
+"""The members of one class in C++, and how its constructor sets them up."""
+
+from __future__ import annotations
+
+from rebsync.forward.cpp_class import CppClass
+from rebsync.forward.cpp_layout import indented, with_trailing_comments
+from rebsync.forward.cpp_messages import own_subscriptions, stored_in
+from rebsync.forward.cpp_names import publisher_place
+from rebsync.forward.cpp_types import cpp_type, cpp_value
+from rebsync.model import Type
+from rebsync.names import graph_name
+from rebsync.package import Draw, Sensor
+
+
+def members(c: CppClass) -> list[str]:
+    """State variables, known rebecs and env values, each with its marker beside it."""
+    lines = [
+        (f"{cpp_type(m.type)} {c.names.members[m.name]}{{}};", f"rebsync: statevar {m.path}")
+        for m in c.node.members
+    ]
+    lines += [
+        (f"std::string {c.names.members[k.name]};", f"rebsync: knownrebec {k.path}")
+        for k in c.node.known
+    ]
+    lines += [
+        (f"{cpp_type(e.type)} {c.names.env[e.name]}{{}};", f"rebsync: env {e.name}")
+        for e in c.node.env
+    ]
+    return indented(with_trailing_comments(lines))
+
+
+def ros_members(c: CppClass) -> list[str]:
+    """Publishers, subscribers and sensors."""
+    lines = [
+        f"  Sensor<{s.type.replace('/', '::')}> {c.names.sensors[s.server]};"
+        for s in c.node.sensors
+    ]
+    for publisher in c.node.publishers:
+        kind = "ros::Publisher" if publisher.known is not None else "Publishers"
+        lines.append(f"  {kind} {c.names.publishers[publisher_place(publisher)]};")
+    lines += [f"  ros::Subscriber {c.names.subscribers[s.key]};" for s in own_subscriptions(c)]
+    return lines
+
+
+def wiring(c: CppClass) -> list[str]:
+    """The body of the constructor: parameters, publishers, subscriptions."""
+    return [*_parameters_read(c), *_advertised(c), *_subscribed(c)]
+
+
+def _parameters_read(c: CppClass) -> list[str]:
+    """Reads what the launch file and config/params.yaml set."""
+    lines = []
+    for known in c.node.known:
+        key = f"knownrebecs/{graph_name(known.name)}"
+        lines.append(f'{c.names.members[known.name]} = node.param<std::string>("{key}", "");')
+    if c.node.env:
+        lines.append("const ros::NodeHandle global;")
+    for env in c.node.env:
+        lines += _read_env(c.names.env[env.name], env.key, env.type, cpp_value(env.value))
+    return lines
+
+
+def _read_env(member: str, key: str, type_: Type, value: str) -> list[str]:
+    if type_.dimensions:
+        return [f"{member} = {value};", f'readArray(global, "{key}", {member});']
+    match type_.name:
+        case "byte" | "short":
+            return [f'{member} = narrow<{cpp_type(type_)}>(global.param("{key}", {value}));']
+        case "float":
+            return [f'{member} = static_cast<float>(global.param("{key}", {value}));']
+        case _:
+            return [f'{member} = global.param("{key}", {value});']
+
+
+def _advertised(c: CppClass) -> list[str]:
+    """Makes the publishers."""
+    lines = []
+    for publisher in c.node.publishers:
+        member = c.names.publishers[publisher_place(publisher)]
+        message = publisher.message.name
+        if publisher.known is not None:
+            lines.append(f'{member} = mailbox_.advertise<{message}>("{publisher.topic}");')
+        else:
+            target = f'"{publisher.topic}", "{publisher.key}"'
+            lines.append(f"{member} = mailbox_.advertiseAll<{message}>({target});")
+    return lines
+
+
+def _subscribed(c: CppClass) -> list[str]:
+    """Makes the subscriptions."""
+    lines = []
+    for server in own_subscriptions(c):
+        member, shim = c.names.subscribers[server.key], c.names.shims[server.key]
+        arguments = f'"{server.topic}", &{c.type_name}::{shim}, this'
+        function = "subscribeOnBridge" if server.on_bridge else "subscribe"
+        lines.append(f"{member} = mailbox_.{function}({arguments});")
+    return lines
+
+
+def state_lines(c: CppClass) -> list[str]:
+    """Fills the state message from the state variables, inherited ones included."""
+    return [stored_in("msg.", f, c.names.members[f.source]) for f in c.node.state.fields]
+
+
+def seen_functions(c: CppClass) -> list[tuple[str, str, str, str]]:
+    """The user functions of the sensors: result, name, parameter, expression."""
+    found = []
+    for sensor in c.node.sensors:
+        for index, (draw, name) in enumerate(
+            zip(sensor.draws, c.names.seen[sensor.server], strict=True)
+        ):
+            read = _read(sensor, draw, index)
+            type_ = sensor.type.replace("/", "::")
+            used = sensor.stands_in or "msg" in read
+            parameter = f"const {type_}& {'msg' if used else '/* msg */'}"
+            found.append((cpp_type(draw.type), name, parameter, read))
+    return found
+
+
+def _read(sensor: Sensor, draw: Draw, index: int) -> str:
+    if sensor.stands_in:
+        return f"msg.{draw.field}" + (" != 0" if draw.type.name == "boolean" else "")
+    if sensor.seen and index == 0:
+        return sensor.seen
+    return cpp_value(draw.alternatives[0]) if draw.alternatives else "{}"

@@ -1,0 +1,82 @@
+"""Generated sources compile without a warning: hard cases by hand, and drawn models."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, Phase, given, seed, settings
+
+from rebsync.config import Config
+from rebsync.model import Model
+from rebsync.printing import print_model
+from tests.forward.compiling import (
+    CASES,
+    case_config,
+    case_files,
+    complaints,
+    generated,
+    written,
+)
+from tests.ros1.workspace import missing_ros
+from tests.strategies import models
+
+_DRAWN = 10
+_REASON = missing_ros()
+pytestmark = [
+    pytest.mark.ros1,
+    pytest.mark.skipif(
+        _REASON is not None and os.environ.get("CI") != "true", reason=_REASON or "ROS 1 is here"
+    ),
+]
+
+
+def test_cases(tmp_path: Path) -> None:
+    cases = sorted(CASES.glob("*.rebeca"))
+    packages = [written(case_files(c), tmp_path, c.stem, case_config(c)) for c in cases]
+    assert complaints(packages, tmp_path) == []
+
+
+def test_drawn_models(tmp_path: Path) -> None:
+    texts = _drawn(_DRAWN)
+    config = Config()
+    packages = [
+        written(generated(text, f"drawn{i}"), tmp_path, f"drawn{i}", config)
+        for i, text in enumerate(texts)
+    ]
+    assert complaints(packages, tmp_path) == []
+
+
+def test_many_rebecs(tmp_path: Path) -> None:
+    rebecs = "".join(f"  Cell c{i}(c{(i + 1) % 60}):({i});\n" for i in range(60))
+    text = (
+        "reactiveclass Cell(5) { knownrebecs { Cell next; } statevars { int x; }\n"
+        "  Cell(int i) { x = i; self.go(); }\n"
+        "  msgsrv go() { next.go() after(x); } }\n"
+        f"main {{\n{rebecs}}}\n"
+    )
+    files = generated(text, "ring")
+    assert files["launch/ring.launch"].count('<remap from="~next/go"') == 60
+    assert complaints([written(files, tmp_path, "ring", Config())], tmp_path) == []
+
+
+def _drawn(count: int) -> list[str]:
+    """Models, always the same."""
+    found: list[str] = []
+
+    def keep(model: Model) -> None:
+        found.append(print_model(model))
+
+    draw: Callable[[], None] = seed(7)(
+        settings(
+            max_examples=count,
+            deadline=None,
+            database=None,
+            suppress_health_check=list(HealthCheck),
+            phases=[Phase.generate],
+        )(given(models())(keep))
+    )
+    draw()
+    return found
