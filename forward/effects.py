@@ -8,6 +8,7 @@ from typing import TypeAlias
 
 from rebsync.model import (
     Assign,
+    Binary,
     Call,
     Declaration,
     Declarator,
@@ -24,6 +25,7 @@ from rebsync.model import (
     walk,
 )
 from rebsync.static import Analysis
+from rebsync.static.constants import constant
 from rebsync.static.symbols import MethodSymbol, StateSymbol
 
 # A variable, by the id of its symbol, and whether it belongs to the state of the rebec.
@@ -37,6 +39,12 @@ _STATE: _Place = (0, True)
 class _Effects:
     reads: frozenset[_Place]
     writes: frozenset[_Place]
+    fails: bool
+
+    @property
+    def lasts(self) -> bool:
+        """Whether what it does is still there when the body is abandoned."""
+        return any(state for _, state in self.writes)
 
 
 def _overlap(one: Set[_Place], other: Set[_Place]) -> bool:
@@ -56,12 +64,17 @@ def conflicting(operands: Sequence[Expression], analysis: Analysis) -> bool:
                 other.writes, one.reads
             ):
                 return True
+            if (one.fails and other.lasts) or (other.fails and one.lasts):
+                return True
     return False
 
 
 def writes_to(target: Expression, value: Expression, analysis: Analysis) -> bool:
     """Whether a value, or the index of a target, has effects on the other or on the target."""
-    if _overlap(_effects(value, analysis).writes, _written(target, analysis)):
+    found = _effects(value, analysis)
+    if _overlap(found.writes, _written(target, analysis)):
+        return True
+    if found.lasts and _fails([target], analysis, set()):
         return True
     indexes = [n.index for n in walk(target) if isinstance(n, Index)]
     return conflicting([*indexes, value], analysis)
@@ -84,7 +97,30 @@ def _effects(expression: Expression, analysis: Analysis) -> _Effects:
                     writes.add(_STATE)
             case _:
                 pass
-    return _Effects(frozenset(reads), frozenset(writes))
+    fails = _fails([expression], analysis, set())
+    return _Effects(frozenset(reads), frozenset(writes), fails)
+
+
+def _fails(nodes: Iterable[Node], analysis: Analysis, seen: set[int]) -> bool:
+    """Whether an index or a division below the nodes may abandon the body."""
+    return any(_may_fail(inner, analysis, seen) for node in nodes for inner in walk(node))
+
+
+def _may_fail(node: Node, analysis: Analysis, seen: set[int]) -> bool:
+    match node:
+        case Index(index=index):
+            return constant(index) is None
+        case Binary("/" | "%", right=divisor) | Assign("/=" | "%=", value=divisor):
+            return not constant(divisor)
+        case Call():
+            method = analysis.symbols.get(id(node))
+            if not isinstance(method, MethodSymbol) or id(method) in seen:
+                return False
+            seen.add(id(method))
+            body = method.declaration.body
+            return body is None or _fails([body], analysis, seen)
+        case _:
+            return False
 
 
 def _places(node: Node, analysis: Analysis) -> set[_Place]:
