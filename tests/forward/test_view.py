@@ -104,7 +104,7 @@ def test_same_bytes_elsewhere(tmp_path: Path) -> None:
             text=True,
         ).stdout
         for n, (locale, cwd) in enumerate(
-            (("C", "/"), ("C.UTF-8", tmp_path), ("tr_TR.UTF-8", root))
+            (("C", "/"), ("C.UTF-8", str(tmp_path)), ("tr_TR.UTF-8", root))
         )
     }
     here = [sorted(case_files(c).items()) for c in sorted(CASES.glob("*.rebeca"))]

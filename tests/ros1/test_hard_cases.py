@@ -1,0 +1,76 @@
+"""Hard cases of the language as running nodes: inheritance, interfaces, rebecs as values."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.forward.compiling import CASES, case_config, case_files, written
+from tests.ros1.conftest import Build
+from tests.ros1.recording import Recording
+from tests.ros1.run import Clock, run
+from tests.ros1.workspace import Workspace
+
+_NAMES = ("inheritance", "interfaces", "overloads", "rebecs")
+
+
+@pytest.fixture(scope="module")
+def hard(build_workspace: Build, tmp_path_factory: pytest.TempPathFactory) -> Workspace:
+    directory = tmp_path_factory.mktemp("hard")
+    cases = [CASES / f"{name}.rebeca" for name in _NAMES]
+    return build_workspace(
+        "hard", [written(case_files(c), directory, c.stem, case_config(c)) for c in cases]
+    )
+
+
+def _play(hard: Workspace, directory: Path, name: str) -> Recording:
+    launch = hard.root / "src" / name / "launch" / f"{name}.launch"
+    return run(hard, launch, directory, Clock(until=12, quiet=5))
+
+
+def test_inheritance(hard: Workspace, build_workspace: Build, tmp_path: Path) -> None:
+    played = _play(hard, tmp_path, "inheritance")
+    assert played.order("car") == ["refuel(1)@0", "drive(11)@1", "refuel(4)@1", "drive(-8)@2"]
+    assert played.order("truck") == ["refuel(true)@0", "refuel(10)@0", "drive(35)@1"]
+    assert played.final("car")["fuel"] == 7
+    assert played.final("truck")["fuel"] == -110
+    wanted = {"seen": 38, "trucks": 1, "last": True, "latest": "truck"}
+    assert played.final("station") == wanted
+    assert played.final("idle")["trips"] == 7
+    # a car is no truck: the message that the cast promises cannot be sent
+    assert [(r.kind, r.rebec) for r in played.reports()] == [("null", "station")]
+
+
+def test_interfaces(hard: Workspace, build_workspace: Build, tmp_path: Path) -> None:
+    played = _play(hard, tmp_path, "interfaces")
+    assert played.order("bulb") == ["light(true)@0", "dim(4)@0", "light(false)@2"]
+    assert played.final("bulb") == {"lit": False, "level": 4}
+    assert played.final("late") == {"x": -1}
+    assert played.final("full") == {"d": 4}
+    assert played.final("strip") == {"lit": False, "level": played.final("strip")["level"], "n": 8}
+    assert sorted(played.order("strip")[:6]) == ["dim(3)@0"] * 3 + ["name(8)@0"] * 3
+    assert played.order("strip")[6:] == ["both()@1"] * 3 + ["light(true)@1"] * 3
+    assert played.problems() == ()
+
+
+def test_overloads(hard: Workspace, build_workspace: Build, tmp_path: Path) -> None:
+    played = _play(hard, tmp_path, "overloads")
+    assert played.order("a1") == ["m(5, 6)@0"]
+    assert (played.final("a1")["a"], played.final("a1")["d"]) == (4, 30)
+    # f(1) and f(3) mean f(byte), f(a) the overridden f(int)
+    assert played.final("b1")["a"] == 16
+    assert played.order("b1")[:3] == ["m(5)@0", "m(true)@0", "m(7)@0"]
+    assert played.final("b1")["c"] == 16
+    assert played.problems() == ()
+
+
+def test_rebecs_as_values(hard: Workspace, build_workspace: Build, tmp_path: Path) -> None:
+    played = _play(hard, tmp_path, "rebecs")
+    for own, other, count in (("a", "b", 6007), ("b", "a", 6008)):
+        final = played.final(own)
+        assert (final["best"], final["two"], final["count"]) == (other, [other, other], count)
+        assert final["grid"] == [own, own, "", ""]
+        assert (final["none"], final["e"]) == ("", "x")
+    kinds = sorted((r.kind, r.rebec, r.server) for r in played.reports())
+    assert kinds == [("null", "a", "visit"), ("null", "b", "visit")]
