@@ -119,6 +119,7 @@ def _make(root: Path) -> None:
     command = [
         *("catkin_make", "-C", str(root), "-j2"),
         *(f"-DPYTHON_EXECUTABLE={SYSTEM_PYTHON}", "-DCATKIN_ENABLE_TESTING=OFF"),
+        "-DCMAKE_CXX_FLAGS=-Werror",
     ]
     environment = {"PATH": SYSTEM_PATH, "HOME": os.environ.get("HOME", "/"), "LANG": "C.UTF-8"}
     done = subprocess.run(
