@@ -61,6 +61,8 @@ def _of_binary(sign: str, left: Expression, right: Expression) -> set[str]:
         or (sign in _COMPARISONS and inner & _COMPARISONS)
     ):
         found.add("-Wparentheses")
+    if sign == "/" and constant(right) == 0:
+        found.add("-Wdiv-by-zero")
     if sign in _ARITHMETIC and _overflows(sign, constant(left), constant(right)):
         found.add("-Woverflow")
     if sign in _COMPARISONS and isinstance(left, Unary) and left.operator == "!":

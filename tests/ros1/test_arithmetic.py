@@ -145,10 +145,10 @@ def _model(bodies: list[str]) -> str:
     arrays = " ".join(f"{t}[3] {name};" for t, name in _ARRAYS.items())
     resets = []
     for name, value in _START.items():
-        values = (
-            [(f"{name}[{i}]", v) for i, v in enumerate(value)] if isinstance(value, list) else []
-        )
-        for place, start in values or [(name, value)]:
+        places: list[tuple[str, Value]] = [(name, value)]
+        if isinstance(value, list):
+            places = [(f"{name}[{i}]", v) for i, v in enumerate(value)]
+        for place, start in places:
             resets.append(f"{place} = {str(start).lower()};")
     cases = " ".join(f"case {i}: m{i}(); break;" for i in range(len(bodies)))
     methods = "\n  ".join(f"void m{i}() {{ {body} }}" for i, body in enumerate(bodies))
