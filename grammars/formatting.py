@@ -11,7 +11,7 @@ from rebsync.source import Source
 
 def format_text(text: str) -> str:
     """A model that parses without errors, laid out; comments and the kind of line end are kept."""
-    laid_out = layout_model(source_tokens(text))
+    laid_out = layout_model(source_tokens(text.replace("\r\n", "\n").replace("\r", "\n")))
     return laid_out.replace("\n", "\r\n") if _uses_crlf(text) else laid_out
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from difflib import unified_diff
 from enum import Enum
+from itertools import count
 from pathlib import Path
 
 from rebsync.files import read_source
@@ -44,8 +45,13 @@ class Step:
 
 
 def plan(folder: Path, files: Mapping[str, str]) -> tuple[Step, ...]:
-    """One step for each file that is generated, and for each that once was."""
-    steps = [_step(folder, path, text) for path, text in sorted(files.items())]
+    """One step for each file that is generated, and for each that once was.
+
+    The records of `.rebsync/` follow what they are about: when the machine dies half-way, the
+    next run must not take a file that was not reached for one that the user has edited.
+    """
+    ordered = sorted(files.items(), key=lambda file: (file[0].startswith(f"{FOLDER}/"), file[0]))
+    steps = [_step(folder, path, text) for path, text in ordered]
     base = folder / FOLDER / "base"
     once = {p.relative_to(base).as_posix() for p in base.rglob("*") if p.is_file()}
     for path in sorted(once - set(files)):
@@ -73,11 +79,20 @@ def _step(folder: Path, path: str, text: str) -> Step:
 def _stale(folder: Path, path: str) -> list[Step]:
     """A file that is generated no more goes, unless it was edited; so does its base."""
     old, base = _read(folder / path), _read(folder / (BASE + path))
-    steps = [Step(BASE + path, Action.DELETE, base, None)]
+    steps = []
     if old is not None:
         edited = base is None or old != base
         steps.append(Step(path, Action.CONFLICT if edited else Action.DELETE, old, None))
-    return steps
+    return [*steps, Step(BASE + path, Action.DELETE, base, None)]
+
+
+def name_to_keep(folder: Path, step: Step) -> str:
+    """The name under which an edited file is kept: `FILE.orig`, `FILE.orig.2` and so on."""
+    for number in count(1):
+        name = f"{step.path}.orig" + (f".{number}" if number > 1 else "")
+        if not (folder / name).exists() or _read(folder / name) == step.old:
+            return name
+    raise AssertionError("count() does not end")
 
 
 def _read(path: Path) -> str | None:

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import errno
 import os
+import signal
 import stat
+import subprocess
+import sys
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -12,7 +15,9 @@ from pathlib import Path
 import pytest
 
 from rebsync.diagnostics import RebsyncError
-from rebsync.files import read_source, replace_text, replace_tree
+from rebsync.files import read_source
+from rebsync.writing import replace_text, replace_tree
+from tests.cli.run import environment, rebsync
 
 
 def snapshot(folder: Path) -> dict[str, bytes]:
@@ -141,7 +146,7 @@ def test_a_full_disk_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.Mon
 def test_a_tree_is_written_and_later_only_what_changed(tmp_path: Path) -> None:
     root = tmp_path / "out" / "package"
     texts = {"a.txt": "a", "src/b.py": "b", "old": "gone"}
-    assert replace_tree(str(root), texts, executable=["src/b.py"]) == ("a.txt", "old", "src/b.py")
+    assert replace_tree(str(root), texts, executable=["src/b.py"]) == ("a.txt", "src/b.py", "old")
     assert stat.S_IMODE((root / "src/b.py").stat().st_mode) & 0o111
     assert not stat.S_IMODE((root / "a.txt").stat().st_mode) & 0o111
     del texts["old"]
@@ -190,3 +195,88 @@ def test_a_failure_at_any_step_leaves_all_or_nothing(
     monkeypatch.undo()
     left = {n: d for n, d in snapshot(tmp_path).items() if not n.endswith(".tmp")}
     assert left in (before, {f"package/{n}": d.encode() for n, d in new.items()})
+
+
+_WRITER = """
+import sys, time
+from pathlib import Path
+from rebsync.cli import main
+import rebsync.writing as writing
+moment, real = int(sys.argv[1]), writing._put
+def put(each, count=iter(range(100))):
+    if next(count) == moment:
+        print("ready", flush=True)
+        time.sleep(float(sys.argv[2]))
+    real(each)
+writing._put = put
+sys.argv[1:] = ["generate", "m.rebeca"]
+sys.exit(main())
+"""
+
+
+def _model(rate: int) -> str:
+    send = f"self.go() after({rate});"
+    return f"reactiveclass R(2) {{ R() {{ {send} }} msgsrv go() {{ }} }} main {{ R r():(); }}"
+
+
+@pytest.mark.parametrize("moment", [0, 1, 3])
+@pytest.mark.parametrize(
+    "number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL], ids=lambda n: n.name
+)
+def test_a_signal_leaves_the_old_package_or_the_new_one(
+    tmp_path: Path, number: signal.Signals, moment: int
+) -> None:
+    (tmp_path / "m.rebeca").write_text(_model(1))
+    assert rebsync("generate", "m.rebeca", cwd=tmp_path).status == 0
+    old = snapshot(tmp_path / "m")
+    (tmp_path / "m.rebeca").write_text(_model(2))
+    process = subprocess.Popen(
+        [sys.executable, "-c", _WRITER, str(moment), "0.3"],
+        cwd=tmp_path,
+        env=environment(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
+    assert process.stdout and process.stdout.readline() == b"ready\n"
+    process.send_signal(number)
+    _, err = process.communicate(timeout=20)
+    left = snapshot(tmp_path / "m")
+    assert b"Traceback" not in err
+    assert rebsync("generate", "m.rebeca", cwd=tmp_path).status == 0
+    new = snapshot(tmp_path / "m")
+    assert b"after(2)" in new["src/r.cpp"] and not any(name.endswith(".tmp") for name in new)
+    if number is not signal.SIGKILL:
+        assert left in (old, new)
+
+
+def test_one_process_at_a_time_writes_a_tree(tmp_path: Path) -> None:
+    for rate in (1, 2):
+        (tmp_path / "m.rebeca").write_text(_model(rate))
+        running = [
+            subprocess.Popen(
+                [sys.executable, "-m", "rebsync", "generate", "m.rebeca", "-o", "new/folder"],
+                cwd=tmp_path,
+                env=environment(),
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+            )
+            for _ in range(4)
+        ]
+        ended = [process.communicate(timeout=60) for process in running]
+        assert [process.returncode for process in running] == [0] * 4, ended
+        assert sum(b" 0 of them written" in out for out, _ in ended) == 3, ended
+
+
+def test_interrupted_when_all_is_done_nothing_is_taken_back(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "a"
+    path.write_text("old")
+
+    def interrupted(_: Path) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("rebsync.writing._sync_directory", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        replace_text(str(path), "new")
+    assert snapshot(tmp_path) == {"a": b"new"}

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import gc
 import os
+import signal
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
+from pathlib import Path
+from typing import NoReturn
 
 import click
 
@@ -27,7 +30,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _print_whatever_the_encoding()
     if arguments is None:
         gc.disable()  # trees have no cycles, and walking them again and again takes a third longer
+        _end_in_order()
     try:
+        if sys.stdout is None:
+            raise RebsyncError.of("standard output", "RS806", "it is closed")
         status = rebsync.main(
             list(arguments) if arguments is not None else None,
             prog_name="rebsync",
@@ -51,7 +57,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return _closed(int(status or Status.CLEAN))
 
 
+def _end_in_order() -> None:
+    """Signals that end a process become exceptions, so that no half-written file stays."""
+    for name in ("SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)
+        if number is not None and signal.getsignal(number) is signal.SIG_DFL:
+            signal.signal(number, _exit_by)
+
+
+def _exit_by(number: int, _: object) -> NoReturn:
+    raise SystemExit(128 + number)
+
+
 def _print_whatever_the_encoding() -> None:
+    if sys.stderr is None:
+        sys.stderr = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115
     for stream in (sys.stdout, sys.stderr):
         with suppress(AttributeError, ValueError):
             stream.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
@@ -86,6 +106,8 @@ def _say(message: str, status: Status) -> Status:
 
 def _closed(status: int) -> int:
     """Flush what is left; a reader that has gone must not make the interpreter complain."""
+    if sys.stdout is None:
+        return status
     try:
         sys.stdout.flush()
     except OSError as error:

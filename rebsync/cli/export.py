@@ -6,7 +6,7 @@ import sys
 
 import click
 
-from rebsync.cli.options import output_option, write_output
+from rebsync.cli.options import output_option, refuse_to_overwrite, write_output
 from rebsync.cli.status import Status, status_of
 from rebsync.diagnostics import Findings, RebsyncError, Severity
 from rebsync.files import read_source
@@ -30,6 +30,7 @@ def command(model: str, tool: str, output: str) -> Status:
     from rebsync.static import analyse
 
     source = read_source(model)
+    refuse_to_overwrite(model, output)
     parsed = parse_model(source)
     found = (*parsed.diagnostics, *analyse(parsed.model, incomplete=not parsed.ok).diagnostics)
     errors = tuple(d for d in found if d.severity is Severity.ERROR)

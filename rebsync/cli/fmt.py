@@ -11,9 +11,10 @@ from rebsync.cli.options import write_output
 from rebsync.cli.paths import MODEL, expand
 from rebsync.cli.status import Status, worst
 from rebsync.diagnostics import Findings, RebsyncError, Severity
-from rebsync.files import STANDARD_INPUT, read_source, replace_text
+from rebsync.files import STANDARD_INPUT, read_source
 from rebsync.report import print_report
 from rebsync.source import Source
+from rebsync.writing import replace_text
 
 
 @click.command("fmt")

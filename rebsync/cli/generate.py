@@ -11,10 +11,11 @@ import click
 from rebsync.cli.status import Status
 from rebsync.config import FILE_NAME, TARGETS, Config, parse_config
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
-from rebsync.files import read_source, replace_tree
+from rebsync.files import read_source
 from rebsync.report import print_report
-from rebsync.roundtrip.plan import Action, Step, plan
+from rebsync.roundtrip.plan import Action, Step, name_to_keep, plan
 from rebsync.source import NOWHERE, Source
+from rebsync.writing import alone_in, replace_tree
 
 _SHOWN = (Action.CREATE, Action.UPDATE, Action.DELETE)
 
@@ -36,6 +37,10 @@ def command(
     Settings come from `rebsync.toml` beside the model. Files edited by hand are never overwritten
     silently.
     """
+    if sum((only_list, only_diff, force)) > 1:
+        raise click.UsageError("--list, --diff and --force exclude each other")
+    if output in ("", "-"):
+        raise click.UsageError(f'-o names a directory, not "{output}"')
     config = _config(model)
     if target is not None:
         config = replace(config, target=target)
@@ -44,10 +49,10 @@ def command(
     if only_list:
         click.echo("".join(f"{folder / path}\n" for path in sorted(files)), nl=False)
         return Status.CLEAN
-    steps = plan(folder, files)
     if only_diff:
-        return _show(steps)
-    return _write(folder, steps, force)
+        return _show(plan(folder, files))
+    with alone_in(str(folder)):
+        return _write(folder, plan(folder, files), force)
 
 
 def _config(model: str) -> Config:
@@ -95,13 +100,10 @@ def _write(folder: Path, steps: tuple[Step, ...], force: bool) -> Status:
     if conflicts and not force:
         print_report([_refusal(folder, s) for s in conflicts], sys.stderr)
         return Status.FINDINGS
-    texts = {s.path: s.new for s in steps if s.new is not None and s.action is not Action.KEEP}
-    remove = [s.path for s in steps if s.action is Action.DELETE]
-    for step in conflicts:
-        assert step.old is not None
-        texts[f"{step.path}.orig"] = step.old
-        if step.new is None:
-            remove.append(step.path)
+    kept = {s.path: name_to_keep(folder, s) for s in conflicts}
+    texts = {kept[s.path]: s.old for s in conflicts if s.old is not None}
+    texts |= {s.path: s.new for s in steps if s.new is not None and s.action is not Action.KEEP}
+    remove = [s.path for s in steps if s.new is None]
     written = replace_tree(str(folder), texts, remove=remove)
     own = [path for path in written if not path.startswith(".rebsync/")]
     total = sum(not s.path.startswith(".rebsync/") and s.new is not None for s in steps)
@@ -110,7 +112,7 @@ def _write(folder: Path, steps: tuple[Step, ...], force: bool) -> Status:
         if step.action is Action.KEEP:
             click.echo(f"kept your edit of {folder / step.path}")
     for step in conflicts:
-        click.echo(f"kept your edit as {folder / step.path}.orig")
+        click.echo(f"kept your edit as {folder / kept[step.path]}")
     return Status.CLEAN
 
 

@@ -13,9 +13,10 @@ from rebsync.cli.paths import MODEL, PROPERTY, expand
 from rebsync.cli.status import Status, status_of, worst
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.edits import apply_edits, certain_edits
-from rebsync.files import STANDARD_INPUT, read_source, replace_text
+from rebsync.files import STANDARD_INPUT, read_source
 from rebsync.report import print_report, summary
 from rebsync.source import Source
+from rebsync.writing import replace_text
 
 _ROUNDS = 10
 

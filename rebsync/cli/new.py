@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from rebsync.cli.options import output_option, write_output
+from rebsync.cli.options import output_option, refuse_to_overwrite, write_output
 from rebsync.cli.status import Status
 from rebsync.concept import parse_concept
 from rebsync.diagnostics import RebsyncError
@@ -29,5 +29,6 @@ def command(concept: str, output: str, force: bool) -> Status:
     if output != "-" and Path(output).exists() and not force:
         hint = "--force replaces it"
         raise RebsyncError.of(output, "RS802", "there is a file of this name already", hint)
+    refuse_to_overwrite(concept, output)
     write_output(output, text)
     return Status.CLEAN

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
+from rebsync.diagnostics import RebsyncError
 from rebsync.report import FORMATS
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
@@ -38,6 +41,13 @@ def output_option(command: _Command) -> _Command:
     return option(command)
 
 
+def refuse_to_overwrite(given: str, output: str) -> None:
+    """A RebsyncError when the output file is the one that was read."""
+    with suppress(OSError):
+        if "-" not in (given, output) and Path(output).samefile(given):
+            raise RebsyncError.of(output, "RS802", "this file would be overwritten by its output")
+
+
 def write_output(output: str, text: str) -> None:
     """Write a text to a file, or to standard output for `-`, always in UTF-8."""
     if output == "-":
@@ -45,6 +55,6 @@ def write_output(output: str, text: str) -> None:
         sys.stdout.buffer.write(text.encode("utf-8"))
         sys.stdout.buffer.flush()
         return
-    from rebsync.files import replace_text
+    from rebsync.writing import replace_text
 
     replace_text(output, text)

@@ -34,11 +34,17 @@ def _files(path: str, suffixes: tuple[str, ...]) -> Iterator[str | RebsyncError]
     for folder, folders, names in os.walk(path, onerror=errors.append):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
         for name in sorted(names):
-            if name.endswith(suffixes) and not name.startswith("."):
+            file = Path(folder, name)
+            if name.endswith(suffixes) and not name.startswith(".") and not _special(file):
                 found = True
-                yield str(Path(folder, name))
+                yield str(file)
     for error in errors:
         yield os_mistake(str(error.filename or path), error)
     if not found and not errors:
         wanted = " or ".join(f"*{suffix}" for suffix in suffixes)
         yield RebsyncError.of(path, "RS811", f"there is no {wanted} below this directory")
+
+
+def _special(path: Path) -> bool:
+    """Whether this is a pipe or the like, on which reading might wait for ever."""
+    return path.exists() and not path.is_file()

@@ -67,8 +67,9 @@ def _unbraced(node: m.Node) -> m.Node:
 
 
 def _lone(body: m.Statement) -> m.Statement:
-    alone = isinstance(body, m.Block) and len(body.statements) == 1 and not body.annotations
-    return cast("m.Block", body).statements[0] if alone else body
+    while isinstance(body, m.Block) and len(body.statements) == 1 and not body.annotations:
+        body = body.statements[0]
+    return body
 
 
 @given(models())
