@@ -190,7 +190,7 @@ def _put(each: _Replacement) -> None:
 
 
 def _undo(replacements: list[_Replacement], created: list[Path]) -> None:
-    for each in replacements:
+    for each in reversed(replacements):
         if each.done and each.saved:
             with suppress(OSError):
                 each.saved.replace(each.real)

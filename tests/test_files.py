@@ -202,11 +202,11 @@ import sys, time
 from pathlib import Path
 from rebsync.cli import main
 import rebsync.writing as writing
-moment, real = int(sys.argv[1]), writing._put
+moment, pause, real = int(sys.argv[1]), float(sys.argv[2]), writing._put
 def put(each, count=iter(range(100))):
     if next(count) == moment:
         print("ready", flush=True)
-        time.sleep(float(sys.argv[2]))
+        time.sleep(pause)
     real(each)
 writing._put = put
 sys.argv[1:] = ["generate", "m.rebeca"]
