@@ -32,7 +32,7 @@ _CLOCK = {
     "currentMessageWaitingTime": "mailbox_.waitingTime()",
     "sender": "mailbox_.sender()",
 }
-_NARROW = frozenset({"byte", "short"})
+_NARROW = {"byte": 2**7, "short": 2**15}
 _EXACT = 2**24  # integers below are floats as well
 _SHIFTS = {"<<": "shiftLeft", ">>": "shiftRight"}
 
@@ -104,7 +104,7 @@ class CppExpressions:
     def stored(self, expression: m.Expression, type_: m.Type) -> str:
         """The expression as it is stored in a variable of a type: narrowed where C++ widens it."""
         text = self.text(expression)
-        if type_.name in _NARROW and not type_.dimensions and self._widens(expression):
+        if type_.name in _NARROW and not type_.dimensions and self._widens(expression, type_):
             return f"narrow<{cpp_type(type_)}>({text})"
         return text
 
@@ -137,17 +137,18 @@ class CppExpressions:
 
     # --- parts ----------------------------------------------------------------------------------
 
-    def _widens(self, expression: m.Expression) -> bool:
-        """Whether C++ computes the expression as an int although the model's type is smaller."""
-        if constant(expression) is not None:
-            return False
+    def _widens(self, expression: m.Expression, type_: m.Type) -> bool:
+        """Whether C++ computes the expression as an int that the smaller type may not hold."""
+        value = constant(expression)
+        if value is not None:
+            return not -_NARROW[type_.name] <= value < _NARROW[type_.name]
         match expression:
             case m.Paren(inner):
-                return self._widens(inner)
+                return self._widens(inner, type_)
             case m.Binary() | m.Unary(operator="-" | "+" | "~"):
                 return True
             case m.Conditional(then=then, otherwise=otherwise):
-                return self._widens(then) or self._widens(otherwise)
+                return self._widens(then, type_) or self._widens(otherwise, type_)
             case _:
                 return False
 

@@ -12,11 +12,15 @@ from collections.abc import Callable
 from rebsync.model import (
     Assign,
     Binary,
+    Block,
     Expression,
     For,
     If,
     Interface,
+    Method,
     ReactiveClass,
+    Return,
+    Type,
     Unary,
     While,
     walk,
@@ -46,6 +50,10 @@ def silenced(declaration: ReactiveClass | Interface) -> list[str]:
                 found |= _of_binary(sign, left, right)
             case If(condition=Assign()) | While(condition=Assign()) | For(condition=Assign()):
                 found.add("-Wparentheses")
+            case Method(type=Type("byte" | "short"), body=Block() as body) if any(
+                _is_wide(r.value) for r in walk(body) if isinstance(r, Return) and r.value
+            ):
+                found.add("-Woverflow")
             case _:
                 pass
     return sorted(found)
