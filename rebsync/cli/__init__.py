@@ -81,7 +81,8 @@ def _report(error: RebsyncError) -> Status:
     from rebsync.report import print_report
 
     with suppress(BrokenPipeError):
-        sys.stdout.flush()
+        if sys.stdout is not None:
+            sys.stdout.flush()
         print_report(error.findings, sys.stderr)
     return Status.UNUSABLE
 

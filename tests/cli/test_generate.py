@@ -138,6 +138,18 @@ def test_an_edited_file_is_not_overwritten(model: Path, capsys: pytest.CaptureFi
     assert Path("patrol/src/robot.cpp.orig").read_text() == edited
 
 
+def test_every_edit_that_was_forced_aside_is_kept(model: Path) -> None:
+    generate()
+    source = Path("patrol/src/robot.cpp")
+    for time in (3, 4, 5):
+        source.write_text(f"// edit {time}\n")
+        model.write_text(MODEL.replace("delay(1)", f"delay({time})"))
+        assert generate("--force") == 0
+    kept = sorted(Path("patrol/src").glob("*.orig*"))
+    assert [p.name for p in kept] == [f"robot.cpp.orig{end}" for end in ("", ".2", ".3")]
+    assert [p.read_text() for p in kept] == [f"// edit {time}\n" for time in (3, 4, 5)]
+
+
 def test_other_files_follow_the_model_beside_an_edit(model: Path) -> None:
     generate()
     notes = Path("patrol/README.md")
@@ -265,6 +277,9 @@ def test_package_names_are_legal(model: Path, name: str, package: str) -> None:
         ["generate", "patrol.rebeca", "-o", "patrol.rebeca"],
         ["generate", "patrol.rebeca", "-o", "/proc/nowhere"],
         ["generate", "binary.rebeca"],
+        ["generate", "patrol.rebeca", "-o", "-"],
+        ["generate", "patrol.rebeca", "-o", ""],
+        ["generate", "patrol.rebeca", "--list", "--force"],
     ],
 )
 def test_bad_input_is_no_traceback(

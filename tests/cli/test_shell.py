@@ -148,3 +148,46 @@ def test_the_first_of_several_outcomes_counts() -> None:
 def test_errors_and_warnings_are_findings(severity: Severity, status: int) -> None:
     found = Diagnostic("RS501", Span(0, 0), "x", severity=severity)
     assert status_of([Findings(Source("a", ""), (found,))]) == status
+
+
+@pytest.mark.parametrize(
+    ("closed", "command", "status", "message"),
+    [
+        (">&-", "lint a.rebeca", 2, "standard output: RS806 it is closed"),
+        (">&-", "--help", 2, "standard output: RS806 it is closed"),
+        (">&-", "generate a.rebeca", 2, "standard output: RS806 it is closed"),
+        ("<&-", "fmt -", 2, "-: RS806 standard input is closed"),
+        (">&- 2>&-", "lint a.rebeca", 2, ""),
+        ("2>&-", "generate missing", 2, ""),
+    ],
+)
+def test_closed_streams(
+    tmp_path: Path, closed: str, command: str, status: int, message: str
+) -> None:
+    (tmp_path / "a.rebeca").write_text("main { }\n")
+    line = f'"{sys.executable}" -m rebsync {command} {closed}'
+    done = subprocess.run(
+        ["sh", "-c", line], cwd=tmp_path, env=environment(), capture_output=True, check=False
+    )
+    assert (done.returncode, done.stderr.decode().strip()) == (status, message)
+
+
+def test_a_pipe_in_a_directory_is_no_model(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "a.rebeca")
+    assert "RS811" in rebsync("lint", ".", cwd=tmp_path).out
+
+
+@pytest.mark.parametrize("command", [["export", "--for", "rmc"], ["new", "--force"]], ids=str)
+def test_the_input_is_not_overwritten_by_the_output(tmp_path: Path, command: list[str]) -> None:
+    model = "@Robot reactiveclass R(2) { R() { } } main { R r():(); }\n"
+    text = model if command[0] == "export" else "[robots.R]\n"
+    (tmp_path / "a").write_text(text)
+    (tmp_path / "link").symlink_to("a")
+    for output in ("a", "./link"):
+        done = rebsync(*command, "a", "-o", output, cwd=tmp_path)
+        assert (done.status, "RS802" in done.err) == (2, True), done
+    assert (tmp_path / "a").read_text() == text
+
+
+def test_a_text_without_end_is_not_read_for_ever(tmp_path: Path) -> None:
+    assert "/dev/zero: RS806 larger than 64 MiB" in rebsync("lint", "/dev/zero", cwd=tmp_path).out

@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rebsync.edits import apply_edits, certain_edits
+from rebsync.grammars.formatting import format_text
 from rebsync.grammars.parser import Parsed, parse_expression, parse_model, parse_statement
 from rebsync.model import Binary, Broken, Paren, walk
 from rebsync.printing import print_model
@@ -112,3 +113,15 @@ def test_long_chains_are_reported_and_not_fatal() -> None:
     chain = " + ".join(["x"] * 5000)
     parsed = parse(f"reactiveclass A(1) {{ A() {{ x = {chain}; }} }} main {{ A a():(); }}")
     assert [d.code for d in parsed.diagnostics] == ["RS111"]
+
+
+@pytest.mark.parametrize("character", "\0\v\x1c\x85\u2028\u3000")
+def test_odd_blanks_are_reported(character: str) -> None:
+    found = parse_model(Source("a", f"main {{{character}}}")).diagnostics
+    assert [d.code for d in found] == ["RS102"]
+
+
+def test_a_lone_carriage_return_ends_a_line() -> None:
+    text = "env int a = 1; // one\renv int b = 2; // two\rmain { }\r"
+    assert format_text(text) == format_text(text.replace("\r", "\n"))
+    assert parse_model(Source("a", text)).diagnostics == ()
