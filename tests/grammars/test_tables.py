@@ -8,6 +8,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import lark
 import pytest
 from lark import Lark
 
@@ -23,7 +24,7 @@ class _Runs:
 
 def _sealed(folder: Path, data: bytes) -> bytes:
     """The data under a right digest, as only someone who knows the format writes it."""
-    made_for = f"{tables.lark.__version__}\n{sys.version}\n{GRAMMAR}".encode()
+    made_for = f"{lark.__version__}\n{sys.version}\n{GRAMMAR}".encode()
     return tables._digest(made_for, data) + data
 
 
