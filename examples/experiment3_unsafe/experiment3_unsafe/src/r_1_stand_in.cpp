@@ -21,12 +21,12 @@ int main(int argc, char** argv) {
   const double time_unit = ros::NodeHandle().param("mailbox/time_unit", 1.0);
   std::mt19937 random(static_cast<uint32_t>(ros::NodeHandle().param("mailbox/seed", 0)));
 
-  const ros::Publisher lidar = node.advertise<experiment3_unsafe::R1LidarData>("lidar", 10);
+  const ros::Publisher lidar_pub = node.advertise<experiment3_unsafe::R1LidarData>("lidar", 10);
   const ros::Timer lidar_timer = node.createTimer(
       ros::Duration(1.0 * time_unit), [&](const ros::TimerEvent& /* event */) {
         experiment3_unsafe::R1LidarData msg;
         msg.obstacle = draw(random, std::initializer_list<bool>{false, true});
-        lidar.publish(msg);
+        lidar_pub.publish(msg);
       });
 
   ros::spin();

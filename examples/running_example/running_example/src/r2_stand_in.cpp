@@ -21,12 +21,12 @@ int main(int argc, char** argv) {
   const double time_unit = ros::NodeHandle().param("mailbox/time_unit", 1.0);
   std::mt19937 random(static_cast<uint32_t>(ros::NodeHandle().param("mailbox/seed", 0)));
 
-  const ros::Publisher s21 = node.advertise<running_example::R2S21Data>("s21", 10);
+  const ros::Publisher s21_pub = node.advertise<running_example::R2S21Data>("s21", 10);
   const ros::Timer s21_timer = node.createTimer(
       ros::Duration(2.0 * time_unit), [&](const ros::TimerEvent& /* event */) {
         running_example::R2S21Data msg;
         msg.data = draw(random, std::initializer_list<int32_t>{0, 1});
-        s21.publish(msg);
+        s21_pub.publish(msg);
       });
 
   ros::spin();

@@ -21,12 +21,12 @@ int main(int argc, char** argv) {
   const double time_unit = ros::NodeHandle().param("mailbox/time_unit", 1.0);
   std::mt19937 random(static_cast<uint32_t>(ros::NodeHandle().param("mailbox/seed", 0)));
 
-  const ros::Publisher weigh = node.advertise<warehouse::LifterWeighData>("weigh", 10);
+  const ros::Publisher weigh_pub = node.advertise<warehouse::LifterWeighData>("weigh", 10);
   const ros::Timer weigh_timer = node.createTimer(
       ros::Duration(2.0 * time_unit), [&](const ros::TimerEvent& /* event */) {
         warehouse::LifterWeighData msg;
         msg.heavy = draw(random, std::initializer_list<bool>{false, true});
-        weigh.publish(msg);
+        weigh_pub.publish(msg);
       });
 
   ros::spin();

@@ -75,6 +75,12 @@ constexpr T narrow(Wide value) {
   return static_cast<T>(value);
 }
 
+/// Marks a narrower value that the model takes as one of a wider type.
+template <class T, class Narrow>
+constexpr T widen(Narrow value) {
+  return static_cast<T>(value);
+}
+
 namespace detail {
 
 template <class T>
@@ -154,6 +160,20 @@ A& divideBy(A& target, B value) {
 template <class A, class B>
 A& remainderBy(A& target, B value) {
   return target = narrow<A>(remainder(target, value));
+}
+
+/// Shifts of the model: only the lowest five bits of the distance count.
+inline int32_t shiftLeft(int32_t value, int32_t distance) { return value << (distance & 31); }
+inline int32_t shiftRight(int32_t value, int32_t distance) { return value >> (distance & 31); }
+
+template <class A>
+A& shiftLeftBy(A& target, int32_t distance) {
+  return target = narrow<A>(shiftLeft(target, distance));
+}
+
+template <class A>
+A& shiftRightBy(A& target, int32_t distance) {
+  return target = narrow<A>(shiftRight(target, distance));
 }
 
 /// Marks what the model declares or computes and does not use.

@@ -21,12 +21,12 @@ int main(int argc, char** argv) {
   const double time_unit = ros::NodeHandle().param("mailbox/time_unit", 1.0);
   std::mt19937 random(static_cast<uint32_t>(ros::NodeHandle().param("mailbox/seed", 0)));
 
-  const ros::Publisher s11 = node.advertise<running_example::R1S11Data>("s11", 10);
+  const ros::Publisher s11_pub = node.advertise<running_example::R1S11Data>("s11", 10);
   const ros::Timer s11_timer = node.createTimer(
       ros::Duration(2.0 * time_unit), [&](const ros::TimerEvent& /* event */) {
         running_example::R1S11Data msg;
         msg.data = draw(random, std::initializer_list<int32_t>{0, 1});
-        s11.publish(msg);
+        s11_pub.publish(msg);
       });
 
   ros::spin();
