@@ -230,25 +230,36 @@ class _Scan:
                         self.tokens[at] = retyped(self.tokens[at], "CHOICE")
 
     def _measure_chains(self) -> None:
-        """Operators in one expression, and `else if` in one statement, nest without brackets."""
-        operators = 0
+        """Operators, statements in statements, and `else` upon `else` nest without braces."""
+        operators = heads = brackets = 0
         branches = [0]
         for token, after in zip_longest(self.tokens, self.tokens[1:]):
             match token.type:
-                case "ELSE" if after is not None and after.type == "IF":
+                case "ELSE" if after is not None and after.type != "LBRACE":
                     branches[-1] += 1
                     if branches[-1] == MAX_CHAIN + 1:
-                        self._too_deep(token, f"there are more than {MAX_CHAIN} `else if`")
+                        self._too_deep(token, f"there are more than {MAX_CHAIN} `else` in a row")
                 case "BINARY" | "PLUS" | "MINUS" | "QMARK" | "EQUAL" | "BANG" | "TILDE":
                     operators += 1
                     if operators == MAX_CHAIN + 1:
                         message = f"there are more than {MAX_CHAIN} operators in one expression"
                         self._too_deep(token, message)
+                case "IF" | "WHILE" | "FOR":
+                    heads += 1
+                    if heads == MAX_NESTING + 1:
+                        message = f"statements are nested deeper than {MAX_NESTING} levels"
+                        self._too_deep(token, message)
+                case "LPAR" | "CAST":
+                    brackets += 1
+                case "RPAR":
+                    brackets = max(brackets - 1, 0)
                 case "LBRACE":
                     branches.append(0)
-                    operators = 0
+                    operators = heads = brackets = 0
                 case "SEMICOLON" | "RBRACE" | "COMMA":
                     operators = 0
+                    if not brackets or token.type == "RBRACE":
+                        heads = brackets = 0
                     if token.type == "RBRACE" and len(branches) > 1:
                         branches.pop()
                     if after is None or after.type != "ELSE":

@@ -103,6 +103,8 @@ def _robots(table: Table) -> tuple[Robot, ...]:
     robots = table.table("robots")
     if robots is None or not robots.values:
         table.require("robots")
+        if robots is not None:
+            table.wrong("robots", "there is no robot", "write [robots.NAME] for each kind")
         return ()
     found = tuple(_robot(name, entry) for name, entry in robots.named_tables())
     robots.finish()

@@ -125,3 +125,15 @@ def test_a_lone_carriage_return_ends_a_line() -> None:
     text = "env int a = 1; // one\renv int b = 2; // two\rmain { }\r"
     assert format_text(text) == format_text(text.replace("\r", "\n"))
     assert parse_model(Source("a", text)).diagnostics == ()
+
+
+@pytest.mark.parametrize(
+    "piece", ["if (a) ", "while (a) for (;;) ", "if (a) ; else while (b) ", "if (a) b; else "]
+)
+def test_statements_without_braces_nest_only_so_deep(piece: str) -> None:
+    def codes(times: int) -> list[str]:
+        text = f"reactiveclass R(2) {{ R() {{ {piece * times}; }} }} main {{ }}"
+        return [d.code for d in parse_model(Source("a", text)).diagnostics]
+
+    assert codes(5000) == ["RS111"]
+    assert codes(40) == []
