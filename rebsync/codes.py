@@ -139,6 +139,7 @@ GENERATION = {
     "RS705": "rebecs of one class with different constructors",
     "RS706": "a global priority, which holds only within a rebec",
     "RS707": "a sensor binding without its sensor",
+    "RS708": "a package that was made from another model",
     "RS750": "a part of a model that the official compiler or RMC does not take",
     "RS751": "a part of a model that RMC runs differently",
     "RS752": "an option that RMC must be given for this model",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import asdict
+from pathlib import Path
 
 from rebsync import __version__
 from rebsync.config import Config
@@ -15,6 +16,15 @@ MANIFEST = f"{FOLDER}/manifest.json"
 BASE_MODEL = f"{FOLDER}/base.rebeca"
 BASE = f"{FOLDER}/base/"
 FORMAT = 1
+
+
+def made_from(folder: Path) -> str | None:
+    """The name of the model that a package was made from; None where nothing tells."""
+    try:
+        record = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
+        return str(record["model"]["name"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
 
 
 def with_manifest(

@@ -52,7 +52,27 @@ def command(
     if only_diff:
         return _show(plan(folder, files))
     with alone_in(str(folder)):
+        if not force:
+            _refuse_another_model(folder, f"{_stem(model)}.rebeca")
         return _write(folder, plan(folder, files), force)
+
+
+def _stem(path: str) -> str:
+    return Path(path).stem if path != "-" else "model"
+
+
+def _refuse_another_model(folder: Path, name: str) -> None:
+    """Two models of one package name must not replace each other's code."""
+    from rebsync.roundtrip.manifest import made_from
+
+    other = made_from(folder)
+    if other is not None and other != name:
+        raise RebsyncError.of(
+            str(folder),
+            "RS708",
+            f"this package was made from {other}, not from {name}; nothing was written",
+            "choose another `package` in rebsync.toml; --force if the model has a new name",
+        )
 
 
 def _config(model: str) -> Config:
@@ -73,7 +93,7 @@ def package_files(source: Source, config: Config) -> tuple[str, dict[str, str]]:
     findings = Findings(source, (*parsed.diagnostics, *analysis.diagnostics))
     if findings.errors:
         raise RebsyncError([Findings(source, findings.errors)])
-    stem = Path(source.path).stem if source.path != "-" else "model"
+    stem = _stem(source.path)
     found = limits(parsed.model, analysis, config, stem)
     if any(d.severity is Severity.ERROR for d in found):
         raise RebsyncError([Findings(source, found)])

@@ -185,6 +185,19 @@ def test_what_is_generated_no_more_goes(model: Path) -> None:
     assert not Path("patrol/.rebsync/base/src/robot_stand_in.cpp").exists()
 
 
+def test_another_model_of_the_same_package_is_refused(
+    model: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    generate()
+    before = tree(Path("patrol"))
+    Path("Patrol.rebeca").write_text(MODEL.replace("delay(1)", "delay(3)"))
+    assert main(["generate", "Patrol.rebeca"]) == 2
+    assert "RS708" in capsys.readouterr().err
+    assert tree(Path("patrol")) == before
+    assert main(["generate", "Patrol.rebeca", "--force"]) == 0
+    assert "mailbox_.delay(3)" in Path("patrol/src/robot.cpp").read_text()
+
+
 def test_a_folder_that_is_not_ours_is_respected(model: Path) -> None:
     Path("patrol").mkdir()
     Path("patrol/package.xml").write_text("<package/>\n")
