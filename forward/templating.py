@@ -2,9 +2,29 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from functools import cache
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
+from jinja2 import Environment, FileSystemBytecodeCache, PackageLoader, StrictUndefined
+from jinja2.bccache import Bucket
+
+from rebsync.grammars.tables import cache_directory, is_ours
+
+
+class _Compiled(FileSystemBytecodeCache):
+    """Compiled templates in the user's cache; that it cannot be written does not matter."""
+
+    def dump_bytecode(self, bucket: Bucket) -> None:
+        with suppress(OSError):
+            super().dump_bytecode(bucket)
+
+
+def _compiled() -> _Compiled | None:
+    """Compiled templates are code: they are kept only where nobody else can write."""
+    folder = cache_directory()
+    if folder is None or not is_ours(folder.stat()):
+        return None
+    return _Compiled(str(folder), "%s.template")
 
 
 @cache
@@ -17,6 +37,7 @@ def environment() -> Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
         autoescape=False,
+        bytecode_cache=_compiled(),
     )
 
 

@@ -36,6 +36,12 @@ def _chosen_directory() -> Path:
     return (base if base.is_absolute() else Path.home() / ".cache") / "rebsync"
 
 
+def is_ours(found: os.stat_result) -> bool:
+    """Whether a file or folder is this user's, and nobody else can write to it."""
+    ours = not hasattr(os, "geteuid") or found.st_uid == os.geteuid()
+    return ours and not found.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
+
+
 def load(grammar: str, start: list[str], transformer: object = None) -> Lark:
     """An LALR parser for a grammar text; its tables come from the cache where possible."""
     folder = cache_directory()
@@ -78,7 +84,7 @@ class _PlainData(pickle.Unpickler):
 def _kept(path: Path, made_for: bytes) -> dict[str, Any] | None:
     """The tables in a file; None unless this user wrote it, for the same grammar, and whole."""
     try:
-        if not path.is_file() or not _is_ours(path.stat()):
+        if not path.is_file() or not is_ours(path.stat()):
             return None
         data = path.read_bytes()
     except OSError:
@@ -91,11 +97,6 @@ def _kept(path: Path, made_for: bytes) -> dict[str, Any] | None:
     except pickle.UnpicklingError:
         return None
     return tables if isinstance(tables, dict) else None
-
-
-def _is_ours(found: os.stat_result) -> bool:
-    ours = not hasattr(os, "geteuid") or found.st_uid == os.geteuid()
-    return ours and not found.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
 
 
 def _keep(path: Path, made_for: bytes, compiled: Lark) -> None:

@@ -1,0 +1,36 @@
+"""Compiled templates are kept where only the user can write, and damage to them does not matter."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from rebsync.forward.templating import environment, fill
+
+
+@pytest.fixture(autouse=True)
+def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("REBSYNC_CACHE", str(tmp_path))
+    environment.cache_clear()
+    return tmp_path
+
+
+def message() -> str:
+    environment.cache_clear()
+    return fill("ros1_cpp/message.msg.j2", lines=["int32 x"])
+
+
+def test_damaged_templates_are_compiled_anew(cache: Path) -> None:
+    assert message() == "int32 x\n"
+    kept = list(cache.glob("*.template"))
+    assert kept
+    for damage in (b"", b"junk", kept[0].read_bytes()[:-20]):
+        kept[0].write_bytes(damage)
+        assert message() == "int32 x\n"
+
+
+def test_a_folder_that_others_can_write_to_is_not_used(cache: Path) -> None:
+    cache.chmod(0o777)
+    assert message() == "int32 x\n"
+    assert not list(cache.glob("*.template"))
