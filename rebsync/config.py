@@ -35,7 +35,7 @@ class Maintainer:
 
 @dataclass(frozen=True, slots=True)
 class SensorBinding:
-    """The real sensor behind a `@Sensor` server; `seen` is the user's function on its message."""
+    """The real sensor behind a `@Sensor` server; `seen` is an expression over its message `msg`."""
 
     server: str
     topic: str
