@@ -10,7 +10,7 @@ from pathlib import Path
 import jinja2
 import pytest
 
-from tests.ros1.workspace import Workspace, build, missing_ros
+from tests.ros1.workspace import SYSTEM_PATH, Workspace, build, missing_ros
 
 _HERE = Path(__file__).parent
 _TEMPLATES = _HERE.parents[1] / "forward" / "templates" / "ros1_cpp"
@@ -69,3 +69,14 @@ def _shared(factory: pytest.TempPathFactory) -> Path:
     """A directory that is the same for every worker of pytest-xdist."""
     base = factory.getbasetemp()
     return base.parent if os.environ.get("PYTEST_XDIST_WORKER") else base
+
+
+def tool(name: str) -> str:
+    """The path of a program; without it the test is skipped, and fails in CI."""
+    path = shutil.which(name, path=SYSTEM_PATH)
+    if path is None:
+        message = f"{name} is not installed"
+        if os.environ.get("CI") == "true":
+            pytest.fail(message)
+        pytest.skip(message)
+    return path

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import os
-import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
 
-from tests.ros1.conftest import HEADERS, render
+from tests.ros1.conftest import HEADERS, render, tool
 
 
 @pytest.mark.parametrize(
@@ -17,12 +15,11 @@ from tests.ros1.conftest import HEADERS, render
 )
 @pytest.mark.parametrize("header", HEADERS)
 def test_headers_are_formatted(tmp_path: Path, header: str, package: str) -> None:
-    tool = shutil.which("clang-format")
-    if tool is None and os.environ.get("CI") != "true":
-        pytest.skip("clang-format is not installed")
-    assert tool is not None
+    formatter = tool("clang-format")
     (tmp_path / ".clang-format").write_text(render("clang-format", package))
     path = tmp_path / header
     path.write_text(render(header, package))
-    formatted = subprocess.run([tool, str(path)], check=True, capture_output=True, text=True).stdout
+    formatted = subprocess.run(
+        [formatter, str(path)], check=True, capture_output=True, text=True
+    ).stdout
     assert formatted == path.read_text()

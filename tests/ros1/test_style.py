@@ -3,28 +3,17 @@
 from __future__ import annotations
 
 import os
-import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
 
 from tests.regenerate import models
+from tests.ros1.conftest import tool
 from tests.ros1.workspace import SYSTEM_PATH
 
 PACKAGES = [m.parent / m.stem for m in models()]
 IDS = [p.name for p in PACKAGES]
-
-
-def tool(name: str) -> str:
-    """The path of a program; without it the test is skipped, and fails in CI."""
-    path = shutil.which(name, path=SYSTEM_PATH)
-    if path is None:
-        message = f"{name} is not installed"
-        if os.environ.get("CI") == "true":
-            pytest.fail(message)
-        pytest.skip(message)
-    return path
 
 
 @pytest.mark.parametrize("package", PACKAGES, ids=IDS)
