@@ -1,0 +1,101 @@
+"""What a search tells, whichever engine ran it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from rebsync.checker.graph import Graph
+from rebsync.checker.steps import Failure, Semantics
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """Bounds of a search; None is no bound. `seconds` is by the wall clock, `until` model time.
+
+    `until` bounds the time since the start: steps that would pass it are left out, and the search
+    is then incomplete. `memory` is in bytes, of the whole process.
+    """
+
+    states: int | None = None
+    seconds: float | None = None
+    memory: int | None = None
+    until: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """How far a search is: `depth` is the breadth-first level, `memory` bytes in use."""
+
+    states: int
+    transitions: int
+    depth: int
+    waiting: int
+    seconds: float
+    memory: int
+
+
+Report = Callable[[Progress], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """Something wrong, met first here: at state `state` (breadth-first number).
+
+    `cause` is a Failure of the step with ordinal `ordinal` of that state; or the number of a
+    predicate that is false in the state; or "deadlock".
+    """
+
+    cause: Failure | int | str
+    state: int
+    ordinal: int = -1
+
+
+@dataclass(frozen=True, slots=True)
+class Covered:
+    """Servers (numbers) and branches (instruction, whether it jumped) that ran.
+
+    `largest` is, for each rebec, the most places of its bag that were ever taken, the message
+    being served included.
+    """
+
+    servers: frozenset[int]
+    branches: frozenset[tuple[int, bool]]
+    largest: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Exploration:
+    """The outcome of a search.
+
+    `events` are in the order in which breadth-first search met them, one for each different
+    cause (failures: kind and pc and rebec; predicates: number). `reason` says why the search is
+    not complete, or is None. `depth` is the last level that was entered.
+    """
+
+    states: int
+    transitions: int
+    depth: int
+    events: tuple[Event, ...]
+    covered: Covered
+    semantics: Semantics
+    engine: str
+    seconds: float
+    build_seconds: float
+    memory: int
+    reason: str | None = None
+    notes: tuple[str, ...] = field(default=())
+
+
+class Search(Protocol):
+    """A breadth-first search that can be asked afterwards."""
+
+    def run(self, limits: Limits, report: Report | None = None) -> Exploration:
+        """Searches until everything is seen or a bound is reached; Ctrl-C ends it cleanly too."""
+
+    def path(self, state: int) -> tuple[int, ...]:
+        """A shortest way to a state: first the ordinal of the initial state, then of each step."""
+
+    def graph(self) -> Graph:
+        """The whole state space that was seen, with its labels."""

@@ -1,0 +1,34 @@
+"""A state space as numbers: what linear and branching time properties are decided on."""
+
+from __future__ import annotations
+
+from array import array
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Graph:
+    """States are numbered in breadth-first order; edge `e` of state `s` has first[s] <= e < first[s+1].
+
+    `target` is -1 for a failed step. `actor` is the rebec that acts, -1 for a step of time alone;
+    `time` is how much time passes with the step (before the target is reached). `labels` holds
+    `words` numbers of 64 bits for each state: predicate p is bit p % 64 of word p // 64.
+    `deadlocks` are the final states in which nothing can happen any more. `initial` lists the
+    initial states. All in one order with the steps of the interpreter, so an edge is an ordinal.
+    """
+
+    first: array[int]  # 'Q', one more than there are states
+    target: array[int]  # 'q'
+    actor: array[int]  # 'i'
+    time: array[int]  # 'i'
+    labels: array[int]  # 'Q'
+    words: int
+    initial: tuple[int, ...]
+
+    def __len__(self) -> int:
+        return len(self.first) - 1
+
+    def holds(self, state: int, predicate: int) -> bool:
+        """Whether a predicate holds in a state."""
+        word = self.labels[state * self.words + predicate // 64]
+        return bool(word >> (predicate % 64) & 1)

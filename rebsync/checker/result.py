@@ -1,0 +1,56 @@
+"""The answer of `rebsync verify`: verdict, violations, coverage and figures."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from rebsync.checker.steps import Semantics, ViolationKind
+from rebsync.checker.trace import Trace
+
+Verdict: TypeAlias = Literal["satisfied", "violated", "undetermined"]
+
+
+@dataclass(frozen=True, slots=True)
+class Violation:
+    """Something that goes wrong, with a shortest run to it.
+
+    `name` is the property's name, the assertion's text, or `Class.server:line`; `message` is a
+    sentence; `line` and `path` the place in the model or property file (line 0: no place).
+    """
+
+    kind: ViolationKind
+    name: str
+    message: str
+    path: str
+    line: int
+    trace: Trace
+
+
+@dataclass(frozen=True, slots=True)
+class Coverage:
+    """What never ran: servers as `Class.server`, branches as (line, what never happened)."""
+
+    servers: tuple[str, ...]
+    branches: tuple[tuple[int, str], ...]
+    largest_bags: tuple[tuple[str, int, int], ...]  # rebec, most places taken, capacity
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """Everything that a verification found."""
+
+    verdict: Verdict
+    reason: str | None
+    caveats: tuple[str, ...]
+    properties: tuple[tuple[str, Verdict], ...]
+    violations: tuple[Violation, ...]
+    coverage: Coverage
+    states: int
+    transitions: int
+    depth: int
+    semantics: Semantics
+    engine: str
+    seconds: float
+    build_seconds: float
+    peak_memory_bytes: int
