@@ -8,7 +8,7 @@ from functools import cache
 from jinja2 import Environment, FileSystemBytecodeCache, PackageLoader, StrictUndefined
 from jinja2.bccache import Bucket
 
-from rebsync.grammars.tables import cache_directory, is_ours
+from rebsync.cache import cache_directory, is_ours
 
 
 class _Compiled(FileSystemBytecodeCache):
