@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+Bound: TypeAlias = tuple[Literal["<", "<=", ">", ">=", "=="], int]
+
 
 @dataclass(frozen=True, slots=True)
 class Atom:
@@ -43,7 +45,7 @@ class Timed:
     """An operator of TCTL; `bound` limits the time at which it is fulfilled, None is no limit."""
 
     operator: Literal["AG", "AF", "AU", "EG", "EF", "EU"]
-    bound: tuple[Literal["<", "<=", ">", ">=", "=="], int] | None
+    bound: Bound | None
     operands: tuple[Formula, ...]
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Graph:
-    """States are numbered in breadth-first order; edge `e` of state `s` has first[s] <= e < first[s+1].
+    """States are numbered in breadth-first order; the edges of s are first[s] up to first[s + 1].
 
     `target` is -1 for a failed step. `actor` is the rebec that acts, -1 for a step of time alone;
     `time` is how much time passes with the step (before the target is reached). `labels` holds

@@ -294,6 +294,7 @@ _MOVES: dict[str, Operation] = {
     "SETVARAT": lambda m, i: m.put_at(m.variables, i.a),
     "SETLOCAL": lambda m, i: m.put(m.stack, m.base + i.a),
     "SETLOCALAT": lambda m, i: m.put_at(m.stack, m.base + i.a),
+    "TABLE": _push(lambda m, i: i.constants[m.stack.pop()]),
     "OFFSET": _push(lambda m, i: m.place(m.stack.pop(), i.a, i.b)),
     "POP": lambda m, i: m.stack.__delitem__(-1),
     "KNOWN": _push(lambda m, i: m.rebec.known[i.a]),

@@ -1,0 +1,92 @@
+"""Sends, calls of methods, and the built-in functions."""
+
+from __future__ import annotations
+
+from rebsync.checker.lowering import expressions as x
+from rebsync.checker.lowering.emitter import Emitter, kind_of, size_of
+from rebsync.checker.program import Kind
+from rebsync.model import Call, Expression, StringLiteral, Super, Type
+from rebsync.static.symbols import BuiltinFunctionSymbol, MethodSymbol, ServerSymbol
+from rebsync.static.types import DOUBLE, INT
+
+
+def call(node: Call, e: Emitter) -> Kind:
+    """Pushes the result of a call, if it has one."""
+    symbol = e.world.analysis.symbol_of(node)
+    match symbol:
+        case ServerSymbol():
+            _send(node, symbol, e)
+            return "int"
+        case MethodSymbol():
+            return _invoke(node, symbol, e)
+        case BuiltinFunctionSymbol(name):
+            return _builtin(name, node, e)
+        case _:
+            raise AssertionError(f"not a call: {node}")
+
+
+def _arguments(
+    arguments: tuple[Expression, ...], signature: tuple[Type | None, ...], e: Emitter
+) -> int:
+    before = 0
+    for argument, type_ in zip(arguments, signature, strict=True):
+        assert type_ is not None
+        x.as_kind(argument, kind_of(type_), e)
+        before += size_of(type_)
+    return before
+
+
+def _send(node: Call, server: ServerSymbol, e: Emitter) -> None:
+    if node.target is None:
+        e.emit("SELF")
+    else:
+        x.value(node.target, e)
+    cells = _arguments(node.arguments, server.signature, e)
+    if node.after is None:
+        e.emit("CONST", 0)
+    else:
+        x.as_kind(node.after, kind_of(INT), e)
+    with e.at(node.span):
+        if node.deadline is None:
+            e.emit("SEND", e.world.selector(server), cells)
+        else:
+            x.as_kind(node.deadline, kind_of(INT), e)
+            e.emit("SENDBY", e.world.selector(server), cells)
+
+
+def _invoke(node: Call, symbol: MethodSymbol, e: Emitter) -> Kind:
+    assert e.info is not None
+    _arguments(node.arguments, symbol.signature, e)
+    called = symbol if isinstance(node.target, Super) else _as_run(symbol, e)
+    with e.at(node.span):
+        e.emit("CALL", e.world.body_of(e.info, called.declaration), e.free)
+    assert symbol.type is not None
+    return kind_of(symbol.type)
+
+
+def _as_run(symbol: MethodSymbol, e: Emitter) -> MethodSymbol:
+    """The version of a method that the class of the rebec runs."""
+    assert e.info is not None
+    return next(
+        m for m in e.info.methods if m.name == symbol.name and m.signature == symbol.signature
+    )
+
+
+def _builtin(name: str, node: Call, e: Emitter) -> Kind:
+    with e.at(node.span):
+        match name:
+            case "delay":
+                x.as_kind(node.arguments[0], "int", e)
+                e.emit("DELAY", 0, e.free)
+                return "int"
+            case "assertion":
+                x.value(node.arguments[0], e)
+                text = node.arguments[1] if len(node.arguments) > 1 else None
+                said = e.text(text.text[1:-1]) if isinstance(text, StringLiteral) else -1
+                e.emit("ASSERT", said)
+                return "int"
+            case _:
+                for argument in node.arguments:
+                    x.as_kind(argument, kind_of(DOUBLE), e)
+                e.emit(name.upper())
+                return "double"

@@ -1,0 +1,204 @@
+"""The whole model: instances, classes as they run, and the formulas of its properties."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from rebsync import properties as p
+from rebsync.checker import formulas as f
+from rebsync.checker.lowering.emitter import Declared, Emitter, World, kind_of, size_of
+from rebsync.checker.lowering.predicates import Predicates
+from rebsync.checker.lowering.statements import statements
+from rebsync.checker.lowering.temporal import temporal
+from rebsync.checker.program import (
+    NULL,
+    UNRANKED,
+    Body,
+    Cell,
+    Program,
+    RebecInfo,
+    Server,
+    Slot,
+)
+from rebsync.checker.values import stored
+from rebsync.model import Annotation, Constructor, Method, Paren, ReactiveClass, Rebec
+from rebsync.source import Span
+from rebsync.static import Analysis
+from rebsync.static.symbols import ClassInfo, RebecSymbol, ServerSymbol
+from rebsync.static.types import BOOLEAN, VOID
+
+_NO_PROPERTIES = p.Properties()
+
+
+def lower(
+    analysis: Analysis, properties: p.Properties = _NO_PROPERTIES
+) -> tuple[Program, tuple[f.NamedFormula, ...]]:
+    """The program of a model without errors, and the entries of its properties in file order.
+
+    The predicates of the program are the largest parts of the formulas without temporal
+    operators; an assertion is one predicate.
+    """
+    main = analysis.model.main
+    assert main is not None and not analysis.errors
+    world = World(analysis)
+    for rebec in main.rebecs:
+        world.class_numbers.setdefault(rebec.type.name, len(world.class_numbers))
+        world.rebec_numbers[rebec.name] = len(world.rebec_numbers)
+    servers = list(_servers(world))
+    drafts = [_rebec(rebec, world) for rebec in main.rebecs]
+    while world.waiting:
+        _body(*world.waiting.popleft(), world)
+    numbers = {(s.class_name, id(symbol)): n for n, (s, symbol) in enumerate(servers)}
+    rebecs = tuple(_dispatching(r, world, numbers) for r in drafts)
+    formulas, predicates = _properties(world, rebecs, properties)
+    ops = {i.op for i in world.code}
+    program = Program(
+        tuple(world.code),
+        tuple(world.spans),
+        tuple(b for b in world.bodies if b is not None),
+        rebecs,
+        tuple(s for s, _ in servers),
+        predicates,
+        tuple(world.texts),
+        any(a.name == "globalPriority" for s, y in servers for a in y.declaration.annotations),
+        "DELAY" in ops,
+        not ops.isdisjoint(("NOW", "ARRIVAL", "DEADLINE")),
+    )
+    return program, formulas
+
+
+# --- classes -----------------------------------------------------------------------------------
+
+
+def _slots(info: ClassInfo) -> dict[str, Slot]:
+    """The state variables by `Class.name`, each with its cells."""
+    slots: dict[str, Slot] = {}
+    offset = 0
+    for symbol in info.state:
+        assert symbol.type is not None
+        size = size_of(symbol.type)
+        slot = Slot(symbol.name, symbol.type, kind_of(symbol.type), offset, size)
+        slots[f"{symbol.owner}.{symbol.name}"] = slot
+        offset += size
+    return slots
+
+
+def _known(info: ClassInfo) -> dict[str, int]:
+    return {f"{k.owner}.{k.name}": i for i, k in enumerate(info.known)}
+
+
+def _servers(world: World) -> Iterator[tuple[Server, ServerSymbol]]:
+    for name in world.class_numbers:
+        info = world.analysis.classes[name]
+        for symbol in info.servers:
+            declared = symbol.declaration
+            body = world.body_of(info, declared)
+            rank = _priority(declared.annotations, world.analysis)
+            yield Server(symbol.name, name, body, rank, declared.name_span), symbol
+
+
+def _priority(annotations: tuple[Annotation, ...], analysis: Analysis) -> int:
+    for annotation in annotations:
+        if annotation.name in ("priority", "globalPriority") and annotation.arguments:
+            value = analysis.value_of(annotation.arguments[0])
+            if isinstance(value, int):
+                return value
+    return UNRANKED
+
+
+def _body(number: int, info: ClassInfo, declared: Declared, world: World) -> None:
+    returns = VOID
+    if isinstance(declared, Method) and declared.type.name != "void":
+        returns = declared.type
+    e = Emitter(world, info, returns, _slots(info), _known(info), span=declared.span)
+    entry = e.here
+    parameters = tuple(e.declare(q, q.name, q.type) for q in declared.parameters)
+    if declared.body is not None:
+        statements(declared.body.statements, e)
+    e.span = Span(declared.span.end, declared.span.end)
+    for _ in range(size_of(returns)):
+        e.emit("CONST", NULL if kind_of(returns) == "rebec" else 0)
+    e.emit("RET", size_of(returns))
+    name = f"{info.name}.{declared.name}"
+    world.bodies[number] = Body(name, entry, e.here, parameters, e.frame)
+
+
+# --- instances ---------------------------------------------------------------------------------
+
+
+def _rebec(rebec: Rebec, world: World) -> RebecInfo:
+    analysis, info = world.analysis, world.analysis.classes[rebec.type.name]
+    declaration = info.declaration
+    assert isinstance(declaration, ReactiveClass)
+    constructor = analysis.constructor_of(rebec)
+    slots = _slots(info)
+    return RebecInfo(
+        rebec.name,
+        info.name,
+        world.class_numbers[info.name],
+        declaration.queue_length,
+        _priority(rebec.annotations, analysis),
+        tuple(_bound(b, world) for b in rebec.bindings),
+        tuple(k.name for k in info.known),
+        tuple(slots.values()),
+        sum(s.size for s in slots.values()),
+        world.body_of(info, constructor) if constructor is not None else -1,
+        tuple(_arguments(rebec, constructor, world)),
+        (),
+        rebec.span,
+    )
+
+
+def _bound(binding: object, world: World) -> int:
+    while isinstance(binding, Paren):
+        binding = binding.inner
+    symbol = world.analysis.symbol_of(binding)
+    return world.rebec_numbers[symbol.name] if isinstance(symbol, RebecSymbol) else NULL
+
+
+def _arguments(rebec: Rebec, constructor: Constructor | None, world: World) -> Iterator[Cell]:
+    if constructor is None:
+        return
+    for argument, parameter in zip(rebec.arguments, constructor.parameters, strict=True):
+        inner = argument
+        while isinstance(inner, Paren):
+            inner = inner.inner
+        kind = kind_of(parameter.type)
+        if kind == "rebec":
+            yield _bound(inner, world)
+            continue
+        value = world.analysis.value_of(inner)
+        assert value is not None, f"{rebec.name}: {argument}"
+        yield stored(value, kind)
+
+
+def _dispatching(rebec: RebecInfo, world: World, numbers: dict[tuple[str, int], int]) -> RebecInfo:
+    """The rebec with the server that it runs for each selector."""
+    info = world.analysis.classes[rebec.class_name]
+    answers = {(s.name, s.signature): numbers[info.name, id(s)] for s in info.servers}
+    return replace(rebec, dispatch=tuple(answers.get(s, -1) for s in world.selectors))
+
+
+# --- properties --------------------------------------------------------------------------------
+
+
+def _properties(
+    world: World, rebecs: tuple[RebecInfo, ...], properties: p.Properties
+) -> tuple[tuple[f.NamedFormula, ...], tuple[int, ...]]:
+    numbers: list[int] = []
+
+    def predicate(formula: p.Formula) -> int:
+        e = Emitter(world, None, BOOLEAN, {}, {}, span=formula.span)
+        entry = e.here
+        Predicates(e, rebecs, properties).value(formula)
+        e.emit("RET", 1)
+        numbers.append(len(world.bodies))
+        world.bodies.append(Body(f"predicate {len(numbers)}", entry, e.here, (), e.frame))
+        return len(numbers) - 1
+
+    formulas = tuple(
+        f.NamedFormula(each.name, temporal(each.formula, predicate, world.analysis))
+        for each in properties.all
+    )
+    return formulas, tuple(numbers)

@@ -1,0 +1,209 @@
+"""Breadth-first search with the interpreter."""
+
+from __future__ import annotations
+
+import time
+from array import array
+
+from rebsync.checker.exploration import (
+    Covered,
+    Event,
+    Exploration,
+    Limits,
+    Progress,
+    Report,
+)
+from rebsync.checker.graph import Graph
+from rebsync.checker.machine import EndlessBody, Failed, Machine
+from rebsync.checker.memory import used_memory
+from rebsync.checker.program import NO_DEADLINE, Program
+from rebsync.checker.state import Message, State
+from rebsync.checker.steps import Failure, Semantics, Step
+from rebsync.checker.views import view_of
+
+_SLICE = 0.1  # seconds between two looks at the bounds
+
+
+class Interpreted:
+    """A search that starts at once. `invariants` are the predicates whose failure is an event."""
+
+    def __init__(
+        self, program: Program, semantics: Semantics, invariants: tuple[int, ...] = ()
+    ) -> None:
+        self.program = program
+        self.semantics: Semantics = semantics
+        self.view = view_of(program, semantics)
+        self.invariants = invariants
+        self.states: list[State] = []
+        self.numbers: dict[State, int] = {}
+        self._parents: list[int] = []  # -1 - ordinal for initial states
+        self._ordinals: list[int] = []
+        self._depths = array("l")
+        self._times: list[int] = []
+        self._expanded = 0
+        self._transitions = 0
+        self._events: dict[object, Event] = {}
+        self._until_reached = False
+
+    def run(self, limits: Limits, report: Report | None = None) -> Exploration:
+        """Searches on from where an earlier run stopped."""
+        started = time.perf_counter()
+        reason = None
+        try:
+            reason = self._search(limits, report, started)
+        except KeyboardInterrupt:
+            reason = "it was interrupted"
+        except EndlessBody as endless:
+            reason = endless_reason(self.program, endless.pc)
+        if reason is None and self._until_reached:
+            reason = f"the bound of {limits.until} units of time was reached"
+        return Exploration(
+            len(self.states),
+            self._transitions,
+            self._depths[-1] if self._depths else 0,
+            tuple(self._events.values()),
+            self._covered(),
+            self.semantics,
+            "interpreted",
+            time.perf_counter() - started,
+            0.0,
+            used_memory(),
+            reason,
+        )
+
+    def _covered(self) -> Covered:
+        coverage = self.view.coverage
+        largest = tuple(actor.largest for actor in self.view.actors)
+        return Covered(frozenset(coverage.servers), frozenset(coverage.branches), largest)
+
+    # --- searching
+
+    def _search(self, limits: Limits, report: Report | None, started: float) -> str | None:
+        if not self.states:
+            for ordinal, step in enumerate(self.view.initial_states()):
+                self._reach(step, -1, ordinal, limits)
+        due = started + _SLICE
+        while self._expanded < len(self.states):
+            if limits.states is not None and len(self.states) >= limits.states:
+                return f"the bound of {limits.states} states was reached"
+            now = time.perf_counter()
+            if now >= due:
+                due = now + _SLICE
+                if stop := self._look(limits, report, now - started):
+                    return stop
+            self._expand(self._expanded, limits)
+        return None
+
+    def _look(self, limits: Limits, report: Report | None, seconds: float) -> str | None:
+        memory = used_memory()
+        if report:
+            report(
+                Progress(
+                    len(self.states),
+                    self._transitions,
+                    self._depths[self._expanded],
+                    len(self.states) - self._expanded,
+                    seconds,
+                    memory,
+                )
+            )
+        if limits.seconds is not None and seconds >= limits.seconds:
+            return f"the bound of {limits.seconds:g} seconds was reached"
+        if limits.memory is not None and memory >= limits.memory:
+            return f"the bound of {limits.memory} bytes of memory was reached"
+        return None
+
+    def _expand(self, number: int, limits: Limits) -> None:
+        steps = self.view.steps(self.states[number])
+        self._expanded += 1
+        for ordinal, step in enumerate(steps):
+            self._reach(step, number, ordinal, limits)
+
+    def _reach(self, step: Step, parent: int, ordinal: int, limits: Limits) -> None:
+        reached = step.time + (self._times[parent] if parent >= 0 else 0)
+        if limits.until is not None and reached > limits.until:
+            self._until_reached = True
+            return
+        self._transitions += parent >= 0
+        if isinstance(step.result, Failure):
+            self._event(step.result, Event(step.result, parent, ordinal))
+            return
+        if step.result in self.numbers:
+            return
+        number = self.numbers[step.result] = len(self.states)
+        self.states.append(step.result)
+        self._parents.append(parent)
+        self._ordinals.append(ordinal)
+        self._depths.append(self._depths[parent] + 1 if parent >= 0 else 0)
+        self._times.append(reached)
+        self._judge(step.result, number)
+
+    def _judge(self, state: State, number: int) -> None:
+        for predicate in self.invariants:
+            try:
+                holds = self.holds(state, predicate)
+            except Failed as failed:
+                self._event(failed.failure, Event(failed.failure, number))
+                continue
+            if not holds:
+                self._event(predicate, Event(predicate, number))
+        if self.view.is_deadlock(state):
+            self._event("deadlock", Event("deadlock", number))
+
+    def _event(self, cause: object, event: Event) -> None:
+        self._events.setdefault(cause, event)
+
+    def holds(self, state: State, predicate: int) -> bool:
+        """Whether a predicate is true in a state; raises Failed if it has no value."""
+        message = Message(0, -1, 0, NO_DEADLINE, ())
+        machine = Machine(
+            self.program, self.program.rebecs[0], -1, [], message, 0, [], False, 0, states=state
+        )
+        machine.start(self.program.predicates[predicate], ())
+        return bool(machine.stack[-1])
+
+    # --- afterwards
+
+    def path(self, state: int) -> tuple[int, ...]:
+        """A shortest way to a state: the ordinal of the initial state, then one for each step."""
+        ordinals = []
+        while state >= 0:
+            ordinals.append(self._ordinals[state])
+            state = self._parents[state]
+        return tuple(reversed(ordinals))
+
+    def graph(self) -> Graph:
+        """The state space that was seen; steps to states that were not seen are left out."""
+        words = max(1, -(-len(self.program.predicates) // 64))
+        first, target, actor = array("Q", [0]), array("q"), array("i")
+        times, labels = array("q"), array("Q")
+        for number, state in enumerate(self.states):
+            for step in self.view.steps(state) if number < self._expanded else ():
+                failed = isinstance(step.result, Failure)
+                to = -1 if isinstance(step.result, Failure) else self.numbers.get(step.result, -2)
+                if to == -2:
+                    continue
+                target.append(to)
+                actor.append(step.action.actor)
+                times.append(0 if failed else step.time)
+            first.append(len(target))
+            labels.extend(self._labels(state, words))
+        initial = tuple(n for n, parent in enumerate(self._parents) if parent < 0)
+        return Graph(first, target, actor, times, labels, words, initial)
+
+    def _labels(self, state: State, words: int) -> list[int]:
+        bits = 0
+        for predicate in range(len(self.program.predicates)):
+            bits |= self._true(state, predicate) << predicate
+        return [bits >> (64 * word) & (2**64 - 1) for word in range(words)]
+
+    def _true(self, state: State, predicate: int) -> bool:
+        try:
+            return self.holds(state, predicate)
+        except Failed:
+            return False
+
+
+def endless_reason(program: Program, pc: int) -> str:
+    """Why a search ends at a body that does not."""
+    return f"the body of {program.body_at(pc).name} did not end"
