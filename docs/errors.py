@@ -17,7 +17,8 @@ SECTIONS = (
     ("RS6xx: warnings about robotic models", codes.ROBOTIC),
     ("RS7xx: generation and export", codes.GENERATION),
     ("RS8xx: files, options, configuration", codes.FILES),
-    ("RS9xx: properties", codes.PROPERTIES),
+    ("RS90x and RS91x: properties", codes.PROPERTIES),
+    ("RS92x: runs and state spaces", codes.RUNS),
 )
 
 HEAD = """\

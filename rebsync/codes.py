@@ -2,7 +2,8 @@
 
 RS1xx syntax, RS2xx names, RS3xx types, RS4xx declarations and structure, RS5xx warnings about a
 model that is accepted, RS6xx warnings about robotic models (thesis, section 3.2), RS7xx what
-cannot be generated, RS8xx files, options and configuration, RS9xx properties.
+cannot be generated, RS8xx files, options and configuration, RS90x and RS91x properties, RS92x
+runs and state spaces.
 """
 
 from __future__ import annotations
@@ -173,6 +174,14 @@ PROPERTIES = {
     "RS911": "a property file without its model",
 }
 
+RUNS = {
+    "RS921": "a text that is not JSON where a run is wanted",
+    "RS922": "a part of a run that is missing or of the wrong kind",
+    "RS923": "a text that holds no run, or not the one that is wanted",
+    "RS924": "a run that the model does not have",
+    "RS925": "a state space that is too large to draw",
+}
+
 CODES: dict[str, str] = {
     **SYNTAX,
     **NAMES,
@@ -183,4 +192,5 @@ CODES: dict[str, str] = {
     **GENERATION,
     **FILES,
     **PROPERTIES,
+    **RUNS,
 }

@@ -28,19 +28,19 @@ def finding_pieces(source: Source, diagnostic: Diagnostic) -> Iterator[Piece]:
     yield Piece(_place(source, diagnostic.span), "bold")
     yield Piece(": ")
     yield Piece(diagnostic.code, style)
-    yield Piece(f" {_printable(diagnostic.message)}\n")
+    yield Piece(f" {printable(diagnostic.message)}\n")
     yield from _excerpt(source, diagnostic.span, style)
     if diagnostic.hint:
         yield Piece("hint: ", "bold green")
-        yield Piece(f"{_printable(diagnostic.hint)}\n")
+        yield Piece(f"{printable(diagnostic.hint)}\n")
     for span, remark in diagnostic.related:
         yield Piece(_place(source, span), "bold")
-        yield Piece(f": note: {_printable(remark)}\n")
+        yield Piece(f": note: {printable(remark)}\n")
         yield from _excerpt(source, span, "cyan")
 
 
 def _place(source: Source, span: Span) -> str:
-    path = _printable(source.path)
+    path = printable(source.path)
     if span is NOWHERE:
         return path
     position = source.position(span.start)
@@ -55,7 +55,7 @@ def _excerpt(source: Source, span: Span, style: str) -> Iterator[Piece]:
     start = position.column - 1
     end = min(start + max(span.end - span.start, 1), max(len(line), start + 1))
     line, start, end = _clipped(line, start, end)
-    yield Piece(f"  {_printable(line)}\n")
+    yield Piece(f"  {printable(line)}\n")
     blank = "".join("\t" if c == "\t" else " " * _width(c) for c in line[:start])
     marked = sum(_width(c) for c in line[start:end])
     yield Piece(f"  {blank}")
@@ -75,7 +75,7 @@ def _clipped(line: str, start: int, end: int) -> tuple[str, int, int]:
     return before + line[left:right] + after, start + shift, min(end, right) + shift
 
 
-def _printable(text: str) -> str:
+def printable(text: str) -> str:
     """Control characters must not reach a terminal."""
     if text.isprintable():
         return text

@@ -1,0 +1,170 @@
+"""Results and runs for people at a terminal: the verdict first, then why, then the figures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TextIO
+
+from rebsync.checker.result import Coverage, Result, Verdict, Violation
+from rebsync.checker.show import words
+from rebsync.checker.show.pieces import Line, columns, line, print_lines
+from rebsync.checker.trace import Trace, TraceStep
+from rebsync.report_text import Piece
+
+_STYLES: dict[Verdict, str] = {
+    "satisfied": "bold green",
+    "violated": "bold red",
+    "undetermined": "bold yellow",
+}
+_WRONG = "bold red"
+_QUIET = "dim"
+
+
+def print_result(result: Result, model: str, stream: TextIO) -> None:
+    """Writes what a verification of the model at path `model` found."""
+    print_lines(result_lines(result, model), stream)
+
+
+def print_trace(trace: Trace, stream: TextIO) -> None:
+    """Writes a run that is no counter-example, such as a simulation's."""
+    print_lines(trace_lines(trace), stream)
+
+
+def result_lines(result: Result, model: str) -> list[Line]:
+    """The lines that show a result."""
+    return [
+        line(Piece(model, "bold"), ": ", Piece(result.verdict, _STYLES[result.verdict])),
+        *_remarks(result),
+        *_properties(result),
+        *(shown for violation in result.violations for shown in _violation(violation)),
+        *_coverage(result.coverage, model),
+        *_figures(result),
+    ]
+
+
+def trace_lines(trace: Trace, ending: str | None = None) -> list[Line]:
+    """The lines that show a run; `ending` is what is wrong after its last step."""
+    number = max(4, *(len(str(step.number)) for step in trace.steps))
+    time = max(4, *(len(str(step.time)) for step in trace.steps))
+    shown = [line(Piece(f"  {'step':>{number}}  {'time':>{time}}", _QUIET))]
+    for step in trace.steps:
+        wrong = step.failure is not None or (ending is not None and step is trace.steps[-1])
+        repeats = trace.loop is not None and step.number > trace.loop
+        gutter = Piece(">", _WRONG) if wrong else Piece("|" if repeats else " ", "yellow")
+        shown += _step(step, gutter, (number, time), trace.model)
+        if step.number == trace.loop:
+            shown.append(line(Piece(_loop_start(trace), "yellow"), hang=2))
+    if trace.loop is not None and trace.loop != trace.steps[-1].number:
+        shown.append(line(Piece(f"| back to the state after step {trace.loop}", "yellow"), hang=2))
+    if ending is not None:
+        shown.append(line(Piece(f"> {ending}", _WRONG), hang=2))
+    return shown
+
+
+def _remarks(result: Result) -> Iterator[Line]:
+    if result.reason is not None:
+        yield line("reason: ", result.reason, hang=2)
+    for caveat in result.caveats:
+        yield line(Piece("caveat: ", "bold yellow"), caveat, hang=2)
+
+
+def _properties(result: Result) -> Iterator[Line]:
+    if result.properties:
+        yield line()
+        yield line(Piece("properties", "bold"))
+    wide = max((columns(name) for name, _ in result.properties), default=0)
+    for name, verdict in result.properties:
+        gap = " " * (wide - columns(name) + 2)
+        yield line(f"  {name}{gap}", Piece(verdict, _STYLES[verdict]), hang=4)
+
+
+def _violation(violation: Violation) -> Iterator[Line]:
+    yield line()
+    place = f"{violation.path}:{violation.line}: " if violation.line else ""
+    yield line(
+        Piece(place, "bold"),
+        Piece(f"{violation.kind} {violation.name}", _WRONG),
+        f": {violation.message}",
+        hang=2,
+    )
+    failed = any(step.failure is not None for step in violation.trace.steps)
+    ending = None if failed or violation.trace.loop is not None else violation.message
+    yield from trace_lines(violation.trace, ending)
+
+
+# --- steps -------------------------------------------------------------------------------------
+
+
+def _step(step: TraceStep, gutter: Piece, wide: tuple[int, int], model: str) -> Iterator[Line]:
+    """A step: its number and time, what happens, its line of the model; below, what it did."""
+    number, time = wide
+    lead = f" {step.number:>{number}}  {step.time:>{time}}  "
+    indent = len(lead) + 1
+    place = f"  {model}:{step.line}" if step.line else ""
+    style = _WRONG if step.failure is not None else "bold"
+    yield line(
+        gutter,
+        Piece(lead, _QUIET),
+        Piece(words.heading(step), style),
+        Piece(place, _QUIET),
+        hang=indent + 2,
+    )
+    blank = " " * (indent - 1)
+    for text, text_style in _details(step):
+        yield line(gutter, blank, Piece(text, text_style), hang=indent + 2)
+
+
+def _details(step: TraceStep) -> Iterator[tuple[str, str]]:
+    if step.choices:
+        yield f"chooses {', '.join(step.choices)}", ""
+    for message in step.sent:
+        by = f"{message.sender} " if step.kind == "start" else ""
+        yield f"{by}sends {words.sending(message, step.time)}", "cyan"
+    for change in step.changes:
+        whose = f"{change.rebec}." if change.rebec != step.rebec else ""
+        yield f"{whose}{words.difference(change)}", ""
+    if step.failure is not None:
+        yield step.failure, _WRONG
+
+
+def _loop_start(trace: Trace) -> str:
+    if trace.steps[-1].number == trace.loop:
+        return "| the run stays here for ever"
+    return "| from here on the run repeats for ever:"
+
+
+# --- coverage and figures ----------------------------------------------------------------------
+
+
+def _coverage(coverage: Coverage, model: str) -> Iterator[Line]:
+    if coverage.servers or coverage.branches:
+        yield line()
+        yield line(Piece("never happened", "bold"))
+    for server in coverage.servers:
+        yield line(f"  {server} never runs", hang=4)
+    for number, what in coverage.branches:
+        yield line(f"  {model}:{number}: {what}", hang=4)
+    if coverage.largest_bags:
+        yield line()
+        yield line(Piece("largest bags", "bold"))
+    wide = max((columns(name) for name, _, _ in coverage.largest_bags), default=0)
+    for name, most, capacity in coverage.largest_bags:
+        yield line(f"  {name}{' ' * (wide - columns(name) + 2)}{most} of {capacity}")
+
+
+def _figures(result: Result) -> Iterator[Line]:
+    speed = words.rate(result.states, result.seconds)
+    rows = {
+        "states": f"{result.states:,}",
+        "transitions": f"{result.transitions:,}",
+        "depth": f"{result.depth:,}",
+        "search": words.duration(result.seconds) + (f", {speed:,.0f} states/s" if speed else ""),
+        "build": words.duration(result.build_seconds) if result.build_seconds else "",
+        "memory": words.memory(result.peak_memory_bytes),
+        "engine": result.engine,
+        "semantics": words.view_of(result.semantics),
+    }
+    yield line()
+    for name, value in rows.items():
+        if value:
+            yield line(Piece(f"{name:<13}", _QUIET), value)
