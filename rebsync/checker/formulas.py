@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -58,3 +59,18 @@ class NamedFormula:
 
     name: str
     formula: Formula
+
+
+def atoms(formula: Formula) -> Iterator[int]:
+    """The numbers of the predicates in a formula."""
+    match formula:
+        case Atom(predicate):
+            yield predicate
+        case Not(operand):
+            yield from atoms(operand)
+        case And(left, right) | Or(left, right):
+            yield from atoms(left)
+            yield from atoms(right)
+        case Temporal(_, operands) | Timed(_, _, operands):
+            for operand in operands:
+                yield from atoms(operand)

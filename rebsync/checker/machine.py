@@ -72,9 +72,9 @@ class Machine:
     """One run of one body; `choices` are the options to take, beyond them the first ones.
 
     `room` is how many messages the rebec may still send to itself. After the run `options` has
-    the number of options of each choice that was evaluated and `choices` the ones taken;
-    `elapsed` is the time that delays took (floating view); `delayed` is the delay at which the
-    body was suspended, with `frames` to go on from (exact view), or None when it ended.
+    the number of options of each choice that was evaluated, `picked` its instruction, `choices`
+    the option taken. `elapsed` is the time that delays took (floating view). `delayed` is the
+    delay at which the body was suspended (exact view), or None when it ended.
     """
 
     program: Program
@@ -94,6 +94,7 @@ class Machine:
     stack: list[Cell] = field(default_factory=list)
     frames: list[tuple[int, int]] = field(default_factory=list)
     options: list[int] = field(default_factory=list)
+    picked: list[int] = field(default_factory=list)
     sends: list[Sent] = field(default_factory=list)
     running: bool = True
     delayed: int | None = None
@@ -150,6 +151,7 @@ class Machine:
         """The option of the next choice."""
         position = len(self.options)
         self.options.append(count)
+        self.picked.append(self.pc - 1)
         if position == len(self.choices):
             self.choices.append(0)
         return self.choices[position]

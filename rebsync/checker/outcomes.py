@@ -17,12 +17,17 @@ from rebsync.checker.steps import Failure, Semantics
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """A way to act: the new local state, or the failure after `sends` to others went out."""
+    """A way to act: the new local state, or the failure after `sends` went out.
+
+    `sends` has those to the rebec itself too, which are in the new state already. `picked` are
+    the instructions that evaluated the choices.
+    """
 
     slot: int
     choices: tuple[int, ...]
     result: Local | Failure
     sends: tuple[Sent, ...] = ()
+    picked: tuple[int, ...] = ()
 
 
 class Actor:
@@ -145,9 +150,11 @@ class Actor:
             failure = failed.failure
         own = [s.message for s in machine.sends if s.receiver == self.index]
         self.largest = max(self.largest, len(bag) + served + len(own))
-        sends = tuple(s for s in machine.sends if s.receiver != self.index)
         result = failure or self._after(machine, local, bag, own)
-        return machine, Outcome(slot, tuple(machine.choices), result, sends)
+        outcome = Outcome(
+            slot, tuple(machine.choices), result, tuple(machine.sends), tuple(machine.picked)
+        )
+        return machine, outcome
 
     def _taken(self, local: Local, slot: int) -> tuple[Message, tuple[Message, ...]]:
         """The message to serve, and the bag without it."""

@@ -17,6 +17,7 @@ from rebsync.source import Span
 
 Cell: TypeAlias = int
 Kind: TypeAlias = Literal["byte", "short", "int", "float", "double", "boolean", "rebec"]
+KINDS: tuple[Kind, ...] = ("byte", "short", "int", "float", "double", "boolean", "rebec")
 NULL = -1
 UNRANKED = 2**31 - 1  # the priority of what has no @priority: after all others
 NO_DEADLINE = 2**62  # sorts after every deadline, and does not move with time

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import time
 from array import array
+from collections.abc import Callable
+from typing import TypeAlias
 
 from rebsync.checker.exploration import (
     Covered,
@@ -21,7 +23,10 @@ from rebsync.checker.state import Message, State
 from rebsync.checker.steps import Failure, Semantics, Step
 from rebsync.checker.views import view_of
 
-_SLICE = 0.1  # seconds between two looks at the bounds
+PAUSED = "paused"
+_SLICE = 0.05  # seconds between two looks at the bounds
+
+Pause: TypeAlias = Callable[[], bool]
 
 
 class Interpreted:
@@ -44,19 +49,26 @@ class Interpreted:
         self._transitions = 0
         self._events: dict[object, Event] = {}
         self._until_reached = False
+        self._spent = 0.0
 
-    def run(self, limits: Limits, report: Report | None = None) -> Exploration:
-        """Searches on from where an earlier run stopped."""
-        started = time.perf_counter()
+    def run(
+        self, limits: Limits, report: Report | None = None, pause: Pause | None = None
+    ) -> Exploration:
+        """Searches on from where an earlier run stopped.
+
+        Ends with the reason PAUSED soon after `pause` has become true.
+        """
+        started = time.perf_counter() - self._spent
         reason = None
         try:
-            reason = self._search(limits, report, started)
+            reason = self._search(limits, report, started, pause)
         except KeyboardInterrupt:
             reason = "it was interrupted"
         except EndlessBody as endless:
             reason = endless_reason(self.program, endless.pc)
         if reason is None and self._until_reached:
             reason = f"the bound of {limits.until} units of time was reached"
+        self._spent = time.perf_counter() - started
         return Exploration(
             len(self.states),
             self._transitions,
@@ -65,7 +77,7 @@ class Interpreted:
             self._covered(),
             self.semantics,
             "interpreted",
-            time.perf_counter() - started,
+            self._spent,
             0.0,
             used_memory(),
             reason,
@@ -78,11 +90,13 @@ class Interpreted:
 
     # --- searching
 
-    def _search(self, limits: Limits, report: Report | None, started: float) -> str | None:
+    def _search(
+        self, limits: Limits, report: Report | None, started: float, pause: Pause | None
+    ) -> str | None:
         if not self.states:
             for ordinal, step in enumerate(self.view.initial_states()):
                 self._reach(step, -1, ordinal, limits)
-        due = started + _SLICE
+        due = time.perf_counter() + _SLICE
         while self._expanded < len(self.states):
             if limits.states is not None and len(self.states) >= limits.states:
                 return f"the bound of {limits.states} states was reached"
@@ -91,6 +105,8 @@ class Interpreted:
                 due = now + _SLICE
                 if stop := self._look(limits, report, now - started):
                     return stop
+                if pause and pause():
+                    return PAUSED
             self._expand(self._expanded, limits)
         return None
 

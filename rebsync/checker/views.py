@@ -7,6 +7,8 @@ docs/semantics.md; the compiled engine must agree with it in every number.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
+from typing import TypeAlias
 
 from rebsync.checker.machine import Coverage, Sent
 from rebsync.checker.outcomes import Actor, Outcome
@@ -87,7 +89,7 @@ class _Bodies:
             result, sent = self._deliver(state, index, outcome)
             if sent is not None:
                 failed = (outcome.slot, outcome.choices[: sent.choices])
-                outcome = Outcome(outcome.slot, failed[1], outcome.result, outcome.sends)
+                outcome = replace(outcome, choices=failed[1])
             yield outcome, result
 
     def _deliver(
@@ -95,6 +97,8 @@ class _Bodies:
     ) -> tuple[State | Failure, Sent | None]:
         locals_ = list(state)
         for sent in outcome.sends:
+            if sent.receiver == index:
+                continue
             received = self.actors[sent.receiver].receive(locals_[sent.receiver], sent.message)
             if received is None:
                 return Failure("overflow", sent.pc, sent.receiver), sent
@@ -153,7 +157,10 @@ class Untimed(_Bodies):
     semantics: Semantics = "core"
 
 
-def view_of(program: Program, semantics: Semantics) -> Exact | Floating | Untimed:
+Views: TypeAlias = Exact | Floating | Untimed
+
+
+def view_of(program: Program, semantics: Semantics) -> Views:
     """The view by its name."""
     match semantics:
         case "tts":

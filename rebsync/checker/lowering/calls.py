@@ -5,7 +5,7 @@ from __future__ import annotations
 from rebsync.checker.lowering import expressions as x
 from rebsync.checker.lowering.emitter import Emitter, kind_of, size_of
 from rebsync.checker.program import Kind
-from rebsync.model import Call, Expression, StringLiteral, Super, Type
+from rebsync.model import Call, Choice, Expression, Paren, StringLiteral, Super, Type
 from rebsync.static.symbols import BuiltinFunctionSymbol, MethodSymbol, ServerSymbol
 from rebsync.static.types import DOUBLE, INT
 
@@ -46,12 +46,23 @@ def _send(node: Call, server: ServerSymbol, e: Emitter) -> None:
         e.emit("CONST", 0)
     else:
         x.as_kind(node.after, kind_of(INT), e)
+    passes = (1,) if _is_positive(node.after, e) else ()
     with e.at(node.span):
         if node.deadline is None:
-            e.emit("SEND", e.world.selector(server), cells)
+            e.emit("SEND", e.world.selector(server), cells, passes)
         else:
             x.as_kind(node.deadline, kind_of(INT), e)
-            e.emit("SENDBY", e.world.selector(server), cells)
+            e.emit("SENDBY", e.world.selector(server), cells, passes)
+
+
+def _is_positive(time: Expression | None, e: Emitter) -> bool:
+    """Whether a time can be seen to be more than zero, whatever is chosen."""
+    if isinstance(time, Paren):
+        return _is_positive(time.inner, e)
+    if isinstance(time, Choice):
+        return all(_is_positive(option, e) for option in time.options)
+    value = e.world.analysis.value_of(time) if time is not None else None
+    return value is not None and value > 0
 
 
 def _invoke(node: Call, symbol: MethodSymbol, e: Emitter) -> Kind:
@@ -77,7 +88,8 @@ def _builtin(name: str, node: Call, e: Emitter) -> Kind:
         match name:
             case "delay":
                 x.as_kind(node.arguments[0], "int", e)
-                e.emit("DELAY", 0, e.free)
+                passes = (1,) if _is_positive(node.arguments[0], e) else ()
+                e.emit("DELAY", 0, e.free, passes)
                 return "int"
             case "assertion":
                 x.value(node.arguments[0], e)

@@ -9,7 +9,7 @@ from rebsync.checker.lowering.conversions import constant, convert, met, promote
 from rebsync.checker.lowering.emitter import Emitter, kind_of, size_of
 from rebsync.checker.lowering.places import Place, index_by, index_pushed, kept, push, store
 from rebsync.checker.lowering.tables import env_table
-from rebsync.checker.program import NULL, Kind
+from rebsync.checker.program import KINDS, NULL, Kind
 from rebsync.checker.values import stored
 from rebsync.model import (
     Assign,
@@ -131,7 +131,7 @@ def _compound(node: Expression, e: Emitter) -> Kind:
             return _conditional(condition, then, otherwise, promoted(kind_of(type_of(node, e))), e)
         case Choice(options):
             kind = kind_of(type_of(node, e))
-            e.emit("CHOICE", 0, 0, tuple(_option(o, kind, e) for o in options))
+            e.emit("CHOICE", KINDS.index(kind), 0, tuple(_option(o, kind, e) for o in options))
             return kind
         case InstanceOf(operand, type_):
             value(operand, e)

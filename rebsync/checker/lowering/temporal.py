@@ -47,6 +47,15 @@ def is_temporal(formula: p.Formula) -> bool:
             return any(is_temporal(o) for o in p.operands(formula))
 
 
+def counts_steps(formula: p.Formula) -> bool:
+    """Whether a formula of LTL has `X`, for which a step of time is a step."""
+    match formula:
+        case p.Ltl("X", _):
+            return True
+        case _:
+            return any(counts_steps(o) for o in p.operands(formula))
+
+
 def _bound(bound: p.TimeBound | None, analysis: Analysis) -> f.Bound | None:
     if bound is None:
         return None

@@ -1,0 +1,72 @@
+"""Which engine searches: the interpreter starts at once, the compiled one takes over."""
+
+from __future__ import annotations
+
+import time
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+
+from rebsync.checker.exploration import Exploration, Report, Search
+from rebsync.checker.problem import Options
+from rebsync.checker.program import Program
+from rebsync.checker.search import PAUSED, Interpreted
+from rebsync.checker.steps import Semantics
+
+PATIENCE = 0.25  # seconds after which a search counts as large
+
+
+def explore(
+    program: Program,
+    semantics: Semantics,
+    invariants: tuple[int, ...],
+    options: Options,
+    report: Report | None = None,
+) -> tuple[Search, Exploration]:
+    """Searches with the engine that was asked for.
+
+    Raises Unavailable when the compiled engine was asked for and cannot be built.
+    """
+    if options.engine == "interpreted":
+        interpreted = Interpreted(program, semantics, invariants)
+        return interpreted, interpreted.run(options.limits, report)
+    if options.engine == "compiled":
+        compiled = _compiled(program, semantics, invariants, options)
+        return compiled, compiled.run(options.limits, report)
+    return _auto(program, semantics, invariants, options, report)
+
+
+def _compiled(
+    program: Program, semantics: Semantics, invariants: tuple[int, ...], options: Options
+) -> Search:
+    from rebsync.checker.compiled import CompiledSearch
+
+    return CompiledSearch(program, semantics, invariants, hash_compaction=options.hash_compaction)
+
+
+def _auto(
+    program: Program,
+    semantics: Semantics,
+    invariants: tuple[int, ...],
+    options: Options,
+    report: Report | None,
+) -> tuple[Search, Exploration]:
+    """Interprets for a moment; then compiles, and goes on interpreting until that is done."""
+    search = Interpreted(program, semantics, invariants)
+    large = time.monotonic() + PATIENCE
+    found = search.run(options.limits, report, lambda: time.monotonic() >= large)
+    if found.reason != PAUSED:
+        return search, found
+    from rebsync.checker.compiled import Unavailable
+
+    with ThreadPoolExecutor(1) as pool:
+        waiting = pool.submit(_compiled, program, semantics, invariants, options)
+        found = search.run(options.limits, report, waiting.done)
+        if found.reason != PAUSED:
+            return search, found
+        try:
+            compiled = waiting.result()
+        except Unavailable as unavailable:
+            found = search.run(options.limits, report)
+            note = f"the interpreter did all the work: {unavailable}"
+            return search, replace(found, notes=(*found.notes, note))
+    return compiled, compiled.run(options.limits, report)

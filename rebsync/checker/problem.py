@@ -1,0 +1,37 @@
+"""What is to be verified, and how."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
+
+from rebsync.checker.exploration import Limits
+from rebsync.checker.steps import Semantics
+from rebsync.properties import Properties
+from rebsync.source import Source
+from rebsync.static import Analysis
+
+EngineChoice: TypeAlias = Literal["auto", "interpreted", "compiled"]
+Fairness: TypeAlias = Literal["none", "weak", "progress"]
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """A model without errors, and the properties that it is to have, with their texts."""
+
+    source: Source
+    analysis: Analysis
+    properties: Properties = field(default_factory=Properties)
+    property_source: Source | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """How to verify. `semantics` None leaves the view to the model and its properties."""
+
+    semantics: Semantics | None = None
+    engine: EngineChoice = "auto"
+    limits: Limits = field(default_factory=Limits)
+    fairness: Fairness = "none"
+    allowed: frozenset[str] = frozenset()
+    hash_compaction: bool = False

@@ -1,0 +1,75 @@
+"""Single runs: by chance, by hand, or as recorded."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from random import Random
+from typing import TypeAlias
+
+from rebsync.checker.state import State
+from rebsync.checker.steps import Action, Failure, Step
+from rebsync.checker.telling import Teller
+from rebsync.checker.trace import Trace, TraceStep
+from rebsync.checker.views import Views
+
+Chooser: TypeAlias = Callable[[int, State, Sequence[Step]], int | None]
+"""Picks one of the possible steps, at a time since the start; None ends the run."""
+
+
+def by_chance(seed: int) -> Chooser:
+    """Every possible step is as likely as any other."""
+    random = Random(seed)
+    return lambda time, state, steps: random.randrange(len(steps))
+
+
+def run(
+    teller: Teller, choose: Chooser, *, until: int | None = None, steps: int | None = None
+) -> Iterator[TraceStep]:
+    """The steps of one run, until it ends, time passes `until`, or `steps` were made."""
+    state: State = ()
+    time = number = 0
+    while steps is None or number <= steps:
+        possible = teller.view.steps(state) if number else teller.view.initial_states()
+        if until is not None:
+            possible = tuple(s for s in possible if time + s.time <= until)
+        picked = choose(time, state, possible) if len(possible) > 0 else None
+        if picked is None:
+            return
+        step = possible[picked]
+        yield teller.step(number, time, state, step)
+        if isinstance(step.result, Failure):
+            return
+        state, time, number = step.result, time + step.time, number + 1
+
+
+class NotARun(Exception):
+    """A recorded run that the model does not have; `number` is the first step that differs."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.number = number
+
+
+def replay(teller: Teller, actions: Sequence[Action], loop: int | None) -> Trace:
+    """The run that consists of recorded actions. Raises NotARun."""
+    state: State = ()
+    time = 0
+    told: list[TraceStep] = []
+    for number, action in enumerate(actions):
+        step = _next(teller.view, state, action)
+        if step is None:
+            raise NotARun(number)
+        told.append(teller.step(number, time, state, step))
+        time += step.time
+        if isinstance(step.result, Failure):
+            if number < len(actions) - 1:
+                raise NotARun(number + 1)
+            break
+        state = step.result
+    return Trace(teller.source.path, teller.view.semantics, tuple(told), loop)
+
+
+def _next(view: Views, state: State, action: Action) -> Step | None:
+    if state:
+        return view.next_state(state, action)
+    return next((s for s in view.initial_states() if s.action == action), None)

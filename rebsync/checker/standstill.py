@@ -1,0 +1,144 @@
+"""Zeno behaviour: time that cannot advance, and cycles in which it stands still.
+
+A state is Zeno when from it no step can be reached in which time passes, and no end: no deadlock
+and no failure. Then every run goes on for ever in one moment.
+"""
+
+from __future__ import annotations
+
+from array import array
+
+from rebsync.checker.graph import Graph
+from rebsync.checker.program import Program
+
+
+def may_stand_still(program: Program) -> bool:
+    """Whether servers can call for each other in a circle without a delay or an `after`.
+
+    Where this is False no run takes infinitely many steps in one moment, so the search of the
+    state space for such runs is not needed.
+    """
+    if _may_wait_in_place(program):
+        return True
+    follows = [
+        {
+            rebec.dispatch[selector]
+            for selector in _at_once(program, server.body, set())
+            for rebec in program.rebecs
+            if rebec.dispatch[selector] >= 0
+        }
+        for server in program.servers
+    ]
+    return _has_cycle(follows)
+
+
+def _may_wait_in_place(program: Program) -> bool:
+    """Whether a body could be split again and again by delays of 0."""
+    delays = any(i.op == "DELAY" and not i.constants for i in program.code)
+    return delays and any(
+        i.op == "CALL" or (i.op == "JUMP" and i.a <= pc) for pc, i in enumerate(program.code)
+    )
+
+
+def _at_once(program: Program, body: int, seen: set[int]) -> set[int]:
+    """Selectors to which a body can send at the moment in which it starts."""
+    if body in seen:
+        return set()
+    seen.add(body)
+    found: set[int] = set()
+    waiting, visited = [program.bodies[body].entry], set[int]()
+    while waiting:
+        pc = waiting.pop()
+        if pc in visited:
+            continue
+        visited.add(pc)
+        instruction = program.code[pc]
+        match instruction.op:
+            case "JUMP":
+                waiting.append(instruction.a)
+                continue
+            case "JUMPF" | "JUMPT":
+                waiting.append(instruction.a)
+            case "RET":
+                continue
+            case "DELAY" if instruction.constants:
+                continue
+            case "CALL":
+                found |= _at_once(program, instruction.a, seen)
+            case "SEND" | "SENDBY" if not instruction.constants:
+                found.add(instruction.a)
+        waiting.append(pc + 1)
+    return found
+
+
+def _has_cycle(follows: list[set[int]]) -> bool:
+    """Whether a graph has a cycle: nodes without successors are taken away until none is left."""
+    left = {node: set(targets) for node, targets in enumerate(follows)}
+    while True:
+        ends = {node for node, targets in left.items() if not targets}
+        if not ends:
+            return bool(left)
+        left = {n: targets - ends for n, targets in left.items() if n not in ends}
+
+
+# --- in the state space ------------------------------------------------------------------------
+
+
+def stuck_states(graph: Graph) -> tuple[array[int], bool]:
+    """The Zeno states in breadth-first order, and whether time can stand still in a cycle."""
+    count = len(graph)
+    leaving = bytearray(count)  # an end or a step of time is reachable
+    open_edges = array("l", bytes(8 * count))  # steps without time to states not yet peeled off
+    before: dict[int, list[int]] = {}
+    free: list[int] = []
+    for state in range(count):
+        edges = range(graph.first[state], graph.first[state + 1])
+        leaving[state] = not edges or any(_leaves(graph, e) for e in edges)
+        for edge in edges:
+            if not _leaves(graph, edge):
+                before.setdefault(graph.target[edge], []).append(state)
+                open_edges[state] += 1
+        if not open_edges[state]:
+            free.append(state)
+    _spread(leaving, before)
+    peeled = _peel(free, open_edges, before)
+    stuck = array("l", (s for s in range(count) if not leaving[s]))
+    return stuck, peeled < count
+
+
+def _leaves(graph: Graph, edge: int) -> bool:
+    return graph.target[edge] < 0 or graph.time[edge] > 0
+
+
+def _spread(leaving: bytearray, before: dict[int, list[int]]) -> None:
+    """Marks every state from which a marked one can be reached in no time."""
+    waiting = [state for state, marked in enumerate(leaving) if marked]
+    while waiting:
+        for state in before.get(waiting.pop(), ()):
+            if not leaving[state]:
+                leaving[state] = 1
+                waiting.append(state)
+
+
+def _peel(free: list[int], open_edges: array[int], before: dict[int, list[int]]) -> int:
+    """How many states are on no way into a cycle."""
+    peeled = 0
+    while free:
+        peeled += 1
+        for state in before.get(free.pop(), ()):
+            open_edges[state] -= 1
+            if not open_edges[state]:
+                free.append(state)
+    return peeled
+
+
+def cycle_from(graph: Graph, start: int) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """From a Zeno state on: ordinals that lead into a cycle, and those of the cycle."""
+    seen: dict[int, int] = {}
+    ordinals: list[int] = []
+    state = start
+    while state not in seen:
+        seen[state] = len(ordinals)
+        ordinals.append(0)
+        state = graph.target[graph.first[state]]
+    return tuple(ordinals[: seen[state]]), tuple(ordinals[seen[state] :])

@@ -1,0 +1,233 @@
+"""Verification: one search, then everything that it says about the model and its properties."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from rebsync.checker.engines import explore
+from rebsync.checker.exploration import Event, Exploration, Report, Search
+from rebsync.checker.formulas import Atom, NamedFormula
+from rebsync.checker.graph import Graph
+from rebsync.checker.lowering import lower
+from rebsync.checker.memory import peak_memory
+from rebsync.checker.naming import coverage_of, event_name
+from rebsync.checker.problem import Options, Problem
+from rebsync.checker.program import Program
+from rebsync.checker.result import Result, Verdict, Violation
+from rebsync.checker.standstill import cycle_from, may_stand_still, stuck_states
+from rebsync.checker.steps import Failure, Semantics, ViolationKind
+from rebsync.checker.telling import Teller
+from rebsync.checker.trace import Trace
+from rebsync.checker.views import view_of
+from rebsync.properties import Property
+
+FLOATING_CAVEAT = (
+    "the floating view of a model with delay leaves overflow, state properties and races of "
+    "priorities undecided: use --semantics tts"
+)
+CYCLE_CAVEAT = "time can stand still for ever in a cycle of steps, which can also be left"
+
+
+def verify(problem: Problem, options: Options, report: Report | None = None) -> Result:
+    """Everything that can go wrong in a model, with a shortest run to each."""
+    started = time.perf_counter()
+    program, formulas = lower(problem.analysis, problem.properties)
+    assertions = formulas[: len(problem.properties.assertions)]
+    invariants = tuple(f.formula.predicate for f in assertions if isinstance(f.formula, Atom))
+    semantics = options.semantics or semantics_for(program, problem)
+    search, exploration = explore(program, semantics, invariants, options, report)
+    answer = _Answer(problem, options, program, formulas, search, exploration)
+    answer.collect()
+    return answer.result(time.perf_counter() - started)
+
+
+def semantics_for(program: Program, problem: Problem) -> Semantics:
+    """The floating view if the model has no `delay`; what counts steps or time needs the exact.
+
+    Without `delay` the two views differ only by steps of time (FACS 2015).
+    """
+    from rebsync.checker.lowering.temporal import counts_steps
+
+    properties = problem.properties
+    exact = (
+        program.has_delay or properties.tctl or any(counts_steps(p.formula) for p in properties.ltl)
+    )
+    return "tts" if exact else "ftts"
+
+
+@dataclass
+class _Answer:
+    """What has been found out so far."""
+
+    problem: Problem
+    options: Options
+    program: Program
+    formulas: tuple[NamedFormula, ...]
+    search: Search
+    exploration: Exploration
+    violations: list[Violation] = field(default_factory=list)
+    caveats: list[str] = field(default_factory=list)
+    verdicts: dict[str, Verdict] = field(default_factory=dict)
+    _graph: Graph | None = None
+
+    def __post_init__(self) -> None:
+        view = view_of(self.program, self.exploration.semantics)
+        self.teller = Teller(view, self.problem.source)
+
+    @property
+    def complete(self) -> bool:
+        return self.exploration.reason is None
+
+    def graph(self) -> Graph:
+        if self._graph is None:
+            self._graph = self.search.graph()
+        return self._graph
+
+    # --- collecting
+
+    def collect(self) -> None:
+        """Looks at all that the search met, then at what only the whole state space can tell."""
+        exploration = self.exploration
+        if self.program.has_delay and exploration.semantics == "ftts":
+            self.caveats.append(FLOATING_CAVEAT)
+        self.caveats += exploration.notes
+        for event in exploration.events:
+            if isinstance(event.cause, int):
+                self._assertion(event, event.cause)
+            elif event.cause == "deadlock":
+                self._deadlock(event)
+            elif isinstance(event.cause, Failure):
+                self._failure(event, event.cause)
+        self._assertions_that_hold()
+        self._temporal()
+        if exploration.semantics != "core" and self.complete and may_stand_still(self.program):
+            self._standstill()
+
+    def _add(self, kind: ViolationKind, name: str, message: str, line: int, trace: Trace) -> None:
+        if any((v.kind, v.name) == (kind, name) for v in self.violations):
+            return
+        path = self.problem.source.path
+        self.violations.append(Violation(kind, name, message, path, line, trace))
+
+    def _trace(self, event: Event) -> Trace:
+        if event.state < 0:
+            return self.teller.trace((), event.ordinal)
+        return self.teller.trace(self.search.path(event.state), event.ordinal)
+
+    def _failure(self, event: Event, failure: Failure) -> None:
+        body = self.program.body_at(failure.pc)
+        if self._of_predicate(failure):
+            self._without_value(event, failure)
+            return
+        trace = self._trace(event)
+        line = self.teller.line(self.program.spans[failure.pc])
+        name = event_name(failure, body, line, self.program)
+        self._add(failure.kind, name, trace.steps[-1].failure or "", line, trace)
+
+    def _deadlock(self, event: Event) -> None:
+        if "deadlock" not in self.options.allowed:
+            message = "no message is left, and nobody has anything to do"
+            self._add("deadlock", "deadlock", message, 0, self._trace(event))
+
+    # --- properties
+
+    def _entries(self) -> Iterator[tuple[Property, NamedFormula]]:
+        yield from zip(self.problem.properties.all, self.formulas, strict=True)
+
+    def _of_predicate(self, failure: Failure) -> bool:
+        return failure.rebec < 0
+
+    def _without_value(self, event: Event, failure: Failure) -> None:
+        """A property that divides by zero, or reads beyond an array, in some state."""
+        for entry, formula in self._entries():
+            for number in predicates_of(formula):
+                body = self.program.bodies[self.program.predicates[number]]
+                if body.entry <= failure.pc < body.end:
+                    what = "divides by zero" if failure.kind == "division" else "has no such index"
+                    self.verdicts[entry.name] = "violated"
+                    message = f'the property "{entry.name}" {what} in this state'
+                    self._property(failure.kind, entry, message, self._trace(event))
+
+    def _assertion(self, event: Event, predicate: int) -> None:
+        for entry, formula in self._entries():
+            if formula.formula == Atom(predicate):
+                self.verdicts[entry.name] = "violated"
+                message = f'the property "{entry.name}" is false'
+                self._property("property", entry, message, self._trace(event))
+
+    def _property(self, kind: ViolationKind, entry: Property, message: str, trace: Trace) -> None:
+        source = self.problem.property_source
+        path = source.path if source else ""
+        line = source.position(entry.name_span.start).line if source else 0
+        self.violations.append(Violation(kind, entry.name, message, path, line, trace))
+
+    def _assertions_that_hold(self) -> None:
+        for entry in self.problem.properties.assertions:
+            known: Verdict = "satisfied" if self.complete else "undetermined"
+            self.verdicts.setdefault(entry.name, known)
+
+    def _temporal(self) -> None:
+        count = len(self.problem.properties.assertions)
+        for entry, formula in list(self._entries())[count:]:
+            if not self.complete:
+                self.verdicts[entry.name] = "undetermined"
+                continue
+            run = self._refutation(entry, formula)
+            self.verdicts[entry.name] = "satisfied" if run is None else "violated"
+            if run is not None:
+                message = f'the property "{entry.name}" does not hold on this run'
+                self._property("property", entry, message, run)
+
+    def _refutation(self, entry: Property, formula: NamedFormula) -> Trace | None:
+        """A run on which a formula of LTL or TCTL does not hold; None when it holds."""
+        raise NotImplementedError
+
+    # --- time that stands still
+
+    def _standstill(self) -> None:
+        stuck, cycles = stuck_states(self.graph())
+        if stuck:
+            prefix, cycle = cycle_from(self.graph(), stuck[0])
+            way = (*self.search.path(stuck[0]), *prefix)
+            trace = self.teller.trace((*way, *cycle), loop=len(way) - 1)
+            message = "from here on time advances on no run, and steps go on for ever"
+            self._add("zeno", "zeno", message, 0, trace)
+        elif cycles:
+            self.caveats.append(CYCLE_CAVEAT)
+
+    # --- the answer
+
+    def result(self, seconds: float) -> Result:
+        """The answer as a value; `seconds` is what all of it took."""
+        found, exploration = self.exploration, self.exploration
+        verdict: Verdict = "satisfied"
+        if self.violations:
+            verdict = "violated"
+        elif not self.complete:
+            verdict = "undetermined"
+        names = [entry.name for entry in self.problem.properties.all]
+        return Result(
+            verdict,
+            found.reason,
+            tuple(self.caveats),
+            tuple((name, self.verdicts[name]) for name in names),
+            tuple(self.violations),
+            coverage_of(self.program, exploration.covered, self.problem.source),
+            found.states,
+            found.transitions,
+            found.depth,
+            found.semantics,
+            found.engine,
+            seconds,
+            found.build_seconds,
+            max(peak_memory(), found.memory),
+        )
+
+
+def predicates_of(formula: NamedFormula) -> tuple[int, ...]:
+    """The numbers of the predicates in a formula."""
+    from rebsync.checker.formulas import atoms
+
+    return tuple(atoms(formula.formula))

@@ -1,0 +1,68 @@
+"""Reading what is to be verified or simulated."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rebsync.cli.paths import PROPERTY
+from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
+from rebsync.files import STANDARD_INPUT, read_source
+from rebsync.source import Source
+
+if TYPE_CHECKING:
+    from rebsync.checker.problem import Problem
+    from rebsync.properties import Properties
+    from rebsync.static import Analysis
+
+
+def read_problem(model: str, property_file: str | None, *, untimed: bool = False) -> Problem:
+    """A model and its properties: those of `property_file`, else of the file beside the model.
+
+    Mistakes of either are RebsyncErrors; warnings are what `lint` is for.
+    """
+    from rebsync.checker.problem import Problem
+    from rebsync.properties import Properties
+
+    source = read_source(model)
+    analysis = _analysed(source, untimed)
+    path = property_file or _beside(model)
+    if path is None:
+        return Problem(source, analysis, Properties())
+    properties = read_source(path)
+    return Problem(source, analysis, _properties(properties, analysis), properties)
+
+
+def _beside(model: str) -> str | None:
+    path = Path(model).with_suffix(PROPERTY)
+    return str(path) if model != STANDARD_INPUT and path.is_file() else None
+
+
+def _analysed(source: Source, untimed: bool) -> Analysis:
+    from rebsync.grammars.parser import parse_model
+    from rebsync.static import analyse
+
+    parsed = parse_model(source)
+    analysis = analyse(parsed.model, incomplete=not parsed.ok)
+    _refuse(source, (*parsed.diagnostics, *analysis.diagnostics))
+    if untimed:
+        from rebsync.checker.untimed import check_untimed
+
+        _refuse(source, check_untimed(analysis))
+    return analysis
+
+
+def _properties(source: Source, analysis: Analysis) -> Properties:
+    from rebsync.grammars.properties import parse_properties
+    from rebsync.property_check import check_properties
+
+    parsed = parse_properties(source)
+    found = check_properties(parsed.properties, analysis, incomplete=not parsed.complete)
+    _refuse(source, (*parsed.diagnostics, *found))
+    return parsed.properties
+
+
+def _refuse(source: Source, found: tuple[Diagnostic, ...]) -> None:
+    errors = tuple(d for d in dict.fromkeys(found) if d.severity is Severity.ERROR)
+    if errors:
+        raise RebsyncError([Findings(source, errors)])
