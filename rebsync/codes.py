@@ -181,6 +181,7 @@ RUNS = {
     "RS923": "a text that holds no run, or not the one that is wanted",
     "RS924": "a run that the model does not have",
     "RS925": "a state space that is too large to draw",
+    "RS931": "no C compiler for the compiled engine, or one that fails",
 }
 
 CODES: dict[str, str] = {

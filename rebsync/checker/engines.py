@@ -12,6 +12,11 @@ from rebsync.checker.program import Program
 from rebsync.checker.search import PAUSED, Interpreted
 from rebsync.checker.steps import Semantics
 
+
+class Unavailable(Exception):
+    """The compiled engine cannot be had here; the text says why."""
+
+
 PATIENCE = 0.25  # seconds after which a search counts as large
 
 
@@ -56,8 +61,6 @@ def _auto(
     found = search.run(options.limits, report, lambda: time.monotonic() >= large)
     if found.reason != PAUSED:
         return search, found
-    from rebsync.checker.compiled import Unavailable
-
     with ThreadPoolExecutor(1) as pool:
         waiting = pool.submit(_compiled, program, semantics, invariants, options)
         found = search.run(options.limits, report, waiting.done)

@@ -14,6 +14,8 @@ COMMANDS = {
     "generate": "Write the ROS package of a model.",
     "lint": "Report mistakes in models and properties.",
     "new": "Begin a model from a conceptual model in TOML.",
+    "simulate": "Make one run of a model, by chance or by hand.",
+    "verify": "Check everything that can go wrong in a model, and its properties.",
 }
 
 

@@ -1,0 +1,74 @@
+"""Writing one run in the format that was asked for."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+from rebsync.cli.options import write_output
+from rebsync.cli.status import Status
+from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
+from rebsync.files import read_source
+from rebsync.source import NOWHERE, Source
+
+if TYPE_CHECKING:
+    from rebsync.checker.problem import Problem
+    from rebsync.checker.trace import Trace
+
+STYLES = ("text", "json", "svg", "html")
+
+
+def write_run(trace: Trace, source: Source, style: str, output: str) -> None:
+    """Writes a run to a file, or to standard output for `-`."""
+    if style == "text" and output == "-":
+        from rebsync.checker.show.text import print_trace
+
+        print_trace(trace, sys.stdout)
+        return
+    write_output(output, _text(trace, source, style))
+
+
+def _text(trace: Trace, source: Source, style: str) -> str:
+    match style:
+        case "json":
+            from rebsync.checker.show.data import trace_json
+
+            return trace_json(trace)
+        case "svg":
+            from rebsync.checker.show.chart import chart
+
+            return chart(trace)
+        case "html":
+            from rebsync.checker.show.page import trace_page
+
+            return trace_page(trace, source)
+        case _:
+            from rebsync.checker.show.pieces import plain
+            from rebsync.checker.show.text import trace_lines
+
+            return plain(trace_lines(trace))
+
+
+def replay_file(
+    problem: Problem, path: str, violation: str | None, style: str, output: str
+) -> Status:
+    """Runs a recorded run through the interpreter again."""
+    from rebsync.checker.lowering import lower
+    from rebsync.checker.show.replay import trace_from_json
+    from rebsync.checker.simulate import NotARun, replay
+    from rebsync.checker.telling import Teller
+    from rebsync.checker.views import view_of
+
+    source = read_source(path)
+    recorded = trace_from_json(source, violation)
+    program, _ = lower(problem.analysis, problem.properties)
+    teller = Teller(view_of(program, recorded.semantics), problem.source)
+    try:
+        trace = replay(teller, recorded.actions, recorded.loop)
+    except NotARun as different:
+        message = f"step {different.number} of this run is none of {problem.source.path}"
+        hint = "the model has changed since: verify it again"
+        found = Diagnostic("RS924", NOWHERE, message, hint)
+        raise RebsyncError([Findings(source, (found,))]) from None
+    write_run(trace, problem.source, style, output)
+    return Status.VIOLATED if trace.steps[-1].failure else Status.CLEAN

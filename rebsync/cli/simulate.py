@@ -1,0 +1,104 @@
+"""`rebsync simulate`: one run of a model, by chance or by hand."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import click
+
+from rebsync.cli.options import refuse_to_overwrite
+from rebsync.cli.problem import read_problem
+from rebsync.cli.runs import STYLES, write_run
+from rebsync.cli.status import Status
+from rebsync.cli.verify import view_named, view_options
+
+if TYPE_CHECKING:
+    from rebsync.checker.simulate import Chooser
+    from rebsync.checker.state import State
+    from rebsync.checker.steps import Step
+    from rebsync.checker.telling import Teller
+
+_STEPS = 100
+
+
+@click.command("simulate")
+@click.argument("model", metavar="MODEL")
+@view_options
+@click.option("--seed", type=int, metavar="N", help="Chance that can be repeated.")
+@click.option("--until", type=click.IntRange(0), metavar="T", help="End at the time T.")
+@click.option(
+    "--steps", type=click.IntRange(0), metavar="N", help=f"End after N steps (default: {_STEPS})."
+)
+@click.option("--interactive", is_flag=True, help="Choose each step yourself.")
+@click.option(
+    "--format",
+    "style",
+    type=click.Choice(STYLES),
+    default="text",
+    show_default=True,
+    help="svg: a message sequence chart. html: a page with chart, states and source.",
+)
+@click.option("-o", "--output", default="-", metavar="FILE", help="Write the run to FILE.")
+@click.pass_context
+def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Status:
+    """Make one run of a model, by chance or by hand.
+
+    Without --seed every run is another one; the seed is told on standard error. Exit status: 3 if
+    the run ends in a step that fails, else 0.
+    """
+    from rebsync.checker.lowering import lower
+    from rebsync.checker.simulate import by_chance, run
+    from rebsync.checker.telling import Teller
+    from rebsync.checker.trace import Trace
+    from rebsync.checker.verify import semantics_for
+    from rebsync.checker.views import view_of
+
+    given = ctx.params
+    if given["interactive"] and given["seed"] is not None:
+        raise click.UsageError("--interactive and --seed exclude each other")
+    refuse_to_overwrite(model, output)
+    problem = read_problem(model, given["property_file"], untimed=given["language"] == "core")
+    program, _formulas = lower(problem.analysis, problem.properties)
+    semantics = view_named(given) or semantics_for(program, problem)
+    teller = Teller(view_of(program, semantics), problem.source)
+    choose = _by_hand(teller) if given["interactive"] else by_chance(_seed(given["seed"]))
+    until, steps = given["until"], given["steps"]
+    if steps is None and until is None:
+        steps = _STEPS
+    told = tuple(run(teller, choose, until=until, steps=steps))
+    write_run(Trace(problem.source.path, semantics, told), problem.source, given["style"], output)
+    return Status.VIOLATED if told and told[-1].failure else Status.CLEAN
+
+
+def _seed(given: int | None) -> int:
+    if given is not None:
+        return given
+    from random import SystemRandom
+
+    seed = SystemRandom().randrange(1_000_000)
+    click.echo(f"seed {seed}", err=True)
+    return seed
+
+
+def _by_hand(teller: Teller) -> Chooser:
+    """Asks on the terminal, unless there is only one step; an empty line or q ends the run."""
+    from rebsync.checker.show.words import heading
+
+    def choose(time: int, state: State, steps: Sequence[Step]) -> int | None:
+        labels = [heading(teller.step(0, time, state, step)) for step in steps]
+        if len(labels) == 1:
+            click.echo(f"{time:>4}  {labels[0]}", err=True)
+            return 0
+        for number, label in enumerate(labels, 1):
+            click.echo(f"  {number}) {label}", err=True)
+        while True:
+            click.echo(f"at {time}, 1 to {len(labels)}, q to end: ", nl=False, err=True)
+            answer = sys.stdin.readline().strip()
+            if answer in ("", "q"):
+                return None
+            if answer.isdecimal() and 1 <= int(answer) <= len(labels):
+                return int(answer) - 1
+
+    return choose

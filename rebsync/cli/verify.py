@@ -1,0 +1,214 @@
+"""`rebsync verify`: check everything that can go wrong in a model, and its properties."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Literal
+
+import click
+
+from rebsync.cli.amounts import amount, duration
+from rebsync.cli.options import refuse_to_overwrite, write_output
+from rebsync.cli.problem import read_problem
+from rebsync.cli.status import Status
+from rebsync.diagnostics import RebsyncError
+
+if TYPE_CHECKING:
+    from rebsync.checker.problem import Options, Problem
+    from rebsync.checker.result import Result, Violation
+    from rebsync.checker.steps import Semantics
+
+FORMATS = ("text", "json", "svg", "html")
+_STATUS = {
+    "satisfied": Status.CLEAN,
+    "violated": Status.VIOLATED,
+    "undetermined": Status.UNDETERMINED,
+}
+
+
+def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The options that say which system is meant, and how it is seen."""
+    for option in reversed(
+        (
+            click.option(
+                "--property",
+                "property_file",
+                metavar="FILE",
+                help="The properties (default: the .property file beside the model).",
+            ),
+            click.option(
+                "--language",
+                type=click.Choice(["timed", "core"]),
+                default="timed",
+                show_default=True,
+                help="core: no time, first in first out.",
+            ),
+            click.option(
+                "--semantics",
+                type=click.Choice(["auto", "tts", "ftts"]),
+                default="auto",
+                show_default=True,
+                help="tts: exact, one clock. ftts: floating time, fewer states.",
+            ),
+        )
+    ):
+        command = option(command)
+    return command
+
+
+@click.command("verify")
+@click.argument("model", metavar="MODEL")
+@view_options
+@click.option(
+    "--engine",
+    type=click.Choice(["auto", "interpreted", "compiled"]),
+    default="auto",
+    show_default=True,
+    help="What searches; auto compiles large searches.",
+)
+@click.option(
+    "--allow",
+    type=click.Choice(["deadlock"]),
+    multiple=True,
+    help="What is no mistake here: systems that are meant to end.",
+)
+@click.option(
+    "--fairness",
+    type=click.Choice(["none", "weak", "progress"]),
+    default="none",
+    show_default=True,
+    help="Which runs LTL is about.",
+)
+@click.option("--max-states", type=click.IntRange(1), metavar="N", help="Stop at N states.")
+@click.option("--max-time", callback=duration, metavar="TIME", help="Stop after 90, 90s, 5m or 1h.")
+@click.option("--memory", callback=amount, metavar="SIZE", help="Stop at 500M or 2G of memory.")
+@click.option("--until", type=click.IntRange(0), metavar="T", help="Look at times up to T only.")
+@click.option(
+    "--hash-compaction",
+    is_flag=True,
+    help="Keep 64 bits for each state: less memory, and a small risk of missing states.",
+)
+@click.option(
+    "--format",
+    "style",
+    type=click.Choice(FORMATS),
+    default="text",
+    show_default=True,
+    help="svg: the chart of one run. html: a page with chart, states and source.",
+)
+@click.option("-o", "--output", default="-", metavar="FILE", help="Write the result to FILE.")
+@click.option(
+    "--replay", metavar="FILE", help="Run a recorded run again: JSON of an earlier result."
+)
+@click.option("--violation", metavar="NAME", help="Which run to replay or to draw.")
+@click.option("--states", metavar="FILE", help="Draw the state space: .dot, .svg or .json.")
+@click.option(
+    "--export",
+    type=click.Choice(["rmc-xml"]),
+    help="Print the state space in RMC's format, and nothing else.",
+)
+@click.pass_context
+def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Status:
+    """Check everything that can go wrong in a model, and its properties.
+
+    Always checked: deadlock, missed deadlines, full bags, assertions, array indices, division by
+    zero, messages to null, time that cannot advance. Exit status: 0 satisfied, 3 violated,
+    4 undetermined.
+    """
+    given = ctx.params
+    refuse_to_overwrite(model, output)
+    problem = read_problem(model, given["property_file"], untimed=given["language"] == "core")
+    if given["replay"]:
+        from rebsync.cli.runs import replay_file
+
+        return replay_file(problem, given["replay"], given["violation"], given["style"], output)
+    options = _options(given)
+    if given["export"] or given["states"]:
+        from rebsync.cli.spaces import write_space
+
+        write_space(problem, options, given["states"], output if given["export"] else None)
+        if given["export"]:
+            return Status.CLEAN
+    result = _verified(problem, options)
+    _write(result, problem, given, output)
+    return _STATUS[result.verdict]
+
+
+def _options(given: dict[str, Any]) -> Options:
+    from rebsync.checker.exploration import Limits
+    from rebsync.checker.problem import Options
+
+    return Options(
+        semantics=view_named(given),
+        engine=given["engine"],
+        limits=Limits(given["max_states"], given["max_time"], given["memory"], given["until"]),
+        fairness=given["fairness"],
+        allowed=frozenset(given["allow"]),
+        hash_compaction=given["hash_compaction"],
+    )
+
+
+def view_named(given: dict[str, Any]) -> Semantics | None:
+    """The view that the options ask for; None leaves it to the model."""
+    if given["language"] == "core":
+        if given["semantics"] != "auto":
+            raise click.UsageError("--language core has no time: leave --semantics out")
+        return "core"
+    asked: Semantics | Literal["auto"] = given["semantics"]
+    return None if asked == "auto" else asked
+
+
+def _verified(problem: Problem, options: Options) -> Result:
+    from rebsync.checker.engines import Unavailable
+    from rebsync.checker.verify import verify
+    from rebsync.cli.progress import progress
+
+    with progress(sys.stderr) as report:
+        try:
+            return verify(problem, options, report)
+        except Unavailable as unavailable:
+            hint = "--engine auto goes on without it"
+            raise RebsyncError.of(problem.source.path, "RS931", str(unavailable), hint) from None
+
+
+def _write(result: Result, problem: Problem, given: dict[str, Any], output: str) -> None:
+    style = given["style"]
+    if style == "text" and output == "-":
+        from rebsync.checker.show.text import print_result
+
+        print_result(result, problem.source.path, sys.stdout)
+        return
+    write_output(output, _text(result, problem, style, given["violation"]))
+
+
+def _text(result: Result, problem: Problem, style: str, wanted: str | None) -> str:
+    match style:
+        case "json":
+            from rebsync.checker.show.data import result_json
+
+            return result_json(result)
+        case "html":
+            from rebsync.checker.show.page import result_page
+
+            return result_page(result, problem.source, problem.property_source)
+        case "svg":
+            from rebsync.checker.show.chart import chart
+
+            violation = _violation(result, wanted)
+            return chart(violation.trace, violation.message)
+        case _:
+            from rebsync.checker.show.pieces import plain
+            from rebsync.checker.show.text import result_lines
+
+            return plain(result_lines(result, problem.source.path))
+
+
+def _violation(result: Result, wanted: str | None) -> Violation:
+    for violation in result.violations:
+        if wanted in (None, violation.name):
+            return violation
+    if wanted is None:
+        raise click.UsageError(f"there is no run to draw: {result.verdict}")
+    names = ", ".join(v.name for v in result.violations) or "none"
+    raise click.UsageError(f'no violation is called "{wanted}"; there is {names}')
