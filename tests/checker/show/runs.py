@@ -164,7 +164,7 @@ def crossing(*, failing: bool = True) -> Trace:
     done = run.message("left", "controller", "request", {"id": "0", "urgent": "false"}, 0, None)
     run.resume("left", done, changes={"at": "3"})
     if failing:
-        run.take("controller", line=12, failure='assertion failed: "one <at> a time"')
+        run.take("controller", line=12, failure="an assertion fails: one <at> a time")
     return run.trace()
 
 

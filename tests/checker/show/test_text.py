@@ -34,7 +34,7 @@ def test_the_failing_step_is_marked() -> None:
     marked = [row for row in plain(trace_lines(crossing())).splitlines() if row.startswith(">")]
     assert marked == [
         ">   10     7  controller.request(0, false) from left  crossing.rebeca:12",
-        '>             assertion failed: "one <at> a time"',
+        ">             an assertion fails: one <at> a time",
     ]
 
 
