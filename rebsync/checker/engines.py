@@ -24,24 +24,31 @@ def explore(
     program: Program,
     semantics: Semantics,
     invariants: tuple[int, ...],
+    first: frozenset[int],
     options: Options,
     report: Report | None = None,
 ) -> tuple[Search, Exploration]:
     """Searches with the engine that was asked for.
 
+    `first` are the rebecs of which one acts alone when it can.
+
     Raises Unavailable when the compiled engine was asked for and cannot be built.
     """
     if options.engine == "interpreted":
-        interpreted = Interpreted(program, semantics, invariants)
+        interpreted = Interpreted(program, semantics, invariants, first)
         return interpreted, interpreted.run(options.limits, report)
     if options.engine == "compiled":
-        compiled = _compiled(program, semantics, invariants, options)
+        compiled = _compiled(program, semantics, invariants, first, options)
         return compiled, compiled.run(options.limits, report)
-    return _auto(program, semantics, invariants, options, report)
+    return _auto(program, semantics, invariants, first, options, report)
 
 
 def _compiled(
-    program: Program, semantics: Semantics, invariants: tuple[int, ...], options: Options
+    program: Program,
+    semantics: Semantics,
+    invariants: tuple[int, ...],
+    first: frozenset[int],
+    options: Options,
 ) -> Search:
     from rebsync.checker.compiled import CompiledSearch
 
@@ -52,17 +59,18 @@ def _auto(
     program: Program,
     semantics: Semantics,
     invariants: tuple[int, ...],
+    first: frozenset[int],
     options: Options,
     report: Report | None,
 ) -> tuple[Search, Exploration]:
     """Interprets for a moment; then compiles, and goes on interpreting until that is done."""
-    search = Interpreted(program, semantics, invariants)
+    search = Interpreted(program, semantics, invariants, first)
     large = time.monotonic() + PATIENCE
     found = search.run(options.limits, report, lambda: time.monotonic() >= large)
     if found.reason != PAUSED:
         return search, found
     with ThreadPoolExecutor(1) as pool:
-        waiting = pool.submit(_compiled, program, semantics, invariants, options)
+        waiting = pool.submit(_compiled, program, semantics, invariants, first, options)
         found = search.run(options.limits, report, waiting.done)
         if found.reason != PAUSED:
             return search, found

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from rebsync.checker.exploration import Covered
 from rebsync.checker.program import Body, Program
+from rebsync.checker.reached import silent_lines
 from rebsync.checker.result import Coverage
 from rebsync.checker.steps import Failure
 from rebsync.source import Source
@@ -40,6 +41,7 @@ def coverage_of(program: Program, covered: Covered, source: Source) -> Coverage:
         tuple(silent),
         tuple(dict.fromkeys(_branches(program, covered, source))),
         tuple((rebec.name, most, rebec.capacity) for rebec, most in rebecs),
+        silent_lines(program, covered, source),
     )
 
 

@@ -35,3 +35,4 @@ class Options:
     fairness: Fairness = "none"
     allowed: frozenset[str] = frozenset()
     hash_compaction: bool = False
+    reduce: bool = False

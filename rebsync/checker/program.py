@@ -24,7 +24,11 @@ NO_DEADLINE = 2**62  # sorts after every deadline, and does not move with time
 
 
 class Instruction(NamedTuple):
-    """One step of the stack machine: the name of the operation and its operands."""
+    """One step of the stack machine: the name of the operation and its operands.
+
+    The constants of a send are marks: whether its `after` is certainly more than 0, and whether
+    the receiver is the rebec itself; those of a delay are empty unless it certainly takes time.
+    """
 
     op: str
     a: int = 0

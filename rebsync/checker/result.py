@@ -29,11 +29,15 @@ class Violation:
 
 @dataclass(frozen=True, slots=True)
 class Coverage:
-    """What never ran: servers as `Class.server`, branches as (line, what never happened)."""
+    """What never ran: servers as `Class.server`, branches as (line, what never happened).
+
+    `lines` are those of the model with code of which nothing ran.
+    """
 
     servers: tuple[str, ...]
     branches: tuple[tuple[int, str], ...]
     largest_bags: tuple[tuple[str, int, int], ...]  # rebec, most places taken, capacity
+    lines: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -33,11 +33,15 @@ class Interpreted:
     """A search that starts at once. `invariants` are the predicates whose failure is an event."""
 
     def __init__(
-        self, program: Program, semantics: Semantics, invariants: tuple[int, ...] = ()
+        self,
+        program: Program,
+        semantics: Semantics,
+        invariants: tuple[int, ...] = (),
+        first: frozenset[int] = frozenset(),
     ) -> None:
         self.program = program
         self.semantics: Semantics = semantics
-        self.view = view_of(program, semantics)
+        self.view = view_of(program, semantics, first)
         self.invariants = invariants
         self.states: list[State] = []
         self.numbers: dict[State, int] = {}

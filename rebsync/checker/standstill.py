@@ -1,7 +1,7 @@
 """Zeno behaviour: time that cannot advance, and cycles in which it stands still.
 
-A state is Zeno when from it no step can be reached in which time passes, and no end: no deadlock
-and no failure. Then every run goes on for ever in one moment.
+A state is Zeno when a run goes on from it for ever in one moment, and no step can be reached in
+which time passes, nor a deadlock.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def _at_once(program: Program, body: int, seen: set[int]) -> set[int]:
                 continue
             case "CALL":
                 found |= _at_once(program, instruction.a, seen)
-            case "SEND" | "SENDBY" if not instruction.constants:
+            case "SEND" | "SENDBY" if not instruction.constants[0]:
                 found.add(instruction.a)
         waiting.append(pc + 1)
     return found
@@ -88,26 +88,22 @@ def stuck_states(graph: Graph) -> tuple[array[int], bool]:
     """The Zeno states in breadth-first order, and whether time can stand still in a cycle."""
     count = len(graph)
     leaving = bytearray(count)  # an end or a step of time is reachable
-    open_edges = array("l", bytes(8 * count))  # steps without time to states not yet peeled off
+    ahead = array("l", bytes(8 * count))  # steps without time to states that may go on for ever
     before: dict[int, list[int]] = {}
-    free: list[int] = []
+    ends: list[int] = []
     for state in range(count):
         edges = range(graph.first[state], graph.first[state + 1])
-        leaving[state] = not edges or any(_leaves(graph, e) for e in edges)
+        leaving[state] = not edges or any(graph.time[e] > 0 for e in edges)
         for edge in edges:
-            if not _leaves(graph, edge):
+            if graph.target[edge] >= 0 and graph.time[edge] == 0:
                 before.setdefault(graph.target[edge], []).append(state)
-                open_edges[state] += 1
-        if not open_edges[state]:
-            free.append(state)
+                ahead[state] += 1
+        if not ahead[state]:
+            ends.append(state)
     _spread(leaving, before)
-    peeled = _peel(free, open_edges, before)
-    stuck = array("l", (s for s in range(count) if not leaving[s]))
-    return stuck, peeled < count
-
-
-def _leaves(graph: Graph, edge: int) -> bool:
-    return graph.target[edge] < 0 or graph.time[edge] > 0
+    _peel(ends, ahead, before)
+    stuck = array("l", (s for s in range(count) if ahead[s] and not leaving[s]))
+    return stuck, any(ahead)
 
 
 def _spread(leaving: bytearray, before: dict[int, list[int]]) -> None:
@@ -120,25 +116,25 @@ def _spread(leaving: bytearray, before: dict[int, list[int]]) -> None:
                 waiting.append(state)
 
 
-def _peel(free: list[int], open_edges: array[int], before: dict[int, list[int]]) -> int:
-    """How many states are on no way into a cycle."""
-    peeled = 0
-    while free:
-        peeled += 1
-        for state in before.get(free.pop(), ()):
-            open_edges[state] -= 1
-            if not open_edges[state]:
-                free.append(state)
-    return peeled
+def _peel(ends: list[int], ahead: array[int], before: dict[int, list[int]]) -> None:
+    """Takes away what leads to no cycle: `ahead` stays above 0 on endless runs only."""
+    while ends:
+        for state in before.get(ends.pop(), ()):
+            ahead[state] -= 1
+            if not ahead[state]:
+                ends.append(state)
 
 
-def cycle_from(graph: Graph, start: int) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """From a Zeno state on: ordinals that lead into a cycle, and those of the cycle."""
+def cycle_from(graph: Graph, stuck: array[int]) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """From the first Zeno state on: ordinals that lead into a cycle, and those of the cycle."""
+    endless = set(stuck)
     seen: dict[int, int] = {}
     ordinals: list[int] = []
-    state = start
+    state = stuck[0]
     while state not in seen:
         seen[state] = len(ordinals)
-        ordinals.append(0)
-        state = graph.target[graph.first[state]]
+        edges = range(graph.first[state], graph.first[state + 1])
+        edge = next(e for e in edges if graph.target[e] in endless)
+        ordinals.append(edge - graph.first[state])
+        state = graph.target[edge]
     return tuple(ordinals[: seen[state]]), tuple(ordinals[seen[state] :])

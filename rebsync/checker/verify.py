@@ -15,6 +15,7 @@ from rebsync.checker.memory import peak_memory
 from rebsync.checker.naming import coverage_of, event_name
 from rebsync.checker.problem import Options, Problem
 from rebsync.checker.program import Program
+from rebsync.checker.reduction import self_driven
 from rebsync.checker.result import Result, Verdict, Violation
 from rebsync.checker.standstill import cycle_from, may_stand_still, stuck_states
 from rebsync.checker.steps import Failure, Semantics, ViolationKind
@@ -37,8 +38,13 @@ def verify(problem: Problem, options: Options, report: Report | None = None) -> 
     assertions = formulas[: len(problem.properties.assertions)]
     invariants = tuple(f.formula.predicate for f in assertions if isinstance(f.formula, Atom))
     semantics = options.semantics or semantics_for(program, problem)
-    search, exploration = explore(program, semantics, invariants, options, report)
-    answer = _Answer(problem, options, program, formulas, search, exploration)
+    first: frozenset[int] = frozenset()
+    if options.reduce and len(assertions) == len(formulas):
+        first = self_driven(program)
+    search, exploration = explore(program, semantics, invariants, first, options, report)
+    view = view_of(program, exploration.semantics, first)
+    teller = Teller(view, problem.source)
+    answer = _Answer(problem, options, program, formulas, search, exploration, teller)
     answer.collect()
     return answer.result(time.perf_counter() - started)
 
@@ -67,14 +73,11 @@ class _Answer:
     formulas: tuple[NamedFormula, ...]
     search: Search
     exploration: Exploration
+    teller: Teller
     violations: list[Violation] = field(default_factory=list)
     caveats: list[str] = field(default_factory=list)
     verdicts: dict[str, Verdict] = field(default_factory=dict)
     _graph: Graph | None = None
-
-    def __post_init__(self) -> None:
-        view = view_of(self.program, self.exploration.semantics)
-        self.teller = Teller(view, self.problem.source)
 
     @property
     def complete(self) -> bool:
@@ -189,7 +192,7 @@ class _Answer:
     def _standstill(self) -> None:
         stuck, cycles = stuck_states(self.graph())
         if stuck:
-            prefix, cycle = cycle_from(self.graph(), stuck[0])
+            prefix, cycle = cycle_from(self.graph(), stuck)
             way = (*self.search.path(stuck[0]), *prefix)
             trace = self.teller.trace((*way, *cycle), loop=len(way) - 1)
             message = "from here on time advances on no run, and steps go on for ever"

@@ -22,8 +22,9 @@ class _Bodies:
 
     semantics: Semantics
 
-    def __init__(self, program: Program) -> None:
+    def __init__(self, program: Program, first: frozenset[int] = frozenset()) -> None:
         self.program = program
+        self.first = sorted(first)
         self.coverage = Coverage()
         self.actors = [
             Actor(program, i, self.semantics, self.coverage) for i in range(len(program.rebecs))
@@ -52,6 +53,11 @@ class _Bodies:
         able = [rank for rank in ranks if rank is not None]
         if not able:
             return tuple(self._idle(state))
+        for index in self.first:
+            if ranks[index] is not None:
+                steps = tuple(self._acts(state, index))
+                if not any(isinstance(step.result, Failure) for step in steps):
+                    return steps
         first = min(able)
         return tuple(
             s for i, rank in enumerate(ranks) if rank == first for s in self._acts(state, i)
@@ -160,12 +166,16 @@ class Untimed(_Bodies):
 Views: TypeAlias = Exact | Floating | Untimed
 
 
-def view_of(program: Program, semantics: Semantics) -> Views:
-    """The view by its name."""
+def view_of(program: Program, semantics: Semantics, first: frozenset[int] = frozenset()) -> Views:
+    """The view by its name.
+
+    Of the rebecs in `first` one that can act without failing acts alone (partial-order reduction,
+    see `reduction.py`).
+    """
     match semantics:
         case "tts":
-            return Exact(program)
+            return Exact(program, first)
         case "ftts":
-            return Floating(program)
+            return Floating(program, first)
         case "core":
-            return Untimed(program)
+            return Untimed(program, first)

@@ -90,6 +90,9 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
     help="Keep 64 bits for each state: less memory, and a small risk of missing states.",
 )
 @click.option(
+    "--reduce", is_flag=True, help="Leave out orders of steps that cannot matter to the verdict."
+)
+@click.option(
     "--format",
     "style",
     type=click.Choice(FORMATS),
@@ -146,6 +149,7 @@ def _options(given: dict[str, Any]) -> Options:
         fairness=given["fairness"],
         allowed=frozenset(given["allow"]),
         hash_compaction=given["hash_compaction"],
+        reduce=given["reduce"],
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from rebsync.checker.lowering import expressions as x
 from rebsync.checker.lowering.emitter import Emitter, kind_of, size_of
 from rebsync.checker.program import Kind
-from rebsync.model import Call, Choice, Expression, Paren, StringLiteral, Super, Type
+from rebsync.model import Call, Choice, Expression, Paren, Self, StringLiteral, Super, Type
 from rebsync.static.symbols import BuiltinFunctionSymbol, MethodSymbol, ServerSymbol
 from rebsync.static.types import DOUBLE, INT
 
@@ -46,19 +46,26 @@ def _send(node: Call, server: ServerSymbol, e: Emitter) -> None:
         e.emit("CONST", 0)
     else:
         x.as_kind(node.after, kind_of(INT), e)
-    passes = (1,) if _is_positive(node.after, e) else ()
+    own = node.target is None or isinstance(bare(node.target), Self)
+    marks = (int(_is_positive(node.after, e)), int(own))
     with e.at(node.span):
         if node.deadline is None:
-            e.emit("SEND", e.world.selector(server), cells, passes)
+            e.emit("SEND", e.world.selector(server), cells, marks)
         else:
             x.as_kind(node.deadline, kind_of(INT), e)
-            e.emit("SENDBY", e.world.selector(server), cells, passes)
+            e.emit("SENDBY", e.world.selector(server), cells, marks)
+
+
+def bare(expression: Expression | None) -> Expression | None:
+    """The expression without the parentheses around it."""
+    while isinstance(expression, Paren):
+        expression = expression.inner
+    return expression
 
 
 def _is_positive(time: Expression | None, e: Emitter) -> bool:
     """Whether a time can be seen to be more than zero, whatever is chosen."""
-    if isinstance(time, Paren):
-        return _is_positive(time.inner, e)
+    time = bare(time)
     if isinstance(time, Choice):
         return all(_is_positive(option, e) for option in time.options)
     value = e.world.analysis.value_of(time) if time is not None else None
@@ -68,7 +75,7 @@ def _is_positive(time: Expression | None, e: Emitter) -> bool:
 def _invoke(node: Call, symbol: MethodSymbol, e: Emitter) -> Kind:
     assert e.info is not None
     _arguments(node.arguments, symbol.signature, e)
-    called = symbol if isinstance(node.target, Super) else _as_run(symbol, e)
+    called = symbol if isinstance(bare(node.target), Super) else _as_run(symbol, e)
     with e.at(node.span):
         e.emit("CALL", e.world.body_of(e.info, called.declaration), e.free)
     assert symbol.type is not None

@@ -184,13 +184,14 @@ def _switch(node: Switch, e: Emitter) -> None:
     with e.scope():
         with e.at(node.subject.span):
             value(node.subject, e)
-            subject = e.allocate(1)
-            e.emit("SETLOCAL", subject)
         # A case may be entered past the declarations of earlier ones.
         for local in (s for c in node.cases for s in c.statements if isinstance(s, Local)):
             for declarator in local.declaration.declarators:
                 _zero(_cells(declare(declarator, e)), e)
-        entries = [_entry(case, subject, e) for case in node.cases]
+        with e.scope():
+            subject = e.allocate(1)
+            e.emit("SETLOCAL", subject)
+            entries = [_entry(case, subject, e) for case in node.cases]
         e.breaks.append([])
         if all(case.value is not None for case in node.cases):
             e.breaks[-1].append(e.emit("JUMP"))
