@@ -5,7 +5,8 @@ from __future__ import annotations
 from rebsync.checker.lowering import expressions as x
 from rebsync.checker.lowering.emitter import Emitter, kind_of, size_of
 from rebsync.checker.program import Kind
-from rebsync.model import Call, Choice, Expression, Paren, Self, StringLiteral, Super, Type
+from rebsync.model import Call, Choice, Expression, Self, StringLiteral, Super, Type
+from rebsync.static.names import bare
 from rebsync.static.symbols import BuiltinFunctionSymbol, MethodSymbol, ServerSymbol
 from rebsync.static.types import DOUBLE, INT
 
@@ -46,7 +47,7 @@ def _send(node: Call, server: ServerSymbol, e: Emitter) -> None:
         e.emit("CONST", 0)
     else:
         x.as_kind(node.after, kind_of(INT), e)
-    own = node.target is None or isinstance(bare(node.target), Self)
+    own = isinstance(_target(node), Self | None)
     marks = (int(_is_positive(node.after, e)), int(own))
     with e.at(node.span):
         if node.deadline is None:
@@ -56,26 +57,25 @@ def _send(node: Call, server: ServerSymbol, e: Emitter) -> None:
             e.emit("SENDBY", e.world.selector(server), cells, marks)
 
 
-def bare(expression: Expression | None) -> Expression | None:
-    """The expression without the parentheses around it."""
-    while isinstance(expression, Paren):
-        expression = expression.inner
-    return expression
+def _target(node: Call) -> Expression | None:
+    return bare(node.target) if node.target is not None else None
 
 
 def _is_positive(time: Expression | None, e: Emitter) -> bool:
     """Whether a time can be seen to be more than zero, whatever is chosen."""
-    time = bare(time)
-    if isinstance(time, Choice):
-        return all(_is_positive(option, e) for option in time.options)
-    value = e.world.analysis.value_of(time) if time is not None else None
+    if time is None:
+        return False
+    inner = bare(time)
+    if isinstance(inner, Choice):
+        return all(_is_positive(option, e) for option in inner.options)
+    value = e.world.analysis.value_of(inner)
     return value is not None and value > 0
 
 
 def _invoke(node: Call, symbol: MethodSymbol, e: Emitter) -> Kind:
     assert e.info is not None
     _arguments(node.arguments, symbol.signature, e)
-    called = symbol if isinstance(bare(node.target), Super) else _as_run(symbol, e)
+    called = symbol if isinstance(_target(node), Super) else _as_run(symbol, e)
     with e.at(node.span):
         e.emit("CALL", e.world.body_of(e.info, called.declaration), e.free)
     assert symbol.type is not None
