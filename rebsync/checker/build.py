@@ -1,0 +1,182 @@
+"""C made into libraries by the system's compiler, and kept in the user's cache by content."""
+
+from __future__ import annotations
+
+import ctypes
+import hashlib
+import os
+import secrets
+import shlex
+import shutil
+import tempfile
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rebsync.cache import cache_directory, is_ours
+from rebsync.checker.engines import Unavailable
+
+if TYPE_CHECKING:
+    from subprocess import Popen
+
+_TEMPLATES = Path(__file__).parent / "templates"
+_FLAGS = ("-std=gnu11", "-fPIC", "-shared", "-ffp-contract=off", "-w")
+_KEPT = 100  # libraries in the cache
+_PATIENCE = 120  # seconds that one compilation may take
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """One library: its name, its text, the headers that the text includes, and how to optimise."""
+
+    name: str
+    text: str
+    headers: tuple[str, ...]
+    level: str
+
+
+def header(name: str) -> str:
+    """The text of a C file that belongs to rebsync."""
+    return (_TEMPLATES / name).read_text(encoding="utf-8")
+
+
+def libraries(units: tuple[Unit, ...]) -> tuple[ctypes.CDLL, ...]:
+    """The units as loaded libraries; what the cache does not have is compiled, side by side.
+
+    Raises Unavailable when there is no compiler, or it fails, or what it makes cannot be loaded.
+    """
+    compiler = _compiler()
+    keys = [_key(unit, compiler) for unit in units]
+    folder = _folder()
+    loaded = [_kept(folder, key) for key in keys]
+    missing = [i for i, library in enumerate(loaded) if library is None]
+    if missing:
+        with tempfile.TemporaryDirectory(prefix="rebsync-") as scratch:
+            made = _compile([units[i] for i in missing], compiler, Path(scratch))
+            for i, path in zip(missing, made, strict=True):
+                loaded[i] = _load(_keep(folder, keys[i], path) or path)
+    return tuple(library for library in loaded if library is not None)
+
+
+def _compiler() -> tuple[str, ...]:
+    """The command of the C compiler: `$CC`, else the first that is found."""
+    chosen = os.environ.get("CC", "")
+    try:
+        command = shlex.split(chosen)
+    except ValueError:
+        raise Unavailable(f"CC is no command: {chosen}") from None
+    for name, *arguments in [command] if command else [["cc"], ["gcc"], ["clang"]]:
+        if path := shutil.which(name):
+            return (path, *arguments)
+    raise Unavailable(f"the C compiler {command[0]} is not there" if command else "no C compiler")
+
+
+def _key(unit: Unit, compiler: tuple[str, ...]) -> str:
+    """What the library depends on, as one name."""
+    with suppress(OSError):
+        found = Path(compiler[0]).resolve().stat()
+        compiler = (*compiler, str(found.st_size), str(found.st_mtime_ns))
+    parts = (unit.text, *unit.headers, unit.level, *_FLAGS, *compiler)
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:32]
+
+
+# --- the cache: names that say the digest of the content -----------------------------------------
+
+
+def _folder() -> Path | None:
+    """Libraries are code: they are kept only where nobody else can write."""
+    folder = cache_directory()
+    try:
+        return folder if folder is not None and is_ours(folder.stat()) else None
+    except OSError:
+        return None
+
+
+def _kept(folder: Path | None, key: str) -> ctypes.CDLL | None:
+    """The library of a key; None unless this user wrote it, and it is whole and loads."""
+    if folder is None:
+        return None
+    for path in folder.glob(f"{key}-*.so"):
+        with suppress(OSError, Unavailable):
+            if is_ours(path.stat()) and path.name == _name(key, path.read_bytes()):
+                os.utime(path)
+                return _load(path)
+        with suppress(OSError):
+            path.unlink()
+    return None
+
+
+def _name(key: str, content: bytes) -> str:
+    return f"{key}-{hashlib.sha256(content).hexdigest()[:32]}.so"
+
+
+def _keep(folder: Path | None, key: str, made: Path) -> Path | None:
+    """Puts a library into the cache; None when that cannot be done."""
+    if folder is None:
+        return None
+    content = made.read_bytes()
+    path = folder / _name(key, content)
+    staged = path.with_name(f"{path.name}.{secrets.token_hex(4)}.tmp")
+    try:
+        handle = os.open(staged, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o700)
+        with os.fdopen(handle, "wb") as file:
+            file.write(content)
+        staged.replace(path)
+        _remove_oldest(folder)
+    except OSError:
+        with suppress(OSError):
+            staged.unlink()
+        return None
+    return path
+
+
+def _remove_oldest(folder: Path) -> None:
+    kept = sorted(folder.glob("*-*.so"), key=lambda path: path.stat().st_mtime)
+    for path in kept[:-_KEPT]:
+        path.unlink(missing_ok=True)
+
+
+def _load(path: Path) -> ctypes.CDLL:
+    try:
+        return ctypes.CDLL(str(path))
+    except OSError as error:
+        raise Unavailable(f"the compiled model cannot be loaded: {error}") from None
+
+
+# --- compiling -----------------------------------------------------------------------------------
+
+
+def _compile(units: list[Unit], compiler: tuple[str, ...], scratch: Path) -> list[Path]:
+    from subprocess import TimeoutExpired
+
+    for source in _TEMPLATES.glob("*.h"):
+        shutil.copyfile(source, scratch / source.name)
+    running = [_started(unit, compiler, scratch) for unit in units]
+    try:
+        for process in running:
+            said = process.communicate(timeout=_PATIENCE)[0]
+            if process.returncode:
+                first = next((line for line in said.splitlines() if line.strip()), "it fails")
+                raise Unavailable(f"the C compiler {compiler[0]} fails: {first}")
+    except TimeoutExpired:
+        raise Unavailable(f"the C compiler {compiler[0]} takes too long") from None
+    finally:
+        for process in running:
+            if process.poll() is None:
+                process.kill()
+                process.communicate()
+    return [scratch / f"{unit.name}.so" for unit in units]
+
+
+def _started(unit: Unit, compiler: tuple[str, ...], scratch: Path) -> Popen[str]:
+    from subprocess import PIPE, STDOUT, Popen
+
+    source = scratch / f"{unit.name}.c"
+    source.write_text(unit.text, encoding="utf-8")
+    library = f"{unit.name}.so"
+    command = (*compiler, unit.level, *_FLAGS, source.name, "-o", library, "-lm")
+    try:
+        return Popen(command, cwd=scratch, stdout=PIPE, stderr=STDOUT, text=True, errors="replace")
+    except OSError as error:
+        raise Unavailable(f"the C compiler {compiler[0]} does not start: {error}") from None

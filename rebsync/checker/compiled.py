@@ -1,0 +1,234 @@
+"""Breadth-first search with the compiled engine: the model as C, and a search in C.
+
+It gives the same numbers as the interpreter; how it does so is said in templates/engine.h.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import time
+from array import array
+from typing import Any
+
+from rebsync.checker import native
+from rebsync.checker.build import Unit, header, libraries
+from rebsync.checker.compile_bodies import branches
+from rebsync.checker.compile_model import model_source
+from rebsync.checker.engines import Unavailable
+from rebsync.checker.exploration import Covered, Event, Exploration, Limits, Progress, Report
+from rebsync.checker.graph import Graph
+from rebsync.checker.memory import used_memory
+from rebsync.checker.program import Program
+from rebsync.checker.search import endless_reason
+from rebsync.checker.steps import Failure, Semantics
+
+_SLICE = 50_000_000  # nanoseconds between two looks at the bounds
+_ENDLESS_TIME = 2**63 - 1
+
+
+class CompiledSearch:
+    """A search of a program made native. `invariants` are the predicates whose failure is an event.
+
+    Of the rebecs in `first` one that can act without failing acts alone. With `hash_compaction`
+    only 64 bits of each state are remembered. Raises Unavailable when it cannot be built.
+    """
+
+    def __init__(
+        self,
+        program: Program,
+        semantics: Semantics,
+        invariants: tuple[int, ...] = (),
+        first: frozenset[int] = frozenset(),
+        *,
+        hash_compaction: bool = False,
+    ) -> None:
+        started = time.perf_counter()
+        self.program = program
+        self.semantics: Semantics = semantics
+        self.invariants = invariants
+        self.first = first
+        self.hash_compaction = hash_compaction
+        self._until: int | None = None
+        self._spent = 0.0
+        self._engine: int | None = None
+        self._library, self._model = _libraries(program)
+        self._engine = self._library.rebsync_new(
+            ctypes.addressof(ctypes.c_char.in_dll(self._model, "rebsync_model")),
+            native.SEMANTICS.index(semantics),
+            hash_compaction,
+            native.numbers(invariants),
+            len(invariants),
+            native.numbers(sorted(first)),
+            len(first),
+        )
+        if not self._engine:
+            raise Unavailable("there is no memory for a search")
+        self.build_seconds = time.perf_counter() - started
+
+    def __del__(self) -> None:
+        if self._engine:
+            self._library.rebsync_free(self._engine)
+
+    # --- searching
+
+    def run(self, limits: Limits, report: Report | None = None) -> Exploration:
+        """Searches on from where an earlier run stopped; `until` must be the same in all runs."""
+        started = time.perf_counter() - self._spent
+        if self._figures().initials and limits.until != self._until:
+            raise ValueError("a search goes on with the bound of time that it began with")
+        self._until = limits.until
+        try:
+            reason = self._search(limits, report, started)
+        except KeyboardInterrupt:
+            reason = "it was interrupted"
+        figures = self._figures()
+        if reason is None and figures.dropped:
+            reason = f"the bound of {limits.until} units of time was reached"
+        self._spent = time.perf_counter() - started
+        return Exploration(
+            figures.states,
+            figures.transitions,
+            figures.depth,
+            self._events(figures.events),
+            self._covered(),
+            self.semantics,
+            "compiled",
+            self._spent,
+            self.build_seconds,
+            used_memory(),
+            reason,
+            self._notes(figures.states),
+        )
+
+    def _search(self, limits: Limits, report: Report | None, started: float) -> str | None:
+        states = 2**64 - 1 if limits.states is None else limits.states
+        until = _ENDLESS_TIME if limits.until is None else limits.until
+        while True:
+            end = native.END[self._library.rebsync_search(self._engine, states, until, _SLICE)]
+            match end:
+                case "finished":
+                    return None
+                case "states":
+                    return f"the bound of {limits.states} states was reached"
+                case "endless":
+                    return endless_reason(self.program, self._figures().stuck_pc)
+                case "memory":
+                    return "there was no more memory"
+                case _:
+                    if stop := self._look(limits, report, time.perf_counter() - started):
+                        return stop
+
+    def _look(self, limits: Limits, report: Report | None, seconds: float) -> str | None:
+        memory = used_memory()
+        if report:
+            now = self._figures()
+            waiting = now.states - now.expanded
+            report(Progress(now.states, now.transitions, now.level, waiting, seconds, memory))
+        if limits.seconds is not None and seconds >= limits.seconds:
+            return f"the bound of {limits.seconds:g} seconds was reached"
+        if limits.memory is not None and memory >= limits.memory:
+            return f"the bound of {limits.memory} bytes of memory was reached"
+        return None
+
+    # --- what was found
+
+    def _figures(self) -> native.Figures:
+        figures = native.Figures()
+        self._library.rebsync_figures(self._engine, ctypes.byref(figures))
+        return figures
+
+    def _events(self, count: int) -> tuple[Event, ...]:
+        found = self._library.rebsync_events(self._engine)
+        return tuple(self._event(found[i]) for i in range(count))
+
+    def _event(self, found: native.Event) -> Event:
+        cause: Failure | int | str
+        match native.KINDS[found.kind]:
+            case "deadlock":
+                cause = "deadlock"
+            case "property":
+                cause = int(found.pc)
+            case kind:
+                failing = self.program.code[found.pc]
+                said = kind == "assertion" and failing.a >= 0
+                text = self.program.texts[failing.a] if said else ""
+                cause = Failure(kind, found.pc, found.rebec, text)
+        return Event(cause, found.state, found.ordinal)
+
+    def _covered(self) -> Covered:
+        numbers = branches(self.program)
+        served = (ctypes.c_ubyte * max(1, len(self.program.servers)))()
+        taken = (ctypes.c_ubyte * max(1, 2 * len(numbers)))()
+        largest = (ctypes.c_uint32 * len(self.program.rebecs))()
+        self._library.rebsync_covered(self._engine, served, taken, largest)
+        return Covered(
+            frozenset(i for i in range(len(self.program.servers)) if served[i]),
+            frozenset(
+                (pc, jumps)
+                for pc, n in numbers.items()
+                for jumps in (False, True)
+                if taken[2 * n + jumps]
+            ),
+            tuple(largest),
+        )
+
+    def _notes(self, states: int) -> tuple[str, ...]:
+        if not self.hash_compaction:
+            return ()
+        risk = states**2 / 2**65
+        return (
+            "only 64 bits of each state were kept: the chance that a state was left out "
+            f"is at most {risk:.1e}",
+        )
+
+    # --- afterwards
+
+    def path(self, state: int) -> tuple[int, ...]:
+        """A shortest way to a state: the ordinal of the initial state, then one for each step."""
+        ordinals = []
+        ordinal = ctypes.c_int64()
+        while state >= 0:
+            state = self._library.rebsync_before(self._engine, state, ctypes.byref(ordinal))
+            ordinals.append(ordinal.value)
+        return tuple(reversed(ordinals))
+
+    def graph(self) -> Graph:
+        """The state space that was seen; steps to states that were not seen are left out.
+
+        Fingerprints do not give it: with them, all of it is searched again.
+        """
+        figures = self._figures()
+        if self.hash_compaction:
+            exact = CompiledSearch(self.program, self.semantics, (), self.first)
+            exact.run(Limits(states=figures.states, until=self._until))
+            return exact.graph()
+        words = max(1, -(-len(self.program.predicates) // 64))
+        most = figures.transitions + figures.dropped
+        first, labels = _zeros("Q", figures.states + 1), _zeros("Q", figures.states * words)
+        target, actor, times = _zeros("q", most), _zeros("i", most), _zeros("q", most)
+        arrays = native.Arrays(*(a.buffer_info()[0] for a in (first, target, actor, times, labels)))
+        edges = 0
+        for start in range(0, figures.states, native.STATES_AT_ONCE):
+            end = min(start + native.STATES_AT_ONCE, figures.states)
+            edges = self._library.rebsync_graph(self._engine, arrays, start, end, edges)
+            if edges < 0:
+                raise MemoryError
+        for each in (target, actor, times):
+            del each[edges:]
+        initial = tuple(range(figures.initials))
+        return Graph(first, target, actor, times, labels, words, initial)
+
+
+def _zeros(code: str, count: int) -> array[Any]:
+    empty: array[Any] = array(code, [0])
+    return empty * count
+
+
+def _libraries(program: Program) -> tuple[ctypes.CDLL, ctypes.CDLL]:
+    """The search, and the model."""
+    parts = tuple(header(name) for name in native.PARTS)
+    runtime = Unit("runtime", header("runtime.c"), parts, "-O2")
+    model = Unit("model", model_source(program), (header("machine.h"),), "-O1")
+    search, bodies = libraries((runtime, model))
+    native.declare(search)
+    return search, bodies

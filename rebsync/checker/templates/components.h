@@ -1,0 +1,373 @@
+/* Local states: packed as bytes, known by number, and changed by messages and time. */
+#ifndef REBSYNC_COMPONENTS_H
+#define REBSYNC_COMPONENTS_H
+
+#include "engine.h"
+
+static inline struct component *component(struct engine *e, uint32_t rebec, uint32_t id)
+{
+    return (struct component *)e->actors[rebec].components.data + id;
+}
+
+/* --- packing: small numbers take one byte */
+
+static unsigned char *put_number(unsigned char *to, cell value)
+{
+    uint64_t bits = ((uint64_t)value << 1) ^ (uint64_t)(value >> 63);
+    for (; bits >= 128; bits >>= 7)
+        *to++ = (unsigned char)(bits | 128);
+    *to++ = (unsigned char)bits;
+    return to;
+}
+
+static inline cell take_number(const unsigned char **from)
+{
+    uint64_t bits = 0, byte;
+    int shift = 0;
+    do {
+        byte = *(*from)++;
+        bits |= (byte & 127) << shift;
+        shift += 7;
+    } while (byte & 128);
+    return (cell)(bits >> 1) ^ -(cell)(bits & 1);
+}
+
+static int arguments_of(struct engine *e, cell server)
+{
+    return server < 0 ? 0 : e->model->server[server].arguments;
+}
+
+static unsigned char *put_message(struct engine *e, unsigned char *to, const cell *message)
+{
+    cell due = message[DUE];
+    to = put_number(to, message[ARRIVAL]);
+    to = put_number(to, message[SERVER]);
+    to = put_number(to, message[SENDER]);
+    /* 0 is none; so times from 0 on are one more */
+    to = put_number(to, due == NO_DEADLINE ? 0 : due >= 0 ? due + 1 : due);
+    for (int i = 0, n = arguments_of(e, message[SERVER]); i < n; i++)
+        to = put_number(to, message[ARGUMENTS + i]);
+    return to;
+}
+
+static void take_message(struct engine *e, const unsigned char **from, cell *message)
+{
+    memset(message, 0, e->model->stride * sizeof(cell));
+    message[ARRIVAL] = take_number(from);
+    message[SERVER] = take_number(from);
+    message[SENDER] = take_number(from);
+    cell due = take_number(from);
+    message[DUE] = due == 0 ? NO_DEADLINE : due > 0 ? due - 1 : due;
+    for (int i = 0, n = arguments_of(e, message[SERVER]); i < n; i++)
+        message[ARGUMENTS + i] = take_number(from);
+}
+
+/* Packs a local state into e->text. */
+static void pack_local(struct engine *e, uint32_t rebec, const struct local *l)
+{
+    size_t stride = e->model->stride, variables = e->model->rebec[rebec].cells;
+    size_t cells = 4 + variables + (l->messages + 1) * stride + l->frame_cells;
+    unsigned char *to = room_for(e, &e->text, cells * 10, 1);
+    for (size_t i = 0; i < variables; i++)
+        to = put_number(to, l->variables[i]);
+    to = put_number(to, l->busy);
+    if (e->model->reads_clock)
+        to = put_number(to, l->clock);
+    to = put_number(to, (cell)l->frame_count);
+    to = put_number(to, (cell)l->messages);
+    for (size_t i = 0; i < l->messages; i++)
+        to = put_message(e, to, l->bag + i * stride);
+    if (l->frame_count) {
+        to = put_message(e, to, l->message);
+        for (size_t i = 0; i < l->frame_cells; i++)
+            to = put_number(to, l->frames[i]);
+    }
+    e->text.count = (size_t)((char *)to - e->text.data);
+}
+
+static void room_for_frames(struct engine *e, struct local *l, size_t cells)
+{
+    if (!enough((void **)&l->frames, &l->frames_room, cells, sizeof(cell)))
+        give_up(e);
+}
+
+static void unpack_frames(struct engine *e, const unsigned char *from, struct local *l)
+{
+    size_t at = 0;
+    for (size_t frame = 0; frame < l->frame_count; frame++) {
+        cell pc = take_number(&from), count = take_number(&from);
+        room_for_frames(e, l, at + 2 + count);
+        l->frames[at++] = pc;
+        l->frames[at++] = count;
+        for (; count; count--)
+            l->frames[at++] = take_number(&from);
+    }
+    l->frame_cells = at;
+}
+
+static void unpack_local(struct engine *e, uint32_t rebec, uint32_t id, struct local *l)
+{
+    size_t stride = e->model->stride, variables = e->model->rebec[rebec].cells;
+    const unsigned char *from =
+        (unsigned char *)e->actors[rebec].bytes.data + component(e, rebec, id)->at;
+    for (size_t i = 0; i < variables; i++)
+        l->variables[i] = take_number(&from);
+    l->busy = take_number(&from);
+    l->clock = e->model->reads_clock ? take_number(&from) : 0;
+    l->frame_count = (size_t)take_number(&from);
+    l->messages = (size_t)take_number(&from);
+    for (size_t i = 0; i < l->messages; i++)
+        take_message(e, &from, l->bag + i * stride);
+    l->frame_cells = 0;
+    if (l->frame_count) {
+        take_message(e, &from, l->message);
+        unpack_frames(e, from, l);
+    }
+}
+
+/* --- what a local state means for the whole */
+
+static int32_t priority_of(struct engine *e, cell server)
+{
+    return server < 0 ? INT32_MAX : e->model->server[server].priority;
+}
+
+/* The best priority of the messages that have come first. */
+static int32_t best_priority(struct engine *e, const struct local *l)
+{
+    int32_t best = INT32_MAX;
+    const cell *message = l->bag;
+    for (size_t i = 0; i < l->messages && message[ARRIVAL] == l->bag[ARRIVAL]; i++) {
+        int32_t priority = priority_of(e, message[SERVER]);
+        best = priority < best ? priority : best;
+        message += e->model->stride;
+    }
+    return best;
+}
+
+static int64_t next_time(struct engine *e, const struct local *l)
+{
+    if (l->frame_count)
+        return l->busy;
+    if (!l->messages)
+        return NEVER;
+    int64_t arrival = l->bag[ARRIVAL], least = e->semantics == TTS ? arrival : 0;
+    if (e->semantics == FTTS) {
+        least = arrival > l->busy ? arrival : l->busy;
+        least = least > 0 ? least : 0;
+    }
+    return least;
+}
+
+static void describe(struct engine *e, uint32_t rebec, const struct local *l, struct component *c)
+{
+    int suspended = l->frame_count > 0;
+    const cell *bag = l->bag;
+    int able = suspended ? !l->busy : l->messages && !l->busy && bag[ARRIVAL] <= 0;
+    c->next = next_time(e, l);
+    c->outcomes = NONE;
+    c->places = (uint32_t)(l->messages + (suspended && l->message[SERVER] >= 0));
+    c->flags = able ? ABLE : 0;
+    if (!suspended && !l->messages && !l->busy && !e->model->reads_clock)
+        c->flags |= STILL;
+    c->rank = e->semantics == CORE ? 0 : e->model->rebec[rebec].priority;
+    if (able && e->model->global_ranks && e->semantics != CORE)
+        c->rank = suspended ? priority_of(e, l->message[SERVER]) : best_priority(e, l);
+}
+
+/* --- numbers of local states */
+
+static size_t length_of(struct actor *a, uint32_t id)
+{
+    struct component *c = (struct component *)a->components.data + id;
+    return (id + 1 < a->components.count ? c[1].at : a->bytes.count) - c->at;
+}
+
+static void enlarge_table(struct engine *e, struct actor *a)
+{
+    uint64_t size = a->mask ? 2 * (a->mask + 1) : 256;
+    uint32_t *table = zeroed(e, size, sizeof *table);
+    const struct component *c = (struct component *)a->components.data;
+    for (uint32_t id = 0; id < a->components.count; id++) {
+        uint64_t at = hash_of(a->bytes.data + c[id].at, length_of(a, id)) & (size - 1);
+        while (table[at])
+            at = (at + 1) & (size - 1);
+        table[at] = id + 1;
+    }
+    free(a->table);
+    a->table = table;
+    a->mask = size - 1;
+}
+
+/* The number of a local state. */
+static uint32_t number_of(struct engine *e, uint32_t rebec, const struct local *l)
+{
+    struct actor *a = e->actors + rebec;
+    pack_local(e, rebec, l);
+    if (2 * a->components.count >= a->mask)
+        enlarge_table(e, a);
+    size_t length = e->text.count;
+    uint64_t at = hash_of(e->text.data, length) & a->mask;
+    for (; a->table[at]; at = (at + 1) & a->mask) {
+        uint32_t id = a->table[at] - 1;
+        const char *bytes = a->bytes.data + component(e, rebec, id)->at;
+        if (length_of(a, id) == length && !memcmp(bytes, e->text.data, length))
+            return id;
+    }
+    if (a->components.count >= NONE - 1)
+        give_up(e);
+    room_for(e, &a->bytes, a->bytes.count + length, 1);
+    struct component *c = added(e, &a->components, sizeof *c);
+    memcpy(a->bytes.data + a->bytes.count, e->text.data, length);
+    c->at = a->bytes.count;
+    a->bytes.count += length;
+    describe(e, rebec, l, c);
+    a->table[at] = (uint32_t)a->components.count;
+    uint32_t id = (uint32_t)a->components.count - 1;
+    if (id > e->fields[rebec].mask)
+        e->wide = 1;
+    return id;
+}
+
+/* --- what changes it, remembered */
+
+static void enlarge_memo(struct engine *e, struct memo *m, uint64_t components)
+{
+    uint64_t size = m->entries ? m->mask + 1 : 0;
+    if (size >= (1 << 18) || 4 * components <= size)
+        return;
+    size = 1024;
+    while (size < 8 * components && size < (1 << 18))
+        size *= 2;
+    struct remembered *entries = malloc(size * sizeof *entries);
+    if (!entries)
+        give_up(e);
+    memset(entries, 255, size * sizeof *entries);
+    free(m->entries);
+    m->entries = entries;
+    m->mask = size - 1;
+}
+
+static inline struct remembered *remembered(struct memo *m, uint64_t key)
+{
+    return m->entries + (((key * UINT64_C(0x9E3779B97F4A7C15)) >> 40) & m->mask);
+}
+
+static void pass_message(cell *message, int64_t time)
+{
+    message[ARRIVAL] -= time;
+    if (message[DUE] != NO_DEADLINE)
+        message[DUE] -= time;
+}
+
+static uint32_t compute_later(struct engine *e, uint32_t rebec, uint32_t id, int64_t time)
+{
+    struct local *l = &e->scratch;
+    unpack_local(e, rebec, id, l);
+    for (size_t i = 0; i < l->messages; i++)
+        pass_message(l->bag + i * e->model->stride, time);
+    if (l->frame_count)
+        pass_message(l->message, time);
+    l->busy = l->busy > time ? l->busy - time : 0;
+    l->clock += time;
+    enlarge_memo(e, &e->actors[rebec].passed, e->actors[rebec].components.count);
+    return number_of(e, rebec, l);
+}
+
+/* The local state when so much time has passed. */
+static inline uint32_t later(struct engine *e, uint32_t rebec, uint32_t id, int64_t time)
+{
+    if (component(e, rebec, id)->flags & STILL)
+        return id;
+    if (time >> 31)
+        return compute_later(e, rebec, id, time);
+    uint64_t key = (uint64_t)id << 32 | (uint64_t)time;
+    struct remembered *known = remembered(&e->actors[rebec].passed, key);
+    if (known->key == key)
+        return known->value;
+    uint32_t value = compute_later(e, rebec, id, time);
+    known = remembered(&e->actors[rebec].passed, key);
+    known->key = key;
+    return known->value = value;
+}
+
+static int compare_messages(const cell *a, const cell *b, size_t stride)
+{
+    for (size_t i = 0; i < stride; i++)
+        if (a[i] != b[i])
+            return a[i] < b[i] ? -1 : 1;
+    return 0;
+}
+
+/* Puts a message into a bag: a sorted multiset, or a queue. */
+static void insert_message(struct engine *e, struct local *l, const cell *message)
+{
+    size_t stride = e->model->stride, at = l->messages++;
+    while (e->semantics != CORE && at &&
+           compare_messages(l->bag + (at - 1) * stride, message, stride) > 0) {
+        memcpy(l->bag + at * stride, l->bag + (at - 1) * stride, stride * sizeof(cell));
+        at--;
+    }
+    memcpy(l->bag + at * stride, message, stride * sizeof(cell));
+}
+
+static uint32_t compute_received(struct engine *e, uint32_t rebec, uint32_t id, uint32_t message)
+{
+    struct actor *a = e->actors + rebec;
+    uint32_t places = component(e, rebec, id)->places + 1;
+    unpack_local(e, rebec, id, &e->scratch);
+    insert_message(e, &e->scratch, (cell *)e->messages.data + (size_t)message * e->model->stride);
+    a->largest = places > a->largest ? places : a->largest;
+    enlarge_memo(e, &a->received, a->components.count);
+    return number_of(e, rebec, &e->scratch);
+}
+
+/* The local state with one more message, for which there is a place. */
+static inline uint32_t received(struct engine *e, uint32_t rebec, uint32_t id, uint32_t message)
+{
+    uint64_t key = (uint64_t)id << 32 | message;
+    struct remembered *known = remembered(&e->actors[rebec].received, key);
+    if (known->key == key)
+        return known->value;
+    uint32_t value = compute_received(e, rebec, id, message);
+    known = remembered(&e->actors[rebec].received, key);
+    known->key = key;
+    return known->value = value;
+}
+
+/* --- numbers of messages */
+
+static void enlarge_message_table(struct engine *e)
+{
+    size_t stride = e->model->stride;
+    uint64_t size = e->message_mask ? 2 * (e->message_mask + 1) : 256;
+    uint32_t *table = zeroed(e, size, sizeof *table);
+    for (uint32_t id = 0; id < e->messages.count; id++) {
+        const cell *message = (cell *)e->messages.data + (size_t)id * stride;
+        uint64_t at = hash_of(message, stride * sizeof(cell)) & (size - 1);
+        while (table[at])
+            at = (at + 1) & (size - 1);
+        table[at] = id + 1;
+    }
+    free(e->message_table);
+    e->message_table = table;
+    e->message_mask = size - 1;
+}
+
+static uint32_t message_number(struct engine *e, const cell *message)
+{
+    size_t size = e->model->stride * sizeof(cell);
+    if (2 * e->messages.count >= e->message_mask)
+        enlarge_message_table(e);
+    uint64_t at = hash_of(message, size) & e->message_mask;
+    for (; e->message_table[at]; at = (at + 1) & e->message_mask) {
+        uint32_t id = e->message_table[at] - 1;
+        if (!memcmp(e->messages.data + id * size, message, size))
+            return id;
+    }
+    memcpy(added(e, &e->messages, size), message, size);
+    e->message_table[at] = (uint32_t)e->messages.count;
+    return (uint32_t)e->messages.count - 1;
+}
+
+#endif

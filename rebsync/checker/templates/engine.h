@@ -1,0 +1,213 @@
+/* What a search keeps, and its memory. */
+#ifndef REBSYNC_ENGINE_H
+#define REBSYNC_ENGINE_H
+
+#include <setjmp.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "machine.h"
+
+#define NEVER INT64_MAX
+#define NONE UINT32_MAX
+
+enum semantics { TTS, FTTS, CORE };
+
+/* What a component can do, see `describe`. */
+enum flags { ABLE = 1, STILL = 2, STUCK = 4 };
+
+struct vector {
+    char *data;
+    size_t count, room;
+};
+
+/* The state of one rebec, unpacked. `frames` has for each frame: pc, number of cells, cells. */
+struct local {
+    cell *variables, *bag, *message, *frames;
+    cell busy, clock;
+    size_t messages, frame_count, frame_cells, frames_room;
+};
+
+/* A packed local state that occurs: bytes from `at` on, and what it means for the whole. */
+struct component {
+    uint64_t at;
+    int64_t next;      /* when it will be able to act, NEVER if never */
+    uint32_t outcomes; /* the first one, NONE when not known yet */
+    int32_t rank;
+    uint32_t places;
+    uint32_t flags;
+};
+
+/* A fixed-size memory of results: what falls out is computed again. */
+struct memo {
+    struct remembered {
+        uint64_t key;
+        uint32_t value;
+    } *entries;
+    uint64_t mask;
+};
+
+/* All local states of one rebec that occur, by number. */
+struct actor {
+    struct vector components, bytes;
+    uint32_t *table;
+    uint64_t mask;
+    struct memo received, passed;
+    uint32_t largest;
+};
+
+/* A way to act: a new component, or a failure, after `sends` went out to others.
+ * `shared` choices are those of the outcome before; -1 at the first of a slot. */
+struct outcome {
+    uint32_t component, sends, send_count;
+    int32_t shared, failure, pc;
+    uint32_t last;
+};
+
+struct send {
+    uint32_t receiver, message, choices, pc;
+};
+
+/* Where the number of a component lies in a packed state. */
+struct field {
+    uint64_t mask;
+    uint32_t word, shift, width;
+};
+
+struct event {
+    int32_t kind, pc, rebec;
+    int64_t state, ordinal;
+};
+
+enum { PREDICATE = 8, DEADLOCK = 9 };
+enum { BATCH = 64 };
+
+/* States on their way into the visited set; `event` is a failed step instead, or -1. */
+struct pending {
+    uint64_t hash;
+    int64_t time;
+    uint32_t parent, ordinal;
+    int32_t event, deadlock;
+};
+
+enum purpose { SEARCH, START, PATH, GRAPH };
+
+struct graph {
+    uint64_t *first;
+    int64_t *target;
+    int32_t *actor;
+    int64_t *time;
+    uint64_t *labels;
+};
+
+/* The variables of some components of a rebec that predicates read, unpacked. */
+enum { OBSERVED = 1024 };
+struct observed {
+    uint32_t ids[OBSERVED];
+    cell *variables;
+};
+
+struct engine {
+    const struct model *model;
+    enum semantics semantics;
+    int compact;
+    uint32_t rebecs;
+    struct machine machine;
+    struct actor *actors;
+    struct local scratch, result;
+    struct vector text; /* a component being packed */
+    struct vector messages, outcomes, sends, events;
+    uint32_t *message_table;
+    uint64_t message_mask;
+    uint32_t stuck_pc;
+
+    struct field *fields;
+    uint32_t words;
+    int wide; /* a number does not fit its field any more */
+    struct vector states, parents, ordinals, times;
+    uint64_t count, forgotten, expanded, transitions, dropped, level_end, initials;
+    uint64_t depth;
+    uint32_t *table;
+    uint64_t *prints, slots;
+    uint32_t number_bits;
+
+    struct pending batch[BATCH];
+    struct event failed[BATCH];
+    uint64_t *batch_words;
+    uint32_t pending;
+
+    uint32_t *ids, *next, *unpacked;
+    enum purpose purpose;
+    uint64_t current, ordinal; /* the state whose steps are made, and the number of the step */
+    int64_t until;
+    int64_t wanted, found; /* of a path: the state sought, and the ordinal */
+    uint64_t edges;
+    struct graph graph;
+
+    int32_t *invariants, *alone; /* predicates; rebecs that act alone when they can */
+    uint32_t invariant_count, alone_count;
+    unsigned char *covered, *served, *uncounted;
+    struct observed *observed;
+    const cell **views;
+    jmp_buf escape;
+};
+
+/* Ends what the engine is at: there is no memory. */
+static void give_up(struct engine *e)
+{
+    longjmp(e->escape, 1);
+}
+
+static void *room_for(struct engine *e, struct vector *v, size_t count, size_t size)
+{
+    if (count > v->room) {
+        size_t room = count + count / 2 + 64;
+        char *moved = realloc(v->data, room * size);
+        if (!moved) {
+            room = count;
+            moved = realloc(v->data, room * size);
+        }
+        if (!moved)
+            give_up(e);
+        v->data = moved;
+        v->room = room;
+    }
+    return v->data;
+}
+
+/* A new item at the end. */
+static void *added(struct engine *e, struct vector *v, size_t size)
+{
+    room_for(e, v, v->count + 1, size);
+    return v->data + v->count++ * size;
+}
+
+static void *zeroed(struct engine *e, size_t count, size_t size)
+{
+    void *made = calloc(count ? count : 1, size);
+    if (!made)
+        give_up(e);
+    return made;
+}
+
+static inline uint64_t mixed(uint64_t a, uint64_t b)
+{
+    unsigned __int128 product = (unsigned __int128)(a ^ UINT64_C(0x9E3779B97F4A7C15)) *
+                                (b ^ UINT64_C(0xD1B54A32D192ED03));
+    return (uint64_t)product ^ (uint64_t)(product >> 64);
+}
+
+static uint64_t hash_of(const void *data, size_t size)
+{
+    const char *bytes = data;
+    uint64_t hash = size, word;
+    for (; size >= 8; size -= 8, bytes += 8) {
+        memcpy(&word, bytes, 8);
+        hash = mixed(hash, word);
+    }
+    word = 0;
+    memcpy(&word, bytes, size);
+    return mixed(mixed(hash, word), UINT64_C(0xA0761D6478BD642F));
+}
+
+#endif

@@ -1,0 +1,177 @@
+/* States that are reached: counted, looked up in batches, stored, judged. */
+#ifndef REBSYNC_STORING_H
+#define REBSYNC_STORING_H
+
+#include "outcomes.h"
+#include "visited.h"
+
+/* --- what is wrong */
+
+/* Notes an event unless its cause is known. */
+static void note(struct engine *e, struct event found)
+{
+    const struct event *known = (struct event *)e->events.data;
+    for (size_t i = 0; i < e->events.count; i++)
+        if (known[i].kind == found.kind && known[i].pc == found.pc && known[i].rebec == found.rebec)
+            return;
+    *(struct event *)added(e, &e->events, sizeof found) = found;
+}
+
+/* The variables of a rebec as predicates read them. */
+static const cell *observe(struct engine *e, uint32_t rebec, uint32_t id)
+{
+    struct observed *o = e->observed + rebec;
+    size_t cells = e->model->rebec[rebec].cells;
+    cell *at = o->variables + (id % OBSERVED) * cells;
+    if (o->ids[id % OBSERVED] != id) {
+        const unsigned char *from =
+            (unsigned char *)e->actors[rebec].bytes.data + component(e, rebec, id)->at;
+        for (size_t i = 0; i < cells; i++)
+            at[i] = take_number(&from);
+        o->ids[id % OBSERVED] = id;
+    }
+    return at;
+}
+
+static void observe_all(struct engine *e, const uint32_t *ids)
+{
+    for (uint32_t r = 0; r < e->rebecs; r++)
+        if (e->model->observed[r])
+            e->views[r] = observe(e, r, ids[r]);
+}
+
+/* Runs a predicate on the state observed last: 1, 0, or -1 when it has no value. */
+static int holds(struct engine *e, int32_t predicate)
+{
+    struct machine *m = &e->machine;
+    m->covered = e->uncounted;
+    m->index = -1;
+    m->clock = m->elapsed = 0;
+    m->depth = m->chosen = m->given = m->sent = 0;
+    m->exhausted = 0;
+    m->budget = BUDGET;
+    start(e, e->model->predicate[predicate], NULL, 0);
+    int status = e->model->run(m);
+    m->covered = e->covered;
+    return status == DONE ? m->stack[0] != 0 : -1;
+}
+
+static void judge(struct engine *e, uint64_t state, const uint64_t *words, int deadlock)
+{
+    if (e->invariant_count) {
+        unpack(e, words, e->unpacked);
+        observe_all(e, e->unpacked);
+    }
+    for (uint32_t i = 0; i < e->invariant_count; i++) {
+        int truth = holds(e, e->invariants[i]);
+        struct event event = {PREDICATE, e->invariants[i], 0, (int64_t)state, -1};
+        if (truth < 0) {
+            event.kind = e->machine.failure;
+            event.pc = e->machine.pc;
+            event.rebec = -1;
+        }
+        if (truth < 1)
+            note(e, event);
+    }
+    if (deadlock)
+        note(e, (struct event){DEADLOCK, 0, 0, (int64_t)state, -1});
+}
+
+/* --- batches */
+
+static void add_state(struct engine *e, const struct pending *p, const uint64_t *words)
+{
+    uint64_t state = e->count, place = state - e->forgotten;
+    size_t size = e->words * sizeof *words;
+    memcpy((char *)room_for(e, &e->states, (place + 1) * size, 1) + place * size, words, size);
+    *(uint32_t *)added(e, &e->parents, sizeof(uint32_t)) = p->parent;
+    if (e->compact)
+        *(uint32_t *)added(e, &e->ordinals, sizeof(uint32_t)) = p->ordinal;
+    if (e->until != NEVER)
+        *(int64_t *)added(e, &e->times, sizeof(int64_t)) = p->time;
+    e->count++;
+    judge(e, state, words, p->deadlock);
+}
+
+static void settle(struct engine *e, const struct pending *p, const uint64_t *words)
+{
+    uint64_t at;
+    if (p->event >= 0) {
+        note(e, e->failed[p->event]);
+        return;
+    }
+    room_for_state(e);
+    if (e->compact) {
+        at = find_print(e, p->hash);
+        if (e->prints[at])
+            return;
+        e->prints[at] = p->hash;
+    } else {
+        at = find(e, words, p->hash);
+        if (e->table[at])
+            return;
+        e->table[at] = tag_of(e, p->hash) | (uint32_t)(e->count + 1);
+    }
+    add_state(e, p, words);
+}
+
+/* Looks up and stores what has gathered, in its order. */
+static void flush(struct engine *e)
+{
+    uint32_t count = e->pending;
+    e->pending = 0;
+    for (uint32_t i = 0; i < count; i++)
+        settle(e, e->batch + i, e->batch_words + (size_t)i * e->words);
+}
+
+static struct pending *gather(struct engine *e, uint64_t ordinal)
+{
+    if (e->pending == BATCH)
+        flush(e);
+    if (e->wide) {
+        flush(e);
+        repack(e);
+    }
+    struct pending *p = e->batch + e->pending;
+    p->parent = e->purpose == START ? (uint32_t)ordinal : (uint32_t)e->current;
+    p->ordinal = (uint32_t)ordinal;
+    p->event = -1;
+    e->transitions += e->purpose == SEARCH;
+    return p;
+}
+
+/* The state e->next has been reached by a step. */
+static void store(struct engine *e, uint64_t ordinal, int64_t time, int deadlock)
+{
+    if (e->until != NEVER) {
+        time += e->purpose == START ? 0 : ((int64_t *)e->times.data)[e->current];
+        if (time > e->until) {
+            e->dropped++;
+            return;
+        }
+    }
+    struct pending *p = gather(e, ordinal);
+    uint64_t *words = e->batch_words + (size_t)e->pending++ * e->words;
+    pack(e, e->next, words);
+    p->time = time;
+    p->deadlock = deadlock;
+    if (e->compact) {
+        p->hash = print_of(e, e->next);
+        if (e->slots)
+            __builtin_prefetch(e->prints + slot_of(e, p->hash), 1);
+    } else {
+        p->hash = hash_words(e, words);
+        if (e->slots)
+            __builtin_prefetch(e->table + slot_of(e, p->hash), 1);
+    }
+}
+
+static void store_failure(struct engine *e, uint64_t ordinal, int32_t kind, int32_t pc, int32_t rebec)
+{
+    struct pending *p = gather(e, ordinal);
+    int64_t state = e->purpose == START ? -1 : (int64_t)e->current;
+    e->failed[e->pending] = (struct event){kind, pc, rebec, state, (int64_t)ordinal};
+    p->event = (int32_t)e->pending++;
+}
+
+#endif
