@@ -53,7 +53,7 @@ def test_every_data_file_is_packaged() -> None:
     wanted = set()
     for package, patterns in SETUPTOOLS["package-data"].items():
         for pattern in patterns:
-            wanted.update(FOLDERS[package].glob(pattern))
+            wanted.update(ROOT.joinpath(*package.split(".")).resolve().glob(pattern))
     for folder in FOLDERS.values():
         for path in folder.rglob("*"):
             if path.is_file() and path.suffix not in (".py", ".pyc"):

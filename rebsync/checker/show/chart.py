@@ -26,40 +26,53 @@ LEGEND = (
 )
 
 
-def chart_svg(trace: Trace, ending: str | None = None) -> str:
+def chart(trace: Trace, ending: str | None = None) -> str:
     """A run as an SVG file; `ending` is what is wrong after its last step."""
-    chart = chart_of(trace)
-    drawn = element("style", Markup(STYLE)), _background(), *parts(trace, chart, ending)
-    return _svg(trace, chart, ending, "chart", *drawn) + "\n"
+    layout = chart_of(trace)
+    drawn = element("style", Markup(STYLE)), _background(), *parts(trace, layout, ending)
+    return _svg(trace, layout, ending, "chart", *drawn) + "\n"
 
 
 def chart_inside(trace: Trace, ending: str | None, name: str) -> Markup:
-    """A run as an `svg` element of a page that has the style; `name` is unique in the page."""
-    chart = chart_of(trace)
-    return _svg(trace, chart, ending, name, *parts(trace, chart, ending))
+    """A run as part of a page that has the style; `name` is unique in the page.
+
+    The names of the rebecs stand in a drawing of their own, to stay when the chart moves.
+    """
+    layout = chart_of(trace)
+    heads = element(
+        "svg",
+        joined(_background(), *(_head(layout, column) for column in range(len(layout.names)))),
+        class_="msc",
+        width=layout.width,
+        height=HEAD - 4,
+        aria_hidden="true",
+    )
+    drawn = _svg(trace, layout, ending, name, *parts(trace, layout, ending))
+    return joined(element("div", heads, class_="heads"), drawn)
 
 
-def parts(trace: Trace, chart: Chart, ending: str | None) -> list[Markup]:
+def parts(trace: Trace, layout: Chart, ending: str | None) -> list[Markup]:
     """Everything in a chart, from back to front."""
     last = trace.steps[-1]
     wrong = last.number if ending is not None or last.failure is not None else -1
     return [
-        *(_band(placed, chart, wrong) for placed in chart.rows),
-        *(_time(time, y, chart) for time, y in chart.bands),
+        *(_band(placed, layout, wrong) for placed in layout.rows),
+        *(_time(time, y, layout) for time, y in layout.bands),
         element("text", "step", class_="number", x=36, y=22),
         element("text", "time", class_="number", x=GUTTER - 14, y=22),
-        *(_lifeline(chart, column) for column in range(len(chart.names))),
-        *(_busy(chart, column, start, end) for column, start, end in chart.busy),
-        *(_way(way, trace) for way in chart.ways),
-        *(_step(placed, chart, wrong) for placed in chart.rows),
-        *_loop(trace, chart),
-        *_foot(chart, ending),
+        *(_lifeline(layout, column) for column in range(len(layout.names))),
+        *(_head(layout, column) for column in range(len(layout.names))),
+        *(_busy(layout, column, start, end) for column, start, end in layout.busy),
+        *(_way(way, trace) for way in layout.ways),
+        *(_step(placed, layout, wrong) for placed in layout.rows),
+        *_loop(trace, layout),
+        *_foot(layout, ending),
     ]
 
 
-def _svg(trace: Trace, chart: Chart, ending: str | None, name: str, *drawn: Markup) -> Markup:
-    foot = len(_foot_lines(chart, ending)) * LINE
-    width, height = chart.width, chart.height + foot
+def _svg(trace: Trace, layout: Chart, ending: str | None, name: str, *drawn: Markup) -> Markup:
+    foot = len(_foot_lines(layout, ending)) * LINE
+    width, height = layout.width, layout.height + foot
     return element(
         "svg",
         joined(
@@ -93,7 +106,7 @@ def _background() -> Markup:
 # --- behind the steps --------------------------------------------------------------------------
 
 
-def _band(placed: Placed, chart: Chart, wrong: int) -> Markup:
+def _band(placed: Placed, layout: Chart, wrong: int) -> Markup:
     """The row of a step, to be pointed at."""
     step = placed.row.step
     return element(
@@ -102,31 +115,35 @@ def _band(placed: Placed, chart: Chart, wrong: int) -> Markup:
         data_step=str(step.number),
         x=0,
         y=placed.top,
-        width=chart.width,
+        width=layout.width,
         height=placed.row.height,
     )
 
 
-def _time(time: int, y: float, chart: Chart) -> Markup:
-    line = element("line", class_="time", x1=14, y1=y, x2=chart.width - 20, y2=y)
+def _time(time: int, y: float, layout: Chart) -> Markup:
+    line = element("line", class_="time", x1=14, y1=y, x2=layout.width - 20, y2=y)
     label = element("text", f"{time:,}", class_="time", x=GUTTER - 14, y=y + 20)
     return element("g", element("title", f"time {time}"), line, label)
 
 
-def _lifeline(chart: Chart, column: int) -> Markup:
-    x, name = chart.lifelines[column], chart.names[column]
+def _lifeline(layout: Chart, column: int) -> Markup:
+    x = layout.lifelines[column]
+    return element("line", class_="life", x1=x, y1=HEAD - 8, x2=x, y2=layout.height - 8)
+
+
+def _head(layout: Chart, column: int) -> Markup:
+    x, name = layout.lifelines[column], layout.names[column]
     half = width_of(name) / 2 + 9
     return element(
         "g",
-        element("line", class_="life", x1=x, y1=HEAD - 8, x2=x, y2=chart.height - 8),
         element("rect", class_="head", x=x - half, y=6, width=2 * half, height=24, rx=3),
         element("text", name, class_="head", x=x, y=22),
     )
 
 
-def _busy(chart: Chart, column: int, start: float, end: float) -> Markup:
-    x = chart.lifelines[column] - BOX
-    title = element("title", f"{chart.names[column]} is busy")
+def _busy(layout: Chart, column: int, start: float, end: float) -> Markup:
+    x = layout.lifelines[column] - BOX
+    title = element("title", f"{layout.names[column]} is busy")
     drawn = element("rect", class_="busy", x=x, y=start, width=2 * BOX, height=end - start)
     return element("g", title, drawn)
 
@@ -174,35 +191,35 @@ def _path(points: tuple[tuple[float, float], ...]) -> str:
 # --- steps -------------------------------------------------------------------------------------
 
 
-def _step(placed: Placed, chart: Chart, wrong: int) -> Markup:
+def _step(placed: Placed, layout: Chart, wrong: int) -> Markup:
     row, top = placed.row, placed.top
     step = row.step
     drawn = [
         element("title", _tooltip(step)),
         element("text", str(step.number), class_="number", x=36, y=top + LINE + 1),
-        *_boxes(placed, chart),
+        *_boxes(placed, layout),
     ]
     if row.notes is not None:
-        drawn.append(_note(placed, chart))
+        drawn.append(_note(placed, layout))
     for text in row.texts:
-        x = GUTTER if text.column < 0 else chart.lifelines[text.column] + TEXT
+        x = GUTTER if text.column < 0 else layout.lifelines[text.column] + TEXT
         drawn.append(element("text", text.text, class_=text.kind, x=x, y=top + text.y))
     kind = "step wrong" if step.number == wrong else "step"
     return element("g", *drawn, class_=kind, data_step=str(step.number))
 
 
-def _boxes(placed: Placed, chart: Chart) -> list[Markup]:
+def _boxes(placed: Placed, layout: Chart) -> list[Markup]:
     """The box of the body that runs; at the start, of every constructor."""
     row = placed.row
     if row.step.kind == "time":
         return []
-    columns = [row.column] if row.column >= 0 else range(len(chart.names))
+    columns = [row.column] if row.column >= 0 else range(len(layout.names))
     top = placed.top + (4 if row.column >= 0 else LINE + 5)
     return [
         element(
             "rect",
             class_="body",
-            x=chart.lifelines[column] - BOX,
+            x=layout.lifelines[column] - BOX,
             y=top,
             width=2 * BOX,
             height=max(placed.bottom - top, 3),
@@ -211,12 +228,12 @@ def _boxes(placed: Placed, chart: Chart) -> list[Markup]:
     ]
 
 
-def _note(placed: Placed, chart: Chart) -> Markup:
+def _note(placed: Placed, layout: Chart) -> Markup:
     """The paper behind what changed."""
     assert placed.row.notes is not None
     start, end = placed.row.notes
     wide = max(width_of(t.text) for t in placed.row.texts if t.kind == "note")
-    x = chart.lifelines[placed.row.column] + TEXT - 4
+    x = layout.lifelines[placed.row.column] + TEXT - 4
     return element(
         "rect", class_="paper", x=x, y=placed.top + start, width=wide + 8, height=end - start, rx=2
     )
@@ -232,15 +249,15 @@ def _tooltip(step: TraceStep) -> str:
 # --- below and beside --------------------------------------------------------------------------
 
 
-def _loop(trace: Trace, chart: Chart) -> list[Markup]:
+def _loop(trace: Trace, layout: Chart) -> list[Markup]:
     """A bracket around the steps that repeat for ever."""
     if trace.loop is None:
         return []
-    before = [p for p in chart.rows if p.row.step.number <= trace.loop]
-    start, end = before[-1].bottom, chart.rows[-1].bottom
+    before = [p for p in layout.rows if p.row.step.number <= trace.loop]
+    start, end = before[-1].bottom, layout.rows[-1].bottom
     if end <= start:
         start = before[-1].top
-    x = chart.width - 14
+    x = layout.width - 14
     bracket = f"M{number(x - 10)},{number(end)}H{number(x)}V{number(start)}H{number(x - 10)}"
     tip = f"M{number(x - 12)},{number(start)}l8,-4v8z"
     middle = (start + end) / 2
@@ -251,14 +268,14 @@ def _loop(trace: Trace, chart: Chart) -> list[Markup]:
     return [element("g", title, *drawn, label, class_="repeats")]
 
 
-def _foot_lines(chart: Chart, ending: str | None) -> list[tuple[str, str]]:
-    wide = int((chart.width - 40) / CELL)
+def _foot_lines(layout: Chart, ending: str | None) -> list[tuple[str, str]]:
+    wide = int((layout.width - 40) / CELL)
     wrong = [("failure", text) for text in wrap(ending, wide)] if ending else []
     return [*wrong, *(("legend", text) for text in wrap(LEGEND, wide))]
 
 
-def _foot(chart: Chart, ending: str | None) -> list[Markup]:
+def _foot(layout: Chart, ending: str | None) -> list[Markup]:
     return [
-        element("text", text, class_=kind, x=20, y=chart.height + LINE * line + 6)
-        for line, (kind, text) in enumerate(_foot_lines(chart, ending))
+        element("text", text, class_=kind, x=20, y=layout.height + LINE * line + 6)
+        for line, (kind, text) in enumerate(_foot_lines(layout, ending))
     ]

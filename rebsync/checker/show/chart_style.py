@@ -63,4 +63,5 @@ def _coloured(dark: bool) -> str:
     return rules
 
 
-STYLE = f"{_SHAPES}{_coloured(False)}@media (prefers-color-scheme:dark){{\n{_coloured(True)}}}\n"
+_DARK = "@media screen and (prefers-color-scheme:dark)"
+STYLE = f"{_SHAPES}{_coloured(False)}{_DARK}{{\n{_coloured(True)}}}\n"

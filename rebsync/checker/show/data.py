@@ -139,6 +139,7 @@ def _values(named: Iterable[tuple[str, str]]) -> Json:
 def _coverage(coverage: Coverage) -> Json:
     return {
         "servers": list(coverage.servers),
+        "lines": list(coverage.lines),
         "branches": [{"line": line, "what": what} for line, what in coverage.branches],
         "largest_bags": [
             {"rebec": rebec, "most": most, "capacity": capacity}

@@ -19,7 +19,7 @@ def escaped(text: str) -> Markup:
     return text if isinstance(text, Markup) else Markup(printable(text).translate(_ESCAPES))
 
 
-def element(name: str, *children: str | None, **attributes: str | float | bool | None) -> Markup:
+def element(name: str, /, *children: str | None, **attributes: str | float | bool | None) -> Markup:
     """An element. `class_` stands for `class`, `data_step` for `data-step`.
 
     An attribute that is None or False is left out, True stands for itself; None is no child.

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import PurePath
 from typing import TextIO
 
 from rebsync.checker.result import Coverage, Result, Verdict, Violation
 from rebsync.checker.show import words
+from rebsync.checker.show.flights import departures
 from rebsync.checker.show.pieces import Line, columns, line, print_lines
 from rebsync.checker.trace import Trace, TraceStep
 from rebsync.report_text import Piece
@@ -18,6 +20,7 @@ _STYLES: dict[Verdict, str] = {
 }
 _WRONG = "bold red"
 _QUIET = "dim"
+_LONG = 30  # columns of a path that is told whole with every step
 
 
 def print_result(result: Result, model: str, stream: TextIO) -> None:
@@ -83,7 +86,7 @@ def _violation(violation: Violation) -> Iterator[Line]:
     place = f"{violation.path}:{violation.line}: " if violation.line else ""
     yield line(
         Piece(place, "bold"),
-        Piece(f"{violation.kind} {violation.name}", _WRONG),
+        Piece(words.title(violation), _WRONG),
         f": {violation.message}",
         hang=2,
     )
@@ -100,7 +103,8 @@ def _step(step: TraceStep, gutter: Piece, wide: tuple[int, int], model: str) -> 
     number, time = wide
     lead = f" {step.number:>{number}}  {step.time:>{time}}  "
     indent = len(lead) + 1
-    place = f"  {model}:{step.line}" if step.line else ""
+    file = model if columns(model) <= _LONG else PurePath(model).name
+    place = f"  {file}:{step.line}" if step.line else ""
     style = _WRONG if step.failure is not None else "bold"
     yield line(
         gutter,
@@ -117,12 +121,15 @@ def _step(step: TraceStep, gutter: Piece, wide: tuple[int, int], model: str) -> 
 def _details(step: TraceStep) -> Iterator[tuple[str, str]]:
     if step.choices:
         yield f"chooses {', '.join(step.choices)}", ""
-    for message in step.sent:
+    for message in departures(step):
         by = f"{message.sender} " if step.kind == "start" else ""
         yield f"{by}sends {words.sending(message, step.time)}", "cyan"
-    for change in step.changes:
-        whose = f"{change.rebec}." if change.rebec != step.rebec else ""
-        yield f"{whose}{words.difference(change)}", ""
+    if step.kind == "start":
+        yield from ((words.values(rebec), "") for rebec in step.rebecs if rebec.variables)
+    else:
+        for change in step.changes:
+            whose = f"{change.rebec}." if change.rebec != step.rebec else ""
+            yield f"{whose}{words.difference(change)}", ""
     if step.failure is not None:
         yield step.failure, _WRONG
 

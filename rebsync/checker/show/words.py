@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from rebsync.checker.result import Violation
 from rebsync.checker.steps import Semantics
 from rebsync.checker.trace import Change, ShownMessage, ShownRebec, TraceStep
 
@@ -16,6 +17,12 @@ _VIEWS: dict[str, str] = {
 def view_of(semantics: Semantics | str) -> str:
     """The name of a view of the semantics."""
     return _VIEWS.get(semantics, semantics)
+
+
+def title(violation: Violation) -> str:
+    """`overflow controller`; a kind that is its own name stands alone."""
+    kind, name = violation.kind, violation.name
+    return kind if kind == name else f"{kind} {name}"
 
 
 def call(message: ShownMessage) -> str:
@@ -71,6 +78,11 @@ def doing(rebec: ShownRebec) -> str:
     if rebec.suspended_at is not None:
         parts.append(f"goes on at line {rebec.suspended_at}")
     return ", ".join(parts)
+
+
+def values(rebec: ShownRebec) -> str:
+    """`left: at = 1, moving = false`."""
+    return f"{rebec.name}: {', '.join(f'{name} = {value}' for name, value in rebec.variables)}"
 
 
 def difference(change: Change) -> str:

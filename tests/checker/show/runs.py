@@ -232,7 +232,9 @@ def result(*violations: Violation) -> Result:
         ("overflow is undecided: the model delays",) if violations else (),
         (("Safe", "satisfied"), ("OneAtATime", "violated" if violations else "satisfied")),
         violations,
-        Coverage(("Robot.stop",), ((14, "the condition is never true"),), (("left", 2, 5),)),
+        Coverage(
+            ("Robot.stop",), ((14, "the condition is never true"),), (("left", 2, 5),), (21, 22)
+        ),
         12345,
         23456,
         17,

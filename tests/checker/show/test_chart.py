@@ -10,7 +10,7 @@ from xml.etree.ElementTree import Element
 
 import pytest
 
-from rebsync.checker.show.chart import chart_svg
+from rebsync.checker.show.chart import chart
 from rebsync.checker.show.chart_layout import chart_of
 from rebsync.checker.show.flights import departures, flights, lanes
 from rebsync.checker.show.pieces import columns
@@ -46,7 +46,7 @@ class Box:
 
 def drawn(trace: Trace, ending: str | None = None) -> Element:
     """The parsed drawing of a run."""
-    return ElementTree.fromstring(chart_svg(trace, ending))
+    return ElementTree.fromstring(chart(trace, ending))
 
 
 def text_boxes(svg: Element) -> list[Box]:
@@ -105,7 +105,7 @@ def test_every_step_and_message_is_there(trace: Trace) -> None:
 
 @every_run
 def test_a_drawing_is_the_same_each_time(trace: Trace) -> None:
-    assert chart_svg(trace) == chart_svg(trace)
+    assert chart(trace) == chart(trace)
 
 
 @every_run
@@ -171,7 +171,7 @@ def test_a_loop_has_its_bracket() -> None:
 def test_a_loop_of_no_steps_has_a_bracket_too() -> None:
     run = Recorder({"a": {}})
     run.start()
-    assert "repeats for ever after step 0" in chart_svg(run.trace(loop=0))
+    assert "repeats for ever after step 0" in chart(run.trace(loop=0))
 
 
 def test_it_can_be_read_aloud() -> None:
@@ -192,8 +192,8 @@ def test_hard_texts_are_escaped() -> None:
 
 
 def test_it_stands_on_light_and_on_dark() -> None:
-    svg = chart_svg(crossing())
-    light, dark = svg.split("@media (prefers-color-scheme:dark)")
+    svg = chart(crossing())
+    light, dark = svg.split("@media screen and (prefers-color-scheme:dark)")
     assert ".msc .back{fill:#ffffff}" in light
     assert ".msc .back{fill:#15191e}" in dark
     assert not re.search(r"url\(|href|<script|https?://(?!www\.w3\.org/2000/svg)", svg)

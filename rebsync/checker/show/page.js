@@ -1,0 +1,134 @@
+'use strict';
+// Selecting a step marks its row in the chart, its state, and its line of the model.
+(() => {
+  const runs = [...document.querySelectorAll('.run')];
+  let run = null;
+  let step = null;
+
+  const rows = () => [...run.querySelectorAll('.states tbody tr')];
+  const parts = (name) => run.querySelectorAll(`.msc [data-${name}="${step}"]`);
+
+  function unmark(root, kind) {
+    root.querySelectorAll(`.on${kind}`).forEach((part) => part.classList.remove('on'));
+  }
+
+  // Scrolls only the pane around a part, so that the others stay where they are.
+  function reveal(part, pane) {
+    const here = part.getBoundingClientRect();
+    const there = pane.getBoundingClientRect();
+    const head = pane.querySelector('.heads, thead');
+    const top = there.top + (head ? head.getBoundingClientRect().height : 0) + 8;
+    if (here.top < top) pane.scrollTop -= top - here.top;
+    if (here.bottom > there.bottom) pane.scrollTop += here.bottom - there.bottom + 8;
+  }
+
+  // The same from left to right; of what is wider than its pane, the beginning.
+  function revealAcross(part, pane) {
+    const here = part.getBoundingClientRect();
+    const there = pane.getBoundingClientRect();
+    if (here.left < there.left) pane.scrollLeft -= there.left - here.left + 40;
+    if (here.right > there.right) {
+      pane.scrollLeft += Math.min(here.right - there.right + 12, here.left - there.left - 40);
+    }
+  }
+
+  function show(number) {
+    run = runs[number];
+    runs.forEach((each) => each.classList.toggle('on', each === run));
+    document.querySelectorAll('nav a').forEach((tab) => {
+      if (tab.dataset.run === run.dataset.run) tab.setAttribute('aria-current', 'true');
+      else tab.removeAttribute('aria-current');
+    });
+    step = null;
+  }
+
+  function select(row, focus) {
+    unmark(document, ':not(.run)');
+    rows().forEach((each) => each.removeAttribute('aria-current'));
+    step = row.dataset.step;
+    row.classList.add('on');
+    row.setAttribute('aria-current', 'step');
+    row.tabIndex = 0;
+    if (focus) row.focus({ preventScroll: true });
+    for (const name of ['step', 'taken', 'sent']) {
+      parts(name).forEach((part) => part.classList.add('on'));
+    }
+    reveal(row, row.closest('.pane'));
+    const changed = row.querySelector('.changed');
+    if (changed) revealAcross(changed, row.closest('.pane'));
+    const box = run.querySelector(`.msc .step[data-step="${step}"]`);
+    reveal(box, box.closest('.pane'));
+    const body = box.querySelector('.body');
+    if (body && box.querySelectorAll('.body').length === 1) {
+      revealAcross(box.querySelector('.label') || body, box.closest('.pane'));
+    }
+    const line = row.dataset.line && document.getElementById(`L${row.dataset.line}`);
+    if (line) {
+      line.classList.add('on');
+      reveal(line, document.querySelector('aside'));
+    }
+  }
+
+  function choose(row) {
+    select(row, true);
+    history.replaceState(null, '', `#${row.id}`);
+  }
+
+  // The step that runs a line: the next one after the selected step, then from the first one.
+  function atLine(number) {
+    const all = rows();
+    const from = all.findIndex((row) => row.dataset.step === step) + 1;
+    return [...all.slice(from), ...all.slice(0, from)].find((row) => row.dataset.line === number);
+  }
+
+  function move(distance) {
+    const all = rows();
+    const at = all.findIndex((row) => row.dataset.step === step);
+    choose(all[Math.min(Math.max(at + distance, 0), all.length - 1)]);
+  }
+
+  function turn(distance) {
+    const next = runs.indexOf(run) + distance;
+    if (next < 0 || next >= runs.length) return;
+    show(next);
+    move(1);
+  }
+
+  const keys = {
+    j: () => move(1), ArrowDown: () => move(1), k: () => move(-1), ArrowUp: () => move(-1),
+    Home: () => move(-Infinity), End: () => move(Infinity), '[': () => turn(-1), ']': () => turn(1),
+  };
+
+  function fromAddress() {
+    const [, number, at] = /^#v(\d+)(?:-s(\d+))?$/.exec(location.hash) || [];
+    if (!number || !runs[number - 1]) return false;
+    show(number - 1);
+    const row = rows().find((each) => each.dataset.step === at);
+    select(row || rows().pop(), false);
+    return true;
+  }
+
+  if (runs.length === 0) return;
+  document.documentElement.classList.add('js');
+  document.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches('input')) return;
+    if (!(event.key in keys)) return;
+    event.preventDefault();
+    keys[event.key]();
+  });
+  document.addEventListener('click', (event) => {
+    if (event.target.closest('a, input, label')) return;
+    const part = event.target.closest('[data-step]');
+    const line = event.target.closest('#source [data-line]');
+    const flight = event.target.closest('.flight');
+    const wanted = part ? part.dataset.step : flight && (flight.dataset.taken || flight.dataset.sent);
+    const row = wanted ? rows().find((each) => each.dataset.step === wanted)
+      : line && atLine(line.dataset.line);
+    if (row) choose(row);
+  });
+  window.addEventListener('hashchange', fromAddress);
+  if (!fromAddress()) {
+    show(0);
+    select(rows().pop(), false);
+  }
+})();

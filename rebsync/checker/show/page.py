@@ -1,0 +1,171 @@
+"""One page that shows a result or a run: charts, states and the model side by side.
+
+It needs nothing but itself; without scripts everything in it can still be read.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+from rebsync.checker.result import Coverage, Result, Violation
+from rebsync.checker.show import words
+from rebsync.checker.show.chart import chart_inside
+from rebsync.checker.show.chart_style import STYLE
+from rebsync.checker.show.markup import Markup, element, joined
+from rebsync.checker.show.page_source import coverage_section, source_section, text_section
+from rebsync.checker.show.page_states import states_table
+from rebsync.checker.trace import Trace
+from rebsync.source import Source
+
+HELP = "Select a step: click it, or j and k or the arrow keys; [ and ] select another run."
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """A run of the page: its heading, the place that the heading is about, what is wrong."""
+
+    heading: str
+    trace: Trace
+    message: str = ""
+    place: str | None = None  # the target of a link in the page
+    ending: str | None = None
+
+
+def result_page(result: Result, source: Source, property_source: Source | None = None) -> str:
+    """The page of a verification of the model `source`."""
+    runs = [_shown(violation, source, property_source) for violation in result.violations]
+    return _page(source, _summary(result), runs, result.coverage, property_source)
+
+
+def trace_page(trace: Trace, source: Source) -> str:
+    """The page of one run of the model `source`."""
+    run = Shown(f"Run of {words.counted(len(trace.steps), 'step')}", trace)
+    return _page(source, element("p", words.view_of(trace.semantics)), [run], None, None)
+
+
+def _shown(violation: Violation, source: Source, properties: Source | None) -> Shown:
+    trace = violation.trace
+    failed = any(step.failure is not None for step in trace.steps)
+    ending = None if failed or trace.loop is not None else violation.message
+    place = None
+    if violation.line and violation.path == source.path:
+        place = f"L{violation.line}"
+    elif violation.line and properties is not None and violation.path == properties.path:
+        place = f"P{violation.line}"
+    return Shown(words.title(violation), trace, violation.message, place, ending)
+
+
+def _page(
+    source: Source,
+    summary: Markup,
+    runs: Sequence[Shown],
+    coverage: Coverage | None,
+    properties: Source | None,
+) -> str:
+    style = element("style", Markup(_file("page.css") + STYLE))
+    script = element("script", Markup(_file("page.js")))
+    aside = [source_section(source, coverage)]
+    if coverage is not None:
+        aside.append(coverage_section(coverage))
+    if properties is not None:
+        aside.append(text_section(properties, "Properties", "P"))
+    body = element(
+        "body",
+        joined(
+            element("header", element("h1", source.path), summary, _tabs(runs)),
+            element(
+                "main",
+                element("div", joined(*map(_run, runs, range(1, len(runs) + 1))), class_="runs"),
+                element("aside", joined(*aside)),
+                class_=None if runs else "alone",
+            ),
+            script,
+        ),
+    )
+    head = element("head", joined(*_metadata(), element("title", source.path), style))
+    return f"<!DOCTYPE html>\n{element('html', head, body, lang='en')}\n"
+
+
+def _metadata() -> list[Markup]:
+    """The page may load nothing and run nothing but its own script."""
+    digest = base64.b64encode(hashlib.sha256(_file("page.js").encode()).digest()).decode()
+    policy = f"default-src 'none'; style-src 'unsafe-inline'; script-src 'sha256-{digest}'"
+    return [
+        element("meta", charset="utf-8"),
+        element("meta", http_equiv="Content-Security-Policy", content=policy),
+        element("meta", name="viewport", content="width=device-width, initial-scale=1"),
+    ]
+
+
+@cache
+def _file(name: str) -> str:
+    return files("rebsync.checker.show").joinpath(name).read_text(encoding="utf-8")
+
+
+# --- the head ----------------------------------------------------------------------------------
+
+
+def _summary(result: Result) -> Markup:
+    speed = words.rate(result.states, result.seconds)
+    figures = [
+        words.counted(result.states, "state"),
+        words.counted(result.transitions, "transition"),
+        f"depth {result.depth:,}",
+        words.duration(result.seconds) + (f" ({speed:,.0f} states/s)" if speed else ""),
+        words.memory(result.peak_memory_bytes),
+        f"engine {result.engine}",
+        words.view_of(result.semantics),
+    ]
+    said = [result.reason] if result.reason is not None else []
+    verdict = element("strong", result.verdict, class_=f"verdict {result.verdict}")
+    return joined(
+        element("p", verdict, " ", ", ".join(figures)),
+        *(element("p", text, class_="caveat") for text in (*said, *result.caveats)),
+        _properties(result),
+    )
+
+
+def _properties(result: Result) -> Markup:
+    rows = [
+        element("li", name, " ", element("span", verdict, class_=f"verdict {verdict}"))
+        for name, verdict in result.properties
+    ]
+    return element("ul", *rows, class_="properties") if rows else Markup("")
+
+
+def _tabs(runs: Sequence[Shown]) -> Markup:
+    """Links to the runs, when there are several to choose from."""
+    links = [
+        element("a", run.heading, href=f"#v{number}", data_run=str(number))
+        for number, run in enumerate(runs, 1)
+    ]
+    tabs = element("nav", joined(*links), aria_label="Runs") if len(links) > 1 else Markup("")
+    return joined(tabs, element("p", HELP, class_="help") if links else Markup(""))
+
+
+# --- runs --------------------------------------------------------------------------------------
+
+
+def _run(run: Shown, number: int) -> Markup:
+    name = f"v{number}"
+    about = [": ", run.message] if run.message else []
+    if run.place is not None:
+        about += [" (", element("a", f"line {run.place[1:]}", href=f"#{run.place}"), ")"]
+    drawn = chart_inside(run.trace, run.ending, f"{name}-chart")
+    chart = element(
+        "div", drawn, class_="pane chart", tabindex="0", aria_label="Chart", role="group"
+    )
+    table = states_table(run.trace, name, run.ending)
+    states = element("div", table, class_="pane", tabindex="0", aria_label="States", role="group")
+    return element(
+        "section",
+        joined(element("h2", run.heading, *about), element("div", chart, states, class_="panes")),
+        class_="run",
+        id=name,
+        data_run=str(number),
+    )
