@@ -20,6 +20,7 @@ from rebsync.checker.result import Result, Verdict, Violation
 from rebsync.checker.standstill import cycle_from, may_stand_still, stuck_states
 from rebsync.checker.steps import Failure, Semantics, ViolationKind
 from rebsync.checker.telling import Teller
+from rebsync.checker.temporal.lasso import Lasso
 from rebsync.checker.trace import Trace
 from rebsync.checker.views import view_of
 from rebsync.properties import Property
@@ -177,15 +178,32 @@ class _Answer:
             if not self.complete:
                 self.verdicts[entry.name] = "undetermined"
                 continue
-            run = self._refutation(entry, formula)
+            run = self._refutation(formula, entry in self.problem.properties.tctl)
             self.verdicts[entry.name] = "satisfied" if run is None else "violated"
             if run is not None:
                 message = f'the property "{entry.name}" does not hold on this run'
                 self._property("property", entry, message, run)
 
-    def _refutation(self, entry: Property, formula: NamedFormula) -> Trace | None:
-        """A run on which a formula of LTL or TCTL does not hold; None when it holds."""
-        raise NotImplementedError
+    def _refutation(self, formula: NamedFormula, branching: bool) -> Trace | None:
+        """A run on which a formula does not hold; None when it holds.
+
+        That there is no run of some kind is shown by no run: then the initial state stands alone.
+        """
+        from rebsync.checker.temporal import check_ltl, check_tctl
+
+        if branching:
+            answer = check_tctl(self.graph(), formula.formula)
+            if answer.holds:
+                return None
+            run = answer.run or Lasso((0,), None)
+        else:
+            found = check_ltl(self.graph(), formula.formula, self.options.fairness)
+            if found is None:
+                return None
+            run = found
+        start = self.search.path(self.graph().initial[run.prefix[0]])
+        path = (*start, *run.prefix[1:], *(run.cycle or ()))
+        return self.teller.trace(path, loop=len(run.prefix) - 1 if run.cycle else None)
 
     # --- time that stands still
 

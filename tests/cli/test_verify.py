@@ -1,0 +1,340 @@
+"""`rebsync verify` as a user runs it."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.cli.run import ROOT, environment, rebsync
+
+EXAMPLES = ROOT / "examples"
+WALK = """\
+env int last = 3;
+
+reactiveclass Walker(3) {
+  statevars { int place; int[2] seen; }
+  Walker() { self.go(1); }
+  msgsrv go(int by) {
+    place = place + by;
+    if (place < last) { self.go(?(1, 2)) after(2) deadline(5); }
+  }
+}
+
+main { Walker walker():(); }
+"""
+ENDLESS = """\
+reactiveclass Counter(2) {
+  statevars { int count; }
+  Counter() { self.go(); }
+  msgsrv go() { count++; self.go() after(1); }
+}
+
+main { Counter counter():(); }
+"""
+
+
+def verified(folder: Path, text: str, *options: str, properties: str = "") -> dict[str, Any]:
+    """The JSON object for a model, with the exit status as `status`."""
+    (folder / "m.rebeca").write_text(text)
+    if properties:
+        (folder / "m.property").write_text(f"property {{ {properties} }}")
+    done = rebsync("verify", "m.rebeca", "--format", "json", *options, cwd=folder)
+    assert done.out, done.err
+    return {**json.loads(done.out), "status": done.status}
+
+
+def kinds(result: dict[str, Any]) -> list[tuple[str, str]]:
+    return [(v["kind"], v["name"]) for v in result["violations"]]
+
+
+# --- verdicts ----------------------------------------------------------------------------------
+
+
+def test_a_system_that_ends_is_a_deadlock_unless_that_is_allowed(tmp_path: Path) -> None:
+    result = verified(tmp_path, WALK)
+    assert (result["status"], kinds(result)) == (3, [("deadlock", "deadlock")])
+    allowed = verified(tmp_path, WALK, "--allow", "deadlock")
+    assert (allowed["status"], allowed["verdict"]) == (0, "satisfied")
+    assert (allowed["states"], allowed["transitions"]) == (7, 7)
+
+
+def test_property_beside_the_model_and_elsewhere(tmp_path: Path) -> None:
+    inside = "Assertion { Near: walker.place <= last; }"
+    result = verified(tmp_path, WALK, "--allow", "deadlock", properties=inside)
+    assert result["properties"] == {"Near": "violated"}
+    assert kinds(result) == [("property", "Near")]
+    assert result["violations"][0]["trace"][-1]["time"] == 4
+    (tmp_path / "other.property").write_text("property { Assertion { Low: walker.place < 9; } }")
+    elsewhere = verified(tmp_path, WALK, "--allow", "deadlock", "--property", "other.property")
+    assert elsewhere["properties"] == {"Low": "satisfied"}
+
+
+def test_the_initial_state_counts(tmp_path: Path) -> None:
+    properties = "Assertion { Moved: walker.place > 0; }"
+    result = verified(tmp_path, WALK, "--allow", "deadlock", properties=properties)
+    assert [len(v["trace"]) for v in result["violations"]] == [1]
+
+
+def test_every_kind_is_found_in_one_run(tmp_path: Path) -> None:
+    text = """
+reactiveclass A(3) {
+  knownrebecs { A other; }
+  statevars { int n; int[2] cells; A nobody; }
+  A() { self.go(); }
+  msgsrv go() {
+    int k = ?(0, 1, 2, 3, 4, 5, 6, 7);
+    switch (k) {
+      case 0: assertion(n == 1, "one"); break;
+      case 1: cells[n + 2] = 1; break;
+      case 2: n = 1 / n; break;
+      case 3: nobody.go(); break;
+      case 4: self.go() after(n - 1); break;
+      case 5: other.late(); other.late(); other.late(); break;
+      case 6: self.late() after(2) deadline(1 + n); break;
+      default: assertion(n > 0);
+    }
+  }
+  msgsrv late() { }
+}
+main { A a(a):(); }
+"""
+    result = verified(tmp_path, text)
+    assert result["verdict"] == "violated"
+    assert set(kinds(result)) == {
+        ("assertion", "one"),
+        ("assertion", "A.go:16"),
+        ("index", "A.go:10"),
+        ("division", "A.go:11"),
+        ("null", "A.go:12"),
+        ("time", "A.go:13"),
+        ("overflow", "a"),
+        ("deadline", "a.late"),
+    }
+    assert result["transitions"] == 9
+
+
+def test_time_that_cannot_advance(tmp_path: Path) -> None:
+    text = """
+reactiveclass Loop(2) {
+  statevars { boolean on; }
+  Loop() { self.go(); }
+  msgsrv go() { on = !on; STAY }
+}
+main { Loop loop():(); }
+"""
+    stuck = verified(tmp_path, text.replace("STAY", "self.go();"))
+    assert kinds(stuck) == [("zeno", "zeno")]
+    left = verified(tmp_path, text.replace("STAY", "self.go() after(?(0, 1));"))
+    assert left["verdict"] == "satisfied"
+    assert any("cycle" in c for c in left["caveats"])
+
+
+def test_core_models_have_queues_and_no_time(tmp_path: Path) -> None:
+    text = """
+reactiveclass A(4) {
+  statevars { int last; }
+  A() { self.put(1); self.put(2); }
+  msgsrv put(int n) { last = n; self.put(n); }
+}
+main { A a():(); }
+"""
+    result = verified(tmp_path, text, "--language", "core")
+    assert (result["semantics"], result["states"], result["transitions"]) == ("core", 3, 3)
+    (tmp_path / "t.rebeca").write_text(WALK)
+    refused = rebsync("verify", "t.rebeca", "--language", "core", cwd=tmp_path)
+    assert refused.status == 2
+    assert "RS431" in refused.err
+
+
+# --- views -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("delay", "options", "view"),
+    [("", (), "ftts"), ("delay(1);", (), "tts"), ("", ("--semantics", "tts"), "tts")],
+)
+def test_the_view_follows_the_model(
+    tmp_path: Path, delay: str, options: tuple[str, ...], view: str
+) -> None:
+    text = WALK.replace("place = place + by;", f"place = place + by; {delay}")
+    result = verified(tmp_path, text, "--allow", "deadlock", *options)
+    assert result["semantics"] == view
+    assert result["caveats"] == []
+
+
+def test_an_explicit_floating_view_of_delays_warns(tmp_path: Path) -> None:
+    text = WALK.replace("place = place + by;", "place = place + by; delay(1);")
+    result = verified(tmp_path, text, "--allow", "deadlock", "--semantics", "ftts")
+    assert any("delay" in caveat for caveat in result["caveats"])
+
+
+# --- bounds ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("engine", ["interpreted", "compiled", "auto"])
+@pytest.mark.parametrize(
+    "bound", [("--max-states", "500"), ("--max-time", "300ms"), ("--until", "40")]
+)
+def test_bounds_end_undetermined(tmp_path: Path, engine: str, bound: tuple[str, str]) -> None:
+    result = verified(tmp_path, ENDLESS, "--engine", engine, *bound)
+    assert (result["status"], result["verdict"]) == (4, "undetermined")
+    assert "bound" in result["reason"]
+    if bound[0] == "--until":
+        assert (result["states"], result["transitions"]) == (41, 40)
+
+
+def test_what_was_found_before_the_bound_is_told(tmp_path: Path) -> None:
+    properties = "Assertion { Low: counter.count < 10; High: counter.count < 100000000; }"
+    result = verified(tmp_path, ENDLESS, "--max-states", "50", properties=properties)
+    assert result["status"] == 3
+    assert result["properties"] == {"Low": "violated", "High": "undetermined"}
+
+
+@pytest.mark.parametrize("engine", ["interpreted", "compiled"])
+def test_ctrl_c_ends_with_what_is_known(tmp_path: Path, engine: str) -> None:
+    (tmp_path / "m.rebeca").write_text(ENDLESS)
+    command = [sys.executable, "-m", "rebsync", "verify", "m.rebeca", "--format", "json"]
+    restore = "import signal, os, sys; signal.signal(signal.SIGINT, signal.default_int_handler); "
+    start = f"{restore}os.execv(sys.executable, {[*command, '--engine', engine]!r})"
+    process = subprocess.Popen(
+        [sys.executable, "-c", start],
+        cwd=tmp_path,
+        env=environment(),
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    time.sleep(2.5)
+    process.send_signal(signal.SIGINT)
+    out, _ = process.communicate(timeout=20)
+    assert process.returncode == 4
+    result = json.loads(out)
+    assert (result["verdict"], result["reason"]) == ("undetermined", "it was interrupted")
+    assert result["states"] > 0
+
+
+def test_a_body_that_does_not_end(tmp_path: Path) -> None:
+    text = WALK.replace("place = place + by;", "place = f(1);").replace(
+        "msgsrv go", "int f(int n) { return f(n) + 1; } msgsrv go"
+    )
+    result = verified(tmp_path, text)
+    assert result["status"] == 4
+    assert "Walker.f" in result["reason"]
+
+
+@pytest.mark.parametrize("option", [("--memory", "0"), ("--max-time", "soon"), ("--until", "-1")])
+def test_bounds_that_are_none(tmp_path: Path, option: tuple[str, str]) -> None:
+    (tmp_path / "m.rebeca").write_text(WALK)
+    assert rebsync("verify", "m.rebeca", *option, cwd=tmp_path).status == 2
+
+
+# --- engines -----------------------------------------------------------------------------------
+
+
+def test_without_a_compiler(tmp_path: Path) -> None:
+    (tmp_path / "m.rebeca").write_text(ENDLESS)
+    nothing = {"PATH": str(tmp_path), "REBSYNC_CACHE": str(tmp_path / "cache"), "CC": ""}
+    asked = rebsync("verify", "m.rebeca", "--engine", "compiled", cwd=tmp_path, env=nothing)
+    assert asked.status == 2
+    assert "RS931" in asked.err
+    options = ("--format", "json", "--max-time", "1s")
+    auto = rebsync("verify", "m.rebeca", *options, cwd=tmp_path, env=nothing)
+    result = json.loads(auto.out)
+    assert (auto.status, result["engine"]) == (4, "interpreted")
+    assert any("compiler" in caveat for caveat in result["caveats"])
+
+
+def test_engines_agree_on_the_examples() -> None:
+    model = str(EXAMPLES / "experiment3_unsafe" / "experiment3_unsafe.rebeca")
+    results = []
+    for engine in ("interpreted", "compiled"):
+        done = rebsync("verify", model, "--engine", engine, "--format", "json", cwd=ROOT)
+        result = json.loads(done.out)
+        assert result.pop("engine") == engine
+        for figure in ("seconds", "build_seconds", "peak_memory_bytes", "states_per_second"):
+            result.pop(figure)
+        results.append(result)
+    assert results[0] == results[1]
+
+
+# --- runs --------------------------------------------------------------------------------------
+
+
+def test_a_run_can_be_made_again(tmp_path: Path) -> None:
+    model = str(EXAMPLES / "experiment2_unsafe" / "experiment2_unsafe.rebeca")
+    first = rebsync("verify", model, "--format", "json", "-o", "r.json", cwd=tmp_path)
+    assert first.status == 3
+    name = "Collision_Avoidance"
+    options = ("--replay", "r.json", "--violation", name, "--format", "json")
+    again = rebsync("verify", model, *options, cwd=tmp_path)
+    recorded = json.loads((tmp_path / "r.json").read_text())
+    trace = next(v["trace"] for v in recorded["violations"] if v["name"] == name)
+    assert json.loads(again.out)["trace"] == trace
+
+
+def test_a_run_of_another_model(tmp_path: Path) -> None:
+    model = str(EXAMPLES / "experiment2_unsafe" / "experiment2_unsafe.rebeca")
+    other = str(EXAMPLES / "experiment2" / "experiment2.rebeca")
+    rebsync("verify", model, "--format", "json", "-o", "r.json", cwd=tmp_path)
+    options = ("--replay", "r.json", "--violation", "Collision_Avoidance")
+    refused = rebsync("verify", other, *options, cwd=tmp_path)
+    assert refused.status == 2
+    assert "RS924" in refused.err
+
+
+@pytest.mark.parametrize("style", ["svg", "html"])
+def test_pictures(tmp_path: Path, style: str) -> None:
+    model = str(EXAMPLES / "experiment2_unsafe" / "experiment2_unsafe.rebeca")
+    done = rebsync("verify", model, "--format", style, "-o", f"out.{style}", cwd=tmp_path)
+    assert (done.status, done.out) == (3, "")
+    assert "robot1" in (tmp_path / f"out.{style}").read_text()
+
+
+@pytest.mark.parametrize("suffix", ["dot", "svg", "json"])
+def test_state_spaces(tmp_path: Path, suffix: str) -> None:
+    (tmp_path / "m.rebeca").write_text(WALK)
+    name = f"space.{suffix}"
+    options = ("--states", name, "--allow", "deadlock")
+    done = rebsync("verify", "m.rebeca", *options, cwd=tmp_path)
+    assert done.status == 0, done.err
+    text = (tmp_path / name).read_text()
+    if suffix == "json":
+        space = json.loads(text)
+        assert (len(space["states"]), len(space["transitions"])) == (7, 7)
+    else:
+        assert "walker" in text
+
+
+def test_the_format_of_rmc(tmp_path: Path) -> None:
+    (tmp_path / "m.rebeca").write_text(WALK)
+    done = rebsync("verify", "m.rebeca", "--export", "rmc-xml", cwd=tmp_path)
+    assert done.status == 0
+    assert done.out.count("<state ") == 7
+    assert done.out.count("<transition ") == 7
+
+
+# --- bad input ---------------------------------------------------------------------------------
+
+
+def test_mistakes_are_told_with_their_places(tmp_path: Path) -> None:
+    (tmp_path / "m.rebeca").write_text(WALK.replace("place + by", "plase + by"))
+    done = rebsync("verify", "m.rebeca", cwd=tmp_path)
+    assert (done.status, done.out) == (2, "")
+    assert "m.rebeca:7:" in done.err
+    (tmp_path / "m.rebeca").write_text(WALK)
+    (tmp_path / "m.property").write_text("property { Assertion { P: walker.plac > 1; } }")
+    done = rebsync("verify", "m.rebeca", cwd=tmp_path)
+    assert done.status == 2
+    assert "m.property:1:" in done.err
+
+
+def test_a_class_without_instances_is_no_obstacle(tmp_path: Path) -> None:
+    idle = "reactiveclass Idle(1) { msgsrv m() { self.m(); } }\n\nreactiveclass Walker(3)"
+    text = WALK.replace("reactiveclass Walker(3)", idle)
+    assert verified(tmp_path, text, "--allow", "deadlock")["verdict"] == "satisfied"
