@@ -14,8 +14,9 @@ from rebsync.properties import Properties
 from rebsync.property_check import check_properties
 from rebsync.source import Source
 from rebsync.static import Analysis, analyse
-from tests.checker.reference import Outcome, View, Violation, explore
+from tests.checker.reference import Outcome, explore
 from tests.checker.reference_properties import false_assertions
+from tests.checker.reference_steps import View, Violation
 
 
 @dataclass(frozen=True)

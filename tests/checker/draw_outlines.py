@@ -94,11 +94,11 @@ def outline(drawer: Drawer) -> None:
 
 
 def _class(drawer: Drawer, number: int, base: Outline | None) -> Outline:
-    each = Outline(f"C{number}", drawer.up_to(5, least=2), base)
+    each = Outline(f"C{number}", drawer.up_to(6, least=2), base)
     kinds = ["int", "int", "byte", "boolean", "int[2]", "byte[2][2]", each.name]
     if drawer.features.floats:
         kinds += ["float", "double"]
-    for position in range(drawer.up_to(2)):
+    for position in range(drawer.up_to(3, least=1)):
         each.state.append((drawer.one(kinds), f"v{number}{position}"))
     for position in range(drawer.up_to(2, least=1)):
         each.servers.append(_callee(drawer, each, f"s{number}{position}"))

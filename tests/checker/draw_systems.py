@@ -11,15 +11,15 @@ from dataclasses import dataclass
 from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn
 
-from tests.checker.draw_bodies import Body, beat, block, value
+from tests.checker.draw_expressions import Body, value
 from tests.checker.draw_outlines import Callee, Drawer, Features, Outline, outline
-
-__all__ = ["Drawn", "Features", "systems"]
+from tests.checker.draw_statements import beat, block
 
 TIMED = Features()
 WITHOUT_DELAY = Features(delays=False)
 UNTIMED = Features(timed=False, delays=False)
 CLOCKED = Features(clock=True)
+REAL = Features(floats=True)
 
 
 @dataclass(frozen=True)
@@ -137,7 +137,7 @@ def _rebec(
         fitting = [n for c, n in rebecs if any(a.name == kind for a in c.line())]
         others = [n for n in fitting if n != name] or fitting
         bindings.append(drawer.one(others))
-    rank = _ranked(drawer, ranks)
+    rank = _ranked(drawer, ranks if ranks == "priority" else "")
     return f"{rank}{each.name} {name}({', '.join(bindings)}):({drawer.up_to(3)});"
 
 

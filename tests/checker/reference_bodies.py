@@ -1,143 +1,33 @@
-"""The bodies of the reference: an interpreter that walks the syntax tree.
-
-A body asks the world for everything that is not its own: which option to choose, what time it is,
-to send, to wait. The answers are kept in a log. A suspended body goes on by being run again from
-its beginning: the log answers what has been asked before, the world the rest.
-"""
+"""The bodies of the reference: statements."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from rebsync import model as m
-from rebsync.static import Analysis, ClassInfo
-from rebsync.static.constants import float_value
-from rebsync.static.symbols import (
-    BuiltinFunctionSymbol,
-    BuiltinSymbol,
-    EnvSymbol,
-    KnownRebecSymbol,
-    MethodSymbol,
-    RebecSymbol,
-    ServerSymbol,
-    StateSymbol,
-    Symbol,
-)
-from tests.checker.reference_values import (
-    Tagged,
-    Value,
-    bits,
-    convert,
-    negative,
-    operate,
-    raised,
-    root,
-    tag,
-    zero,
-)
+from tests.checker.reference_expressions import Expressions
+from tests.checker.reference_frames import Endless, Frame
+from tests.checker.reference_values import Value, convert, tag, zero
 
-Key = tuple[str, tuple[str, ...]]
-Variables = dict[Symbol, Value]
 _ENDLESS = 100_000  # statements
 
 
-class Fails(Exception):
-    """A rule of the model is broken at a node of the tree; `rebec` when it is another's."""
-
-    def __init__(self, kind: str, node: m.Node, rebec: int | None = None) -> None:
-        super().__init__(kind, node)
-        self.kind, self.node, self.rebec = kind, node, rebec
-
-
-class Endless(Exception):
-    """A body runs for very many statements."""
-
-
-class World:
-    """What a body may ask for; the explorer says what the answers are."""
-
-    def choose(self, count: int) -> int:
-        raise NotImplementedError
-
-    def read(self, name: str) -> int:
-        raise NotImplementedError
-
-    def send(
-        self, node: m.Call, receiver: int, key: Key, arguments: Value, times: tuple[int, int | None]
-    ) -> None:
-        raise NotImplementedError
-
-    def wait(self, time: int) -> None:
-        raise NotImplementedError
-
-
 @dataclass
-class Frame:
-    """A running server, method or constructor; `point` is the call in which it stands."""
-
-    scopes: list[Variables]
-    operands: list[Value] = field(default_factory=list)
-    point: m.Node | None = None
-    result: Value = None
-
-    def identity(self) -> tuple[object, ...]:
-        """Where it is, its locals in scope, and what is computed so far of an expression."""
-        cells = [bits(v) for scope in self.scopes for v in scope.values()]
-        return id(self.point), tuple(cells), tuple(bits(v) for v in self.operands)
-
-
-def key_of(symbol: ServerSymbol | MethodSymbol) -> Key:
-    """The name and the types of parameters."""
-    return symbol.name, tuple(str(p.type) for p in symbol.declaration.parameters)
-
-
-@dataclass
-class Body:
-    """One run of one body of the rebec `index`, an instance of `info`."""
-
-    analysis: Analysis
-    info: ClassInfo
-    index: int
-    known: Variables
-    env: Variables
-    variables: Variables
-    sender: int
-    world: World
-    log: list[object]
-    asked: int = 0
-    steps: int = 0
-    frames: list[Frame] = field(default_factory=list)
+class Body(Expressions):
+    """One run of one body. Each statement says how it ends, None for going on."""
 
     def run(
         self, parameters: tuple[m.Parameter, ...], arguments: Value, body: m.Block | None
     ) -> Value:
         """Runs a server, method or constructor to its end; its result if it has one."""
         assert isinstance(arguments, tuple)
-        symbols = [self._symbol(p) for p in parameters]
+        symbols = [self.symbol(p) for p in parameters]
         self.frames.append(Frame([dict(zip(symbols, arguments, strict=True))]))
         if body is not None:
             self._block(body.statements)
         return self.frames.pop().result
-
-    def ask(self, live: Callable[[], Value]) -> Value:
-        """The next answer: from the log, or a new one."""
-        if self.asked == len(self.log):
-            self.log.append(live())
-        self.asked += 1
-        return self.log[self.asked - 1]  # type: ignore[return-value]
-
-    @property
-    def _frame(self) -> Frame:
-        return self.frames[-1]
-
-    def _symbol(self, node: object) -> Symbol:
-        symbol = self.analysis.symbol_of(node)
-        assert symbol is not None, node
-        return symbol
-
-    # --- statements: each says how it ends, None for going on ------------------------------------
 
     def _block(self, statements: tuple[m.Statement, ...]) -> str | None:
         with self._scope():
@@ -151,9 +41,9 @@ class Body:
 
     @contextmanager
     def _scope(self) -> Iterator[None]:
-        self._frame.scopes.append({})
+        self.frame.scopes.append({})
         yield
-        self._frame.scopes.pop()
+        self.frame.scopes.pop()
 
     def _execute(self, statement: m.Statement) -> str | None:
         self.steps += 1
@@ -167,7 +57,7 @@ class Body:
             case m.Local(declaration):
                 self._declare(declaration)
             case m.If(condition, then, otherwise):
-                chosen = then if self._truth(condition) else otherwise
+                chosen = then if self.truth(condition) else otherwise
                 return self._block((chosen,)) if chosen is not None else None
             case m.While(condition, body):
                 return self._loop(condition, body, ())
@@ -183,7 +73,7 @@ class Body:
                 return self._switch(statement)
             case m.Return(value):
                 if value is not None:
-                    self._frame.result = self.evaluate(value)[1]
+                    self.frame.result = self.evaluate(value)[1]
                 return "return"
             case m.Break():
                 return "break"
@@ -199,7 +89,7 @@ class Body:
         body: m.Statement,
         updates: tuple[m.Expression, ...],
     ) -> str | None:
-        while condition is None or self._truth(condition):
+        while condition is None or self.truth(condition):
             end = self._block((body,))
             if end == "break":
                 return None
@@ -232,7 +122,7 @@ class Body:
             if isinstance(statement, m.Local):
                 for declarator in statement.declaration.declarators:
                     value = zero(statement.declaration.type)
-                    self._frame.scopes[-1][self._symbol(declarator)] = value
+                    self.frame.scopes[-1][self.symbol(declarator)] = value
 
     def _declare(self, declaration: m.Declaration) -> None:
         for declarator in declaration.declarators:
@@ -240,7 +130,7 @@ class Body:
                 value = zero(declaration.type)
             else:
                 value = self.initial(declarator.initial, tag(declaration.type))
-            self._frame.scopes[-1][self._symbol(declarator)] = value
+            self.frame.scopes[-1][self.symbol(declarator)] = value
 
     def initial(self, initial: m.Initializer, kind: str) -> Value:
         """The value with which a variable starts."""
@@ -248,304 +138,6 @@ class Body:
             return convert(self.evaluate(initial)[1], kind)
         values: list[Value] = []
         for inner in initial.values:
-            with self._held(*values):
+            with self.held(*values):
                 values.append(self.initial(inner, kind))
         return tuple(values)
-
-    # --- expressions -----------------------------------------------------------------------------
-
-    @contextmanager
-    def _held(self, *operands: Value) -> Iterator[None]:
-        """Keeps what is computed while more is evaluated."""
-        self._frame.operands += operands
-        yield
-        del self._frame.operands[len(self._frame.operands) - len(operands) :]
-
-    def _truth(self, node: m.Expression) -> bool:
-        return bool(self.evaluate(node)[1])
-
-    def evaluate(self, node: m.Expression) -> Tagged:
-        """The kind and the value of an expression."""
-        match node:
-            case m.IntLiteral(value):
-                return "int", value
-            case m.FloatLiteral(text):
-                return "float", convert(float_value(text), "float")
-            case m.BoolLiteral(truth):
-                return "boolean", truth
-            case m.NullLiteral():
-                return "rebec", None
-            case m.Self() | m.Super():
-                return "rebec", self.index
-            case m.Paren(inner):
-                return self.evaluate(inner)
-            case m.Cast(type_, operand):
-                return tag(type_), convert(self.evaluate(operand)[1], tag(type_))
-            case m.Name() | m.Member() | m.Index():
-                return self._read(node)
-            case m.Call():
-                return self._call(node)
-            case m.Choice(options):
-                taken = self.ask(lambda: self.world.choose(len(options)))
-                assert isinstance(taken, int)
-                return self._as_typed(node, self.evaluate(options[taken]))
-            case m.Conditional(condition, then, otherwise):
-                chosen = then if self._truth(condition) else otherwise
-                return self._as_typed(node, self.evaluate(chosen))
-            case m.InstanceOf(operand, type_):
-                return "boolean", self._descends(self.evaluate(operand)[1], type_.name)
-            case _:
-                return self._operator(node)
-
-    def _as_typed(self, node: m.Expression, tagged: Tagged) -> Tagged:
-        """A value of two that may differ in type: a whole one becomes floating if either is."""
-        type_ = self.analysis.type_of(node)
-        if type_ is not None and type_.name in ("float", "double"):
-            return type_.name, convert(tagged[1], type_.name)
-        return tagged
-
-    def _descends(self, rebec: Value, name: str) -> bool:
-        return isinstance(rebec, int) and (
-            name == "ReactiveClass" or name in self._class(rebec).lineage
-        )
-
-    def _class(self, rebec: int) -> ClassInfo:
-        main = self.analysis.model.main
-        assert main is not None
-        return self.analysis.classes[main.rebecs[rebec].type.name]
-
-    def _operator(self, node: m.Expression) -> Tagged:
-        match node:
-            case m.Unary("++" | "--" as operator, operand):
-                return self._step(operator, operand, after=True)
-            case m.Postfix(operator, operand):
-                return self._step(operator, operand, after=False)
-            case m.Unary("-", m.IntLiteral(value)):
-                return "int", -value
-            case m.Unary(operator, operand):
-                return negative(operator, self.evaluate(operand))
-            case m.Binary("&&", left, right):
-                return "boolean", self._truth(left) and self._truth(right)
-            case m.Binary("||", left, right):
-                return "boolean", self._truth(left) or self._truth(right)
-            case m.Binary(operator, left, right):
-                first = self.evaluate(left)
-                with self._held(first[1]):
-                    second = self.evaluate(right)
-                return self._computed(node, operator, first, second)
-            case m.Assign(operator, target, assigned):
-                return self._assign(node, operator, target, assigned)
-            case _:
-                raise NotImplementedError(node)
-
-    def _computed(self, node: m.Node, operator: str, left: Tagged, right: Tagged) -> Tagged:
-        try:
-            return operate(operator, left, right)
-        except ZeroDivisionError:
-            raise Fails("division", node) from None
-
-    def _assign(
-        self, node: m.Node, operator: str, target: m.Expression, assigned: m.Expression
-    ) -> Tagged:
-        place = self._place(target)
-        with self._held(*place.path):
-            if operator == "=":
-                value = self.evaluate(assigned)
-            else:
-                before = place.kind, self._load(place)
-                with self._held(before[1]):
-                    value = self.evaluate(assigned)
-                value = self._computed(node, operator[:-1], before, value)
-        return self._store(place, value[1])
-
-    def _step(self, operator: str, operand: m.Expression, *, after: bool) -> Tagged:
-        place = self._place(operand)
-        before = place.kind, self._load(place)
-        stored = self._store(place, operate(operator[0], before, ("int", 1))[1])
-        return stored if after else before
-
-    # --- variables -------------------------------------------------------------------------------
-
-    def _read(self, node: m.Name | m.Member | m.Index) -> Tagged:
-        inner: m.Expression = node
-        while isinstance(inner, m.Index | m.Paren):
-            inner = inner.target if isinstance(inner, m.Index) else inner.inner
-        if not isinstance(inner, m.Name | m.Member):
-            return self._element(node)
-        symbol = self._symbol(inner)
-        if isinstance(symbol, BuiltinSymbol):
-            if symbol.name == "sender":
-                return "rebec", self.sender
-            return "int", self.ask(lambda: self.world.read(symbol.name))
-        if isinstance(symbol, RebecSymbol):
-            return "rebec", self.env[symbol]
-        place = self._place(node)
-        return place.kind, self._load(place)
-
-    def _element(self, node: m.Expression) -> Tagged:
-        """An element of an array that no variable holds, such as a result."""
-        match node:
-            case m.Paren(inner):
-                return self._element(inner)
-            case m.Index(target, index):
-                kind, values = self._element(target)
-                assert isinstance(values, tuple)
-                with self._held(values):
-                    position = self.evaluate(index)[1]
-                assert isinstance(position, int)
-                if not 0 <= position < len(values):
-                    raise Fails("index", node)
-                return kind, values[position]
-            case _:
-                return self.evaluate(node)
-
-    def _place(self, node: m.Expression) -> Place:
-        match node:
-            case m.Paren(inner):
-                return self._place(inner)
-            case m.Name() | m.Member():
-                symbol = self._symbol(node)
-                type_ = getattr(symbol, "type", None)
-                assert isinstance(type_, m.Type)
-                return Place(symbol, type_)
-            case m.Index(target, index):
-                outer = self._place(target)
-                with self._held(*outer.path):
-                    position = self.evaluate(index)[1]
-                assert isinstance(position, int)
-                if not 0 <= position < outer.type.dimensions[0]:
-                    raise Fails("index", node)
-                inner_type = m.Type(outer.type.name, outer.type.dimensions[1:])
-                return Place(outer.symbol, inner_type, (*outer.path, position))
-            case _:
-                raise NotImplementedError(node)
-
-    def _holder(self, symbol: Symbol) -> Variables:
-        match symbol:
-            case StateSymbol():
-                return self.variables
-            case KnownRebecSymbol():
-                return self.known
-            case EnvSymbol():
-                return self.env
-            case _:
-                return next(s for s in reversed(self._frame.scopes) if symbol in s)
-
-    def _load(self, place: Place) -> Value:
-        value = self._holder(place.symbol)[place.symbol]
-        for position in place.path:
-            assert isinstance(value, tuple)
-            value = value[position]
-        return value
-
-    def _store(self, place: Place, value: Value) -> Tagged:
-        narrowed = convert(value, place.kind)
-        holder = self._holder(place.symbol)
-        holder[place.symbol] = _replaced(holder[place.symbol], place.path, narrowed)
-        return place.kind, narrowed
-
-    # --- calls -----------------------------------------------------------------------------------
-
-    def _call(self, node: m.Call) -> Tagged:
-        symbol = self._symbol(node)
-        match symbol:
-            case BuiltinFunctionSymbol(name):
-                return self._builtin(name, node)
-            case MethodSymbol():
-                return self._invoke(node, symbol)
-            case ServerSymbol():
-                self._send(node, symbol)
-                return "void", None
-            case _:
-                raise NotImplementedError(node)
-
-    def _builtin(self, name: str, node: m.Call) -> Tagged:
-        if name == "delay":
-            time = convert(self.evaluate(node.arguments[0])[1], "int")
-            assert isinstance(time, int)
-            if time < 0:
-                raise Fails("time", node)
-            self._frame.point = node
-            self.ask(lambda: self.world.wait(time))
-            return "void", None
-        if name == "assertion":
-            if not self._truth(node.arguments[0]):
-                raise Fails("assertion", node)
-            return "void", None
-        numbers = self._arguments(node.arguments, ("double",) * len(node.arguments))
-        floats = [float(n) for n in numbers if isinstance(n, float)]
-        return "double", raised(*floats) if name == "pow" else root(*floats)
-
-    def _arguments(
-        self, nodes: tuple[m.Expression, ...], kinds: tuple[str, ...], *held: Value
-    ) -> tuple[Value, ...]:
-        values: list[Value] = []
-        for node, kind in zip(nodes, kinds, strict=True):
-            with self._held(*held, *values):
-                values.append(convert(self.evaluate(node)[1], kind))
-        return tuple(values)
-
-    def _invoke(self, node: m.Call, symbol: MethodSymbol) -> Tagged:
-        target = node.target
-        while isinstance(target, m.Paren):
-            target = target.inner
-        if not isinstance(target, m.Super):
-            # an heir runs its own version, whoever calls
-            symbol = next(s for s in self.info.methods if key_of(s) == key_of(symbol))
-        method = symbol.declaration
-        kinds = tuple(tag(p.type) for p in method.parameters)
-        arguments = self._arguments(node.arguments, kinds)
-        self._frame.point = node
-        result = self.run(method.parameters, arguments, method.body)
-        if method.type.name == "void":
-            return "void", None
-        if result is None:
-            result = zero(method.type)
-        return tag(method.type), convert(result, tag(method.type))
-
-    def _send(self, node: m.Call, symbol: ServerSymbol) -> None:
-        receiver = self.index if node.target is None else self.evaluate(node.target)[1]
-        kinds = tuple(tag(p.type) for p in symbol.declaration.parameters)
-        arguments = self._arguments(node.arguments, kinds, receiver)
-        with self._held(receiver, *arguments):
-            after = self._time(node.after)
-            with self._held(after):
-                deadline = self._time(node.deadline)
-        if not isinstance(receiver, int) or not self._serves(receiver, symbol):
-            raise Fails("null", node)
-        if after is not None and after < 0:
-            raise Fails("time", node)
-        times = after or 0, deadline
-        key = key_of(symbol)
-        self.ask(lambda: self.world.send(node, receiver, key, arguments, times))
-
-    def _serves(self, receiver: int, symbol: ServerSymbol) -> bool:
-        return any(key_of(s) == key_of(symbol) for s in self._class(receiver).servers)
-
-    def _time(self, node: m.Expression | None) -> int | None:
-        if node is None:
-            return None
-        time = convert(self.evaluate(node)[1], "int")
-        assert isinstance(time, int)
-        return time
-
-
-@dataclass(frozen=True)
-class Place:
-    """A variable or an element of it."""
-
-    symbol: Symbol
-    type: m.Type
-    path: tuple[int, ...] = ()
-
-    @property
-    def kind(self) -> str:
-        return tag(self.type)
-
-
-def _replaced(value: Value, path: tuple[int, ...], new: Value) -> Value:
-    if not path:
-        return new
-    assert isinstance(value, tuple)
-    inner = _replaced(value[path[0]], path[1:], new)
-    return (*value[: path[0]], inner, *value[path[0] + 1 :])

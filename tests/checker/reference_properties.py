@@ -8,7 +8,7 @@ from rebsync import model as m
 from rebsync import properties as p
 from rebsync.static import Analysis
 from rebsync.static.constants import float_value
-from tests.checker.reference import Actor, State
+from tests.checker.reference_steps import Actor, State
 from tests.checker.reference_values import Tagged, Value, convert, negative, operate, tag
 
 
