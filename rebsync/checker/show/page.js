@@ -12,23 +12,34 @@
     root.querySelectorAll(`.on${kind}`).forEach((part) => part.classList.remove('on'));
   }
 
-  // Scrolls only the pane around a part, so that the others stay where they are.
-  function reveal(part, pane) {
-    const here = part.getBoundingClientRect();
+  // The rectangle around some parts.
+  function around(parts) {
+    const all = parts.map((part) => part.getBoundingClientRect());
+    return {
+      left: Math.min(...all.map((one) => one.left)),
+      right: Math.max(...all.map((one) => one.right)),
+      top: Math.min(...all.map((one) => one.top)),
+      bottom: Math.max(...all.map((one) => one.bottom)),
+    };
+  }
+
+  // Scrolls only the pane of a place, and only when the place is out of view: to its middle.
+  function reveal(place, pane) {
     const there = pane.getBoundingClientRect();
     const head = pane.querySelector('.heads, thead');
-    const top = there.top + (head ? head.getBoundingClientRect().height : 0) + 8;
-    if (here.top < top) pane.scrollTop -= top - here.top;
-    if (here.bottom > there.bottom) pane.scrollTop += here.bottom - there.bottom + 8;
+    const top = there.top + (head ? head.getBoundingClientRect().height : 0);
+    if (place.top < top || place.bottom > there.bottom) {
+      const spare = there.bottom - top - (place.bottom - place.top);
+      pane.scrollTop += place.top - top - Math.max(spare / 2, 0);
+    }
   }
 
   // The same from left to right; of what is wider than its pane, the beginning.
-  function revealAcross(part, pane) {
-    const here = part.getBoundingClientRect();
+  function revealAcross(place, pane) {
     const there = pane.getBoundingClientRect();
-    if (here.left < there.left) pane.scrollLeft -= there.left - here.left + 40;
-    if (here.right > there.right) {
-      pane.scrollLeft += Math.min(here.right - there.right + 12, here.left - there.left - 40);
+    if (place.left < there.left) pane.scrollLeft -= there.left - place.left + 60;
+    if (place.right > there.right) {
+      pane.scrollLeft += Math.min(place.right - there.right + 12, place.left - there.left - 60);
     }
   }
 
@@ -53,19 +64,29 @@
     for (const name of ['step', 'taken', 'sent']) {
       parts(name).forEach((part) => part.classList.add('on'));
     }
-    reveal(row, row.closest('.pane'));
-    const changed = row.querySelector('.changed');
-    if (changed) revealAcross(changed, row.closest('.pane'));
-    const box = run.querySelector(`.msc .step[data-step="${step}"]`);
-    reveal(box, box.closest('.pane'));
-    const body = box.querySelector('.body');
-    if (body && box.querySelectorAll('.body').length === 1) {
-      revealAcross(box.querySelector('.label') || body, box.closest('.pane'));
-    }
+    revealRow(row);
+    revealStep(run.querySelector(`.msc .step[data-step="${step}"]`));
     const line = row.dataset.line && document.getElementById(`L${row.dataset.line}`);
     if (line) {
       line.classList.add('on');
-      reveal(line, document.querySelector('aside'));
+      reveal(around([line]), document.querySelector('aside'));
+    }
+  }
+
+  function revealRow(row) {
+    const pane = row.closest('.pane');
+    const changed = row.querySelector('.changed');
+    reveal(around([row]), pane);
+    if (changed) revealAcross(around([changed]), pane);
+  }
+
+  // A step of one rebec is revealed with all its texts.
+  function revealStep(drawn) {
+    const pane = drawn.closest('.pane');
+    const bodies = [...drawn.querySelectorAll('.body')];
+    reveal(around([...drawn.querySelectorAll('rect, text')]), pane);
+    if (bodies.length === 1) {
+      revealAcross(around([...bodies, ...drawn.querySelectorAll('text:not(.number)')]), pane);
     }
   }
 

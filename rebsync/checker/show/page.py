@@ -155,7 +155,8 @@ def _run(run: Shown, number: int) -> Markup:
     name = f"v{number}"
     about = [": ", run.message] if run.message else []
     if run.place is not None:
-        about += [" (", element("a", f"line {run.place[1:]}", href=f"#{run.place}"), ")"]
+        said = f"line {run.place[1:]} of the {'model' if run.place[0] == 'L' else 'properties'}"
+        about += [" (", element("a", said, href=f"#{run.place}"), ")"]
     drawn = chart_inside(run.trace, run.ending, f"{name}-chart")
     chart = element(
         "div", drawn, class_="pane chart", tabindex="0", aria_label="Chart", role="group"

@@ -48,6 +48,9 @@ class Browser:
         """Opens a file anew."""
         self.command("POST", "url", {"url": "about:blank"})
         self.command("POST", "url", {"url": page.as_uri() + fragment})
+        # A page takes no input before it has been painted.
+        painted = "requestAnimationFrame(() => requestAnimationFrame(arguments[0]))"
+        self.command("POST", "execute/async", {"script": painted, "args": []})
 
     def run(self, script: str, *arguments: object) -> Any:  # noqa: ANN401
         """The value of the body of a function that runs in the page."""
