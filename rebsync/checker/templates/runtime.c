@@ -28,6 +28,7 @@ static void make_local(struct engine *e, struct local *l)
 static void make_observed(struct engine *e)
 {
     e->views = zeroed(e, e->rebecs, sizeof *e->views);
+    e->machine.states = e->views;
     e->observed = zeroed(e, e->rebecs, sizeof *e->observed);
     for (uint32_t r = 0; r < e->rebecs; r++) {
         if (!e->model->observed[r])
