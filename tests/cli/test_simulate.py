@@ -1,0 +1,86 @@
+"""`rebsync simulate` as a user runs it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cli.run import ROOT, rebsync
+
+MODEL = str(ROOT / "examples" / "experiment3" / "experiment3.rebeca")
+UNSAFE = """\
+reactiveclass Walker(2) {
+  statevars { int place; }
+  Walker() { self.go(); }
+  msgsrv go() {
+    place = place + ?(1, 2);
+    assertion(place < 3, "too far");
+    self.go() after(1);
+  }
+}
+
+main { Walker walker():(); }
+"""
+
+
+def test_a_seed_repeats_a_run(tmp_path: Path) -> None:
+    options = ("simulate", MODEL, "--format", "json", "--seed")
+    first, again, other = (rebsync(*options, seed, cwd=tmp_path).out for seed in ("1", "1", "2"))
+    assert first == again != other
+
+
+def test_without_a_seed_it_is_told(tmp_path: Path) -> None:
+    done = rebsync("simulate", MODEL, "--steps", "3", cwd=tmp_path)
+    assert done.status == 0
+    seed = done.err.split()[-1]
+    again = rebsync("simulate", MODEL, "--steps", "3", "--seed", seed, cwd=tmp_path)
+    assert again.out == done.out
+
+
+@pytest.mark.parametrize(("option", "value"), [("--until", "7"), ("--steps", "7")])
+def test_where_a_run_ends(tmp_path: Path, option: str, value: str) -> None:
+    options = ("--seed", "3", "--format", "json", option, value)
+    steps = json.loads(rebsync("simulate", MODEL, *options, cwd=tmp_path).out)["trace"]
+    if option == "--steps":
+        assert [s["number"] for s in steps] == list(range(8))
+    else:
+        assert max(s["until"] for s in steps) == 7
+
+
+def test_a_run_that_fails(tmp_path: Path) -> None:
+    (tmp_path / "m.rebeca").write_text(UNSAFE)
+    done = rebsync("simulate", "m.rebeca", "--seed", "1", cwd=tmp_path)
+    assert done.status == 3
+    assert "too far" in done.out
+
+
+def test_by_hand(tmp_path: Path) -> None:
+    (tmp_path / "m.rebeca").write_text(UNSAFE)
+    options = ("simulate", "m.rebeca", "--interactive", "--format", "json")
+    done = rebsync(*options, cwd=tmp_path, stdin=b"1\n7\nx\n2\n")
+    trace = json.loads(done.out)["trace"]
+    assert [s["choices"] for s in trace] == [[], [1], [2]]
+    assert done.status == 3
+    left = rebsync(*options, cwd=tmp_path, stdin=b"1\nq\n")
+    assert (left.status, len(json.loads(left.out)["trace"])) == (0, 2)
+
+
+def test_a_simulated_run_can_be_made_again(tmp_path: Path) -> None:
+    options = ("--seed", "5", "--format", "json")
+    rebsync("simulate", MODEL, *options, "-o", "run.json", cwd=tmp_path)
+    again = rebsync("verify", MODEL, "--replay", "run.json", "--format", "json", cwd=tmp_path)
+    assert json.loads(again.out) == json.loads((tmp_path / "run.json").read_text())
+
+
+@pytest.mark.parametrize("style", ["text", "svg", "html"])
+def test_formats(tmp_path: Path, style: str) -> None:
+    options = ("--seed", "5", "--format", style, "-o", "run.out")
+    assert rebsync("simulate", MODEL, *options, cwd=tmp_path).status == 0
+    assert "lidar" in (tmp_path / "run.out").read_text()
+
+
+def test_a_hand_needs_no_seed(tmp_path: Path) -> None:
+    done = rebsync("simulate", MODEL, "--interactive", "--seed", "1", cwd=tmp_path)
+    assert done.status == 2
