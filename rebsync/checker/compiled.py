@@ -218,6 +218,16 @@ class CompiledSearch:
         initial = tuple(range(figures.initials))
         return Graph(first, target, actor, times, labels, words, initial)
 
+    def marks(self, graph: Graph) -> bytearray:
+        """Which states of a graph go on for ever without time, and which can leave: as in C."""
+        marks = bytearray(len(graph))
+        arrays = (graph.first, graph.target, graph.time)
+        places = (each.buffer_info()[0] for each in arrays)
+        into = (ctypes.c_ubyte * max(1, len(marks))).from_buffer(marks or bytearray(1))
+        if not self._library.rebsync_standstill(*places, len(graph), into):
+            raise MemoryError
+        return marks
+
 
 def _zeros(code: str, count: int) -> array[Any]:
     empty: array[Any] = array(code, [0])
@@ -227,7 +237,7 @@ def _zeros(code: str, count: int) -> array[Any]:
 def _libraries(program: Program) -> tuple[ctypes.CDLL, ctypes.CDLL]:
     """The search, and the model."""
     parts = tuple(header(name) for name in native.PARTS)
-    runtime = Unit("runtime", header("runtime.c"), parts, "-O2")
+    runtime = Unit("runtime", header("runtime.c"), parts, "-O1")
     model = Unit("model", model_source(program), (header("machine.h"),), "-O1")
     search, bodies = libraries((runtime, model))
     native.declare(search)

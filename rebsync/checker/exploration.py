@@ -99,3 +99,7 @@ class Search(Protocol):
 
     def graph(self) -> Graph:
         """The whole state space that was seen, with its labels."""
+
+    def marks(self, graph: Graph) -> bytearray:
+        """For each state of its graph whether it is on an endless run without time (bit 0), and
+        whether a step of time or an end can be reached from it (bit 1)."""

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Iterable
+from typing import Literal
 
-from rebsync.checker.steps import Semantics, ViolationKind
+from rebsync.checker.steps import FailureKind, Semantics
 
 PARTS = (
     "machine.h",
@@ -15,6 +16,7 @@ PARTS = (
     "visited.h",
     "storing.h",
     "expansion.h",
+    "standstill.h",
 )
 SEMANTICS: tuple[Semantics, ...] = ("tts", "ftts", "core")
 END = ("finished", "slice", "states", "endless", "memory")
@@ -74,7 +76,7 @@ class Arrays(ctypes.Structure):
     )
 
 
-_KINDS: tuple[ViolationKind, ...] = (
+_KINDS: tuple[Literal[FailureKind, "property", "deadlock"], ...] = (
     "assertion",
     "deadline",
     "overflow",
@@ -114,3 +116,5 @@ def declare(library: ctypes.CDLL) -> None:
     library.rebsync_before.argtypes = [pointer, wide, pointer]
     library.rebsync_graph.restype = signed
     library.rebsync_graph.argtypes = [pointer, Arrays, wide, wide, wide]
+    library.rebsync_standstill.restype = number
+    library.rebsync_standstill.argtypes = [pointer, pointer, pointer, wide, pointer]

@@ -19,6 +19,7 @@ from rebsync.checker.graph import Graph
 from rebsync.checker.machine import EndlessBody, Failed, Machine
 from rebsync.checker.memory import used_memory
 from rebsync.checker.program import NO_DEADLINE, Program
+from rebsync.checker.standstill import marks_of
 from rebsync.checker.state import Message, State
 from rebsync.checker.steps import Failure, Semantics, Step
 from rebsync.checker.views import view_of
@@ -210,6 +211,10 @@ class Interpreted:
             labels.extend(self._labels(state, words))
         initial = tuple(n for n, parent in enumerate(self._parents) if parent < 0)
         return Graph(first, target, actor, times, labels, words, initial)
+
+    def marks(self, graph: Graph) -> bytearray:
+        """Which states of a graph go on for ever without time, and which can leave."""
+        return marks_of(graph)
 
     def _labels(self, state: State, words: int) -> list[int]:
         bits = 0

@@ -11,6 +11,8 @@ from array import array
 from rebsync.checker.graph import Graph
 from rebsync.checker.program import Program
 
+ENDLESS, LEAVES = 1, 2  # as in templates/standstill.h
+
 
 def may_stand_still(program: Program) -> bool:
     """Whether servers can call for each other in a circle without a delay or an `after`.
@@ -84,40 +86,46 @@ def _has_cycle(follows: list[set[int]]) -> bool:
 # --- in the state space ------------------------------------------------------------------------
 
 
-def stuck_states(graph: Graph) -> tuple[array[int], bool]:
-    """The Zeno states in breadth-first order, and whether time can stand still in a cycle."""
+def marks_of(graph: Graph) -> bytearray:
+    """For each state ENDLESS if a run without time goes on for ever from it, LEAVES if it can end.
+
+    It ends by a step of time, by a deadlock, or where the search has not been.
+    """
     count = len(graph)
-    leaving = bytearray(count)  # an end or a step of time is reachable
+    marks = bytearray(count)
     ahead = array("l", bytes(8 * count))  # steps without time to states that may go on for ever
     before: dict[int, list[int]] = {}
-    ends: list[int] = []
     for state in range(count):
         edges = range(graph.first[state], graph.first[state + 1])
-        leaving[state] = not edges or any(graph.time[e] > 0 for e in edges)
+        marks[state] = LEAVES * (not edges or any(graph.time[e] > 0 for e in edges))
         for edge in edges:
-            if graph.target[edge] >= 0 and graph.time[edge] == 0:
+            if _stays(graph, edge):
                 before.setdefault(graph.target[edge], []).append(state)
                 ahead[state] += 1
-        if not ahead[state]:
-            ends.append(state)
-    _spread(leaving, before)
-    _peel(ends, ahead, before)
-    stuck = array("l", (s for s in range(count) if ahead[s] and not leaving[s]))
-    return stuck, any(ahead)
+    _spread(marks, before)
+    _peel(ahead, before)
+    for state in range(count):
+        marks[state] |= ENDLESS * (ahead[state] > 0)
+    return marks
 
 
-def _spread(leaving: bytearray, before: dict[int, list[int]]) -> None:
+def _stays(graph: Graph, edge: int) -> bool:
+    return graph.target[edge] >= 0 and graph.time[edge] == 0
+
+
+def _spread(marks: bytearray, before: dict[int, list[int]]) -> None:
     """Marks every state from which a marked one can be reached in no time."""
-    waiting = [state for state, marked in enumerate(leaving) if marked]
+    waiting = [state for state, marked in enumerate(marks) if marked]
     while waiting:
         for state in before.get(waiting.pop(), ()):
-            if not leaving[state]:
-                leaving[state] = 1
+            if not marks[state]:
+                marks[state] = LEAVES
                 waiting.append(state)
 
 
-def _peel(ends: list[int], ahead: array[int], before: dict[int, list[int]]) -> None:
+def _peel(ahead: array[int], before: dict[int, list[int]]) -> None:
     """Takes away what leads to no cycle: `ahead` stays above 0 on endless runs only."""
+    ends = [state for state, count in enumerate(ahead) if not count]
     while ends:
         for state in before.get(ends.pop(), ()):
             ahead[state] -= 1
@@ -125,16 +133,15 @@ def _peel(ends: list[int], ahead: array[int], before: dict[int, list[int]]) -> N
                 ends.append(state)
 
 
-def cycle_from(graph: Graph, stuck: array[int]) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """From the first Zeno state on: ordinals that lead into a cycle, and those of the cycle."""
-    endless = set(stuck)
+def cycle_from(graph: Graph, marks: bytearray) -> tuple[int, tuple[int, ...], tuple[int, ...]]:
+    """The first Zeno state, ordinals from there into a cycle, and those of the cycle."""
+    start = state = marks.index(ENDLESS)
     seen: dict[int, int] = {}
     ordinals: list[int] = []
-    state = stuck[0]
     while state not in seen:
         seen[state] = len(ordinals)
         edges = range(graph.first[state], graph.first[state + 1])
-        edge = next(e for e in edges if graph.target[e] in endless)
+        edge = next(e for e in edges if _stays(graph, e) and marks[graph.target[e]] == ENDLESS)
         ordinals.append(edge - graph.first[state])
         state = graph.target[edge]
-    return tuple(ordinals[: seen[state]]), tuple(ordinals[seen[state] :])
+    return start, tuple(ordinals[: seen[state]]), tuple(ordinals[seen[state] :])

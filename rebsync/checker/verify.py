@@ -17,7 +17,7 @@ from rebsync.checker.problem import Options, Problem
 from rebsync.checker.program import Program
 from rebsync.checker.reduction import self_driven
 from rebsync.checker.result import Result, Verdict, Violation
-from rebsync.checker.standstill import cycle_from, may_stand_still, stuck_states
+from rebsync.checker.standstill import ENDLESS, LEAVES, cycle_from, may_stand_still
 from rebsync.checker.steps import Failure, Semantics, ViolationKind
 from rebsync.checker.telling import Teller
 from rebsync.checker.temporal.lasso import Lasso
@@ -208,14 +208,14 @@ class _Answer:
     # --- time that stands still
 
     def _standstill(self) -> None:
-        stuck, cycles = stuck_states(self.graph())
-        if stuck:
-            prefix, cycle = cycle_from(self.graph(), stuck)
-            way = (*self.search.path(stuck[0]), *prefix)
+        marks = self.search.marks(self.graph())
+        if ENDLESS in marks:
+            state, prefix, cycle = cycle_from(self.graph(), marks)
+            way = (*self.search.path(state), *prefix)
             trace = self.teller.trace((*way, *cycle), loop=len(way) - 1)
             message = "from here on time advances on no run, and steps go on for ever"
             self._add("zeno", "zeno", message, 0, trace)
-        elif cycles:
+        elif ENDLESS | LEAVES in marks:
             self.caveats.append(CYCLE_CAVEAT)
 
     # --- the answer

@@ -2,6 +2,7 @@
 #include <time.h>
 
 #include "expansion.h"
+#include "standstill.h"
 
 /* Why a slice of the search ends. */
 enum end { FINISHED, SLICE, STATES, UNENDING, MEMORY };
