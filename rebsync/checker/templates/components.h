@@ -185,14 +185,14 @@ static size_t length_of(struct actor *a, uint32_t id)
 
 static void enlarge_table(struct engine *e, struct actor *a)
 {
-    uint64_t size = a->mask ? 2 * (a->mask + 1) : 256;
-    uint32_t *table = zeroed(e, size, sizeof *table);
-    const struct component *c = (struct component *)a->components.data;
-    for (uint32_t id = 0; id < a->components.count; id++) {
-        uint64_t at = hash_of(a->bytes.data + c[id].at, length_of(a, id)) & (size - 1);
+    uint64_t size = a->mask ? 2 * (a->mask + 1) : 256, *table = zeroed(e, size, sizeof *table);
+    for (uint64_t i = 0; a->mask && i <= a->mask; i++) {
+        uint64_t entry = a->table[i], at = (entry >> 32) & (size - 1);
+        if (!entry)
+            continue;
         while (table[at])
             at = (at + 1) & (size - 1);
-        table[at] = id + 1;
+        table[at] = entry;
     }
     free(a->table);
     a->table = table;
@@ -204,12 +204,14 @@ static uint32_t number_of(struct engine *e, uint32_t rebec, const struct local *
 {
     struct actor *a = e->actors + rebec;
     pack_local(e, rebec, l);
-    if (2 * a->components.count >= a->mask)
+    if (4 * a->components.count >= 3 * a->mask)
         enlarge_table(e, a);
     size_t length = e->text.count;
-    uint64_t at = hash_of(e->text.data, length) & a->mask;
+    uint64_t hash = hash_of(e->text.data, length) >> 32, at = hash & a->mask;
     for (; a->table[at]; at = (at + 1) & a->mask) {
-        uint32_t id = a->table[at] - 1;
+        uint32_t id = (uint32_t)a->table[at] - 1;
+        if (a->table[at] >> 32 != hash)
+            continue;
         const char *bytes = a->bytes.data + component(e, rebec, id)->at;
         if (length_of(a, id) == length && !memcmp(bytes, e->text.data, length))
             return id;
@@ -222,7 +224,7 @@ static uint32_t number_of(struct engine *e, uint32_t rebec, const struct local *
     c->at = a->bytes.count;
     a->bytes.count += length;
     describe(e, rebec, l, c);
-    a->table[at] = (uint32_t)a->components.count;
+    a->table[at] = hash << 32 | a->components.count;
     uint32_t id = (uint32_t)a->components.count - 1;
     if (id > e->fields[rebec].mask)
         e->wide = 1;

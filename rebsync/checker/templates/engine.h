@@ -34,8 +34,7 @@ struct component {
     int64_t next;      /* when it will be able to act, NEVER if never */
     uint32_t outcomes; /* the first one, NONE when not known yet */
     int32_t rank;
-    uint32_t places;
-    uint32_t flags;
+    uint32_t places : 28, flags : 4;
 };
 
 /* A fixed-size memory of results: what falls out is computed again. */
@@ -50,7 +49,7 @@ struct memo {
 /* All local states of one rebec that occur, by number. */
 struct actor {
     struct vector components, bytes;
-    uint32_t *table;
+    uint64_t *table; /* half of the hash above the number, which counts from 1; 0 is free */
     uint64_t mask;
     struct memo received, passed;
     uint32_t largest;
