@@ -72,7 +72,7 @@ def explore(
             outcome.complete = False
             break
     outcome.states = len(numbers)
-    outcome.zeno = _is_zeno(outcome)
+    outcome.zeno = view != "core" and _is_zeno(outcome)
     return outcome
 
 
