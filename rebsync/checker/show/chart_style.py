@@ -16,6 +16,7 @@ font-size:11.2px;paint-order:stroke;stroke-width:3px;stroke-linejoin:round}
 .msc .row{fill-opacity:0}
 .msc .row.wrong,.msc .row.on{fill-opacity:1}
 .msc .flight.on path{stroke-width:2.6px}
+.msc path.passing{stroke-dasharray:4 3}
 """
 
 _COLOURS = {
@@ -51,6 +52,7 @@ _RULES = """\
 .msc .row.wrong{fill:ALARM}
 .msc .wrong rect.body{fill:WRONG;stroke:WRONG}
 .msc text.failure,.msc .wrong text.label{fill:WRONG}
+.msc .wrong rect.head,.msc path.failing{stroke:WRONG}
 .msc path.loop{stroke:LOOP}
 .msc text.loop{fill:LOOP}
 """
