@@ -6,7 +6,7 @@ from collections import Counter, defaultdict
 from dataclasses import dataclass
 
 from rebsync.checker.show import words
-from rebsync.checker.show.chart_rows import cut, width_of
+from rebsync.checker.show.chart_rows import cut
 from rebsync.checker.show.space import SpaceEdge, StateSpace, edge_label, levels
 from rebsync.checker.show.space_routes import LOOP, MARGIN, Line, Node, route
 from rebsync.checker.trace import ShownRebec
@@ -124,7 +124,7 @@ def _spread(rows: list[list[Node]], lines: list[Line]) -> None:
     for line in lines:
         if line.loops:
             node = line.source
-            right[id(node)] = max(right[id(node)], node.width / 2 + LOOP + width_of(line.label))
+            right[id(node)] = max(right[id(node)], node.width / 2 + LOOP + line.wide)
     for row in rows:
         _place(row, [0.0] * len(row), right)
     for sweep in range(_SWEEPS):

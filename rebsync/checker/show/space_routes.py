@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from rebsync.checker.show.chart_rows import width_of
 from rebsync.checker.show.flights import lanes
@@ -22,7 +22,6 @@ _PAD = 7.0
 _PORT = 11.0  # the least distance between lines at a node
 _EDGE = 16.0  # the height of a gap above and below its rows
 _CHANNEL = 9.0
-_MOST_ROWS = 40
 
 
 @dataclass
@@ -55,14 +54,20 @@ class Node:
 
 @dataclass
 class Line:
-    """One edge, or several that say the same: its points, and the place of its label."""
+    """One edge, or several that say the same: its points, and the left end of its label.
+
+    `leaves`, `enters` and `channel` are where it runs up or down, from left to right.
+    """
 
     edge: SpaceEdge
     source: Node
     target: Node
     label: str
+    leaves: float = 0.0
+    enters: float = 0.0
+    channel: float = 0.0
     points: list[tuple[float, float]] = field(default_factory=list)
-    at: tuple[float, float] = (0.0, 0.0)  # its left end
+    at: tuple[float, float] = (0.0, 0.0)
 
     @property
     def loops(self) -> bool:
@@ -73,6 +78,16 @@ class Line:
     def falls(self) -> bool:
         """Whether it goes straight to the next level."""
         return self.target.level == self.source.level + 1
+
+    @property
+    def goes_around(self) -> bool:
+        """Whether it needs a channel."""
+        return not self.loops and not self.falls
+
+    @property
+    def wide(self) -> float:
+        """The width of the label."""
+        return width_of(self.label)
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,128 +113,104 @@ class _Gap:
 
 def route(rows: list[list[Node]], lines: list[Line]) -> tuple[float, float]:
     """Places levels and lines; the width and height of it all."""
-    out, into = _ports(lines, out=True), _ports(lines, out=False)
-    wide = _right_end(rows, lines)
-    around = [line for line in lines if not line.falls and not line.loops]
-    channels = _channels(around, wide + MARGIN)
-    gaps = [
-        _gap(level, lines, around, out, into, channels, max((n.height for n in row), default=0.0))
-        for level, row in enumerate([[], *rows], -1)
-    ]
+    _set_ports(lines)
+    right = max(node.x + node.width / 2 for row in rows for node in row)
+    right = max([right, *(_loop_end(line) for line in lines if line.loops)])
+    _set_channels([line for line in lines if line.goes_around], right + MARGIN)
+    gaps = [_gap(level, row, lines) for level, row in enumerate([[], *rows], -1)]
     tops = _levels_down(rows, gaps)
     for line in lines:
-        start, end = (out[id(line)], line.source.bottom), (into[id(line)], line.target.top)
         if line.loops:
             _loop(line)
         elif line.falls:
-            gap = gaps[line.source.level + 1]
-            row = gap.labels[id(line)]
-            x = _middle_of(start[0], end[0], gap, row, tops[line.source.level + 1] - start[1])
-            line.points = [start, end]
-            line.at = (x - width_of(line.label) / 2, tops[line.source.level + 1] + gap.y(1, row))
+            _fall(line, gaps[line.source.level + 1], tops[line.source.level + 1])
         else:
-            x = channels[id(line)]
-            gap = gaps[line.source.level + 1]
-            below = tops[line.source.level + 1] + gap.y(0, gap.leaving[id(line)])
-            gap = gaps[line.target.level]
-            above = tops[line.target.level] + gap.y(2, gap.entering[id(line)])
-            way = [(start[0], below), (x, below), (x, above), (end[0], above)]
-            line.points = [start, *way, end]
-            line.at = (start[0] + 5, below - 3)
-    right = max([wide, *channels.values(), *(line.at[0] + width_of(line.label) for line in lines)])
+            _go_around(line, gaps, tops)
+    right = max([right, *(max(line.channel, line.at[0] + line.wide) for line in lines)])
     return right + MARGIN, tops[-1] + gaps[-1].height
 
 
-def _right_end(rows: list[list[Node]], lines: list[Line]) -> float:
-    """Where the widest level ends."""
-    ends = [node.x + node.width / 2 for row in rows for node in row]
-    ends += [
-        n.x + n.width / 2 + LOOP + width_of(x.label) for x in lines if x.loops for n in [x.source]
-    ]
-    return max(ends)
+# --- from left to right ------------------------------------------------------------------------
 
 
-def _ports(lines: list[Line], out: bool) -> dict[int, float]:
-    """Where each line meets its node: side by side, in the order of the other ends."""
-    of: dict[int, list[Line]] = defaultdict(list)
+def _set_ports(lines: list[Line]) -> None:
+    """Where lines meet their nodes: side by side, in the order of their other ends."""
+    out: dict[int, list[Line]] = defaultdict(list)
+    into: dict[int, list[Line]] = defaultdict(list)
     for line in lines:
         if not line.loops:
-            of[id(line.source if out else line.target)].append(line)
-    ports = {id(line): 0.0 for line in lines}
-    for members in of.values():
-        members.sort(key=lambda x: (not x.falls, (x.target if out else x.source).x))
-        node = members[0].source if out else members[0].target
-        room = node.width - 2 * _PAD
-        for place, line in enumerate(members):
-            ports[id(line)] = node.x + room * ((place + 0.5) / len(members) - 0.5)
-    return ports
+            out[id(line.source)].append(line)
+            into[id(line.target)].append(line)
+    for members in out.values():
+        members.sort(key=lambda line: (line.goes_around, line.target.x))
+        for line, x in zip(members, _side_by_side(members[0].source, len(members)), strict=True):
+            line.leaves = x
+    for members in into.values():
+        members.sort(key=lambda line: (line.goes_around, line.source.x))
+        for line, x in zip(members, _side_by_side(members[0].target, len(members)), strict=True):
+            line.enters = x
 
 
-def _channels(around: list[Line], left: float) -> dict[int, float]:
-    """The x of each line that goes around, in as few channels as they need."""
-    spans = [sorted((line.source.level + 0.5, line.target.level - 0.5)) for line in around]
-    order = sorted(range(len(around)), key=lambda i: spans[i])
-    given = lanes((spans[i][0], spans[i][1]) for i in order)
-    found = {id(around[i]): left + lane * _CHANNEL for i, lane in zip(order, given, strict=True)}
-    return found
+def _side_by_side(node: Node, count: int) -> list[float]:
+    room = node.width - 2 * _PAD
+    return [node.x + room * ((place + 0.5) / count - 0.5) for place in range(count)]
 
 
-def _gap(
-    level: int,
-    lines: list[Line],
-    around: list[Line],
-    out: dict[int, float],
-    into: dict[int, float],
-    channels: dict[int, float],
-    tallest: float,
-) -> _Gap:
-    """The gap below a level whose tallest node is given; -1 is the one above the first."""
-    leaving = _level_rows([x for x in around if x.source.level == level], out, channels)
-    entering = _level_rows([x for x in around if x.target.level == level + 1], into, channels)
+def _set_channels(around: list[Line], left: float) -> None:
+    """Channels for the lines that go around, as few as they need."""
+
+    def span(line: Line) -> tuple[float, float]:
+        low, high = sorted((line.source.level + 0.5, line.target.level - 0.5))
+        return low, high
+
+    ordered = sorted(around, key=span)
+    for line, lane in zip(ordered, lanes(map(span, ordered)), strict=True):
+        line.channel = left + lane * _CHANNEL
+
+
+# --- gaps --------------------------------------------------------------------------------------
+
+
+def _gap(level: int, row: list[Node], lines: list[Line]) -> _Gap:
+    """The gap below the nodes of a level; -1 is the one above the first."""
+    around = [line for line in lines if line.goes_around]
+    leaving = _rows_for([(x, x.leaves) for x in around if x.source.level == level])
+    entering = _rows_for([(x, x.enters) for x in around if x.target.level == level + 1])
     falling = [line for line in lines if line.falls and line.source.level == level]
-    sizes = (_size(leaving), _size(entering))
-    for rows in range(1 if falling else 0, _MOST_ROWS):
-        gap = _Gap(leaving, {}, entering, (sizes[0], rows, sizes[1]))
-        labels = _labels(falling, gap, out, into, tallest)
-        if labels is not None or rows == _MOST_ROWS - 1:
-            placed = labels or {id(line): i % _MOST_ROWS for i, line in enumerate(falling)}
-            return _Gap(leaving, placed, entering, gap.rows)
-    raise AssertionError(level)
+    tallest = max((node.height for node in row), default=0.0)
+    for count in range(len(falling) + 1):
+        gap = _Gap(leaving, {}, entering, (_size(leaving), count, _size(entering)))
+        labels = _labels(falling, gap, tallest)
+        if labels is not None:
+            break
+    return replace(gap, labels=labels or {})
 
 
-def _level_rows(
-    members: list[Line], ports: dict[int, float], channels: dict[int, float]
-) -> dict[int, int]:
-    """Rows for the level parts of lines; what goes furthest to the left is furthest from nodes."""
-    members = sorted(members, key=lambda line: ports[id(line)])
-    given = lanes((ports[id(line)], channels[id(line)]) for line in members)
-    return {id(line): row for line, row in zip(members, given, strict=True)}
+def _rows_for(members: list[tuple[Line, float]]) -> dict[int, int]:
+    """Rows for the level parts of lines, from their nodes to their channels."""
+    members = sorted(members, key=lambda member: member[1])
+    given = lanes((x, line.channel) for line, x in members)
+    return {id(line): row for (line, _), row in zip(members, given, strict=True)}
 
 
 def _size(rows: dict[int, int]) -> int:
     return max(rows.values(), default=-1) + 1
 
 
-def _middle_of(left: float, right: float, gap: _Gap, row: int, above: float) -> float:
+def _crossing(line: Line, gap: _Gap, row: int, above: float) -> float:
     """Where a line crosses a row of labels; it begins `above` the gap, and ends with it."""
-    return left + (right - left) * (gap.y(1, row) - 4 + above) / (gap.height + above)
+    part = (gap.y(1, row) - 4 + above) / (gap.height + above)
+    return line.leaves + (line.enters - line.leaves) * part
 
 
-def _labels(
-    falling: list[Line],
-    gap: _Gap,
-    out: dict[int, float],
-    into: dict[int, float],
-    tallest: float,
-) -> dict[int, int] | None:
-    """A row for the label of each line, so that none covers another; None when there is none."""
+def _labels(falling: list[Line], gap: _Gap, tallest: float) -> dict[int, int] | None:
+    """A row for each label, so that none covers another; None when there are too few rows."""
     taken: list[list[tuple[float, float]]] = [[] for _ in range(gap.rows[1])]
     found: dict[int, int] = {}
-    for line in sorted(falling, key=lambda x: out[id(x)] + into[id(x)]):
-        half = width_of(line.label) / 2 + 4
+    for line in sorted(falling, key=lambda line: line.leaves + line.enters):
+        half = line.wide / 2 + 4
         for row in _from_middle(gap.rows[1]):
-            above = tallest - line.source.height
-            x = _middle_of(out[id(line)], into[id(line)], gap, row, above)
+            x = _crossing(line, gap, row, tallest - line.source.height)
             if all(x + half < start or x - half > end for start, end in taken[row]):
                 taken[row].append((x - half, x + half))
                 found[id(line)] = row
@@ -246,8 +237,32 @@ def _levels_down(rows: list[list[Node]], gaps: list[_Gap]) -> list[float]:
     return tops
 
 
+# --- points ------------------------------------------------------------------------------------
+
+
+def _fall(line: Line, gap: _Gap, top: float) -> None:
+    row = gap.labels[id(line)]
+    line.points = [(line.leaves, line.source.bottom), (line.enters, line.target.top)]
+    x = _crossing(line, gap, row, top - line.source.bottom)
+    line.at = (x - line.wide / 2, top + gap.y(1, row))
+
+
+def _go_around(line: Line, gaps: list[_Gap], tops: list[float]) -> None:
+    below, above = line.source.level + 1, line.target.level
+    low = tops[below] + gaps[below].y(0, gaps[below].leaving[id(line)])
+    high = tops[above] + gaps[above].y(2, gaps[above].entering[id(line)])
+    start, end = (line.leaves, line.source.bottom), (line.enters, line.target.top)
+    around = [(start[0], low), (line.channel, low), (line.channel, high), (end[0], high)]
+    line.points = [start, *around, end]
+    line.at = (start[0] + 5, low - 3)
+
+
 def _loop(line: Line) -> None:
     node = line.source
     x, y = node.x + node.width / 2, node.top + node.height / 2
     line.points = [(x, y - 5), (x + 18, y - 5), (x + 18, y + 5), (x, y + 5)]
     line.at = (x + 23, y + 4)
+
+
+def _loop_end(line: Line) -> float:
+    return line.source.x + line.source.width / 2 + LOOP + line.wide
