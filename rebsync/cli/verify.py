@@ -119,8 +119,11 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     zero, messages to null, time that cannot advance. Exit status: 0 satisfied, 3 violated,
     4 undetermined.
     """
+    from rebsync.cli.spaces import check_name
+
     given = ctx.params
     refuse_to_overwrite(model, output)
+    check_name(given["states"], model)
     problem = read_problem(model, given["property_file"], untimed=given["language"] == "core")
     if given["replay"]:
         from rebsync.cli.runs import replay_file
@@ -130,9 +133,10 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     if given["export"] or given["states"]:
         from rebsync.cli.spaces import write_space
 
-        write_space(problem, options, given["states"], output if given["export"] else None)
+        exported = output if given["export"] else None
+        whole = write_space(problem, options, given["states"], exported)
         if given["export"]:
-            return Status.CLEAN
+            return Status.CLEAN if whole else Status.UNDETERMINED
     result = _verified(problem, options)
     _write(result, problem, given, output)
     return _STATUS[result.verdict]
