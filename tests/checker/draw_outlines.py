@@ -20,6 +20,7 @@ class Features:
     delays: bool = True
     clock: bool = False
     floats: bool = False
+    drivers: bool = False  # rebecs to which only they themselves send, and only for later
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn
 
-from tests.checker.draw_expressions import Body, value
+from tests.checker.draw_expressions import Body, arguments, truth, value
 from tests.checker.draw_outlines import Callee, Drawer, Features, Outline, outline
 from tests.checker.draw_statements import beat, block
 
@@ -20,6 +20,7 @@ WITHOUT_DELAY = Features(delays=False)
 UNTIMED = Features(timed=False, delays=False)
 CLOCKED = Features(clock=True)
 REAL = Features(floats=True)
+DRIVEN = Features(drivers=True)
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,13 @@ def systems(draw: DrawFn, features: Features = TIMED) -> Drawn:
     ranks = _ranks(drawer)
     classes = [_class(drawer, each, ranks) for each in drawer.classes]
     rebecs = _instances(drawer)
-    main = ["main {", *(f"  {line}" for line in _main(drawer, rebecs, ranks)), "}"]
+    instances = _main(drawer, rebecs, ranks)
+    if features.drivers:
+        driven = drawer.one([name for each, name in rebecs if each is drawer.classes[0]])
+        classes.append(_driver(drawer))
+        number = drawer.up_to(len(instances))
+        instances[number:number] = [f"Driver d{i}({driven}):();" for i in range(drawer.up_to(2, 1))]
+    main = ["main {", *(f"  {line}" for line in instances), "}"]
     lines = [line for each in (*classes, main) for line in each]
     return Drawn("\n".join(lines) + "\n", _properties(drawer, rebecs))
 
@@ -49,6 +56,8 @@ def systems(draw: DrawFn, features: Features = TIMED) -> Drawn:
 def _ranks(drawer: Drawer) -> str:
     """The annotation that orders servers and instances, if any."""
     if not drawer.features.timed:
+        return ""
+    if drawer.features.drivers:
         return ""
     return drawer.one(["", "", "priority", "priority", "globalPriority"])
 
@@ -70,6 +79,33 @@ def _class(drawer: Drawer, each: Outline, ranks: str) -> list[str]:
     for method in each.methods:
         lines += _indented(_method(drawer, each, method))
     return [*lines, "}"]
+
+
+def _driver(drawer: Drawer) -> list[str]:
+    """A class that acts by itself: what it sends arrives later."""
+    body = Body(drawer, Outline("Driver", 3), "server", [("int", "n")])
+    times = "1", "2", "?(1, 2)", "?(2, 3, 3)"
+    server = drawer.one(drawer.servers_of("C0"))
+    sent = f"driven.{server.name}({arguments(body, server)}) after({drawer.one(times)});"
+    lines = [f"n = (n + {drawer.up_to(2)}) % 2;"]
+    lines += [f"if ({truth(body, 1)}) {{", f"  {sent}", "}"] if drawer.flag() else [sent]
+    lines.append(f"tick() after({drawer.one(times)});")
+    return [
+        f"reactiveclass Driver({drawer.up_to(3, least=2)}) {{",
+        "  knownrebecs {",
+        "    C0 driven;",
+        "  }",
+        "  statevars {",
+        "    int n;",
+        "  }",
+        "  Driver() {",
+        "    self.tick();",
+        "  }",
+        "  msgsrv tick() {",
+        *(f"    {line}" for line in lines),
+        "  }",
+        "}",
+    ]
 
 
 def _indented(lines: list[str]) -> list[str]:

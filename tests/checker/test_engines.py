@@ -19,7 +19,16 @@ from rebsync.checker.steps import Failure, Semantics
 from rebsync.checker.verify import verify
 from tests.checker.comparing import System, by_engine, by_reference, findings
 from tests.checker.draw_outlines import Features
-from tests.checker.draw_systems import CLOCKED, REAL, TIMED, UNTIMED, WITHOUT_DELAY, Drawn, systems
+from tests.checker.draw_systems import (
+    CLOCKED,
+    DRIVEN,
+    REAL,
+    TIMED,
+    UNTIMED,
+    WITHOUT_DELAY,
+    Drawn,
+    systems,
+)
 
 MOST = 600  # states of a drawn system
 FAMILIES: dict[str, tuple[Features, Semantics]] = {
@@ -80,6 +89,24 @@ def test_verify_says_what_the_reference_found(view: Semantics, drawn: Drawn) -> 
     assert {violation.kind for violation in result.violations} == kinds
     assert result.verdict == ("violated" if kinds else "satisfied")
     assert {name for name, verdict in result.properties if verdict == "violated"} == expected.false
+
+
+@pytest.mark.parametrize("view", _TIMED_VIEWS)
+@given(drawn=systems(DRIVEN))
+def test_reduction_keeps_the_verdict(view: Semantics, drawn: Drawn) -> None:
+    system = System.of(drawn.model, drawn.properties)
+    problem = Problem(system.source, system.analysis, system.properties)
+    limits = Limits(states=3000)
+    full = verify(problem, Options(view, "interpreted", limits))
+    assume(full.reason is None)
+    reduced = verify(problem, Options(view, "interpreted", limits, reduce=True))
+    assert (reduced.verdict, reduced.reason) == (full.verdict, None)
+    assert reduced.states <= full.states
+    kinds, kept = ({v.kind for v in result.violations} for result in (full, reduced))
+    assert kept <= kinds
+    if "overflow" not in kinds:  # beyond one, what is seen depends on the order
+        assert kept == kinds
+        assert reduced.properties == full.properties
 
 
 # --- the compiled engine against the interpreter -------------------------------------------------

@@ -5,6 +5,7 @@ Among them is every known error of RMC 2.14, and what the floating view gets wro
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -17,8 +18,12 @@ from rebsync.checker.problem import EngineChoice, Options, Problem
 from rebsync.checker.result import Violation
 from rebsync.checker.steps import FailureKind, Semantics
 from rebsync.checker.verify import verify
-from rebsync.toml import tomllib
 from tests.checker.comparing import System, by_reference, findings
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
 
 FOLDER = Path(__file__).parent / "models"
 VIEWS: tuple[Semantics, ...] = ("tts", "ftts", "core")

@@ -306,7 +306,7 @@ def test_state_spaces(tmp_path: Path, suffix: str) -> None:
     text = (tmp_path / name).read_text()
     if suffix == "json":
         space = json.loads(text)
-        assert (len(space["states"]), len(space["transitions"])) == (7, 7)
+        assert (len(space["states"]), len(space["edges"])) == (7, 7)
     else:
         assert "walker" in text
 
