@@ -30,7 +30,7 @@ from tests.checker.draw_systems import (
     systems,
 )
 
-MOST = 600  # states of a drawn system
+MOST = 300  # states of a drawn system
 FAMILIES: dict[str, tuple[Features, Semantics]] = {
     "exact": (TIMED, "tts"),
     "floating": (TIMED, "ftts"),
@@ -96,7 +96,7 @@ def test_verify_says_what_the_reference_found(view: Semantics, drawn: Drawn) -> 
 def test_reduction_keeps_the_verdict(view: Semantics, drawn: Drawn) -> None:
     system = System.of(drawn.model, drawn.properties)
     problem = Problem(system.source, system.analysis, system.properties)
-    limits = Limits(states=3000)
+    limits = Limits(states=1000)
     full = verify(problem, Options(view, "interpreted", limits))
     assume(full.reason is None)
     reduced = verify(problem, Options(view, "interpreted", limits, reduce=True))
@@ -161,7 +161,7 @@ def test_the_way_to_every_event_can_be_walked_and_is_shortest(
     drawn = data.draw(systems(features))
     system = System.of(drawn.model, drawn.properties)
     search = Interpreted(system.program, view, system.invariants())
-    exploration = search.run(Limits(states=2000, until=12 if features.clock else None))
+    exploration = search.run(Limits(states=500, until=12 if features.clock else None))
     levels = _levels(search)
     for event in exploration.events:
         _walk(search, event, levels)
