@@ -52,10 +52,13 @@ def libraries(units: tuple[Unit, ...]) -> tuple[ctypes.CDLL, ...]:
     loaded = [_kept(folder, key) for key in keys]
     missing = [i for i, library in enumerate(loaded) if library is None]
     if missing:
-        with tempfile.TemporaryDirectory(prefix="rebsync-") as scratch:
-            made = _compile([units[i] for i in missing], compiler, Path(scratch))
-            for i, path in zip(missing, made, strict=True):
-                loaded[i] = _load(_keep(folder, keys[i], path) or path)
+        try:
+            with tempfile.TemporaryDirectory(prefix="rebsync-") as scratch:
+                made = _compile([units[i] for i in missing], compiler, Path(scratch))
+                for i, path in zip(missing, made, strict=True):
+                    loaded[i] = _load(_keep(folder, keys[i], path) or path)
+        except OSError as error:
+            raise Unavailable(f"the model cannot be compiled: {error.strerror}") from None
     return tuple(library for library in loaded if library is not None)
 
 
@@ -166,7 +169,10 @@ def _compile(units: list[Unit], compiler: tuple[str, ...], scratch: Path) -> lis
             if process.poll() is None:
                 process.kill()
                 process.communicate()
-    return [scratch / f"{unit.name}.so" for unit in units]
+    made = [scratch / f"{unit.name}.so" for unit in units]
+    if not all(path.is_file() for path in made):
+        raise Unavailable(f"the C compiler {compiler[0]} has made nothing")
+    return made
 
 
 def _started(unit: Unit, compiler: tuple[str, ...], scratch: Path) -> Popen[str]:

@@ -1,0 +1,159 @@
+"""The compiled engine: bounds, large states, and bodies that do not end."""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import astuple, replace
+
+import pytest
+
+from rebsync.checker.compiled import CompiledSearch
+from rebsync.checker.exploration import Exploration, Limits, Progress
+from rebsync.checker.program import Program
+from rebsync.checker.search import Interpreted
+from rebsync.checker.steps import Semantics
+from tests.checker.comparing import System
+
+pytestmark = pytest.mark.skipif(
+    not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler"
+)
+
+_VIEWS: tuple[Semantics, ...] = ("tts", "ftts")
+
+WALKERS = """\
+reactiveclass Walker(5) {
+    statevars { int at; boolean odd; }
+    msgsrv walk(int steps) {
+        at = (at + steps) % %SIZE%;
+        odd = at % 2 == 1;
+        self.walk(?(1, 3)) after(?(1, 2));
+    }
+    Walker() { self.walk(1); }
+}
+main {
+%MAIN%
+}
+"""
+PROPERTIES = "property { define { odd = w0.odd; } Assertion { small: w0.at < 3; even: !odd; } }"
+
+
+def _walkers(count: int, size: int) -> System:
+    main = "\n".join(f"    Walker w{i}():();" for i in range(count))
+    return System.of(WALKERS.replace("%SIZE%", str(size)).replace("%MAIN%", main), PROPERTIES)
+
+
+def _program(count: int = 2, size: int = 5) -> Program:
+    return _walkers(count, size).program
+
+
+def _figures(found: Exploration) -> tuple[object, ...]:
+    return astuple(replace(found, engine="", seconds=0.0, build_seconds=0.0, memory=0, notes=()))
+
+
+def test_it_finds_what_the_interpreter_finds() -> None:
+    program = _program()
+    for view in _VIEWS:
+        search, interpreted = (
+            engine(program, view, (0, 1)) for engine in (CompiledSearch, Interpreted)
+        )
+        found = interpreted.run(Limits())
+        assert len(found.events) == 2
+        assert _figures(search.run(Limits())) == _figures(found)
+        assert search.graph() == interpreted.graph()
+
+
+# --- bounds --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("limits", [Limits(states=17), Limits(until=5), Limits(states=50, until=4)])
+@pytest.mark.parametrize("compacted", [False, True])
+def test_bounds_cut_where_the_interpreter_is_cut(limits: Limits, compacted: bool) -> None:
+    program = _program()
+    compiled = CompiledSearch(program, "ftts", (0, 1), hash_compaction=compacted)
+    interpreted = Interpreted(program, "ftts", (0, 1))
+    found = interpreted.run(limits)
+    assert found.reason
+    assert _figures(compiled.run(limits)) == _figures(found)
+    assert compiled.graph() == interpreted.graph()
+    assert [compiled.path(s) for s in range(found.states)] == [
+        interpreted.path(s) for s in range(found.states)
+    ]
+
+
+def test_a_search_goes_on() -> None:
+    program = _program()
+    pieces, whole = CompiledSearch(program, "ftts"), CompiledSearch(program, "ftts")
+    for states in range(3, 40, 7):
+        assert (
+            pieces.run(Limits(states=states)).reason == f"the bound of {states} states was reached"
+        )
+    assert _figures(pieces.run(Limits())) == _figures(whole.run(Limits()))
+    with pytest.raises(ValueError, match="bound of time"):
+        pieces.run(Limits(until=3))
+
+
+def test_seconds_memory_and_progress() -> None:
+    seen: list[Progress] = []
+    search = CompiledSearch(_program(8, 40), "ftts")
+    assert (
+        search.run(Limits(seconds=0.1), seen.append).reason
+        == "the bound of 0.1 seconds was reached"
+    )
+    assert search.run(Limits(memory=1)).reason == "the bound of 1 bytes of memory was reached"
+    assert seen[0].states > seen[0].waiting > 0
+    assert seen[0].memory > 0
+    assert seen[-1].transitions >= seen[0].transitions > 0
+
+
+def test_an_interrupt_ends_it_cleanly() -> None:
+    def interrupt(_: Progress) -> None:
+        raise KeyboardInterrupt
+
+    search = CompiledSearch(_program(8, 40), "ftts")
+    found = search.run(Limits(), interrupt)
+    assert found.reason == "it was interrupted"
+    assert len(search.path(found.states - 1)) == found.depth + 1
+
+
+def test_many_rebecs_and_wide_states() -> None:
+    """More than one word for a state, and numbers that outgrow their fields."""
+    search, interpreted = (
+        engine(_program(70, 3), "tts", (0,)) for engine in (CompiledSearch, Interpreted)
+    )
+    assert _figures(search.run(Limits(states=300))) == _figures(interpreted.run(Limits(states=300)))
+    many = CompiledSearch(_program(3, 150), "ftts")
+    compacted = CompiledSearch(_program(3, 150), "ftts", hash_compaction=True)
+    found = many.run(Limits(states=60_000))
+    again = compacted.run(Limits(states=60_000))
+    assert _figures(found) == _figures(again)
+    assert many.path(found.states - 1) == compacted.path(found.states - 1)
+    assert "64 bits of each state" in again.notes[0]
+
+
+ENDLESS = """\
+reactiveclass Endless(5) {
+    msgsrv begin() { self.go(?(true, false)); }
+    msgsrv go(boolean on) { while (on) { } }
+    Endless() { self.begin(); }
+}
+main { Endless e():(); }
+"""
+
+
+@pytest.mark.parametrize(
+    ("model", "body"),
+    [
+        (ENDLESS, "Endless.go"),
+        (
+            ENDLESS.replace("while (on) { }", "deep();").replace(
+                "    Endless()", "    void deep() { deep(); }\n    Endless()"
+            ),
+            "Endless.deep",
+        ),
+        (ENDLESS.replace("self.begin();", "while (true) { }"), "Endless.Endless"),
+    ],
+)
+def test_a_body_that_does_not_end_ends_the_search(model: str, body: str) -> None:
+    search = CompiledSearch(System.of(model).program, "tts")
+    for _ in range(2):
+        assert f"{body} did not end" in str(search.run(Limits()).reason)
