@@ -9,7 +9,7 @@ import secrets
 import shlex
 import shutil
 import tempfile
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -155,24 +155,28 @@ def _compile(units: list[Unit], compiler: tuple[str, ...], scratch: Path) -> lis
 
     for source in _TEMPLATES.glob("*.h"):
         shutil.copyfile(source, scratch / source.name)
-    running = [_started(unit, compiler, scratch) for unit in units]
-    try:
-        for process in running:
-            said = process.communicate(timeout=_PATIENCE)[0]
-            if process.returncode:
-                first = next((line for line in said.splitlines() if line.strip()), "it fails")
-                raise Unavailable(f"the C compiler {compiler[0]} fails: {first}")
-    except TimeoutExpired:
-        raise Unavailable(f"the C compiler {compiler[0]} takes too long") from None
-    finally:
-        for process in running:
-            if process.poll() is None:
-                process.kill()
-                process.communicate()
+    with ExitStack() as ending:
+        running = []
+        for unit in units:
+            process = _started(unit, compiler, scratch)
+            running.append(ending.enter_context(process))
+            ending.callback(process.kill)
+        try:
+            for process in running:
+                _finish(process, compiler[0])
+        except TimeoutExpired:
+            raise Unavailable(f"the C compiler {compiler[0]} takes too long") from None
     made = [scratch / f"{unit.name}.so" for unit in units]
     if not all(path.is_file() for path in made):
         raise Unavailable(f"the C compiler {compiler[0]} has made nothing")
     return made
+
+
+def _finish(process: Popen[str], compiler: str) -> None:
+    said = process.communicate(timeout=_PATIENCE)[0]
+    if process.returncode:
+        first = next((line for line in said.splitlines() if line.strip()), "it fails")
+        raise Unavailable(f"the C compiler {compiler} fails: {first}")
 
 
 def _started(unit: Unit, compiler: tuple[str, ...], scratch: Path) -> Popen[str]:

@@ -200,7 +200,8 @@ class CompiledSearch:
         figures = self._figures()
         if self.hash_compaction:
             exact = CompiledSearch(self.program, self.semantics, (), self.first)
-            exact.run(Limits(states=figures.states, until=self._until))
+            stopped = figures.states if figures.expanded < figures.states else None
+            exact.run(Limits(states=stopped, until=self._until))
             return exact.graph()
         words = max(1, -(-len(self.program.predicates) // 64))
         most = figures.transitions + figures.dropped
