@@ -151,14 +151,14 @@ class _Answer:
                 if body.entry <= failure.pc < body.end:
                     what = "divides by zero" if failure.kind == "division" else "has no such index"
                     self.verdicts[entry.name] = "violated"
-                    message = f'the property "{entry.name}" {what} in this state'
+                    message = f"it {what} in this state"
                     self._property(failure.kind, entry, message, self._trace(event))
 
     def _assertion(self, event: Event, predicate: int) -> None:
         for entry, formula in self._entries():
             if formula.formula == Atom(predicate):
                 self.verdicts[entry.name] = "violated"
-                message = f'the property "{entry.name}" is false'
+                message = "it is false in this state"
                 self._property("property", entry, message, self._trace(event))
 
     def _property(self, kind: ViolationKind, entry: Property, message: str, trace: Trace) -> None:
@@ -181,7 +181,7 @@ class _Answer:
             run = self._refutation(formula, entry in self.problem.properties.tctl)
             self.verdicts[entry.name] = "satisfied" if run is None else "violated"
             if run is not None:
-                message = f'the property "{entry.name}" does not hold on this run'
+                message = "it does not hold on this run"
                 self._property("property", entry, message, run)
 
     def _refutation(self, formula: NamedFormula, branching: bool) -> Trace | None:
