@@ -52,7 +52,9 @@ def _compiled(
 ) -> Search:
     from rebsync.checker.compiled import CompiledSearch
 
-    return CompiledSearch(program, semantics, invariants, hash_compaction=options.hash_compaction)
+    return CompiledSearch(
+        program, semantics, invariants, first, hash_compaction=options.hash_compaction
+    )
 
 
 def _auto(
