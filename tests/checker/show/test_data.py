@@ -9,12 +9,18 @@ from typing import Any, TypeAlias
 import jsonschema  # type: ignore[import-untyped]
 import pytest
 
+from rebsync.checker.exploration import Limits
+from rebsync.checker.problem import Options, Problem
 from rebsync.checker.result import Result
 from rebsync.checker.show.data import result_json, trace_json, value_of
 from rebsync.checker.show.replay import Recorded, trace_from_json
 from rebsync.checker.trace import Trace
+from rebsync.checker.verify import verify
 from rebsync.diagnostics import RebsyncError
+from rebsync.files import read_source
+from rebsync.grammars.parser import parse_model
 from rebsync.source import Source
+from rebsync.static import analyse
 from tests.checker.show.runs import crossing, lasso, long_run, result, violation
 from tests.consoles import ROOT
 
@@ -72,6 +78,22 @@ def test_the_schema_is_one() -> None:
 @pytest.mark.parametrize("found", RESULTS.values(), ids=RESULTS)
 def test_results_keep_to_the_schema(found: Result) -> None:
     VALIDATOR.validate(as_data(found))
+
+
+@pytest.mark.parametrize(
+    ("name", "verdict"),
+    [
+        ("experiment2_unsafe", "violated"),
+        ("experiment3_unsafe", "satisfied"),
+        ("warehouse", "undetermined"),
+    ],
+)
+def test_what_verify_finds_keeps_to_the_schema(name: str, verdict: str) -> None:
+    source = read_source(str(ROOT / "examples" / name / f"{name}.rebeca"))
+    problem = Problem(source, analyse(parse_model(source).model))
+    data = as_data(verify(problem, Options(engine="interpreted", limits=Limits(states=300))))
+    VALIDATOR.validate(data)
+    assert data["verdict"] == verdict
 
 
 def test_runs_keep_to_the_schema() -> None:
