@@ -94,9 +94,9 @@ STRUCTURE = {
     "RS428": "a `@Move` that is not of the form `@Move(X+1, Y)`",
     "RS429": "a priority that is not a constant integer",
     "RS430": "`@priority` and `@globalPriority` in one model",
-    "RS431": "something of Timed Rebeca in a model that is checked as core Rebeca",
     "RS431": "a queue or an array without places",
     "RS432": "an abstract member of a class that is not abstract",
+    "RS433": "something of Timed Rebeca in a model that is checked as core Rebeca",
 }
 
 WARNINGS = {

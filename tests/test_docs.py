@@ -37,7 +37,9 @@ def test_every_option_is_described(name: str) -> None:
     section = re.search(rf"^## rebsync {name} .*?(?=^## )", REFERENCE, re.MULTILINE | re.DOTALL)
     assert section is not None
     described = set(re.findall(r"^\| .*?\|", section[0], re.MULTILINE))
-    shown = {option for row in described for option in re.findall(r"(?<!\w)--?[a-z]+(?:-[a-z]+)*", row)}
+    shown = {
+        option for row in described for option in re.findall(r"(?<!\w)--?[a-z]+(?:-[a-z]+)*", row)
+    }
     options = [p for p in command.params if isinstance(p, click.Option)]
     assert shown == {o for option in options for o in option.opts}
 

@@ -25,11 +25,15 @@ def space_of(search: Interpreted, teller: Teller, invariants: Mapping[int, str])
     )
     marks = []
     for number, state in enumerate(search.states):
-        marks += [(number, f"{n} does not hold") for n in invariants.values() if n not in holds[number]]
+        marks += [
+            (number, f"{n} does not hold") for n in invariants.values() if n not in holds[number]
+        ]
         if search.view.is_deadlock(state):
             marks.append((number, "deadlock"))
     edges = [
-        edge for number, state in enumerate(search.states) for edge in _edges(search, teller, number, state)
+        edge
+        for number, state in enumerate(search.states)
+        for edge in _edges(search, teller, number, state)
     ]
     initial = [s.result for s in search.view.initial_states() if not isinstance(s.result, Failure)]
     return StateSpace(
