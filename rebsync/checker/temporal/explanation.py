@@ -135,7 +135,7 @@ def _narrowest(outcome: Outcome, node: int, wanted: bool) -> Outcome | None:
     if outcome.exact or window == Window.of(None):
         return None
     if window.low == 0:
-        return replace(outcome, window=Window(0, time if wanted else time))
+        return replace(outcome, window=Window(0, time if wanted else time - 1))
     if wanted and time == FOREVER:
         return None
     return replace(outcome, window=Window(time if wanted else max(time, 0) + 1, window.high))
