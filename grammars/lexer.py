@@ -26,6 +26,8 @@ _OPERANDS = frozenset(
         *("SELF", "SUPER", "NEW", "LPAR", "CHOICE"),
     }
 )
+_SIGNS = frozenset({"-", "+", "~"})
+_NUMBERS = frozenset({"byte", "short", "int", "float", "double"})
 _OPERAND_ENDS = (_OPERANDS - {"LPAR", "NEW", "CHOICE"}) | {"RPAR", "RSQB", "INC", "DEC"}
 _NO_ARGUMENTS = frozenset({"ϕ", "φ", "∅"})
 _SECTIONS = ("knownrebecs", "statevars", "main")
@@ -297,7 +299,10 @@ class _Scan:
             and tokens[name - 1] == "("
             and tokens[end] == ")"
             and end + 1 < len(tokens)
-            and tokens[end + 1].type in _OPERANDS
+            and (
+                tokens[end + 1].type in _OPERANDS
+                or (tokens[end + 1] in _SIGNS and tokens[name] in _NUMBERS)
+            )
             and (name < 2 or tokens[name - 2].type not in _BEFORE_CAST)
         )
 

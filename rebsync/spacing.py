@@ -14,6 +14,8 @@ _STEPS = frozenset(("++", "--"))
 _STATEMENTS = frozenset(("if", "else", "while", "for", "switch", "case", "default", "return"))
 _KEYWORDS = _STATEMENTS | {"new", "instanceof", "main", "env", "msgsrv", "abstract"}
 
+_NUMBERS = frozenset(("byte", "short", "int", "float", "double"))
+
 
 def is_comment(text: str) -> bool:
     """Whether a token is `// ...` or `/* ... */`."""
@@ -87,7 +89,9 @@ class Spacing:
             case ":" if self.conditionals[-1]:
                 self.conditionals[-1] -= 1
         if not (text in _STEPS and self.ended):
-            self.ended = text in (")", "]") or (_is_word(text) and text not in _KEYWORDS)
+            cast = text == ")" and self.before in _NUMBERS
+            name = _is_word(text) and text not in _KEYWORDS
+            self.ended = not cast and (text in (")", "]") or name)
         self.before = text
 
 

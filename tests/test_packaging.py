@@ -50,7 +50,7 @@ def test_no_code_lies_outside_of_the_packages() -> None:
 
 
 def test_every_data_file_is_packaged() -> None:
-    wanted = set()
+    wanted: set[Path] = set()
     for package, patterns in SETUPTOOLS["package-data"].items():
         for pattern in patterns:
             wanted.update(ROOT.joinpath(*package.split(".")).resolve().glob(pattern))

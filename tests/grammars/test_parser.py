@@ -98,6 +98,13 @@ def test_operators_bind_as_in_c() -> None:
     assert isinstance(parse_expression("(a)"), Paren)
 
 
+def test_a_cast_of_a_sign() -> None:
+    assert parse_expression("(int) -a[0] * b") == parse_expression("(int) (-a[0]) * b")
+    assert parse_expression("(float)+a.x") == parse_expression("(float) (+a.x)")
+    assert isinstance(parse_expression("(a) - b"), Binary)
+    assert format_text("env int a = (int) -1 - (b) - 2;") == "env int a = (int) -1 - (b) - 2;\n"
+
+
 def test_parts_that_are_wrong_raise() -> None:
     with pytest.raises(ValueError, match="not a statement"):
         parse_statement("if (x")
