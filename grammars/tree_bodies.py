@@ -151,7 +151,7 @@ class Expressions:
         return m.Cast(items[1], items[3], span_of(items))
 
     def cast_of_sign(self, items: Children) -> m.Cast:
-        """`(int)-x`, which the official compiler reads although its casts bind tighter than signs."""
+        """`(int)-x`, which RMC reads although a cast binds tighter than a sign."""
         signed = m.Unary(str(items[3]), items[4], span_of(items[3:]))
         return m.Cast(items[1], m.Paren(signed, signed.span), span_of(items))
 
