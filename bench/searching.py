@@ -1,0 +1,82 @@
+"""One search in a process of its own: prints what it found and cost, as JSON.
+
+    python bench/searching.py ENGINE LANGUAGE MODEL [CONSTANT=VALUE ...]
+
+Searches several times if that is quick; `cpu` is the least time of this process for a search,
+and `growth` what it added to the memory of the process, in bytes.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+import time
+from pathlib import Path
+from typing import Literal
+
+from rebsync.checker.compiled import CompiledSearch
+from rebsync.checker.exploration import Exploration, Limits, Search
+from rebsync.checker.lowering import lower
+from rebsync.checker.memory import peak_memory, used_memory
+from rebsync.checker.problem import Problem
+from rebsync.checker.program import Program
+from rebsync.checker.search import Interpreted
+from rebsync.checker.steps import Semantics
+from rebsync.grammars.parser import parse_model
+from rebsync.source import Source
+from rebsync.static import analyse
+
+ENOUGH = 1.0  # seconds
+
+
+def program_of(path: Path, constants: dict[str, str]) -> Program:
+    """A model made ready, with other values for some of its env variables."""
+    text = path.read_text(encoding="utf-8")
+    for name, value in constants.items():
+        text, found = re.subn(rf"(env \w+ {name} =) \w+;", rf"\1 {value};", text)
+        assert found == 1, name
+    source = Source(str(path), text)
+    parsed = parse_model(source)
+    analysis = analyse(parsed.model)
+    assert parsed.ok and not analysis.errors
+    return lower(Problem(source, analysis).analysis, Problem(source, analysis).properties)[0]
+
+
+def search_of(engine: str, program: Program, semantics: Semantics) -> Search:
+    if engine == "interpreted":
+        return Interpreted(program, semantics)
+    return CompiledSearch(program, semantics)
+
+
+def timed(search: Search) -> tuple[float, Exploration]:
+    start = time.process_time()
+    found = search.run(Limits())
+    return time.process_time() - start, found
+
+
+def main() -> None:
+    engine, language, path, *constants = sys.argv[1:]
+    program = program_of(Path(path), dict(c.split("=", 1) for c in constants))
+    semantics: Literal["core", "ftts"] = "core" if language == "core" else "ftts"
+    search = search_of(engine, program, semantics)
+    before = used_memory()
+    cpu, found = timed(search)
+    growth = peak_memory() - before
+    spent = cpu
+    while spent < ENOUGH:
+        again, found = timed(search_of(engine, program, semantics))
+        cpu = min(cpu, again)
+        spent += again
+    assert found.reason is None and not found.events
+    figures = {
+        "states": found.states,
+        "transitions": found.transitions,
+        "cpu": cpu,
+        "growth": growth,
+    }
+    print(json.dumps(figures))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,153 @@
+"""What verification costs: time and memory for each state, against SPIN, and whole commands.
+
+    python bench/verify.py [family] [engines] [spin] [first] [actors] [--plot FILE]
+
+Without a name, all of them. `--plot` draws the family: docs/cost-per-state.svg. A machine that has
+other work to do makes all figures worse, so its load is printed as well.
+
+family   cost of a state from 10^4 to 10^7 states of models that grow with one parameter
+engines  the compiled engine and the interpreter on the same searches
+spin     an untimed model against SPIN on its twin (needs spin and gcc)
+first    whole commands on the models of the thesis: nothing is compiled
+actors   whole commands on large models: built before, and with an empty cache
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from plot import Series, plot
+from running import HEADING, MODELS, ROOT, Runs, run, verified
+from spin import spin
+
+FAMILIES = (
+    ("laps", "laps", (1, 2, 3, 4, 6), "four workers, one controller"),
+    ("crowd", "longest", (1, 4, 10, 20, 38), "all messages in one bag"),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Searched:
+    """A search alone, without the start of Python: `cpu` in seconds, `growth` in bytes."""
+
+    states: int
+    transitions: int
+    cpu: float
+    growth: int
+
+    @property
+    def cost(self) -> float:
+        """Microseconds for each state."""
+        return self.cpu / self.states * 1e6
+
+
+def searched(engine: str, language: str, model: Path, *constants: str) -> Searched:
+    script = ROOT / "bench" / "searching.py"
+    output = run([sys.executable, script, engine, language, model, *constants]).output
+    return Searched(**json.loads(output))
+
+
+def family() -> tuple[Series, ...]:
+    """The cost of a state must not grow with their number."""
+    return tuple(_one_family(*each) for each in FAMILIES)
+
+
+def _one_family(name: str, parameter: str, values: tuple[int, ...], title: str) -> Series:
+    print(f"{name}.rebeca: {title}")
+    print(f"{parameter:>9}     states  steps/state  us/state  us/step  bytes/state")
+    points = []
+    for value in values:
+        it = searched("compiled", "timed", MODELS / f"{name}.rebeca", f"{parameter}={value}")
+        per_state = it.transitions / it.states
+        print(
+            f"{value:9}{it.states:11,}{per_state:13.2f}{it.cost:10.3f}"
+            f"{it.cost / per_state:9.3f}{it.growth / it.states:13.0f}"
+        )
+        points.append((it.states, it.cost))
+    costs = [cost for _, cost in points]
+    print(f"dearest state / cheapest: {max(costs) / min(costs):.2f}\n")
+    return Series(title, tuple(points))
+
+
+def engines() -> None:
+    """The same searches with both engines."""
+    print("engine        model         states   states/s  bytes/state")
+    for name, constant in (("laps", "laps=2"), ("crowd", "longest=4"), ("untimed", "laps=1")):
+        language = "core" if name == "untimed" else "timed"
+        model = MODELS / f"{name}.rebeca"
+        both = [searched(e, language, model, constant) for e in ("interpreted", "compiled")]
+        for engine, it in zip(("interpreted", "compiled"), both, strict=True):
+            rate, size = it.states / it.cpu, it.growth / it.states
+            print(f"{engine:12}  {name:8}{it.states:12,}{rate:11,.0f}{size:13.0f}")
+        print(f"{'faster':12}  {name:8}{both[0].cpu / both[1].cpu:12.0f} times")
+    print()
+
+
+KINDS = (("", 0), ("_unsafe", 3))  # with the exit status of the verdict
+THESIS = tuple((f"experiment{n}{kind}", s) for n in (1, 2, 3) for kind, s in KINDS)
+
+
+def first() -> None:
+    """The first verdict on a small model."""
+    print(HEADING)
+    for name, status in THESIS:
+        it = verified(ROOT / "examples" / name / f"{name}.rebeca", 7, status=status)
+        assert it.engine == "interpreted", it.engine
+        print(it.line(name))
+    print()
+
+
+def actors() -> None:
+    """A large model, from the start of Python to the verdict."""
+    print(HEADING)
+    for name, times in (("actors4", 5), ("actors5", 1)):
+        model = MODELS / f"{name}.rebeca"
+        with tempfile.TemporaryDirectory() as folder:
+            caches = [Path(folder, str(n)) for n in range(3 if times > 1 else 0)]
+            cold = [verified(model, 1, cache=cache) for cache in caches]
+            if cold:
+                runs = tuple(it.runs.runs[0] for it in cold)
+                print(replace(cold[0], runs=Runs(runs)).line(f"{name}, empty cache"))
+            verified(model, 1, cache=Path(folder, "0"))
+        print(verified(model, times).line(f"{name}, built before"))
+    print()
+
+
+PARTS: dict[str, Callable[[], object]] = {
+    "engines": engines,
+    "spin": spin,
+    "first": first,
+    "actors": actors,
+}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("parts", nargs="*", metavar="PART", help=" ".join(("family", *PARTS)))
+    parser.add_argument("--plot", type=Path, metavar="FILE", help="draw the family as SVG")
+    given = parser.parse_args()
+    parts = given.parts or ["family", *PARTS]
+    if unknown := set(parts) - {"family", *PARTS}:
+        parser.error(f"no such part: {', '.join(sorted(unknown))}")
+    for part in parts:
+        load = os.getloadavg()[0]
+        print(f"# python bench/verify.py {part}    (load of the machine: {load:.1f})", flush=True)
+        if part != "family":
+            PARTS[part]()
+            continue
+        drawn = family()
+        if given.plot:
+            title = "Cost of a state, by the number of states"
+            picture = plot(drawn, title, "states", "microseconds for each state")
+            given.plot.write_text(picture, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
