@@ -6,29 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from rebsync.forward.cpp_types import cpp_type
-from rebsync.forward.topics import RUNTIME_TYPES, Signature, signature
+from rebsync.forward.topics import Signature, signature
 from rebsync.model import Parameter
-from rebsync.names import CPP_KEYWORDS, camel_case, carry, graph_name, unique
+from rebsync.names import camel_case, carry, graph_name, unique
 from rebsync.package import NodeClass, Package, Publisher, Subscription
-
-_RUNTIME_MEMBERS = frozenset({"mailbox", "drive", "node", "state", "state_pub"})
-_RUNTIME_FUNCTIONS = frozenset(
-    {
-        *("after", "as", "choose", "deadline", "divide", "divideBy", "flatten", "mailbox"),
-        *("narrow", "publishState", "readArray", "remainder", "remainderBy", "shiftLeft"),
-        *("shiftLeftBy", "shiftRight", "shiftRightBy", "text", "to", "unflatten", "unused"),
-        *("widen", "construct"),
-    }
-)
-_RUNTIME_CONSTANTS = frozenset(
-    {
-        *("kAligned", "kFarAway", "kNever", "kNoPriority", "kNull", "kPeriod", "kQueueSize"),
-        "kSoon",
-    }
-)
-_RESERVED = CPP_KEYWORDS | _RUNTIME_FUNCTIONS | _RUNTIME_CONSTANTS | RUNTIME_TYPES
-# What the constructor of a class has beside the parameters of the model.
-_OF_CONSTRUCTOR = frozenset({"node", "global"})
+from rebsync.reserved import OF_CONSTRUCTOR, RESERVED, RUNTIME_CONSTANTS, RUNTIME_MEMBERS
 
 
 @dataclass(slots=True)
@@ -52,17 +34,17 @@ class CppNames:
 
     def local(self, name: str) -> str:
         """A local variable or parameter: the model's own name where it hides nothing."""
-        carried = carry(name, _RESERVED | self.types | self.callable)
+        carried = carry(name, RESERVED | self.types | self.callable)
         return f"{carried}_v" if carried.removesuffix("_v") + "_v" in self.callable else carried
 
     def argument(self, name: str) -> str:
         """A parameter of the class's constructor."""
-        return carry(name, _RESERVED | self.types | self.callable | _OF_CONSTRUCTOR)
+        return carry(name, RESERVED | self.types | self.callable | OF_CONSTRUCTOR)
 
     def function(self, name: str, parameters: tuple[Parameter, ...]) -> str:
         """A handler or method: the model's own name where C++ and the run-time part allow it."""
         name = self.apart.get(signature(name, parameters), name)
-        return carry(name, _RESERVED | self.types)
+        return carry(name, RESERVED | self.types)
 
     def send_to_known(self, known: str, key: str) -> str:
         """The helper that sends one server's message to a known rebec."""
@@ -87,7 +69,7 @@ def class_names(package: Package, class_types: Mapping[str, str]) -> dict[str, C
     types |= set(class_types.values())
     apart = _apart(package)
     for node in sorted(package.classes, key=lambda c: _depth(package, c)):
-        names = CppNames(used=set(_RUNTIME_CONSTANTS), types=frozenset(types), apart=apart)
+        names = CppNames(used=set(RUNTIME_CONSTANTS), types=frozenset(types), apart=apart)
         for base in node.bases:
             _inherit(names, found[base])
         _own(names, node)
@@ -156,7 +138,7 @@ def _own(names: CppNames, node: NodeClass) -> None:
 
 
 def _member(name: str, used: set[str]) -> str:
-    return unique(f"{carry(name, _RUNTIME_MEMBERS)}_", used)
+    return unique(f"{carry(name, RUNTIME_MEMBERS)}_", used)
 
 
 def _name_server(names: CppNames, subscription: Subscription) -> None:

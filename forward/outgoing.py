@@ -7,9 +7,8 @@ from rebsync.forward.sends import Send, ToAny, ToKnown, ToSelf, sends
 from rebsync.forward.topics import Signature, Topics, signature
 from rebsync.model import MessageServer, ReactiveClass
 from rebsync.names import free_name, graph_name
+from rebsync.reserved import OWN_TOPICS
 from rebsync.static import Analysis
-
-_OWN_TOPICS = frozenset({"port", "sensor"})
 
 
 class Outgoing:
@@ -40,7 +39,7 @@ class Outgoing:
             case ToKnown(known):
                 to, target = known, self._type_of_known(class_name, known)
                 topic = self._topics.called(send.server)
-                private = f"{free_name(known, _OWN_TOPICS)}/{topic.key}"
+                private = f"{free_name(known, OWN_TOPICS)}/{topic.key}"
             case ToAny(target):
                 to = None
                 topic = self._topics.of(target, _signature_of(send.server.declaration))

@@ -21,7 +21,6 @@ from rebsync.model import (
     walk,
 )
 from rebsync.names import (
-    CPP_KEYWORDS,
     camel_case,
     carry,
     field_names,
@@ -30,40 +29,16 @@ from rebsync.names import (
     unique,
 )
 from rebsync.package import Field, MessageType, StateType
+from rebsync.reserved import (
+    NO_CLASSES,
+    RUNTIME_CLASSES,
+    RUNTIME_FIELDS,
+    RUNTIME_TOPICS,
+    STATE_FIELDS,
+)
 from rebsync.static import Analysis
 from rebsync.static.symbols import BuiltinSymbol, ClassInfo, ServerSymbol
 
-RUNTIME_CLASSES = frozenset(
-    {
-        *("Drive", "Inherited", "Mailbox", "Pose", "Publishers", "Sensor", "Served", "Server"),
-        *("Startup", "Stopped", "Timing", "Violation", "When"),
-    }
-)
-# What the code of a class names in its namespace.
-RUNTIME_TYPES = RUNTIME_CLASSES | {
-    *("Violation", "boost", "detail", "geometry_msgs", "ros", "std", "std_msgs"),
-}
-_NO_CLASSES = (
-    CPP_KEYWORDS
-    | RUNTIME_TYPES
-    | {
-        *(
-            "after",
-            "as",
-            "deadline",
-            "divide",
-            "divideBy",
-            "flatten",
-            "kNull",
-            "narrow",
-            "readArray",
-        ),
-        *("remainder", "remainderBy", "reportLine", "text", "to", "unflatten", "unused", "widen"),
-    }
-)
-RUNTIME_TOPICS = frozenset({"cmd_vel", "state"})
-RUNTIME_FIELDS = ("timing", "sender")
-STATE_FIELDS = ("server", "arguments", "arrival", "start", "now")
 Signature = tuple[str, tuple[str, ...]]
 
 
@@ -103,7 +78,7 @@ class Topics:
             for s in declared_servers(c)
         }
         self._families = self._unite(model)
-        self.class_types = {c.name: carry(c.name, _NO_CLASSES) for c in model.classes}
+        self.class_types = {c.name: carry(c.name, NO_CLASSES) for c in model.classes}
         self._used_types = set(self.class_types.values()) | RUNTIME_CLASSES
         self._keys = self._named_keys()
         self._topics = {root: self._topic(root) for root in self._roots()}

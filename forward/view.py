@@ -9,10 +9,7 @@ from rebsync.forward.instances import Instances
 from rebsync.forward.outgoing import Outgoing
 from rebsync.forward.sends import bodies
 from rebsync.forward.sensors import sensors_of
-from rebsync.forward.topics import (
-    RUNTIME_CLASSES,
-    Topics,
-)
+from rebsync.forward.topics import Topics
 from rebsync.forward.values import env_value
 from rebsync.model import (
     Annotation,
@@ -28,21 +25,9 @@ from rebsync.model import (
     walk,
 )
 from rebsync.names import free_name, graph_name, node_name, snake_case
+from rebsync.reserved import RESERVED_GLOBALS, RUNTIME_CLASSES
 from rebsync.static import Analysis
 from rebsync.static.symbols import EnvSymbol
-
-RESERVED_GLOBALS = frozenset(
-    {
-        "drive",
-        "mailbox",
-        "rosdistro",
-        "roslaunch",
-        "rosversion",
-        "run_id",
-        "startup",
-        "use_sim_time",
-    }
-)
 
 _FILES = ("", "_node", "_sensors", "_stand_in")
 

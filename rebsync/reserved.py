@@ -1,0 +1,53 @@
+"""Names that generated code takes for itself: what a model calls something else must give way to.
+
+Writers carry the model's names past these (`rebsync.names.carry`), readers carry them back.
+"""
+
+from __future__ import annotations
+
+from rebsync.names import CPP_KEYWORDS
+
+RUNTIME_CLASSES = frozenset(
+    {
+        *("Drive", "Inherited", "Mailbox", "Pose", "Publishers", "Rebec", "Sensor", "Served"),
+        *("Server", "Startup", "Stopped", "Timing", "Violation", "When"),
+    }
+)
+# What the code of a class names in its namespace.
+RUNTIME_TYPES = RUNTIME_CLASSES | {
+    *("boost", "detail", "geometry_msgs", "ros", "std", "std_msgs"),
+}
+_FREE_FUNCTIONS = frozenset(
+    {
+        *("after", "as", "deadline", "divide", "divideBy", "flatten", "narrow", "readArray"),
+        *("remainder", "remainderBy", "text", "to", "unflatten", "unused", "widen"),
+    }
+)
+NO_CLASSES = CPP_KEYWORDS | RUNTIME_TYPES | _FREE_FUNCTIONS | {"kNull", "reportLine"}
+RUNTIME_TOPICS = frozenset({"cmd_vel", "state"})
+RUNTIME_FIELDS = ("timing", "sender")
+STATE_FIELDS = ("server", "arguments", "arrival", "start", "now")
+RUNTIME_MEMBERS = frozenset({"mailbox", "drive", "node", "state", "state_pub"})
+RUNTIME_CONSTANTS = frozenset(
+    {
+        *("kAligned", "kFarAway", "kNever", "kNoPriority", "kNull", "kPeriod", "kQueueSize"),
+        "kSoon",
+    }
+)
+RUNTIME_FUNCTIONS = _FREE_FUNCTIONS | {
+    *("choose", "construct", "mailbox", "publishState"),
+    *("shiftLeft", "shiftLeftBy", "shiftRight", "shiftRightBy"),
+}
+# What no local variable, parameter or function of a class may be called.
+RESERVED = CPP_KEYWORDS | RUNTIME_FUNCTIONS | RUNTIME_CONSTANTS | RUNTIME_TYPES
+# What the constructor of a class has beside the parameters of the model.
+OF_CONSTRUCTOR = frozenset({"node", "global"})
+# What a known rebec's topics may not be called after.
+OWN_TOPICS = frozenset({"port", "sensor"})
+# Entries of the parameter server that no env variable may be called after.
+RESERVED_GLOBALS = frozenset(
+    {
+        *("drive", "mailbox", "rosdistro", "roslaunch", "rosversion", "run_id", "startup"),
+        "use_sim_time",
+    }
+)
