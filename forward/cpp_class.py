@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from rebsync.forward.cpp_layout import call_lines, indented
 from rebsync.forward.cpp_names import CppNames
 from rebsync.forward.cpp_statements import CppStatements
-from rebsync.forward.cpp_types import cpp_type
+from rebsync.forward.cpp_types import cpp_type, stored_type
 from rebsync.forward.lineage import ancestors, base_of, interfaces
 from rebsync.model import Annotation, Block, Parameter
 from rebsync.package import Function, NodeClass, Package, Subscription
@@ -125,7 +125,7 @@ class CppClass:
         declared = [(s.server, s.parameters) for s in node.subscriptions]
         declared += [(f.name, f.parameters) for f in node.functions]
         return {
-            (self.names.function(name, parameters), tuple(cpp_type(p.type) for p in parameters))
+            (self.names.function(name, parameters), tuple(stored_type(p.type) for p in parameters))
             for name, parameters in declared
         }
 

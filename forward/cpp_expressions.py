@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from rebsync import model as m
 from rebsync.forward.cpp_names import CppNames
 from rebsync.forward.cpp_operands import bare, float_literal, is_distance, is_int, when
-from rebsync.forward.cpp_types import LOWEST, cpp_type
+from rebsync.forward.cpp_types import LOWEST, cpp_type, stored_type
 from rebsync.forward.effects import conflicting, writes_to
 from rebsync.forward.sends import Send, ToAny, ToKnown, ToSelf, send_of
 from rebsync.forward.topics import Topics
@@ -114,8 +114,8 @@ class CppExpressions:
         if given is None or given.dimensions:
             return self.text(expression)
         widened = is_integer(given) and is_int(expression)
-        there = "int32_t" if widened else "" if given == NULL else cpp_type(given)
-        wanted = cpp_type(type_)
+        there = "int32_t" if widened else "" if given == NULL else stored_type(given)
+        wanted = stored_type(type_)
         if there == wanted:
             return self.text(expression)
         helper = "narrow" if type_.name in _NARROW else "widen"
@@ -173,9 +173,8 @@ class CppExpressions:
         return f"{array}.at({self.text(expression.index)})"
 
     def _cast(self, type_: m.Type, operand: m.Expression) -> str:
-        inner = operand.inner if isinstance(operand, m.Paren) else operand
         if type_.name in self.class_types:
-            return f"as<{self.class_types[type_.name]}>({self.text(inner)})"
+            return f"as<{self.class_types[type_.name]}>({self.text(operand)})"
         return f"static_cast<{cpp_type(type_)}>({self.text(operand)})"
 
     def _binary(self, expression: m.Binary) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from rebsync.forward.cpp_types import cpp_type
+from rebsync.forward.cpp_types import stored_type
 from rebsync.forward.topics import Signature, signature
 from rebsync.model import Parameter
 from rebsync.names import camel_case, carry, graph_name, unique
@@ -84,7 +84,7 @@ def _apart(package: Package) -> dict[Signature, str]:
         declared = [(s.server, s.parameters) for s in node.subscriptions]
         declared += [(f.name, f.parameters) for f in node.functions]
         for name, parameters in declared:
-            same = name, tuple(cpp_type(p.type) for p in parameters)
+            same = name, tuple(stored_type(p.type) for p in parameters)
             groups.setdefault(same, {})[signature(name, parameters)] = None
     return {
         wanted: f"{wanted[0]}_{'_'.join(wanted[1])}".replace("[", "_").replace("]", "")

@@ -109,7 +109,7 @@ class CppStatements:
         """An expression for what it does; its value is marked as unused where it does nothing."""
         text, type_ = self.expressions.text(expression), self.expressions.type_of(expression)
         void = type_ is not None and type_.name == "void"
-        return text if void or _has_effect(expression) else f"unused({text})"
+        return text if void or _has_effect(expression) else f"static_cast<void>({text})"
 
     def _local(self, declaration: m.Declaration) -> Iterator[str]:
         here = tuple(d for d in declaration.declarators if id(d) not in self.hoisted)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from rebsync.model import Type
+from rebsync.names import carry
 from rebsync.package import Value
+from rebsync.reserved import NO_CLASSES
 
 _PLAIN = {
     "byte": "int8_t",
@@ -19,9 +21,22 @@ _PLAIN = {
 LOWEST = "INT32_MIN"
 
 
+def class_type(name: str) -> str:
+    """The C++ class of a reactive class or interface."""
+    return carry(name, NO_CLASSES)
+
+
 def cpp_type(type_: Type) -> str:
-    """`int32_t`, `std::array<bool, 2>`, `std::string` for the name of a rebec."""
-    text = _PLAIN.get(type_.name, "std::string")
+    """`int32_t`, `std::array<bool, 2>`, `Rebec<Robot>` for the name of a rebec."""
+    return _in_arrays(_PLAIN.get(type_.name) or f"Rebec<{class_type(type_.name)}>", type_)
+
+
+def stored_type(type_: Type) -> str:
+    """The type that `cpp_type` is for the compiler: what it can tell overloads apart by."""
+    return _in_arrays(_PLAIN.get(type_.name, "std::string"), type_)
+
+
+def _in_arrays(text: str, type_: Type) -> str:
     for length in reversed(type_.dimensions):
         text = f"std::array<{text}, {length}>"
     return text

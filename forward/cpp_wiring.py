@@ -19,7 +19,7 @@ def members(c: CppClass) -> list[str]:
         for m in c.node.members
     ]
     lines += [
-        (f"std::string {c.names.members[k.name]};", f"rebsync: knownrebec {k.path}")
+        (f"{cpp_type(Type(k.type))} {c.names.members[k.name]};", f"rebsync: knownrebec {k.path}")
         for k in c.node.known
     ]
     lines += [

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from rebsync.forward.cpp_class import CppClass, Piece, braced
 from rebsync.forward.cpp_messages import own_subscriptions, sends, server_constants, shims
-from rebsync.forward.cpp_types import parameter_type
+from rebsync.forward.cpp_types import class_type, is_text, parameter_type
 from rebsync.forward.cpp_warnings import silenced
 from rebsync.forward.cpp_wiring import members, ros_members, seen_functions, state_lines
 from rebsync.forward.lineage import base_of, shared_interfaces
 from rebsync.forward.ros1_constructors import constructor_declarations, constructor_definitions
 from rebsync.forward.templating import fill
-from rebsync.model import Cast, walk
+from rebsync.model import Cast, Declaration, Parameter, walk
 from rebsync.package import NodeClass
 from rebsync.printing import print_line
 
@@ -37,6 +37,7 @@ def header(c: CppClass, model_name: str) -> str:
             *(f"annotation {print_line(a).strip()}" for a in node.annotations),
             f"{'interface' if node.interface else 'reactiveclass'} {node.name}",
         ],
+        rebecs=_rebec_types(c),
         bases=f" : {bases}" if bases else "",
         polymorphic=polymorphic,
         owns_mailbox=c.owns_mailbox,
@@ -107,18 +108,28 @@ def source(c: CppClass) -> str:
         includes=sorted(includes),
         servers=server_constants(c),
         definitions=definitions,
-        cast_to=_cast_to(c),
+        declared=_declared_types(c),
         silenced=silenced(c.statements.expressions.analysis.classes[c.node.name].declaration),
     )
 
 
-def _cast_to(c: CppClass) -> list[str]:
-    """The other classes that a cast of a rebec names."""
-    expressions = c.statements.expressions
-    declaration = expressions.analysis.classes[c.node.name].declaration
-    names = {n.type.name for n in walk(declaration) if isinstance(n, Cast)}
-    types = expressions.class_types
-    return sorted(types[n] for n in names if n in types and n != c.node.name)
+def _rebec_types(c: CppClass) -> list[str]:
+    """The other classes whose rebecs the header names."""
+    declaration = c.statements.expressions.analysis.classes[c.node.name].declaration
+    types = [n.type for n in walk(declaration) if isinstance(n, Parameter)]
+    types += [p.type for q in c.node.publishers for p in q.parameters]
+    types += [p.type for s in c.node.self_sends for p in s.parameters]
+    types += [s.type for s in c.node.members]
+    names = {t.name for t in types if is_text(t)} | {k.type for k in c.node.known}
+    return sorted(class_type(n) for n in names - {c.node.name})
+
+
+def _declared_types(c: CppClass) -> list[str]:
+    """The other classes that only the source names, as those of locals or of casts."""
+    declaration = c.statements.expressions.analysis.classes[c.node.name].declaration
+    types = [n.type for n in walk(declaration) if isinstance(n, Cast | Declaration)]
+    names = {class_type(t.name) for t in types if is_text(t)} - {class_type(c.node.name)}
+    return sorted(names - set(_rebec_types(c)))
 
 
 def _publish_state(c: CppClass) -> list[str]:

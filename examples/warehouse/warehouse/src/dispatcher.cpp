@@ -4,8 +4,6 @@
 
 namespace warehouse {
 
-class Carrier;
-
 namespace {
 
 constexpr Server kLeft{"left", 1};
@@ -55,7 +53,7 @@ void Dispatcher::left(int32_t cell) {
   mailbox_.assertion(holder_.at(cell) != 0, "a carrier leaves a cell that it does not hold");
   holder_.at(cell) = 0;
   if (wanted_.at(cell)) {
-    std::string carrier = carrierOf(holder_.at((cell + 7) % 8));
+    Rebec<Carrier> carrier = carrierOf(holder_.at((cell + 7) % 8));
     wanted_.at(cell) = false;
     lend(carrier, cell, holder_.at((cell + 7) % 8));
   }
@@ -76,7 +74,7 @@ void Dispatcher::enter(int32_t id, int32_t cell) {
 // rebsync: msgsrv Dispatcher.ready
 // rebsync: annotation @priority(3)
 void Dispatcher::ready(int32_t cell) {
-  std::string carrier = as<Carrier>(mailbox_.sender());
+  Rebec<Carrier> carrier = as<Carrier>(mailbox_.sender());
   if (cell < 4) {
     sendPickerServe(carrier, cell, deadline(patience_));
   } else {
@@ -85,13 +83,13 @@ void Dispatcher::ready(int32_t cell) {
 }
 
 // rebsync: method Dispatcher.lend
-void Dispatcher::lend(std::string carrier, int32_t cell, int32_t id) {
+void Dispatcher::lend(Rebec<Carrier> carrier, int32_t cell, int32_t id) {
   holder_.at(cell) = id;
   sendCarrierGoTo(carrier);
 }
 
 // rebsync: method Dispatcher.carrierOf
-std::string Dispatcher::carrierOf(int32_t id) {
+Rebec<Carrier> Dispatcher::carrierOf(int32_t id) {
   switch (id) {
     case 1: {
       return carrier1_;
@@ -124,7 +122,7 @@ void Dispatcher::receiveReady(const DispatcherReady::ConstPtr& msg) {
 }
 
 // rebsync: send Dispatcher.picker.serve
-void Dispatcher::sendPickerServe(const std::string& carrier, int32_t place, const When& when_) {
+void Dispatcher::sendPickerServe(const Rebec<Carrier>& carrier, int32_t place, const When& when_) {
   LifterServe msg_;
   msg_.carrier = carrier;
   msg_.place = place;
@@ -132,7 +130,7 @@ void Dispatcher::sendPickerServe(const std::string& carrier, int32_t place, cons
 }
 
 // rebsync: send Dispatcher.packer.serve
-void Dispatcher::sendPackerServe(const std::string& carrier, int32_t place, const When& when_) {
+void Dispatcher::sendPackerServe(const Rebec<Carrier>& carrier, int32_t place, const When& when_) {
   LifterServe msg_;
   msg_.carrier = carrier;
   msg_.place = place;

@@ -18,6 +18,9 @@
 
 namespace running_example {
 
+class R1;
+class R2;
+
 // rebsync: annotation @Controller
 // rebsync: reactiveclass C
 class C {
@@ -52,8 +55,8 @@ class C {
   std::array<int32_t, 2> pos1_{};  // rebsync: statevar C.pos1
   std::array<int32_t, 2> pos2_{};  // rebsync: statevar C.pos2
   int32_t moving_{};               // rebsync: statevar C.moving
-  std::string robot1_;             // rebsync: knownrebec C.robot1
-  std::string robot2_;             // rebsync: knownrebec C.robot2
+  Rebec<R1> robot1_;               // rebsync: knownrebec C.robot1
+  Rebec<R2> robot2_;               // rebsync: knownrebec C.robot2
   int32_t ec1_{};                  // rebsync: env ec1
   int32_t ec2_{};                  // rebsync: env ec2
   int32_t ec3_{};                  // rebsync: env ec3

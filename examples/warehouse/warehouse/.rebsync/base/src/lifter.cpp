@@ -39,7 +39,7 @@ void Lifter::construct(int32_t start) {
 // Goes to the bay at `place` and lifts the box of the carrier that stands there.
 // rebsync: msgsrv Lifter.serve
 // rebsync: annotation @Port
-void Lifter::serve(std::string carrier, int32_t place) {
+void Lifter::serve(Rebec<Carrier> carrier, int32_t place) {
   if (x_ < place) {
     drive_.move(1, 0);
     mailbox_.delay(drive_time_);

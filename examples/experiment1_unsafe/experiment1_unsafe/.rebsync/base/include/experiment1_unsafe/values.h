@@ -28,6 +28,10 @@ struct Server {
   int priority;
 };
 
+/// A rebec of a class, by the name of its node.
+template <class Class>
+using Rebec = std::string;
+
 /// A rule of the model that a body breaks: it is reported and the body is abandoned.
 class Violation : public std::runtime_error {
  public:

@@ -16,6 +16,9 @@
 
 namespace experiment2 {
 
+class R1;
+class R2;
+
 // rebsync: annotation @Controller
 // rebsync: reactiveclass ControlNode
 class ControlNode {
@@ -45,8 +48,8 @@ class ControlNode {
   std::array<int32_t, 2> pos_r2_{};   // rebsync: statevar ControlNode.pos_r2
   std::array<int32_t, 2> next_r1_{};  // rebsync: statevar ControlNode.next_r1
   std::array<int32_t, 2> next_r2_{};  // rebsync: statevar ControlNode.next_r2
-  std::string robot1_;                // rebsync: knownrebec ControlNode.robot1
-  std::string robot2_;                // rebsync: knownrebec ControlNode.robot2
+  Rebec<R1> robot1_;                  // rebsync: knownrebec ControlNode.robot1
+  Rebec<R2> robot2_;                  // rebsync: knownrebec ControlNode.robot2
   int32_t ec1_{};                     // rebsync: env ec1
   int32_t r1_goalX_{};                // rebsync: env r1_goalX
   int32_t r1_goalY_{};                // rebsync: env r1_goalY

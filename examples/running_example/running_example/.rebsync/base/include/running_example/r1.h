@@ -22,6 +22,8 @@
 
 namespace running_example {
 
+class C;
+
 // rebsync: annotation @Robot
 // rebsync: reactiveclass R1
 class R1 {
@@ -58,7 +60,7 @@ class R1 {
   bool stopped_{};                // rebsync: statevar R1.stopped
   std::array<int32_t, 2> pos_{};  // rebsync: statevar R1.pos
   int32_t data_{};                // rebsync: statevar R1.data
-  std::string controller_;        // rebsync: knownrebec R1.controller
+  Rebec<C> controller_;           // rebsync: knownrebec R1.controller
   int32_t e11_{};                 // rebsync: env e11
   int32_t sr11_{};                // rebsync: env sr11
 

@@ -22,6 +22,8 @@
 
 namespace running_example {
 
+class C;
+
 // rebsync: annotation @Robot
 // rebsync: reactiveclass R2
 class R2 {
@@ -58,7 +60,7 @@ class R2 {
   bool stopped_{};                // rebsync: statevar R2.stopped
   std::array<int32_t, 2> pos_{};  // rebsync: statevar R2.pos
   int32_t data_{};                // rebsync: statevar R2.data
-  std::string controller_;        // rebsync: knownrebec R2.controller
+  Rebec<C> controller_;           // rebsync: knownrebec R2.controller
   int32_t e21_{};                 // rebsync: env e21
   int32_t sr21_{};                // rebsync: env sr21
 

@@ -20,6 +20,8 @@
 
 namespace warehouse {
 
+class Dispatcher;
+
 // rebsync: annotation @Robot
 // rebsync: reactiveclass Carrier
 class Carrier {
@@ -54,12 +56,12 @@ class Carrier {
   Mailbox mailbox_;
   Drive drive_;
 
-  int32_t id_{};            // rebsync: statevar Carrier.id
-  int32_t cell_{};          // rebsync: statevar Carrier.cell
-  int32_t bay_{};           // rebsync: statevar Carrier.bay
-  bool loaded_{};           // rebsync: statevar Carrier.loaded
-  std::string dispatcher_;  // rebsync: knownrebec Carrier.dispatcher
-  int32_t drive_time_{};    // rebsync: env drive_time
+  int32_t id_{};                  // rebsync: statevar Carrier.id
+  int32_t cell_{};                // rebsync: statevar Carrier.cell
+  int32_t bay_{};                 // rebsync: statevar Carrier.bay
+  bool loaded_{};                 // rebsync: statevar Carrier.loaded
+  Rebec<Dispatcher> dispatcher_;  // rebsync: knownrebec Carrier.dispatcher
+  int32_t drive_time_{};          // rebsync: env drive_time
 
   ros::Publisher dispatcher_enter_pub_;
   ros::Publisher dispatcher_left_pub_;

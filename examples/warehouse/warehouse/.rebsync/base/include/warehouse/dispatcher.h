@@ -18,6 +18,9 @@
 
 namespace warehouse {
 
+class Carrier;
+class Lifter;
+
 // rebsync: annotation @Controller
 // rebsync: reactiveclass Dispatcher
 class Dispatcher {
@@ -34,15 +37,15 @@ class Dispatcher {
   void enter(int32_t id, int32_t cell);
   void ready(int32_t cell);
 
-  void lend(std::string carrier, int32_t cell, int32_t id);
-  std::string carrierOf(int32_t id);
+  void lend(Rebec<Carrier> carrier, int32_t cell, int32_t id);
+  Rebec<Carrier> carrierOf(int32_t id);
 
   void receiveLeft(const DispatcherLeft::ConstPtr& msg);
   void receiveEnter(const DispatcherEnter::ConstPtr& msg);
   void receiveReady(const DispatcherReady::ConstPtr& msg);
 
-  void sendPickerServe(const std::string& carrier, int32_t place, const When& when_ = When());
-  void sendPackerServe(const std::string& carrier, int32_t place, const When& when_ = When());
+  void sendPickerServe(const Rebec<Carrier>& carrier, int32_t place, const When& when_ = When());
+  void sendPackerServe(const Rebec<Carrier>& carrier, int32_t place, const When& when_ = When());
   void sendCarrierGoTo(const std::string& to_, const When& when_ = When());
 
   void publishState(const Served& served);
@@ -51,12 +54,12 @@ class Dispatcher {
 
   std::array<int32_t, 8> holder_{};  // rebsync: statevar Dispatcher.holder
   std::array<bool, 8> wanted_{};     // rebsync: statevar Dispatcher.wanted
-  std::string carrier1_;             // rebsync: knownrebec Dispatcher.carrier1
-  std::string carrier2_;             // rebsync: knownrebec Dispatcher.carrier2
-  std::string carrier3_;             // rebsync: knownrebec Dispatcher.carrier3
-  std::string carrier4_;             // rebsync: knownrebec Dispatcher.carrier4
-  std::string picker_;               // rebsync: knownrebec Dispatcher.picker
-  std::string packer_;               // rebsync: knownrebec Dispatcher.packer
+  Rebec<Carrier> carrier1_;          // rebsync: knownrebec Dispatcher.carrier1
+  Rebec<Carrier> carrier2_;          // rebsync: knownrebec Dispatcher.carrier2
+  Rebec<Carrier> carrier3_;          // rebsync: knownrebec Dispatcher.carrier3
+  Rebec<Carrier> carrier4_;          // rebsync: knownrebec Dispatcher.carrier4
+  Rebec<Lifter> picker_;             // rebsync: knownrebec Dispatcher.picker
+  Rebec<Lifter> packer_;             // rebsync: knownrebec Dispatcher.packer
   int32_t patience_{};               // rebsync: env patience
 
   ros::Publisher picker_serve_pub_;

@@ -18,6 +18,9 @@
 
 namespace warehouse {
 
+class Carrier;
+class Dispatcher;
+
 // rebsync: annotation @Robot
 // rebsync: reactiveclass Lifter
 class Lifter {
@@ -29,7 +32,7 @@ class Lifter {
  private:
   void construct(int32_t start);
 
-  void serve(std::string carrier, int32_t place);
+  void serve(Rebec<Carrier> carrier, int32_t place);
   void weigh();
 
   void receiveServe(const LifterServe::ConstPtr& msg);
@@ -43,12 +46,12 @@ class Lifter {
   Mailbox mailbox_;
   Drive drive_;
 
-  int32_t x_{};             // rebsync: statevar Lifter.x
-  bool heavy_{};            // rebsync: statevar Lifter.heavy
-  std::string dispatcher_;  // rebsync: knownrebec Lifter.dispatcher
-  int32_t drive_time_{};    // rebsync: env drive_time
-  int32_t lift_time_{};     // rebsync: env lift_time
-  int32_t weigh_rate_{};    // rebsync: env weigh_rate
+  int32_t x_{};                   // rebsync: statevar Lifter.x
+  bool heavy_{};                  // rebsync: statevar Lifter.heavy
+  Rebec<Dispatcher> dispatcher_;  // rebsync: knownrebec Lifter.dispatcher
+  int32_t drive_time_{};          // rebsync: env drive_time
+  int32_t lift_time_{};           // rebsync: env lift_time
+  int32_t weigh_rate_{};          // rebsync: env weigh_rate
 
   Sensor<LifterWeighData> weigh_sensor_;
   Publishers Carrier_served_pubs_;
