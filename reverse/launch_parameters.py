@@ -1,93 +1,89 @@
-"""The tags `<param>` and `<rosparam>` of launch files: which parameters they set to what."""
+"""The tags `<param>` and `<rosparam>` of launch files: which parameters they set to what.
+
+Names are as they are written: relative to the scope or node that the tag stands in, `/` or `~` in
+front for others.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from rebsync.reverse.graph_names import canonical, join
 from rebsync.reverse.launch_scope import Scope
 from rebsync.reverse.launch_values import stored
 from rebsync.reverse.parameters import Parameter, Parameters, read_parameters
-from rebsync.reverse.unknowns import Open, Text, Unknown
+from rebsync.reverse.unknowns import Open, Text
 from rebsync.reverse.xml_tree import Element
-from rebsync.source import Source, Span
+from rebsync.source import Span
 
-_SOURCES = ("value", "textfile", "binfile", "command")
-
-
-@dataclass(frozen=True, slots=True)
-class Setting:
-    """What one tag sets: parameters by names as they are written, relative to their scope."""
-
-    parameters: tuple[Parameter, ...] = ()
-    unknowns: tuple[Unknown, ...] = ()
-    sources: tuple[Source, ...] = ()
+_CONTENTS = ("value", "textfile", "binfile", "command")
+_PARAM = frozenset({"name", "type", *_CONTENTS})
+_ROSPARAM = frozenset({"command", "file", "ns", "param", "subst_value"})
 
 
-def resolved(element: Element, attribute: str, scope: Scope) -> Text | None:
-    """The value of an attribute with its `$(...)` replaced; None where there is none."""
-    value = element.get(attribute)
-    return None if value is None else scope.substitution().of(value)
-
-
-def _unknown(what: str, why: str, scope: Scope, span: Span) -> Setting:
-    return Setting(unknowns=(Unknown(what, why, scope.source, span),))
+def settings(element: Element, scope: Scope) -> tuple[Parameter, ...]:
+    """What a `<param>` or `<rosparam>` sets; open where its condition is."""
+    param = element.name.lower() == "param"
+    scope.check(element, _PARAM if param else _ROSPARAM)
+    condition = scope.condition(element)
+    if condition is False:
+        return ()
+    found = _param(element, scope) if param else _rosparam(element, scope)
+    if condition is True:
+        return found
+    unsure = Open(f"it is set only `{condition[0]}`")
+    return tuple(replace(parameter, value=unsure) for parameter in found)
 
 
 # --- <param> --------------------------------------------------------------------------------------
 
 
-def param(element: Element, scope: Scope) -> Setting:
-    """What a `<param>` sets."""
-    given = [a for a in _SOURCES if a in element.attributes]
-    written = element.get("name")
-    if len(given) != 1 or written is None:
-        why = "it needs a name" if written is None else f"it needs one of {', '.join(_SOURCES)}"
-        return _unknown("a <param>", why, scope, element.span)
-    name = scope.substitution().of(written.strip())
-    if isinstance(name, Open) or not name:
-        why = name.why if isinstance(name, Open) else "it is empty"
-        return _unknown("the name of a parameter", why, scope, element.place_of("name"))
+def _param(element: Element, scope: Scope) -> tuple[Parameter, ...]:
+    given = [a for a in _CONTENTS if a in element.attributes]
+    name = scope.needed(element, "name")
+    if name is None:
+        return ()
+    name = canonical(name.strip())
+    what = f"the parameter `{name}`"
+    if len(given) != 1 or not name:
+        why = f"it needs one of {', '.join(_CONTENTS)}" if name else "its name is empty"
+        scope.unknown(what, why, element.span)
+        return ()
     kind = (element.get("type") or "auto").lower().strip()
-    text, sources = _content(element, given[0], scope)
-    if kind == "yaml" and not isinstance(text, Open):
-        return _yaml(name, text, sources, element.place_of(given[0]), scope)
-    value = text if isinstance(text, Open) else stored(text, kind)
     place = element.place_of(given[0])
-    entry = Parameter(canonical(name), value, scope.source, place)
-    unknowns = (
-        (Unknown(f"the parameter `{name}`", value.why, scope.source, place),)
-        if isinstance(value, Open)
-        else ()
-    )
-    return Setting((entry,), unknowns, sources)
+    text = _content(element, given[0], scope)
+    if kind == "yaml" and isinstance(text, str) and text.strip():
+        return _named(name, _read(read_parameters(scope.source, text, lambda _: place), scope))
+    value = text if isinstance(text, Open) else stored(text, kind)
+    if isinstance(value, Open):
+        scope.unknown(what, value.why, place)
+    return (Parameter(name, value, scope.source, place),)
 
 
-def _content(element: Element, kind: str, scope: Scope) -> tuple[Text, tuple[Source, ...]]:
-    given = resolved(element, kind, scope)
+def _content(element: Element, kind: str, scope: Scope) -> Text:
+    given = scope.text(element, kind)
     if given is None or isinstance(given, Open):
-        return given or Open("it has no value"), ()
+        return given or Open("it has no value")
     match kind:
         case "value":
-            return given.strip(), ()
+            return given.strip()
         case "textfile":
-            file = scope.surroundings.load(given)
-            if file is None:
-                return Open(f"the file `{given}` is not at hand"), ()
-            return file.text, (file,)
+            file = scope.reading.load(given)
+            return Open(f"the file `{given}` is not at hand") if file is None else file.text
         case "binfile":
-            return Open("the content of a binary file is not read"), ()
+            return Open("the content of a binary file is not read")
         case _:
-            return Open("the output of a command is known only when it runs"), ()
+            return Open("the output of a command is known only when it runs")
 
 
-def _yaml(name: str, text: str, sources: tuple[Source, ...], place: Span, scope: Scope) -> Setting:
-    read = read_parameters(scope.source, text, lambda _: place)
-    if not text.strip():
-        return _unknown(f"the parameter `{name}`", "its YAML is empty", scope, place)
-    entries = tuple(replace(e, name=_below(name, e.name)) for e in read.entries)
-    return Setting(entries, read.unknowns, sources)
+def _read(read: Parameters, scope: Scope) -> tuple[Parameter, ...]:
+    scope.reading.unknowns.extend(read.unknowns)
+    return read.entries
+
+
+def _named(name: str, entries: tuple[Parameter, ...]) -> tuple[Parameter, ...]:
+    return tuple(replace(entry, name=_below(name, entry.name)) for entry in entries)
 
 
 def _below(name: str, inner: str) -> str:
@@ -98,71 +94,61 @@ def _below(name: str, inner: str) -> str:
 # --- <rosparam> -----------------------------------------------------------------------------------
 
 
-def rosparam(element: Element, scope: Scope) -> Setting:
-    """What a `<rosparam>` sets; `dump` and `delete` act before parameters are set."""
-    command = resolved(element, "command", scope)
+def _rosparam(element: Element, scope: Scope) -> tuple[Parameter, ...]:
+    """`dump` and `delete` set nothing: they act before roslaunch sets any parameter."""
+    command = scope.text(element, "command") or "load"
     if command in ("dump", "delete"):
-        return Setting()
-    if isinstance(command, Open) or command not in (None, "", "load"):
+        return ()
+    name = join(scope.text(element, "ns") or "", scope.text(element, "param") or "")
+    if isinstance(command, Open) or command != "load":
         why = command.why if isinstance(command, Open) else f"roslaunch has no `{command}`"
-        return _unknown("a <rosparam>", why, scope, element.place_of("command"))
-    namespace, name = (resolved(element, a, scope) or "" for a in ("ns", "param"))
-    full = join(namespace, name)
-    if isinstance(full, Open):
-        return _unknown("the name of a <rosparam>", full.why, scope, element.span)
+        scope.unknown("a <rosparam>", why, element.place_of("command"))
+        return ()
+    if isinstance(name, Open) or name.startswith("~"):
+        why = name.why if isinstance(name, Open) else "`~` stands for roslaunch itself here"
+        scope.unknown("the name of a <rosparam>", why, element.span)
+        return ()
     read = _rosparam_content(element, scope)
     if isinstance(read, Open):
-        return _unknown(_content_of(full), read.why, scope, element.place_of("file"))
-    return _named(full, read[0], read[1], element, scope)
+        what = f"the parameter `{name}`" if name else "the parameters of a <rosparam>"
+        scope.unknown(what, read.why, element.place_of("file"))
+        return ()
+    entries = _read(read, scope)
+    if not name and any(not entry.name for entry in entries):
+        why = "a value that is no mapping needs the attribute `param`"
+        scope.unknown("a <rosparam>", why, element.span)
+        return ()
+    return _named(name, entries) if name else entries
 
 
-def _content_of(name: str) -> str:
-    return f"the parameter `{name}`" if name else "the parameters of a <rosparam>"
-
-
-def _rosparam_content(
-    element: Element, scope: Scope
-) -> tuple[Parameters, tuple[Source, ...]] | Open:
-    path = resolved(element, "file", scope)
+def _rosparam_content(element: Element, scope: Scope) -> Parameters | Open:
+    path = scope.text(element, "file")
     if isinstance(path, Open):
         return path
-    file = scope.surroundings.load(path) if path else None
+    file = scope.reading.load(path) if path else None
     if path and file is None:
         return Open(f"the file `{path}` is not at hand")
-    substituted = _substituted(element, file.text if file else element.text, scope)
+    text = file.text if file else element.text
+    substituted = _substituted(element, text, scope)
     if isinstance(substituted, Open):
         return substituted
     place: Callable[[Span], Span]
     if file is not None:
-        place = _exact if substituted == file.text else lambda _: Span(0, 0)
-        return read_parameters(file, substituted, place), (file,)
-    place = element.place_in_text if substituted == element.text else lambda _: element.span
-    return read_parameters(scope.source, substituted, place), ()
-
-
-def _exact(span: Span) -> Span:
-    return span
+        place = (lambda span: span) if substituted == text else (lambda _: Span(0, 0))
+        return read_parameters(file, substituted, place)
+    place = element.place_in_text if substituted == text else (lambda _: element.span)
+    return read_parameters(scope.source, substituted, place)
 
 
 def _substituted(element: Element, text: str, scope: Scope) -> Text:
     """The text with `$(...)` replaced, where the tag asks for that."""
-    wanted = resolved(element, "subst_value", scope)
+    wanted = scope.text(element, "subst_value")
     if isinstance(wanted, Open):
         return wanted
     match (wanted or "false").lower():
         case "false":
             return text
         case "true":
-            return scope.substitution().of(text)
+            return scope.substituted(text)
         case _:
             return Open("`subst_value` is neither true nor false")
-
-
-def _named(
-    name: str, read: Parameters, sources: tuple[Source, ...], element: Element, scope: Scope
-) -> Setting:
-    if not name and any(not e.name for e in read.entries):
-        why = "a value that is no mapping needs the attribute `param`"
-        return _unknown("a <rosparam>", why, scope, element.span)
-    entries = tuple(replace(e, name=_below(name, e.name) if name else e.name) for e in read.entries)
-    return Setting(entries, read.unknowns, sources)

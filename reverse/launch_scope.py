@@ -7,15 +7,35 @@ those that are passed to it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from rebsync.reverse.graph_names import as_namespace, canonical, is_legal, join
-from rebsync.reverse.launch_values import Substitution, Surroundings
+from rebsync.reverse.launch_values import Substitution, Surroundings, truth
 from rebsync.reverse.launched import LaunchedRemap
 from rebsync.reverse.parameters import Parameter
-from rebsync.reverse.unknowns import Open, Text
-from rebsync.source import Source
+from rebsync.reverse.unknowns import Open, Text, Unknown
+from rebsync.reverse.xml_tree import Element
+from rebsync.source import Source, Span
+
+
+@dataclass(slots=True)
+class Reading:
+    """What the scopes of one reading share: the outside, and what has been found so far.
+
+    `taken` are the names made up for `$(anon)`.
+    """
+
+    surroundings: Surroundings
+    taken: set[str] = field(default_factory=set)
+    unknowns: list[Unknown] = field(default_factory=list)
+    sources: list[Source] = field(default_factory=list)
+
+    def load(self, path: str) -> Source | None:
+        """The text of a file, which then counts as read."""
+        source = self.surroundings.load(path)
+        if source is not None:
+            self.sources.append(source)
+        return source
 
 
 @dataclass(slots=True)
@@ -26,23 +46,54 @@ class Scope:
     around the scope that cannot be decided.
     """
 
-    surroundings: Surroundings
+    reading: Reading
     source: Source
-    taken: set[str]
     namespace: Text = "/"
     arguments: dict[str, Text] = field(default_factory=dict)
     anonymous: dict[str, str] = field(default_factory=dict)
     declared: set[str] = field(default_factory=set)
     passes_all: bool = False
     remaps: dict[str, LaunchedRemap] = field(default_factory=dict)
-    private: dict[str, tuple[Parameter, ...]] = field(default_factory=dict)
+    private: dict[str, Parameter] = field(default_factory=dict)
     only_if: tuple[str, ...] = ()
     depth: int = 0
 
-    def substitution(self) -> Substitution:
-        """What `$(...)` stands for here."""
-        return Substitution(
-            self.surroundings, self.source.path, self.arguments, self.anonymous, self.taken
+    def group(self, namespace: Text, condition: tuple[str, ...]) -> Scope:
+        """The scope of a `<group>`."""
+        return Scope(
+            self.reading,
+            self.source,
+            namespace,
+            dict(self.arguments),
+            dict(self.anonymous),
+            set(self.declared),
+            remaps=dict(self.remaps),
+            private=dict(self.private),
+            only_if=self.only_if + condition,
+            depth=self.depth + 1,
+        )
+
+    def included(
+        self,
+        source: Source,
+        namespace: Text,
+        arguments: dict[str, Text],
+        condition: tuple[str, ...],
+        *,
+        passes_all: bool,
+    ) -> Scope:
+        """The scope of a file that an `<include>` reads, with the arguments passed to it."""
+        return Scope(
+            self.reading,
+            source,
+            namespace,
+            {**self.arguments, **arguments} if passes_all else arguments,
+            passes_all=passes_all,
+            remaps=dict(self.remaps),
+            # roslaunch shares the ~ parameters with the included file unless there are none yet
+            private=self.private or {},
+            only_if=self.only_if + condition,
+            depth=self.depth + 1,
         )
 
     def below(self, namespace: Text | None) -> Text:
@@ -53,39 +104,6 @@ class Scope:
             return Open("roslaunch takes no empty `ns`")
         return as_namespace(join(self.namespace, namespace))
 
-    def group(self, namespace: Text, condition: str | None) -> Scope:
-        """The scope of a `<group>`."""
-        return Scope(
-            self.surroundings,
-            self.source,
-            self.taken,
-            namespace,
-            dict(self.arguments),
-            dict(self.anonymous),
-            set(self.declared),
-            remaps=dict(self.remaps),
-            private=dict(self.private),
-            only_if=self.only_if + ((condition,) if condition else ()),
-            depth=self.depth + 1,
-        )
-
-    def included(
-        self, source: Source, namespace: Text, arguments: dict[str, Text], condition: str | None
-    ) -> Scope:
-        """The scope of a file that an `<include>` reads."""
-        return Scope(
-            self.surroundings,
-            source,
-            self.taken,
-            namespace,
-            arguments,
-            remaps=dict(self.remaps),
-            # roslaunch shares the list of ~ parameters with the included file unless it is empty
-            private=self.private or {},
-            only_if=self.only_if + ((condition,) if condition else ()),
-            depth=self.depth + 1,
-        )
-
     def declare(self, name: str, value: Text | None, default: Text | None) -> str | None:
         """Takes an `<arg>` in; says why roslaunch would not."""
         if name in self.declared and not self.passes_all:
@@ -93,27 +111,82 @@ class Scope:
         self.declared.add(name)
         if value is not None:
             if name in self.arguments and not self.passes_all:
-                return "it has a fixed value, but is given another"
+                return "its value is fixed, but another is passed"
             self.arguments[name] = value
         elif default is not None:
             self.arguments.setdefault(name, default)
         return None
 
-    def remap(self, remap: LaunchedRemap) -> str | None:
-        """Takes a `<remap>` in; says why roslaunch would not."""
-        return add_remap(self.remaps, remap)
+    # --- the tags in it ---------------------------------------------------------------------------
 
+    def substituted(self, text: str) -> Text:
+        """The text with its `$(...)` replaced."""
+        return Substitution(
+            self.reading.surroundings,
+            self.source.path,
+            self.arguments,
+            self.anonymous,
+            self.reading.taken,
+        ).of(text)
 
-def add_remap(remaps: dict[str, LaunchedRemap], remap: LaunchedRemap) -> str | None:
-    """Puts a remapping last, in the place of one of the same name; says why it is not legal."""
-    for name in (remap.private, remap.target):
-        if not isinstance(name, Open) and (not name or not is_legal(canonical(name))):
-            return f"`{name}` is no name of ROS"
-    remaps.pop(remap.private, None)
-    remaps[remap.private] = remap
-    return None
+    def text(self, element: Element, attribute: str) -> Text | None:
+        """The value of an attribute with its `$(...)` replaced; None where there is none."""
+        value = element.get(attribute)
+        return None if value is None else self.substituted(value)
 
+    def needed(self, element: Element, attribute: str) -> str | None:
+        """The value of an attribute that has to be known; if it is not, that is noted."""
+        value = self.text(element, attribute)
+        if isinstance(value, str):
+            return value
+        why = value.why if value else "the attribute is missing"
+        self.unknown(f"the `{attribute}` of a <{element.name}>", why, element.place_of(attribute))
+        return None
 
-def passed(arguments: Mapping[str, Text], scope: Scope, *, passes_all: bool) -> dict[str, Text]:
-    """The arguments that an included file starts with."""
-    return {**(scope.arguments if passes_all else {}), **arguments}
+    def condition(self, element: Element) -> bool | tuple[str, ...]:
+        """Whether a tag counts by its `if` and `unless`; as a text where that is open."""
+        given = [a for a in ("if", "unless") if a in element.attributes]
+        if not given:
+            return True
+        attribute = given[0]
+        value = truth(self.text(element, attribute) or "")
+        if len(given) > 1:
+            value = Open("roslaunch takes no `if` together with `unless`")
+        if not isinstance(value, Open):
+            return value is (attribute == "if")
+        what = f"whether the <{element.name}> counts"
+        self.unknown(what, value.why, element.place_of(attribute))
+        return (f"{attribute} {element.get(attribute)}",)
+
+    def unknown(self, what: str, why: str, span: Span) -> None:
+        """Notes something that cannot be known or read."""
+        self.reading.unknowns.append(Unknown(what, why, self.source, span))
+
+    def check(self, element: Element, attributes: frozenset[str]) -> None:
+        """Notes the attributes that roslaunch does not know; it ignores them."""
+        for name, attribute in element.attributes.items():
+            if name not in attributes and name not in ("if", "unless"):
+                what = f"the attribute `{name}` of <{element.name}>"
+                self.unknown(what, "roslaunch does not know it", attribute.span)
+
+    def remap(self, element: Element, remaps: dict[str, LaunchedRemap]) -> None:
+        """Puts a `<remap>` last among these, in the place of one of the same name."""
+        self.check(element, frozenset({"from", "to"}))
+        condition = self.condition(element)
+        private = self.needed(element, "from") if condition else None
+        if private is None:
+            return
+        target = self.text(element, "to")
+        if target is None:
+            target = Open("the attribute `to` is missing")
+        if not isinstance(condition, bool):
+            target = Open(f"it is remapped only `{condition[0]}`")
+        names = [canonical(n) for n in (private, target) if isinstance(n, str)]
+        wrong = [n for n in names if not n or not is_legal(n)]
+        if isinstance(target, Open) or wrong:
+            why = target.why if isinstance(target, Open) else f"`{wrong[0]}` is no name of ROS"
+            self.unknown(f"the remapping of `{private}`", why, element.span)
+        if not wrong:
+            remaps.pop(names[0], None)
+            target = target if isinstance(target, Open) else names[1]
+            remaps[names[0]] = LaunchedRemap(names[0], target, self.source, element.span)

@@ -15,7 +15,7 @@ from xml.parsers import expat
 from rebsync.reverse.unknowns import Unknown
 from rebsync.source import Source, Span
 
-_DEEPEST = 100
+_DEEPEST = 60
 _TAG = re.compile(r"<(?:[^\"'>]|\"[^\"]*\"|'[^']*')*>")
 _ATTRIBUTE = re.compile(r"([^\s=/\"'<>]+)\s*=\s*(?:\"([^\"]*)\"|'([^']*)')")
 
