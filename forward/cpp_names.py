@@ -10,7 +10,13 @@ from rebsync.forward.topics import Signature, signature
 from rebsync.model import Parameter
 from rebsync.names import camel_case, carry, graph_name, unique
 from rebsync.package import NodeClass, Package, Publisher, Subscription
-from rebsync.reserved import OF_CONSTRUCTOR, RESERVED, RUNTIME_CONSTANTS, RUNTIME_MEMBERS
+from rebsync.reserved import (
+    OF_CONSTRUCTOR,
+    RESERVED,
+    RUNTIME_CONSTANTS,
+    RUNTIME_MEMBERS,
+    carry_local,
+)
 
 
 @dataclass(slots=True)
@@ -34,8 +40,7 @@ class CppNames:
 
     def local(self, name: str) -> str:
         """A local variable or parameter: the model's own name where it hides nothing."""
-        carried = carry(name, RESERVED | self.types | self.callable)
-        return f"{carried}_v" if carried.removesuffix("_v") + "_v" in self.callable else carried
+        return carry_local(name, RESERVED | self.types | self.callable, self.callable)
 
     def argument(self, name: str) -> str:
         """A parameter of the class's constructor."""

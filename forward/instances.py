@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from rebsync.forward.topics import Topics
-from rebsync.forward.values import converted
 from rebsync.model import Expression, Model, Name, Rebec, Type
 from rebsync.names import graph_name, node_name, unique
 from rebsync.package import Instance, NodeClass, NodeParameter, Publisher, Remap, StandIn, Value
 from rebsync.static import Analysis
 from rebsync.static.constants import constant
 from rebsync.static.symbols import EnvSymbol, RebecSymbol
+from rebsync.static.values import converted
 
 
 class Instances:

@@ -17,13 +17,12 @@ def _parameters(c: CppClass, constructor: ConstructorOf) -> list[str]:
     return ["const ros::NodeHandle& node", *own]
 
 
-def _wiring_parameters() -> list[str]:
-    return [
-        "const Inherited& inherited",
-        "const ros::NodeHandle& node",
-        "std::size_t queue_length",
-        "int best_priority",
-    ]
+def _wiring_parameters(queue_length: int | None = None) -> list[str]:
+    """An abstract class tells its queue length here, although every heir has its own."""
+    length, priority = "std::size_t queue_length", "int best_priority"
+    if queue_length is not None:
+        length, priority = f"{length} = {queue_length}", f"{priority} = kNoPriority"
+    return ["const Inherited& inherited", "const ros::NodeHandle& node", length, priority]
 
 
 def constructor_declarations(c: CppClass) -> list[str]:
@@ -35,7 +34,8 @@ def constructor_declarations(c: CppClass) -> list[str]:
             explicit = "explicit " if len(parameters) == 1 else ""
             lines += call_lines(f"{explicit}{c.type_name}", parameters, ";", "  ")
     if c.node.inherited_from or not c.node.executable:
-        lines += call_lines(c.type_name, _wiring_parameters(), ";", "  ")
+        length = None if c.node.executable else c.node.queue_length
+        lines += call_lines(c.type_name, _wiring_parameters(length), ";", "  ")
     return lines
 
 

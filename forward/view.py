@@ -10,7 +10,6 @@ from rebsync.forward.outgoing import Outgoing
 from rebsync.forward.sends import bodies
 from rebsync.forward.sensors import sensors_of
 from rebsync.forward.topics import Topics
-from rebsync.forward.values import env_value
 from rebsync.model import (
     Annotation,
     Constructor,
@@ -28,6 +27,7 @@ from rebsync.names import free_name, graph_name, node_name, snake_case
 from rebsync.reserved import RESERVED_GLOBALS, RUNTIME_CLASSES
 from rebsync.static import Analysis
 from rebsync.static.symbols import EnvSymbol
+from rebsync.static.values import env_value
 
 _FILES = ("", "_node", "_sensors", "_stand_in")
 

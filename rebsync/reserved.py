@@ -5,7 +5,9 @@ Writers carry the model's names past these (`rebsync.names.carry`), readers carr
 
 from __future__ import annotations
 
-from rebsync.names import CPP_KEYWORDS
+from collections.abc import Collection
+
+from rebsync.names import CPP_KEYWORDS, carry, uncarry
 
 RUNTIME_CLASSES = frozenset(
     {
@@ -51,3 +53,19 @@ RESERVED_GLOBALS = frozenset(
         "use_sim_time",
     }
 )
+
+
+def carry_local(name: str, reserved: Collection[str], functions: Collection[str]) -> str:
+    """A local variable or parameter: the model's own name where it hides nothing."""
+    carried = carry(name, reserved)
+    return f"{carried}_v" if f"{carried.removesuffix('_v')}_v" in functions else carried
+
+
+def uncarry_local(carried: str, reserved: Collection[str], functions: Collection[str]) -> str:
+    """The model's name behind one that `carry_local` made, or that somebody chose."""
+    name = uncarry(carried, reserved)
+    if carry_local(name, reserved, functions) != carried and carried.endswith("_v"):
+        shorter = uncarry(carried[:-2], reserved)
+        if carry_local(shorter, reserved, functions) == carried:
+            return shorter
+    return name

@@ -1,0 +1,30 @@
+"""Constant values as the literals of the model that stand for them."""
+
+from __future__ import annotations
+
+from rebsync import model as m
+from rebsync.package import Value
+
+
+def literal_of(value: Value) -> m.Expression:
+    """The shortest literal of a number or truth value; a text is the name of a rebec."""
+    match value:
+        case bool():
+            return m.BoolLiteral(value)
+        case int():
+            literal = m.IntLiteral(abs(value))
+            return literal if value >= 0 else m.Unary("-", literal)
+        case float():
+            number = m.FloatLiteral(repr(abs(value)))
+            return number if str(value)[0] != "-" else m.Unary("-", number)
+        case str():
+            return m.Name(value)
+        case tuple():
+            raise ValueError("arrays have no literal")
+
+
+def initial_of(value: Value) -> m.Initializer:
+    """The same for the initial value of a variable, which may be an array."""
+    if isinstance(value, tuple):
+        return m.ArrayInitializer(tuple(initial_of(v) for v in value))
+    return literal_of(value)

@@ -1,0 +1,219 @@
+"""The declarations of the C++ files of a package: classes, functions, constants.
+
+Header and source are read together: a function's body is looked for wherever it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+from tree_sitter import Node
+
+from rebsync.reverse.cpp_tree import Cpp, markers_above, markers_beside, named, part, text_of
+
+_CONTAINERS = frozenset(
+    {
+        *("translation_unit", "namespace_definition", "declaration_list", "ERROR"),
+        *("linkage_specification", "preproc_if", "preproc_ifdef", "preproc_else", "preproc_elif"),
+        *("preproc_elifdef", "template_declaration"),
+    }
+)
+
+
+@dataclass(frozen=True, slots=True)
+class CppParameter:
+    """A parameter; its name is empty where the code gives none."""
+
+    name: str
+    type: Node
+    node: Node
+
+
+@dataclass(frozen=True, slots=True)
+class CppFunction:
+    """A function, declared or defined; `owner` is the class it belongs to, or empty."""
+
+    name: str
+    owner: str
+    parameters: tuple[CppParameter, ...]
+    result: Node | None
+    body: Node | None
+    initialisers: Node | None
+    markers: tuple[str, ...]
+    cpp: Cpp
+    node: Node
+    pure: bool = False
+    overrides: bool = False
+
+    @property
+    def types(self) -> tuple[str, ...]:
+        """The parameters' types as text, which tells overloads apart."""
+        return tuple("".join(text_of(p.type).split()) for p in self.parameters)
+
+
+@dataclass(frozen=True, slots=True)
+class CppField:
+    """A member variable."""
+
+    name: str
+    type: Node
+    value: Node | None
+    markers: tuple[str, ...]
+    cpp: Cpp
+    node: Node
+
+
+@dataclass(frozen=True, slots=True)
+class CppClass:
+    """A class with a body; its functions are as declared in it, in their order."""
+
+    name: str
+    bases: tuple[str, ...]
+    fields: tuple[CppField, ...]
+    functions: tuple[CppFunction, ...]
+    markers: tuple[str, ...]
+    cpp: Cpp
+    node: Node
+
+
+@dataclass(slots=True)
+class Code:
+    """All declarations of some files."""
+
+    classes: dict[str, CppClass] = field(default_factory=dict)
+    definitions: dict[tuple[str, str], list[CppFunction]] = field(default_factory=dict)
+    constants: dict[tuple[str, str], tuple[Cpp, Node]] = field(default_factory=dict)
+
+    @staticmethod
+    def of(files: Iterable[Cpp]) -> Code:
+        """The declarations of these files."""
+        code = Code()
+        for cpp in files:
+            code._add(cpp, cpp.root)
+        return code
+
+    def lineage(self, name: str) -> list[CppClass]:
+        """A class and those it descends from, as far as they are known, nearest first."""
+        found: dict[str, CppClass] = {}
+        waiting = [name]
+        while waiting:
+            current = self.classes.get(waiting.pop(0))
+            if current is not None and current.name not in found:
+                found[current.name] = current
+                waiting += current.bases
+        return list(found.values())
+
+    def functions_of(self, owner: CppClass) -> Iterator[CppFunction]:
+        """The functions of a class, with their bodies where these are known."""
+        for declared in owner.functions:
+            yield self._defined(declared) or declared
+
+    def constant(self, cpp: Cpp, name: str) -> tuple[Cpp, Node] | None:
+        """The value of a constant of a file."""
+        return self.constants.get((cpp.source.path, name))
+
+    def _defined(self, declared: CppFunction) -> CppFunction | None:
+        if declared.body is not None:
+            return None
+        found = self.definitions.get((declared.owner, declared.name), [])
+        return next((f for f in found if f.types == declared.types), None)
+
+    # --- collecting -----------------------------------------------------------------------------
+
+    def _add(self, cpp: Cpp, node: Node) -> None:
+        for child in node.named_children:
+            if child.type in _CONTAINERS:
+                self._add(cpp, child)
+            elif child.type in ("class_specifier", "struct_specifier"):
+                self._add_class(cpp, child)
+            elif child.type == "function_definition":
+                if (function := function_of(cpp, child, "")) is not None:
+                    place = function.owner, function.name
+                    self.definitions.setdefault(place, []).append(function)
+            elif child.type == "declaration":
+                self._add_constants(cpp, child)
+
+    def _add_class(self, cpp: Cpp, node: Node) -> None:
+        name, body = node.child_by_field_name("name"), node.child_by_field_name("body")
+        if name is None or body is None:
+            return
+        fields: list[CppField] = []
+        functions: list[CppFunction] = []
+        for member in named(body):
+            function = function_of(cpp, member, text_of(name))
+            if function is not None:
+                functions.append(function)
+            elif member.type == "field_declaration":
+                fields += _fields(cpp, member)
+        bases = tuple(_bases(node))
+        read = CppClass(
+            text_of(name), bases, tuple(fields), tuple(functions), markers_above(node), cpp, node
+        )
+        self.classes.setdefault(read.name, read)
+
+    def _add_constants(self, cpp: Cpp, node: Node) -> None:
+        for declarator in node.children_by_field_name("declarator"):
+            if declarator.type == "init_declarator":
+                name, value = part(declarator, "declarator"), part(declarator, "value")
+                self.constants[cpp.source.path, text_of(name)] = cpp, value
+
+
+def function_of(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
+    """The function that a node declares or defines, if it is one; `owner` is the class around."""
+    if node.type not in ("function_definition", "field_declaration", "declaration"):
+        return None
+    declarator = node.child_by_field_name("declarator")
+    while declarator is not None and declarator.type in (
+        "reference_declarator",
+        "pointer_declarator",
+    ):
+        declarator = declarator.named_children[-1] if declarator.named_children else None
+    if declarator is None or declarator.type != "function_declarator":
+        return None
+    name = part(declarator, "declarator")
+    if name.type == "qualified_identifier":
+        owner, name = text_of(part(name, "scope")), part(name, "name")
+    value = node.child_by_field_name("default_value")
+    lists = [c for c in node.named_children if c.type == "field_initializer_list"]
+    return CppFunction(
+        text_of(name),
+        owner,
+        tuple(_parameters(part(declarator, "parameters"))),
+        node.child_by_field_name("type"),
+        node.child_by_field_name("body"),
+        lists[0] if lists else None,
+        markers_above(node),
+        cpp,
+        node,
+        pure=value is not None and text_of(value) == "0",
+        overrides=any(c.type == "virtual_specifier" for c in declarator.named_children),
+    )
+
+
+def _parameters(node: Node) -> Iterator[CppParameter]:
+    for parameter in named(node):
+        if parameter.type not in ("parameter_declaration", "optional_parameter_declaration"):
+            continue
+        name = parameter.child_by_field_name("declarator")
+        while name is not None and name.type in ("reference_declarator", "pointer_declarator"):
+            name = name.named_children[-1] if name.named_children else None
+        yield CppParameter(text_of(name) if name else "", part(parameter, "type"), parameter)
+
+
+def _fields(cpp: Cpp, node: Node) -> Iterator[CppField]:
+    declarators = node.children_by_field_name("declarator")
+    value = node.child_by_field_name("default_value")
+    for declarator in declarators:
+        if declarator.type == "field_identifier":
+            only = value if len(declarators) == 1 else None
+            markers = (*markers_above(node), *markers_beside(node))
+            yield CppField(text_of(declarator), part(node, "type"), only, markers, cpp, node)
+
+
+def _bases(node: Node) -> Iterator[str]:
+    for clause in node.named_children:
+        if clause.type == "base_class_clause":
+            for base in clause.named_children:
+                if base.type in ("type_identifier", "qualified_identifier"):
+                    yield text_of(base).rpartition("::")[2]

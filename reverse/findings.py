@@ -1,0 +1,55 @@
+"""What could not be read exactly: each with the place, the reason, and what to do about it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import Enum
+
+from rebsync.source import Source, Span
+
+
+class Grade(Enum):
+    """How much of a place of the code is in the model."""
+
+    APPROXIMATED = "over-approximated"
+    UNREADABLE = "unreadable"
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """A place that is not in the model exactly: `within` names the callback or function."""
+
+    grade: Grade
+    source: Source
+    span: Span
+    why: str
+    hint: str = ""
+    within: str = ""
+
+    @property
+    def text(self) -> str:
+        """The code at the place, on one line."""
+        return " ".join(self.source.slice(self.span).split())
+
+
+class Unread(Exception):
+    """A piece of code that has no meaning in the model; caught where a statement is read."""
+
+    def __init__(self, span: Span, why: str, hint: str = "") -> None:
+        super().__init__(why)
+        self.span = span
+        self.why = why
+        self.hint = hint
+
+
+@dataclass(slots=True)
+class Findings:
+    """Collects findings, and counts the statements that were read."""
+
+    all: list[Finding] = field(default_factory=list)
+    statements: int = 0
+
+    def unreadable(self, source: Source, unread: Unread, within: str) -> None:
+        """Lists a place that the model lacks."""
+        grade = Grade.UNREADABLE
+        self.all.append(Finding(grade, source, unread.span, unread.why, unread.hint, within))

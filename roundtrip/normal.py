@@ -1,0 +1,166 @@
+"""The normal form of a model: what a package can say of it (mapping, "What is not carried").
+
+Models with one normal form have one meaning. Folded are
+
+* the order of classes, and of the kinds of members within a class; sections and declarations of
+  several variables; which variable is declared beside which,
+* braces: the bodies of branches and loops have them, but for `else if`,
+* `env` variables and the arguments in `main`, which are constants: their values,
+* spellings of one number: `1_0.f` and `10.0f`, a negative literal and a minus before it,
+* in `@Move`, parentheses and `X + 0`.
+
+Comments and places take no part in the equality of models anyway.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import fields, replace
+from typing import TypeVar, cast
+
+from rebsync import model as m
+from rebsync.literals import initial_of, literal_of
+from rebsync.static import Analysis, analyse
+from rebsync.static.constants import constant
+from rebsync.static.symbols import EnvSymbol
+from rebsync.static.values import converted, env_value
+
+_Node = TypeVar("_Node")
+
+
+def normal(model: m.Model) -> m.Model:
+    """The normal form; the model must be free of errors."""
+    analysis = analyse(model)
+    heads = tuple(_heads(model, analysis))
+    classes = sorted((_class(c) for c in model.classes), key=lambda c: c.name)
+    main = _main(model, analysis) if model.main is not None else None
+    return m.Model(heads, tuple(classes), main)
+
+
+def rewrite(node: _Node, rule: Callable[[object], object]) -> _Node:
+    """A tree with `rule` applied to every node, to the innermost ones first."""
+    changed = {}
+    for each in fields(node):  # type: ignore[arg-type]
+        if not each.compare:
+            continue
+        value = getattr(node, each.name)
+        if isinstance(value, tuple):
+            changed[each.name] = tuple(
+                rewrite(v, rule) if hasattr(v, "__dataclass_fields__") else v for v in value
+            )
+        elif hasattr(value, "__dataclass_fields__"):
+            changed[each.name] = rewrite(value, rule)
+    return cast("_Node", rule(replace(node, **changed)))  # type: ignore[type-var]
+
+
+# --- constants ----------------------------------------------------------------------------------
+
+
+def _lookup(analysis: Analysis) -> Callable[[m.Name], int | float | bool | None]:
+    def value(name: m.Name) -> int | float | bool | None:
+        symbol = analysis.symbols.get(id(name))
+        return symbol.value if isinstance(symbol, EnvSymbol) else None
+
+    return value
+
+
+def _heads(model: m.Model, analysis: Analysis) -> Iterator[m.Head]:
+    for head in model.heads:
+        if not isinstance(head, m.Env):
+            yield head
+            continue
+        type_ = head.declaration.type
+        for declarator in head.declaration.declarators:
+            value = initial_of(env_value(declarator, type_, _lookup(analysis)))
+            one = m.Declarator(declarator.name, value)
+            yield m.Env(m.Declaration(type_, (one,), head.declaration.annotations))
+
+
+def _main(model: m.Model, analysis: Analysis) -> m.Main:
+    rebecs = model.main.rebecs if model.main is not None else ()
+    return m.Main(tuple(_rebec(r, analysis) for r in rebecs))
+
+
+def _rebec(rebec: m.Rebec, analysis: Analysis) -> m.Rebec:
+    constructor = analysis.constructor_of(rebec)
+    parameters = constructor.parameters if constructor is not None else ()
+    arguments = []
+    for argument, parameter in zip(rebec.arguments, parameters, strict=True):
+        value = constant(argument, _lookup(analysis))
+        if value is not None:
+            argument = literal_of(converted(value, parameter.type))
+        arguments.append(argument)
+    bindings = tuple(rewrite(b, _rule) for b in rebec.bindings)
+    return replace(rebec, bindings=bindings, arguments=tuple(arguments))
+
+
+# --- classes ------------------------------------------------------------------------------------
+
+
+def _class(declaration: m.ReactiveClass | m.Interface) -> m.ReactiveClass | m.Interface:
+    plain = rewrite(declaration, _rule)
+    if isinstance(plain, m.Interface):
+        return plain
+    known = [d for x in plain.members if isinstance(x, m.KnownRebecs) for d in _single(x)]
+    state = [d for x in plain.members if isinstance(x, m.StateVars) for d in _single(x)]
+    members: list[m.ClassMember] = [m.KnownRebecs(tuple(known))] if known else []
+    members += [m.StateVars(tuple(state))] if state else []
+    for kind in (m.Constructor, m.MessageServer, m.Method):
+        members += [x for x in plain.members if isinstance(x, kind)]
+    return replace(plain, members=tuple(members))
+
+
+def _single(section: m.KnownRebecs | m.StateVars) -> Iterator[m.Declaration]:
+    for declaration in section.declarations:
+        for declarator in declaration.declarators:
+            yield replace(declaration, declarators=(declarator,))
+
+
+# --- statements and expressions -----------------------------------------------------------------
+
+
+def _rule(node: object) -> object:
+    match node:
+        case m.If(then=then, otherwise=otherwise):
+            return replace(node, then=_braced(then), otherwise=_otherwise(otherwise))
+        case m.While(body=body) | m.For(body=body):
+            return replace(node, body=_braced(body))
+        case m.IntLiteral(value) if value < 0:
+            return m.Unary("-", m.IntLiteral(-value))
+        case m.FloatLiteral(text):
+            return m.FloatLiteral(_float(text))
+        case m.Annotation("Move", arguments) if arguments:
+            return replace(node, arguments=tuple(map(_cell, arguments)))
+        case _:
+            return node
+
+
+def _braced(body: m.Statement) -> m.Block:
+    if isinstance(body, m.Block) and not body.annotations:
+        return body
+    return m.Block((body,))
+
+
+def _otherwise(otherwise: m.Statement | None) -> m.Statement | None:
+    if otherwise is None or (isinstance(otherwise, m.If) and not otherwise.annotations):
+        return otherwise
+    return _braced(otherwise)
+
+
+def _float(text: str) -> str:
+    digits, suffix = text.replace("_", ""), ""
+    if digits[-1] in "fFdD":
+        digits, suffix = digits[:-1], digits[-1].lower()
+    return digits + (".0" if suffix and not any(c in digits for c in ".eE") else "") + suffix
+
+
+def _cell(argument: m.Expression) -> m.Expression:
+    match argument:
+        case m.Paren(inner):
+            return _cell(inner)
+        case m.Binary("+" | "-", m.Name() as axis, m.IntLiteral(0)):
+            return axis
+        case m.Binary(operator, left, right):
+            return m.Binary(operator, _cell(left), _cell(right))
+        case _:
+            return argument
