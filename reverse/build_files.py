@@ -1,0 +1,79 @@
+"""CMakeLists.txt: which source files make which executable, and which messages a package has.
+
+Only what decides that is carried out: variables, lists, targets and their names, subdirectories,
+loops over known lists. No condition is decided, except constants: what is in its branches counts
+under that condition, and variables set there are open afterwards.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rebsync.reverse.unknowns import Open, Text, Unknown
+from rebsync.source import Source, Span
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """An executable or library.
+
+    `file` is the name of the program that it makes (`OUTPUT_NAME`), by which `rosrun` and launch
+    files call it. `sources` are relative to the package; `missing` says which others there are
+    that cannot be known. `links` are the names of the targets that it is linked with, in the
+    package or outside. `only_if` are the conditions around it.
+    """
+
+    name: str
+    executable: bool
+    file: Text
+    sources: tuple[str, ...]
+    missing: tuple[Open, ...]
+    links: tuple[str, ...]
+    only_if: tuple[str, ...]
+    source: Source
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class BuildFiles:
+    """What the CMake files of a package say.
+
+    `messages`, `services` and `actions` are paths relative to the package, as are `programs`:
+    scripts that are installed.
+    """
+
+    project: str | None
+    targets: tuple[Target, ...]
+    messages: tuple[str, ...]
+    services: tuple[str, ...]
+    actions: tuple[str, ...]
+    programs: tuple[str, ...]
+    unknowns: tuple[Unknown, ...]
+    sources: tuple[Source, ...]
+
+    def executable(self, file: str) -> Target | None:
+        """The target that makes the program of this name."""
+        return next((t for t in self.targets if t.executable and t.file == file), None)
+
+    def target(self, name: str) -> Target | None:
+        """The target of this name in CMake."""
+        return next((t for t in self.targets if t.name == name), None)
+
+    def sources_of(self, target: Target) -> tuple[str, ...]:
+        """The sources of a target and of all targets of the package that it is linked with."""
+        return tuple(dict.fromkeys(s for t in self._linked(target) for s in t.sources))
+
+    def missing_of(self, target: Target) -> tuple[Open, ...]:
+        """Why `sources_of` is not all, if it is not."""
+        return tuple(dict.fromkeys(m for t in self._linked(target) for m in t.missing))
+
+    def _linked(self, target: Target) -> tuple[Target, ...]:
+        found = {target.name: target}
+        waiting = [target]
+        while waiting:
+            for name in waiting.pop().links:
+                linked = self.target(name)
+                if linked is not None and name not in found:
+                    found[name] = linked
+                    waiting.append(linked)
+        return tuple(found.values())
