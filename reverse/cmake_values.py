@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from rebsync.reverse.cmake_text import Argument, Quote
 from rebsync.reverse.unknowns import Open, Text
 
-ROOT = "<package>"
+ROOT = "/<package>"
 _LONGEST = 1 << 16
 _MOST_WORDS = 10_000
 _REFERENCE = re.compile(r"\$(ENV|CACHE)?\{([^${}]*)\}")

@@ -107,7 +107,8 @@ def read_xml(source: Source) -> Element | Unknown:
         builder.parser.Parse(source.text.encode("utf-8", "surrogatepass"), True)
     except expat.ExpatError as error:
         why = expat.ErrorString(error.code) or "no XML"
-        start = builder.offset(builder.parser.ErrorByteIndex)
+        # an empty text has its mistake before the beginning
+        start = builder.offset(max(builder.parser.ErrorByteIndex, 0))
     except _Refused as refused:
         why, start = str(refused), builder.here()
     else:
