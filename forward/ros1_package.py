@@ -171,9 +171,15 @@ def yaml_name(name: str) -> str:
 
 def parameters(package: Package) -> str:
     """config/params.yaml."""
+    used = {e.name for c in package.classes for e in c.env}
+    # No class tells the type of what it does not read.
+    types = {e.name: f"  # rebsync: env {e.type} {e.name}" for e in package.env}
     return fill(
         "ros1_cpp/params.yaml.j2",
-        env=[(yaml_name(e.key), yaml_value(e.value)) for e in package.env],
+        env=[
+            (yaml_name(e.key), yaml_value(e.value) + ("" if e.name in used else types[e.name]))
+            for e in package.env
+        ],
         settings=package.settings,
         moves=any(c.moves for c in package.classes),
     )

@@ -40,7 +40,7 @@ _MESSAGE_METHODS = frozenset(
     {"serialize", "serialize_numpy", "deserialize", "deserialize_numpy"}  # of Python's messages
 )
 # Nodes and parameters of ROS itself and of the run-time part.
-_TAKEN_NODES = frozenset(
+TAKEN_NODES = frozenset(
     {
         *("control_bridge", "drive", "mailbox", "master", "rosdistro", "roslaunch", "rosout"),
         *("rosversion", "run_id", "use_sim_time"),
@@ -113,7 +113,7 @@ def free_name(name: str, taken: Collection[str]) -> str:
 
 def node_name(rebec: str) -> str:
     """The name of a rebec's node."""
-    return free_name(rebec, _TAKEN_NODES)
+    return free_name(rebec, TAKEN_NODES)
 
 
 def snake_case(name: str) -> str:

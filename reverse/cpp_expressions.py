@@ -278,16 +278,24 @@ class CppExpressions:
 
     def _in_order(self, function: Node) -> m.Expression:
         """`[&] { const auto op1_ = a; return f(op1_); }()`: operands in the order of the model."""
-        reader = self
+        reader, values = self, []
         *stores, result = named(part(function, "body"))
         for store in stores:
             declarator = part(store, "declarator") if store.type == "declaration" else store
             if declarator.type != "init_declarator" or result.type != "return_statement":
                 raise self.unread(function, "the model has no functions inside expressions")
-            value = reader.read(part(declarator, "value"))
+            values.append(reader.read(part(declarator, "value")))
             name = text_of(part(declarator, "declarator")).lstrip("& ")
-            reader = replace(reader, scope=reader.scope.with_locals({name: value}))
-        return reader.read(reader._only(result))
+            reader = replace(reader, scope=reader.scope.with_locals({name: values[-1]}))
+        read = reader.read(reader._only(result))
+        match values, read:
+            case [target, read_first, value], m.Assign("=", written, m.Cast(_, computed)) if (
+                target == read_first == written
+            ):
+                inner = computed.inner if isinstance(computed, m.Paren) else computed
+                if isinstance(inner, m.Binary):
+                    return m.Assign(f"{inner.operator}=", target, value, self.cpp.span(function))
+        return read
 
     # --- sends ----------------------------------------------------------------------------------
 

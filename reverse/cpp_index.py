@@ -127,7 +127,7 @@ class Code:
                 self._add(cpp, child)
             elif child.type in ("class_specifier", "struct_specifier"):
                 self._add_class(cpp, child)
-            elif child.type == "function_definition":
+            elif child.type == "function_definition" or _only_braces(child):
                 if (function := function_of(cpp, child, "")) is not None:
                     place = function.owner, function.name
                     self.definitions.setdefault(place, []).append(function)
@@ -169,6 +169,9 @@ def function_of(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
         "pointer_declarator",
     ):
         declarator = declarator.named_children[-1] if declarator.named_children else None
+    body = node.child_by_field_name("body")
+    if declarator is not None and _only_braces(node):
+        body, declarator = part(declarator, "value"), part(declarator, "declarator")
     if declarator is None or declarator.type != "function_declarator":
         return None
     name = part(declarator, "declarator")
@@ -181,7 +184,7 @@ def function_of(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
         owner,
         tuple(_parameters(part(declarator, "parameters"))),
         node.child_by_field_name("type"),
-        node.child_by_field_name("body"),
+        body,
         lists[0] if lists else None,
         markers_above(node),
         cpp,
@@ -189,6 +192,15 @@ def function_of(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
         pure=value is not None and text_of(value) == "0",
         overrides=any(c.type == "virtual_specifier" for c in declarator.named_children),
     )
+
+
+def _only_braces(node: Node) -> bool:
+    """Whether it is `void f() { {} }`, which the grammar takes for a variable."""
+    declarator = node.child_by_field_name("declarator")
+    if node.type != "declaration" or declarator is None or declarator.type != "init_declarator":
+        return False
+    function, value = part(declarator, "declarator"), part(declarator, "value")
+    return function.type == "function_declarator" and value.type == "initializer_list"
 
 
 def _parameters(node: Node) -> Iterator[CppParameter]:

@@ -71,7 +71,7 @@ class CppStatements:
                 yield from self._expression_statement(node, annotations)
             case "declaration":
                 yield from self._declaration(node, annotations, local)
-            case "compound_statement":
+            case "compound_statement" | "initializer_list":
                 block = self.block(node)
                 if self._is_hoisting(node):
                     yield from block.statements

@@ -48,12 +48,10 @@ class Classes:
 
     def read(self) -> tuple[m.ReactiveClass | m.Interface, ...]:
         """All of them, in the order of the code."""
-        reactive = [c for c in self.code.classes.values() if self._has_mailbox(c)]
-        above = {b.name for c in reactive for b in self.code.lineage(c.name)}
         return tuple(
             self._reactive(c) if self._has_mailbox(c) else self._interface(c)
             for c in self.code.classes.values()
-            if c.name in above
+            if self._has_mailbox(c) or _is_interface(c)
         )
 
     def _has_mailbox(self, owner: CppClass) -> bool:
@@ -65,7 +63,7 @@ class Classes:
 
     def _interface(self, owner: CppClass) -> m.Interface:
         servers = tuple(
-            self._server(owner, f, f.name) for f in self.code.functions_of(owner) if f.pure
+            self._server(owner, f, self._plain(f)) for f in self.code.functions_of(owner) if f.pure
         )
         extends = tuple(class_name(b) for b in owner.bases)
         span = owner.cpp.span(owner.node)
@@ -124,12 +122,12 @@ class Classes:
                     self.findings.unreadable(member.cpp.source, unread, owner.name)
                 continue
             span = member.cpp.span(member.node)
-            declarator = m.Declarator(self._variable(owner, member), None, span)
+            declarator = m.Declarator(self.variable(owner, member), None, span)
             declaration = m.Declaration(type_, (declarator,), span=span)
             (known if member.name in roles.known else state).append(declaration)
         return known, state
 
-    def _variable(self, owner: CppClass, member: CppField) -> str:
+    def variable(self, owner: CppClass, member: CppField) -> str:
         """The model's name of a member variable."""
         known = self.roles[owner.name].known.get(member.name)
         if known is not None:
@@ -267,7 +265,7 @@ class Classes:
             roles = self.roles[above.name]
             for member in above.fields:
                 runtime = self._runtime(member)
-                members[member.name] = runtime or Variable(self._variable(above, member))
+                members[member.name] = runtime or Variable(self.variable(above, member))
             for function in self.code.functions_of(above):
                 served = self._served(above, function)
                 if function.name in roles.sends:
@@ -280,6 +278,14 @@ class Classes:
             callable_ |= roles.constants | set(roles.sends)
         bases = {b: class_name(b) for b in self._above(owner)}
         return Scope(members, functions, bases, self.types, frozenset(callable_))
+
+
+def _is_interface(owner: CppClass) -> bool:
+    """Whether a class only says what its heirs can do."""
+    destructor = f"~{owner.name}"
+    names = {f.name for f in owner.functions}
+    others = (f for f in owner.functions if f.name != destructor)
+    return not owner.fields and destructor in names and all(f.pure for f in others)
 
 
 def _annotations(markers: tuple[str, ...], owner: CppClass) -> tuple[m.Annotation, ...]:

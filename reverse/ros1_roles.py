@@ -57,7 +57,9 @@ def roles_of(code: Code, owner: CppClass) -> Roles:
     for function in functions:
         if function.name == owner.name:
             _wired(roles, function)
-            roles.queue_length = _queue_length(function) or roles.queue_length
+    for constructor in (*owner.functions, *functions):
+        if constructor.name == owner.name:
+            roles.queue_length = _queue_length(constructor) or roles.queue_length
     for function in functions:
         for call in calls_in(function.body):
             if call.name == "receive" and len(call.arguments) == 5:

@@ -1,0 +1,282 @@
+"""From the files of a package, or some of them, to a model."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.literals import initial_of, literal_of
+from rebsync.names import TAKEN_NODES, graph_name, uncarry
+from rebsync.package import Value
+from rebsync.reserved import RESERVED_GLOBALS
+from rebsync.reverse.cpp_calls import calls_in, string_of
+from rebsync.reverse.cpp_index import Code, CppFunction
+from rebsync.reverse.cpp_tree import named, parse, part, text_of
+from rebsync.reverse.cpp_types import class_name, type_of
+from rebsync.reverse.findings import Finding, Findings
+from rebsync.reverse.launch import read_launch
+from rebsync.reverse.launch_values import Surroundings
+from rebsync.reverse.launched import Launch, LaunchedNode
+from rebsync.reverse.parameters import Parameter
+from rebsync.reverse.ros1_classes import Classes
+from rebsync.reverse.written import annotation
+from rebsync.source import Source
+from rebsync.static.values import converted
+
+_ENV_MARKER = re.compile(r"# *rebsync: env (?P<type>[a-z]+)(?P<lengths>(?:\[\d+\])*) (?P<name>\S+)")
+_CODE = (".h", ".hh", ".hpp", ".hxx", ".c", ".cc", ".cpp", ".cxx")
+
+
+@dataclass(frozen=True, slots=True)
+class Extracted:
+    """The model of some files, what in them is not in it, and how many statements were read."""
+
+    model: m.Model
+    findings: tuple[Finding, ...]
+    statements: int
+
+
+def extract(files: Mapping[str, Source]) -> Extracted:
+    """The model that files say together; paths are relative to the package, with slashes."""
+    findings = Findings()
+    trees = [parse(source) for path, source in sorted(files.items()) if path.endswith(_CODE)]
+    code = Code.of(trees)
+    classes = Classes(code, findings)
+    read = classes.read()
+    launches = [s for path, s in sorted(files.items()) if path.endswith(".launch")]
+    launch = _launched(launches, files) if launches else None
+    system = _System(code, classes, read, launch)
+    model = m.Model(tuple(system.heads()), read, system.main())
+    return Extracted(model, tuple(findings.all), findings.statements)
+
+
+def _launched(launches: Sequence[Source], files: Mapping[str, Source]) -> Launch:
+    """What the first launch file starts; files of any package are looked for in this one."""
+
+    def load(path: str) -> Source | None:
+        return files.get(path.removeprefix("/"))
+
+    return read_launch(launches[0], Surroundings(load, lambda _: ""))
+
+
+@dataclass(frozen=True, slots=True)
+class _System:
+    """What code and launch file say together: constants and rebecs."""
+
+    code: Code
+    classes: Classes
+    read: tuple[m.ReactiveClass | m.Interface, ...]
+    launch: Launch | None
+
+    # --- constants ------------------------------------------------------------------------------
+
+    def heads(self) -> Iterator[m.Env]:
+        """The constants of the model: all global parameters but those of the run-time part."""
+        used = dict(self._used())
+        given = {p.name.lstrip("/"): p for p in self.launch.parameters} if self.launch else {}
+        for key in [*given, *(k for k in used if k not in given)]:
+            first = key.partition("/")[0]
+            if first in RESERVED_GLOBALS or "/" in key:
+                continue
+            type_, name, default = used.get(key, (None, "", None))
+            value = _plain(given[key]) if key in given else default
+            if value is None:
+                continue
+            if type_ is None:
+                type_, name = _marked_type(given[key]) or (_type_of_value(value), "")
+            initial = initial_of(_as(value, type_))
+            declarator = m.Declarator(name or uncarry(key, self._taken()), initial)
+            yield m.Env(m.Declaration(type_, (declarator,)))
+
+    def _used(self) -> Iterator[tuple[str, tuple[m.Type, str, Value | None]]]:
+        """The global parameters that classes read: type, name, and default."""
+        for owner in self.code.classes.values():
+            roles = self.classes.roles[owner.name]
+            for member in owner.fields:
+                if member.name not in roles.globals:
+                    continue
+                key, default = roles.globals[member.name]
+                type_ = type_of(member.type)
+                if type_ is not None:
+                    name = self.classes.variable(owner, member)
+                    yield key, (type_, name, _constant(default))
+
+    def _taken(self) -> frozenset[str]:
+        nodes = self.launch.nodes if self.launch else ()
+        return RESERVED_GLOBALS | {n.name for n in nodes if isinstance(n.name, str)}
+
+    # --- rebecs ---------------------------------------------------------------------------------
+
+    def main(self) -> m.Main | None:
+        """The rebecs that the launch file starts; None without one."""
+        if self.launch is None:
+            return None
+        return m.Main(tuple(r for n in self.launch.nodes if (r := self._rebec(n)) is not None))
+
+    def _rebec(self, node: LaunchedNode) -> m.Rebec | None:
+        started = self._started(node)
+        if started is None or not isinstance(node.name, str):
+            return None
+        type_, keys = started
+        declared = self._lineage(type_)
+        known = [
+            d.name
+            for c in reversed(declared)
+            for section in c.members
+            if isinstance(section, m.KnownRebecs)
+            for declaration in section.declarations
+            for d in declaration.declarators
+        ]
+        bindings = [self._bound(node, f"knownrebecs/{graph_name(k)}") for k in known]
+        constructors = [c for c in declared[0].members if isinstance(c, m.Constructor)]
+        parameters = next(
+            (c.parameters for c in constructors if len(c.parameters) == len(keys)), ()
+        )
+        arguments = [
+            self._argument(node, key, parameter.type)
+            for key, parameter in zip(keys, parameters, strict=False)
+        ]
+        markers = (annotation(text, node.span) for text in node.markers)
+        return m.Rebec(
+            m.Type(type_),
+            uncarry(node.name, TAKEN_NODES),
+            tuple(b for b in bindings if b is not None),
+            tuple(a for a in arguments if a is not None),
+            tuple(a for a in markers if a is not None),
+            node.span,
+        )
+
+    def _lineage(self, name: str) -> list[m.ReactiveClass]:
+        """A class and those above it, nearest first."""
+        by_name = {c.name: c for c in self.read if isinstance(c, m.ReactiveClass)}
+        found: list[m.ReactiveClass] = []
+        at: str | None = name
+        while at in by_name and by_name[at] not in found:
+            found.append(by_name[at])
+            at = by_name[at].extends
+        return found
+
+    def _started(self, node: LaunchedNode) -> tuple[str, list[str]] | None:
+        """The class that a node's program makes a rebec of, and its private parameters."""
+        names = {c.name for c in self.read}
+        for function in self.code.definitions.get(("", "main"), []):
+            stem = function.cpp.source.path.rpartition("/")[2].rpartition(".")[0]
+            if stem != node.type:
+                continue
+            for made, keys in _made(function):
+                if class_name(made) in names:
+                    return class_name(made), keys
+        return None
+
+    def _bound(self, node: LaunchedNode, key: str) -> m.Expression | None:
+        parameter = node.parameter(key)
+        if parameter is None or not isinstance(parameter.value, str):
+            return None
+        return m.Name(uncarry(parameter.value, TAKEN_NODES), parameter.span)
+
+    def _argument(self, node: LaunchedNode, key: str, type_: m.Type) -> m.Expression | None:
+        parameter = node.parameter(key)
+        value = _plain(parameter) if parameter is not None else None
+        if value is None:
+            return None
+        if isinstance(value, str):
+            return m.Name(uncarry(value, TAKEN_NODES))
+        return literal_of(_as(value, type_))
+
+
+def _made(function: CppFunction) -> Iterator[tuple[str, list[str]]]:
+    """The objects that a program's `main` makes from a node, and the parameters it reads."""
+    for statement in named(function.body) if function.body is not None else []:
+        declarator = statement.child_by_field_name("declarator")
+        if statement.type != "declaration" or declarator is None:
+            continue
+        value = declarator.child_by_field_name("value")
+        if value is None and declarator.type != "function_declarator":  # as `C c(node)` parses
+            continue
+        keys = [
+            key
+            for call in calls_in(value)
+            if call.name == "param"
+            and call.arguments
+            and (key := string_of(call.arguments[0])) is not None
+        ]
+        yield text_of(part(statement, "type")), keys
+
+
+# --- values -------------------------------------------------------------------------------------
+
+
+def _plain(parameter: Parameter) -> Value | None:
+    """The value of a parameter, if the model has such values."""
+    return _listed(parameter.value)
+
+
+def _listed(value: object) -> Value | None:
+    match value:
+        case bool() | int() | float() | str():
+            return value
+        case tuple():
+            inner = [_listed(v) for v in value]
+            return None if None in inner else tuple(v for v in inner if v is not None)
+        case _:
+            return None
+
+
+def _constant(node: Node) -> Value | None:
+    """A constant of C++: a number, a truth value, or nested braces."""
+    text = text_of(node)
+    match node.type:
+        case "true" | "false":
+            return text == "true"
+        case "number_literal":
+            plain = text.rstrip("fFlLuU") if not text.lower().startswith("0x") else text
+            return float(plain) if any(c in plain for c in ".eE") else int(plain, 0)
+        case "initializer_list":
+            values = named(node)
+            if len(values) == 1 and values[0].type == "initializer_list":
+                values = named(values[0])
+            inner = [_constant(v) for v in values]
+            return None if None in inner else tuple(v for v in inner if v is not None)
+        case _:
+            return -0x80000000 if text == "INT32_MIN" else None
+
+
+def _as(value: Value, type_: m.Type) -> Value:
+    """A value as one of a declared type."""
+    match value:
+        case tuple():
+            inner = m.Type(type_.name, type_.dimensions[1:])
+            return tuple(_as(v, inner) for v in value)
+        case str():
+            return value
+        case _:
+            return converted(value, type_)
+
+
+def _marked_type(parameter: Parameter) -> tuple[m.Type, str] | None:
+    """Type and name from the marker beside a parameter: `key: 0  # rebsync: env byte name`."""
+    source = parameter.source
+    line = source.line(source.position(parameter.span.start).line)
+    match = _ENV_MARKER.search(line)
+    if match is None:
+        return None
+    lengths = tuple(int(n) for n in re.findall(r"\d+", match["lengths"]))
+    return m.Type(match["type"], lengths), match["name"]
+
+
+def _type_of_value(value: Value) -> m.Type:
+    """The type of a parameter that no class reads."""
+    match value:
+        case tuple():
+            inner = _type_of_value(value[0]) if value else m.Type("int")
+            return m.Type(inner.name, (len(value), *inner.dimensions))
+        case bool():
+            return m.Type("boolean")
+        case float():
+            return m.Type("double")
+        case _:
+            return m.Type("int")
