@@ -28,6 +28,7 @@ _ALIASES = {"byte": "int8", "char": "uint8"}
 
 _TYPE = re.compile(r"([A-Za-z][\w/]*)((?:\[\d*\])?)\Z", re.ASCII)
 _NAME = re.compile(r"[A-Za-z]\w*\Z", re.ASCII)
+_CONSTANT_NAME = re.compile(r"[A-Za-z_]\w*\Z", re.ASCII)
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,7 +151,10 @@ def _line(line: str, code: str, package: str, span: Span) -> MessageField | Mess
     length = int(brackets[1:-1] or 0) if brackets else None
     if brackets and brackets != "[]" and not length:
         return Open("an array of no elements")
-    return MessageField(name, full_type(match[1], package), length, (), span)
+    # genmsg takes `Header` alone for that of std_msgs, `Header[]` for one of the package
+    own_header = match[1] == "Header" and bool(brackets)
+    full = f"{package}/Header" if own_header else full_type(match[1], package)
+    return MessageField(name, full, length, (), span)
 
 
 def _constant(type_: str, line: str, code: str, span: Span) -> MessageConstant | Open:
@@ -160,7 +164,7 @@ def _constant(type_: str, line: str, code: str, span: Span) -> MessageConstant |
     whole = line.strip() if type_ == "string" else code
     name, _, value = whole[len(type_) :].partition("=")
     name, value = name.strip(), value.strip()
-    if not _NAME.match(name):
+    if not _CONSTANT_NAME.match(name):
         return Open(f"`{name}` is no name of a constant")
     try:
         return MessageConstant(name, type_, _constant_value(type_, value), (), span)

@@ -111,6 +111,14 @@ def test_two_nodes_of_one_name_are_refused() -> None:
     assert whys(found) == ["another node has the name `/n`"]
 
 
+def test_two_nodes_of_one_name_are_kept_if_one_of_them_starts() -> None:
+    node_ = '<node name="n" pkg="p" type="t" {}><param name="v" value="{}"/></node>'
+    body = node_.format('if="$(arg a)"', 1) + node_.format('unless="$(arg a)"', 2)
+    found = launch(f'<arg name="a"/>{body}')
+    assert [values(n) for n in found.nodes] == [{"v": 1}, {"v": 2}]
+    assert [n.only_if for n in found.nodes] == [("if $(arg a)",), ("unless $(arg a)",)]
+
+
 def test_a_name_with_a_namespace_is_refused() -> None:
     found = launch('<node name="a/n" pkg="p" type="t"/>')
     assert not found.nodes
@@ -488,6 +496,24 @@ def test_rosparam() -> None:
     assert slices["/list"] == "[1, 2]"
     assert slices["/deep/k"] == "v"
     assert not found.unknowns
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("5", 5),
+        ("-5.5", -5.5),
+        ("1e3", 1000.0),
+        ("True", True),
+        ("false", False),
+        ("yes", "yes"),
+        ("99999999999", 99999999999.0),
+        ("", ""),
+    ],
+)
+def test_values_on_the_command_line(text: str, value: ParameterValue) -> None:
+    (found,) = launch(f'<node name="n" pkg="p" type="t" args="_v:={text}"/>').nodes[0].parameters
+    assert (found.name, found.value, type(found.value)) == ("v", value, type(value))
 
 
 @pytest.mark.parametrize(

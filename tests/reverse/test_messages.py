@@ -21,6 +21,8 @@ geometry_msgs/Twist twist
 
 byte OK=0   # fine
 string NAME = a # b
+int8 _LOW=-1
+Header[] headers
 float32 HALF=.5
 bool YES=True
 """
@@ -36,16 +38,18 @@ def test_a_message() -> None:
         ("float64", "data", 0),
         ("pkg/Own", "others", 2),
         ("geometry_msgs/Twist", "twist", None),
+        ("pkg/Header", "headers", 0),
     ]
     assert [(c.type, c.name, c.value) for c in found.constants] == [
         ("byte", "OK", 0),
         ("string", "NAME", "a # b"),
+        ("int8", "_LOW", -1),
         ("float32", "HALF", 0.5),
         ("bool", "YES", True),
     ]
     assert found.fields[0].comments == ("The state of a robot.", "Published often.")
     assert found.fields[1].comments == ("who",)
-    assert [c.comments for c in found.constants] == [("fine",), (), (), ()]
+    assert [c.comments for c in found.constants] == [("fine",), (), (), (), ()]
     assert [found.source.slice(f.span) for f in found.fields[:2]] == ["Header header", "int32 id"]
     assert found.field("id") is found.fields[1]
     assert not found.unknowns
