@@ -20,11 +20,18 @@ def server_constants(c: CppClass) -> list[str]:
     keys = [s.key for s in (*own_subscriptions(c), *_repeated(c))]
     keys += [s.key for s in _self_sends(c)]
     return [
-        f'constexpr Server {c.names.servers[key]}{{"{server.server}", '
-        f"{'kNoPriority' if server.priority is None else server.priority}}};"
+        f'constexpr Server {c.names.servers[key]}{{"{server.server}", {_priority(server)}}};'
         for key in dict.fromkeys(keys)
         if (server := _server(c, key)) is not None
     ]
+
+
+def _priority(server: Subscription) -> str:
+    """The priority as an expression that also tells which of the two kinds it is."""
+    kinds = [a.name for a in server.annotations if a.name in ("priority", "globalPriority")]
+    if server.priority is None or not kinds:
+        return "kNoPriority"
+    return f"{kinds[0]}({server.priority})"
 
 
 def _server(c: CppClass, key: str) -> Subscription | None:

@@ -37,7 +37,7 @@ RUNTIME_CONSTANTS = frozenset(
     }
 )
 RUNTIME_FUNCTIONS = _FREE_FUNCTIONS | {
-    *("choose", "construct", "mailbox", "publishState"),
+    *("choose", "construct", "globalPriority", "mailbox", "priority", "publishState"),
     *("shiftLeft", "shiftLeftBy", "shiftRight", "shiftRightBy"),
 }
 # What no local variable, parameter or function of a class may be called.

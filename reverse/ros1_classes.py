@@ -93,9 +93,31 @@ class Classes:
             self._is_abstract(owner),
             class_name(extends[0]) if extends else None,
             tuple(class_name(b) for b in owner.bases if b not in extends),
-            _annotations(owner.markers, owner),
+            tuple(self._class_annotations(owner)),
             owner.cpp.span(owner.node),
         )
+
+    def _class_annotations(self, owner: CppClass) -> Iterator[m.Annotation]:
+        """Those of the markers; without markers, those that the set-up shows."""
+        if any(x.startswith("reactiveclass ") for x in owner.markers):
+            yield from _annotations(owner.markers, owner)
+            return
+        if any(text_of(f.type) == "Drive" for f in owner.fields):
+            yield m.Annotation("Robot")
+        if self.roles[owner.name].on_bridge:
+            yield m.Annotation("Controller")
+
+    def _server_annotations(
+        self, owner: CppClass, function: CppFunction, name: str
+    ) -> Iterator[m.Annotation]:
+        """Those of the markers; without markers, those that the set-up shows."""
+        if any(x.startswith("msgsrv ") for x in function.markers):
+            yield from _annotations(function.markers, owner)
+            return
+        if name in self.roles[owner.name].sensors:
+            yield m.Annotation("Sensor")
+        above = (self.roles[c.name].annotations.get(name) for c in self.code.lineage(owner.name))
+        yield from next((a for a in above if a is not None), [])
 
     def _is_reactive(self, name: str) -> bool:
         owner = self.code.classes.get(name)
@@ -209,7 +231,7 @@ class Classes:
             self._parameters(function, scope),
             self._body(function, scope, f"{owner.name}.{name}"),
             function.pure and self._has_mailbox(owner),
-            _annotations(function.markers, owner),
+            tuple(self._server_annotations(owner, function, name)),
             function.cpp.span(function.node),
         )
 

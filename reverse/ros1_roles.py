@@ -11,12 +11,15 @@ from dataclasses import dataclass, field
 
 from tree_sitter import Node
 
+from rebsync import model as m
 from rebsync.names import original, uncarry
 from rebsync.reserved import OWN_TOPICS, RUNTIME_TOPICS
 from rebsync.reverse.cpp_calls import CppCall, assigned_in, call_of, calls_in, string_of
 from rebsync.reverse.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.cpp_tree import Cpp, named, text_of
 from rebsync.reverse.scope import Sends
+
+_SENSOR = "_sensor_"
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +36,7 @@ class Roles:
     """Of one class alone: by function what it serves or sends, by member what that stands for.
 
     `handlers` and `messages` give the server's name in the model, `globals` the entry of the
-    parameter server and the default.
+    parameter server and the default, `annotations` those of a server that its set-up shows.
     """
 
     handlers: dict[str, str] = field(default_factory=dict)
@@ -44,6 +47,10 @@ class Roles:
     known: dict[str, str] = field(default_factory=dict)
     globals: dict[str, tuple[str, Node]] = field(default_factory=dict)
     constants: set[str] = field(default_factory=set)
+    annotations: dict[str, list[m.Annotation]] = field(default_factory=dict)
+    on_bridge: bool = False
+    sensors: set[str] = field(default_factory=set)
+    topics: dict[str, str] = field(default_factory=dict)
     queue_length: int | None = None
 
 
@@ -54,6 +61,9 @@ def roles_of(code: Code, owner: CppClass) -> Roles:
     """
     roles = Roles()
     functions = list(code.functions_of(owner))
+    for member in owner.fields:
+        if member.name.endswith(_SENSOR) and text_of(member.type).startswith("Sensor<"):
+            roles.sensors.add(original(member.name.removesuffix(_SENSOR)))
     for function in functions:
         if function.name == owner.name:
             _wired(roles, function)
@@ -78,6 +88,23 @@ def add_sends(code: Code, owner: CppClass, all_roles: dict[str, Roles]) -> None:
             sends = _sent(code, function, call, publishers, servers)
             if sends is not None:
                 roles.sends[function.name] = sends
+
+
+def _port(roles: Roles, shim: str) -> Iterator[m.Annotation]:
+    """`@Port` of a server whose topic says so."""
+    if roles.topics.get(shim, "").startswith("port/"):
+        yield m.Annotation("Port")
+
+
+def _priority(code: Code, function: CppFunction, call: CppCall) -> Iterator[m.Annotation]:
+    """`@priority(n)` or `@globalPriority(n)` of a server's descriptor."""
+    found = code.constant(function.cpp, text_of(call.arguments[0]))
+    for given in calls_in(found[1] if found is not None else None):
+        if given.name in ("priority", "globalPriority") and len(given.arguments) == 1:
+            number = text_of(given.arguments[0])
+            value = m.IntLiteral(int(number.lstrip("-")))
+            signed = m.Unary("-", value) if number.startswith("-") else value
+            yield m.Annotation(given.name, (signed,))
 
 
 def server_of(code: Code, cpp: Cpp, constant: str) -> str | None:
@@ -118,6 +145,9 @@ def _member(roles: Roles, member: str, call: CppCall) -> None:
             known, _, key = first.rpartition("/")
             to = uncarry(known, OWN_TOPICS)
             roles.publishers[member] = Advertised(to, key, text_of(call.types[0]))
+        case "subscribe" | "subscribeOnBridge", "mailbox_" if len(call.arguments) == 3:
+            roles.on_bridge = roles.on_bridge or call.name == "subscribeOnBridge"
+            roles.topics[text_of(call.arguments[1]).rpartition("::")[2]] = first
         case "advertiseAll", "mailbox_" if call.types and len(call.arguments) == 2:
             key = string_of(call.arguments[1]) or ""
             roles.publishers[member] = Advertised(None, key, text_of(call.types[0]))
@@ -148,6 +178,7 @@ def _received(code: Code, roles: Roles, function: CppFunction, call: CppCall) ->
     message = text_of(function.parameters[0].type).partition("::ConstPtr")[0]
     roles.shims.add(function.name)
     roles.handlers[handler] = server
+    roles.annotations[server] = [*_port(roles, function.name), *_priority(code, function, call)]
     roles.messages[message.rpartition("::")[2]] = server
     roles.constants.add(text_of(call.arguments[0]))
 

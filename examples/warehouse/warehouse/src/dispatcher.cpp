@@ -6,9 +6,9 @@ namespace warehouse {
 
 namespace {
 
-constexpr Server kLeft{"left", 1};
-constexpr Server kEnter{"enter", 2};
-constexpr Server kReady{"ready", 3};
+constexpr Server kLeft{"left", priority(1)};
+constexpr Server kEnter{"enter", priority(2)};
+constexpr Server kReady{"ready", priority(3)};
 
 }  // namespace
 

@@ -8,7 +8,7 @@ namespace warehouse {
 namespace {
 
 constexpr Server kServe{"serve", kNoPriority};
-constexpr Server kWeigh{"weigh", 1};
+constexpr Server kWeigh{"weigh", priority(1)};
 
 }  // namespace
 
