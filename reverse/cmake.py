@@ -18,6 +18,11 @@ _MOST_FILES = 200
 _DEEPEST = 20
 _TRUE = frozenset({"1", "on", "yes", "true", "y"})
 _FALSE = frozenset({"0", "off", "no", "false", "n", "ignore", ""})
+# ROS 1 is at home on Linux
+_PLATFORM: dict[str, tuple[Text, ...]] = {
+    **dict.fromkeys(("ANDROID", "APPLE", "MINGW", "MSVC", "WIN32"), ("FALSE",)),
+    "UNIX": ("TRUE",),
+}
 _IN_GLOBS = frozenset({"CONFIGURE_DEPENDS", "FOLLOW_SYMLINKS", "LIST_DIRECTORIES", "false"})
 
 
@@ -25,7 +30,7 @@ def read_build(source: Source, folder: Folder | None = None) -> BuildFiles:
     """What the CMakeLists.txt of a package and those of its subdirectories say."""
     maker = Maker(folder or Folder())
     runner = _Runner(maker, [source])
-    runner.file(source, Variables())
+    runner.file(source, Variables(values=dict(_PLATFORM)))
     if runner.steps > _MOST_STEPS:
         start = Command("", (), Span(0, 0))
         why = "too many commands are carried out; the rest is not read"

@@ -14,6 +14,7 @@ from rebsync.source import Source
 
 EXECUTABLE = frozenset({"add_executable", "cuda_add_executable", "rosbuild_add_executable"})
 LIBRARY = frozenset({"add_library", "cuda_add_library", "rosbuild_add_library"})
+_ENDINGS = (".c", ".C", ".c++", ".cc", ".cpp", ".cxx", ".cu")
 _INTERFACES = {
     "add_message_files": "msg",
     "add_service_files": "srv",
@@ -100,7 +101,7 @@ class Maker:
         executable, span = call.command.name in EXECUTABLE, call.command.span
         target = Target(name, executable, name, (), (), (), self.only_if, call.source, span)
         rest = [word for word in call.words[1:] if word not in _KINDS]
-        target = _with_sources(target, rest, call.variables)
+        target = _with_sources(target, rest, call.variables, self.folder)
         earlier = self.targets.get(name)
         if earlier is not None:
             why = "two targets have this name; their sources are taken together"
@@ -120,7 +121,7 @@ class Maker:
             return
         rest = [word for word in words[1:] if word not in _VISIBILITY]
         if call.command.name == "target_sources":
-            self.targets[target.name] = _with_sources(target, rest, call.variables)
+            self.targets[target.name] = _with_sources(target, rest, call.variables, self.folder)
         else:
             # what is set outside of the package names no target of it
             opens = (w for w in rest if isinstance(w, Open) and not isinstance(w, Unset))
@@ -141,7 +142,8 @@ class Maker:
             name = target.file if output is None else output
             opens = [text for text in (prefix, name) if isinstance(text, Open)]
             if self.only_if != target.only_if:
-                opens.append(Open(f"its name is changed only `{self.only_if[-1:]}`"))
+                where = " ".join(self.only_if) or "in other cases"
+                opens.append(Open(f"its name is changed only `{where}`"))
             if opens:
                 self.unknown(f"the program of `{target.name}`", opens[0].why, call)
             file: Text = opens[0] if opens else "".join(known((prefix, name)))
@@ -185,10 +187,21 @@ class Maker:
                 self.programs.append(path)
 
 
-def _with_sources(target: Target, words: list[Text], variables: Variables) -> Target:
+def _with_sources(
+    target: Target, words: list[Text], variables: Variables, folder: Folder
+) -> Target:
     paths = [word if isinstance(word, Open) else variables.path(word) for word in words]
+    paths = [path if isinstance(path, Open) else _with_ending(path, folder) for path in paths]
     return replace(
         target,
         sources=(*target.sources, *known(paths)),
         missing=(*target.missing, *(path for path in paths if isinstance(path, Open))),
     )
+
+
+def _with_ending(path: str, folder: Folder) -> str:
+    """The file that CMake takes for a source without an ending: the first that is there."""
+    if "." in posixpath.basename(path):
+        return path
+    found = folder.glob(f"{path}.*") or ()
+    return next((path + ending for ending in _ENDINGS if path + ending in found), path)

@@ -112,6 +112,9 @@ def test_conditions() -> None:
         else()
           add_executable(never a.cpp)
         endif()
+        if(WIN32)
+          add_executable(windows a.cpp)
+        endif()
         set(OFF_ OFF)
         if(NOT OFF_)
           add_executable(too a.cpp)
@@ -137,6 +140,7 @@ def test_loops_and_macros() -> None:
         """
         macro(node NAME)
           add_executable(${NAME} ${NAME}/${NAME}.cpp ${ARGN})
+          set(LAST ${NAME}.h)
         endmacro()
         function(other N)
           set(S ${N}.cpp)
@@ -151,6 +155,7 @@ def test_loops_and_macros() -> None:
           other(${f})
         endforeach()
         add_executable(z ${BACK} ${S})
+        add_executable(y ${LAST})
         """
     )
     assert sources(found) == {
@@ -160,8 +165,9 @@ def test_loops_and_macros() -> None:
         "d": ("d.cpp",),
         "e": ("e.cpp",),
         "z": ("back.cpp",),
+        "y": ("b.h",),
     }
-    assert len(found.targets[-1].missing) == 1
+    assert len(found.targets[-2].missing) == 1
     assert not found.unknowns
 
 
@@ -178,6 +184,11 @@ def test_globs() -> None:
     away = build(text)
     assert not away.targets
     assert [u.why for u in away.unknowns] == ["which files `nodes/*.cpp` finds is not known"]
+
+
+def test_a_source_without_an_ending() -> None:
+    files = {"src/a.h": "", "src/a.cpp": "", "src/b.h": ""}
+    assert sources(build("add_executable(n src/a src/b)", files)) == {"n": ("src/a.cpp", "src/b")}
 
 
 def test_subdirectories() -> None:
