@@ -43,6 +43,7 @@ class Surroundings:
 class Substitution:
     """What `$(...)` stands for in one place of a launch file.
 
+    `$(anon x)`, another name in each run, is `x_anon`, or that with a number where it is taken.
     `anonymous` holds the names that stand for those that `$(anon)` makes, as far as this place
     knows them; `taken` those of the whole reading.
     """
