@@ -36,7 +36,8 @@ static void start(struct engine *e, int32_t body, const cell *arguments, size_t 
     const struct body *b = e->model->body + body;
     room_for_stack(e, b->need);
     memset(m->stack, 0, b->frame * sizeof(cell));
-    memcpy(m->stack, arguments, count * sizeof(cell));
+    if (count)
+        memcpy(m->stack, arguments, count * sizeof(cell));
     m->base = 0;
     m->pc = b->entry;
 }
