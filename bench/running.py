@@ -121,6 +121,5 @@ def verified(
     """The command with this exit status, so many times."""
     runs = repeat(times, lambda: run(rebsync(model, *options), cache, status))
     result = json.loads(runs.output)
-    states = result["states"]
-    search = states / result["states_per_second"]
-    return Whole(result["engine"], states, result["transitions"], search, runs)
+    counts = result["states"], result["transitions"]
+    return Whole(result["engine"], *counts, result["search_seconds"], runs)

@@ -111,12 +111,12 @@ def _file(name: str) -> str:
 
 
 def _summary(result: Result) -> Markup:
-    speed = words.rate(result.states, result.seconds)
+    speed = words.rate(result.states, result.search_seconds)
     figures = [
         words.counted(result.states, "state"),
         words.counted(result.transitions, "transition"),
         f"depth {result.depth:,}",
-        words.duration(result.seconds) + (f" ({speed:,.0f} states/s)" if speed else ""),
+        words.duration(result.search_seconds) + (f" ({speed:,.0f} states/s)" if speed else ""),
         words.memory(result.peak_memory_bytes),
         f"engine {result.engine}",
         words.view_of(result.semantics),
