@@ -26,7 +26,10 @@ class Limits:
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """How far a search is: `depth` is the breadth-first level, `memory` bytes in use."""
+    """How far a search is: `depth` is the breadth-first level, `memory` bytes in use.
+
+    `task` is what is done after the search, while that is done.
+    """
 
     states: int
     transitions: int
@@ -34,6 +37,7 @@ class Progress:
     waiting: int
     seconds: float
     memory: int
+    task: str = ""
 
 
 Report = Callable[[Progress], None]

@@ -18,28 +18,31 @@ from rebsync.checker.temporal.buchi import translate
 from rebsync.checker.temporal.components import components
 from rebsync.checker.temporal.lasso import Lasso, lasso
 from rebsync.checker.temporal.product import Fairness, Product
+from rebsync.checker.watch import Look, unwatched
 
 __all__ = ["Fairness", "check_ltl"]
 
 _EFFORT = 200_000  # nodes that may be looked at for the very shortest cycle
 
 
-def check_ltl(graph: Graph, formula: Formula, fairness: Fairness = "none") -> Lasso | None:
+def check_ltl(
+    graph: Graph, formula: Formula, fairness: Fairness = "none", look: Look = unwatched
+) -> Lasso | None:
     """A run on which the formula does not hold, or None when it holds on all.
 
     `fairness` says which infinite runs count: all; those on which no rebec that could always act
     from some moment on never acts ("weak"); those on which time diverges ("progress"). Finite runs
-    always count. ValueError: the formula has an operator of TCTL.
+    always count. `look` is called now and then. ValueError: the formula has an operator of TCTL.
 
     The prefix is the shortest after which nothing can save the formula any more; if there is none,
     the shortest with which the automaton comes into a cycle that it accepts.
     """
-    product = Product.of(graph, translate(formula, wanted=False), fairness)
+    product = Product.of(graph, translate(formula, wanted=False), fairness, look)
     found = _explore(product)
     if found.decided >= 0:
         start, prefix = found.path(product, found.decided)
         return lasso(graph, start, prefix, None)
-    component = components(found.first, found.target)
+    component = components(found.first, found.target, look)
     entry = _entry(product, found, component)
     if entry < 0:
         return None
@@ -97,6 +100,8 @@ def _explore(product: Product) -> _Reached:
             parent.append(-1 - position)
     found = _Reached(number, keys, parent, first, target)
     for node, key in enumerate(keys):  # grows
+        if not node & 4095:
+            product.look()
         state, place = divmod(key, width)
         moves = choice(state, place)
         if moves.outside or moves.inside:
@@ -126,6 +131,8 @@ def _entry(product: Product, found: _Reached, component: array[int]) -> int:
     full, number = product.full, found.number
     goals: dict[int, int] = {}
     for node, key in enumerate(found.keys):
+        if not node & 4095:
+            product.look()
         own = component[node]
         if found.first[node] == found.first[node + 1] or goals.get(own) == full:
             continue

@@ -15,6 +15,7 @@ from typing import Literal, TypeAlias
 
 from rebsync.checker.graph import Graph
 from rebsync.checker.temporal.buchi import Automaton
+from rebsync.checker.watch import Look, unwatched
 
 Fairness: TypeAlias = Literal["none", "weak", "progress"]
 
@@ -44,11 +45,14 @@ class Product:
     full: int
     _labels: array[int]  # the class of each state: those of one class agree on all predicates
     _values: list[int]  # of each class: bit b is the value of predicate b of the automaton
+    look: Look
     _choices: dict[int, Choice] = field(default_factory=dict)
 
     @staticmethod
-    def of(graph: Graph, automaton: Automaton, fairness: Fairness) -> Product:
-        """The product, with nothing explored."""
+    def of(
+        graph: Graph, automaton: Automaton, fairness: Fairness, look: Look = unwatched
+    ) -> Product:
+        """The product, with nothing explored; `look` is called now and then by what takes long."""
         labels, values = _classes(graph, automaton.predicates)
         bits = automaton.promises.bit_length() + 1
         if fairness == "weak":
@@ -56,7 +60,7 @@ class Product:
         elif fairness == "progress":
             bits += 1
         width = len(automaton.moves)
-        return Product(graph, automaton, fairness, width, (1 << bits) - 1, labels, values)
+        return Product(graph, automaton, fairness, width, (1 << bits) - 1, labels, values, look)
 
     def choice(self, state: int, place: int) -> Choice:
         """What the automaton can do in `place` when it reads `state`."""
