@@ -6,6 +6,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from itertools import islice
 
 from rebsync.checker.engines import explore
 from rebsync.checker.exploration import Event, Exploration, Progress, Report, Search
@@ -21,7 +22,6 @@ from rebsync.checker.result import Result, Verdict, Violation
 from rebsync.checker.standstill import ENDLESS, LEAVES, cycle_from, may_stand_still
 from rebsync.checker.steps import Failure, Semantics, ViolationKind
 from rebsync.checker.telling import Teller
-from rebsync.checker.temporal.lasso import Lasso
 from rebsync.checker.trace import Trace
 from rebsync.checker.views import view_of
 from rebsync.checker.watch import Stopped, Watch
@@ -31,12 +31,9 @@ FLOATING_CAVEAT = (
     "the floating view of a model with delay leaves overflow, state properties and races of "
     "priorities undecided: use --semantics tts"
 )
-FAIRNESS_CAVEATS = {
-    "weak": "LTL is about weakly fair runs: who can always act from some moment on acts in the end",
-    "progress": "LTL is about runs on which time goes on for ever, or which end",
-}
 CYCLE_CAVEAT = "time can stand still for ever in a cycle of steps, which can also be left"
 
+_MAY_FAIL = ("DIV", "MOD", "OFFSET")  # instructions after which a predicate may have no value
 _EDGE = 20  # bytes for each edge of a graph
 
 
@@ -45,7 +42,7 @@ def verify(problem: Problem, options: Options, report: Report | None = None) -> 
     started = time.perf_counter()
     program, formulas = lower(problem.analysis, problem.properties)
     assertions = formulas[: len(problem.properties.assertions)]
-    invariants = tuple(f.formula.predicate for f in assertions if isinstance(f.formula, Atom))
+    invariants = _invariants(program, assertions, formulas)
     semantics = options.semantics or semantics_for(program, problem)
     first: frozenset[int] = frozenset()
     if options.reduce and len(assertions) == len(formulas):
@@ -57,6 +54,19 @@ def verify(problem: Problem, options: Options, report: Report | None = None) -> 
     answer = _Answer(problem, options, program, formulas, search, exploration, teller, watch)
     answer.collect()
     return answer.result(time.perf_counter() - started)
+
+
+def _invariants(
+    program: Program, assertions: tuple[NamedFormula, ...], formulas: tuple[NamedFormula, ...]
+) -> tuple[int, ...]:
+    """What a search looks at: the predicates of assertions, and all that may have no value."""
+    everywhere = [f.formula.predicate for f in assertions if isinstance(f.formula, Atom)]
+    for formula in formulas[len(assertions) :]:
+        for number in predicates_of(formula):
+            body = program.bodies[program.predicates[number]]
+            if any(i.op in _MAY_FAIL for i in program.code[body.entry : body.end]):
+                everywhere.append(number)
+    return tuple(dict.fromkeys(everywhere))
 
 
 def _watch(found: Exploration, options: Options, report: Report | None, started: float) -> Watch:
@@ -93,6 +103,7 @@ class _Answer:
     teller: Teller
     watch: Watch
     reason: str | None = None
+    undecided: str | None = None
     violations: list[Violation] = field(default_factory=list)
     caveats: list[str] = field(default_factory=list)
     verdicts: dict[str, Verdict] = field(default_factory=dict)
@@ -195,7 +206,8 @@ class _Answer:
                     self._property(failure.kind, entry, message, self._trace(event))
 
     def _assertion(self, event: Event, predicate: int) -> None:
-        for entry, formula in self._entries():
+        assertions = len(self.problem.properties.assertions)
+        for entry, formula in islice(self._entries(), assertions):
             if formula.formula == Atom(predicate):
                 self.verdicts[entry.name] = "violated"
                 message = "it is false in this state"
@@ -213,44 +225,38 @@ class _Answer:
             self.verdicts.setdefault(entry.name, known)
 
     def _temporal(self) -> None:
-        count = len(self.problem.properties.assertions)
+        entries = list(islice(self._entries(), len(self.problem.properties.assertions), None))
+        if not entries:
+            return
+        from rebsync.checker.deciding import FAIRNESS_CAVEATS
+
         if self.problem.properties.ltl and self.options.fairness != "none":
             self.caveats.append(FAIRNESS_CAVEATS[self.options.fairness])
-        for entry, formula in list(self._entries())[count:]:
-            self.verdicts[entry.name] = "undetermined"
-            if self.complete:
+        for entry, formula in entries:
+            known = self.verdicts.setdefault(entry.name, "undetermined")
+            if known == "undetermined" and self.complete:
                 with self._within_bounds():
                     self._decide(entry, formula)
 
     def _decide(self, entry: Property, formula: NamedFormula) -> None:
-        run = self._refutation(formula, entry in self.problem.properties.tctl)
-        self.verdicts[entry.name] = "satisfied" if run is None else "violated"
-        if run is not None:
-            message = "it does not hold on this run"
-            self._property("property", entry, message, run)
+        """Decides a temporal property; raises Stopped when that takes too much."""
+        from rebsync.checker import deciding
 
-    def _refutation(self, formula: NamedFormula, branching: bool) -> Trace | None:
-        """A run on which a formula does not hold; None when it holds.
-
-        That there is no run of some kind is shown by no run: then the initial state stands alone.
-        """
-        from rebsync.checker.temporal import check_ltl, check_tctl
-
+        branching = entry in self.problem.properties.tctl
+        if self.exploration.semantics != "tts" and deciding.has_bound(formula.formula):
+            self.undecided = deciding.EXACT_ONLY
+            return
         graph = self.graph()
         self.watch.begin(f"deciding {formula.name}")
-        if branching:
-            answer = check_tctl(graph, formula.formula, self.watch)
-            if answer.holds:
-                return None
-            run = answer.run or Lasso((0,), None)
-        else:
-            found = check_ltl(graph, formula.formula, self.options.fairness, self.watch)
-            if found is None:
-                return None
-            run = found
-        start = self.search.path(graph.initial[run.prefix[0]])
-        path = (*start, *run.prefix[1:], *(run.cycle or ()))
-        return self.teller.trace(path, loop=len(run.prefix) - 1 if run.cycle else None)
+        fairness = self.options.fairness
+        found = deciding.refutation(graph, formula.formula, branching, fairness, self.watch)
+        self.verdicts[entry.name] = "violated" if found else "satisfied"
+        if found:
+            run = found.run
+            start = self.search.path(graph.initial[run.prefix[0]])
+            path = (*start, *run.prefix[1:], *(run.cycle or ()))
+            trace = self.teller.trace(path, loop=len(run.prefix) - 1 if run.cycle else None)
+            self._property("property", entry, found.message, trace)
 
     # --- time that stands still
 
@@ -273,12 +279,12 @@ class _Answer:
         verdict: Verdict = "satisfied"
         if self.violations:
             verdict = "violated"
-        elif not self.complete:
+        elif self.reason or self.undecided:
             verdict = "undetermined"
         names = [entry.name for entry in self.problem.properties.all]
         return Result(
             verdict,
-            self.reason,
+            self.reason or self.undecided,
             tuple(self.caveats),
             tuple((name, self.verdicts[name]) for name in names),
             tuple(self.violations),
