@@ -8,7 +8,7 @@ import os
 import secrets
 import shlex
 import shutil
-import tempfile
+from collections.abc import Callable
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,11 +28,14 @@ _PATIENCE = 120  # seconds that one compilation may take
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """One library: its name, its text, the headers that the text includes, and how to optimise."""
+    """One library: its name, how its text is made and from what, and how to optimise.
+
+    Equal `parts` make an equal library, so that the text is needed only to compile.
+    """
 
     name: str
-    text: str
-    headers: tuple[str, ...]
+    text: Callable[[], str]
+    parts: tuple[str, ...]
     level: str
 
 
@@ -41,17 +44,22 @@ def header(name: str) -> str:
     return (_TEMPLATES / name).read_text(encoding="utf-8")
 
 
-def libraries(units: tuple[Unit, ...]) -> tuple[ctypes.CDLL, ...]:
+def libraries(units: tuple[Unit, ...], compiled: bool = True) -> tuple[ctypes.CDLL, ...]:
     """The units as loaded libraries; what the cache does not have is compiled, side by side.
 
-    Raises Unavailable when there is no compiler, or it fails, or what it makes cannot be loaded.
+    Raises Unavailable when there is no compiler, or it fails, or what it makes cannot be loaded;
+    and unless it may be `compiled`, when the cache lacks one of them.
     """
     compiler = _compiler()
     keys = [_key(unit, compiler) for unit in units]
     folder = _folder()
     loaded = [_kept(folder, key) for key in keys]
     missing = [i for i, library in enumerate(loaded) if library is None]
+    if missing and not compiled:
+        raise Unavailable("the model has not been compiled before")
     if missing:
+        import tempfile
+
         try:
             with tempfile.TemporaryDirectory(prefix="rebsync-") as scratch:
                 made = _compile([units[i] for i in missing], compiler, Path(scratch))
@@ -80,7 +88,7 @@ def _key(unit: Unit, compiler: tuple[str, ...]) -> str:
     with suppress(OSError):
         found = Path(compiler[0]).resolve().stat()
         compiler = (*compiler, str(found.st_size), str(found.st_mtime_ns))
-    parts = (unit.text, *unit.headers, unit.level, *_FLAGS, *compiler)
+    parts = (unit.name, *unit.parts, unit.level, *_FLAGS, *compiler)
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:32]
 
 
@@ -183,7 +191,7 @@ def _started(unit: Unit, compiler: tuple[str, ...], scratch: Path) -> Popen[str]
     from subprocess import PIPE, STDOUT, Popen
 
     source = scratch / f"{unit.name}.c"
-    source.write_text(unit.text, encoding="utf-8")
+    source.write_text(unit.text(), encoding="utf-8")
     library = f"{unit.name}.so"
     command = (*compiler, unit.level, *_FLAGS, source.name, "-o", library, "-lm")
     try:

@@ -7,6 +7,7 @@ import stat
 import subprocess
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -29,7 +30,9 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def _works(value: str = "5") -> None:
     """Two libraries are built or found, and answer."""
     texts = f"int answer(void) {{ return {value}; }}", f"int answer(void) {{ return -{value}; }}"
-    units = tuple(Unit(f"part{i}", text, (), "-O0") for i, text in enumerate(texts))
+    units = tuple(
+        Unit(f"part{i}", partial(str, text), (text,), "-O0") for i, text in enumerate(texts)
+    )
     assert [library.answer() for library in libraries(units)] == [int(value), -int(value)]
 
 
