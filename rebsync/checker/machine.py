@@ -141,7 +141,7 @@ class Machine:
             run[instruction.op](self, instruction)
             if not self.running:
                 return
-        raise EndlessBody(self.pc - 1)
+        raise EndlessBody(self.pc)
 
     def fail(self, kind: FailureKind, text: str = "") -> Failed:
         """The failure of the instruction that runs."""

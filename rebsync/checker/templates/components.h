@@ -91,6 +91,13 @@ static void room_for_frames(struct engine *e, struct local *l, size_t cells)
         give_up(e);
 }
 
+/* Room for so many messages in the bag. */
+static void room_for_bag(struct engine *e, struct local *l, size_t messages)
+{
+    if (!enough((void **)&l->bag, &l->bag_room, messages * e->model->stride, sizeof(cell)))
+        give_up(e);
+}
+
 static void unpack_frames(struct engine *e, const unsigned char *from, struct local *l)
 {
     size_t at = 0;
@@ -116,6 +123,7 @@ static void unpack_local(struct engine *e, uint32_t rebec, uint32_t id, struct l
     l->clock = e->model->reads_clock ? take_number(&from) : 0;
     l->frame_count = (size_t)take_number(&from);
     l->messages = (size_t)take_number(&from);
+    room_for_bag(e, l, l->messages);
     for (size_t i = 0; i < l->messages; i++)
         take_message(e, &from, l->bag + i * stride);
     l->frame_cells = 0;
@@ -242,6 +250,8 @@ static void enlarge_memo(struct engine *e, struct memo *m, uint64_t components)
     while (size < 8 * components && size < (1 << 18))
         size *= 2;
     struct remembered *entries = malloc(size * sizeof *entries);
+    if (!entries && m->entries)
+        return;
     if (!entries)
         give_up(e);
     memset(entries, 255, size * sizeof *entries);
@@ -305,6 +315,7 @@ static int compare_messages(const cell *a, const cell *b, size_t stride)
 static void insert_message(struct engine *e, struct local *l, const cell *message)
 {
     size_t stride = e->model->stride, at = l->messages++;
+    room_for_bag(e, l, l->messages);
     while (e->semantics != CORE && at &&
            compare_messages(l->bag + (at - 1) * stride, message, stride) > 0) {
         memcpy(l->bag + at * stride, l->bag + (at - 1) * stride, stride * sizeof(cell));

@@ -25,7 +25,7 @@ struct vector {
 struct local {
     cell *variables, *bag, *message, *frames;
     cell busy, clock;
-    size_t messages, frame_count, frame_cells, frames_room;
+    size_t messages, bag_room, frame_count, frame_cells, frames_room;
 };
 
 /* A packed local state that occurs: bytes from `at` on, and what it means for the whole. */
@@ -129,6 +129,7 @@ struct engine {
     uint32_t *table;
     uint64_t *prints, slots;
     uint32_t number_bits;
+    int exhausted; /* there was no more memory: the search does not go on */
 
     struct pending batch[BATCH];
     struct event failed[BATCH];

@@ -147,6 +147,7 @@ static void copy_bag(struct engine *e, struct local *to, const struct local *fro
 {
     size_t size = e->model->stride * sizeof(cell), stride = e->model->stride;
     to->messages = 0;
+    room_for_bag(e, to, from->messages);
     for (size_t i = 0; i < from->messages; i++)
         if ((int)i != slot)
             memcpy(to->bag + to->messages++ * stride, from->bag + i * stride, size);

@@ -149,6 +149,16 @@ static inline uint64_t find_print(struct engine *e, uint64_t print)
     return at;
 }
 
+/* Whether components make up the state of a number. */
+static int is_state(struct engine *e, const uint32_t *ids, int64_t state)
+{
+    for (uint32_t r = 0; r < e->rebecs; r++)
+        if (ids[r] > e->fields[r].mask)
+            return 0;
+    pack(e, ids, e->batch_words);
+    return !memcmp(e->batch_words, words_of(e, (uint64_t)state), e->words * sizeof(uint64_t));
+}
+
 /* The number of a state that was seen, or -1. */
 static int64_t seen(struct engine *e, const uint32_t *ids)
 {
