@@ -8,11 +8,12 @@ from __future__ import annotations
 import ctypes
 import time
 from array import array
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
 from rebsync.checker import native
-from rebsync.checker.build import Unit, header, libraries
+from rebsync.checker.build import Unit, always, header, libraries
 from rebsync.checker.compile_bodies import branches
 from rebsync.checker.compile_model import ModelText
 from rebsync.checker.engines import Unavailable
@@ -32,7 +33,7 @@ class CompiledSearch:
 
     Of the rebecs in `first` one that can act without failing acts alone. With `hash_compaction`
     only 64 bits of each state are remembered. Raises Unavailable when it cannot be built, or
-    `build` is false and it has not been built before.
+    `build` is false and it has not been built before, or is not `wanted` any more meanwhile.
     """
 
     def __init__(
@@ -44,6 +45,7 @@ class CompiledSearch:
         *,
         hash_compaction: bool = False,
         build: bool = True,
+        wanted: Callable[[], bool] = always,
     ) -> None:
         started = time.perf_counter()
         self.program = program
@@ -54,7 +56,7 @@ class CompiledSearch:
         self._until: int | None = None
         self._spent = 0.0
         self._engine: int | None = None
-        self._library, self._model = _libraries(program, build)
+        self._library, self._model = _libraries(program, build, wanted)
         self._engine = self._library.rebsync_new(
             ctypes.addressof(ctypes.c_char.in_dll(self._model, "rebsync_model")),
             native.SEMANTICS.index(semantics),
@@ -240,12 +242,14 @@ def _zeros(code: str, count: int) -> array[Any]:
     return empty * count
 
 
-def _libraries(program: Program, build: bool) -> tuple[ctypes.CDLL, ctypes.CDLL]:
+def _libraries(
+    program: Program, build: bool, wanted: Callable[[], bool]
+) -> tuple[ctypes.CDLL, ctypes.CDLL]:
     """The search, and the model."""
     parts = tuple(header(name) for name in ("runtime.c", *native.PARTS))
     runtime = Unit("runtime", partial(header, "runtime.c"), parts, "-O1")
     text = ModelText(program)
     model = Unit("model", text.render, (*text.parts, header("machine.h")), "-O1")
-    search, bodies = libraries((runtime, model), build)
+    search, bodies = libraries((runtime, model), build, wanted)
     native.declare(search)
     return search, bodies

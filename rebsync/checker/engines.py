@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import replace
 
 from rebsync.checker.exploration import Exploration, Report, Search
@@ -50,6 +51,7 @@ def _compiled(
     first: frozenset[int],
     options: Options,
     build: bool = True,
+    wanted: Callable[[], bool] = lambda: True,
 ) -> Search:
     from rebsync.checker.compiled import CompiledSearch
 
@@ -60,6 +62,7 @@ def _compiled(
         first,
         hash_compaction=options.hash_compaction,
         build=build,
+        wanted=wanted,
     )
 
 
@@ -93,12 +96,18 @@ def _auto(
 def _compile_aside(
     search: Interpreted, options: Options, report: Report | None
 ) -> tuple[Search, Exploration]:
+    """Compiles while the interpreter goes on; whichever is done first, does the rest."""
     from concurrent.futures import ThreadPoolExecutor
+    from threading import Event
 
+    finished = Event()
     known = search.program, search.semantics, search.invariants, search.first
     with ThreadPoolExecutor(1) as pool:
-        waiting = pool.submit(_compiled, *known, options)
-        found = search.run(options.limits, report, waiting.done)
+        waiting = pool.submit(_compiled, *known, options, wanted=lambda: not finished.is_set())
+        try:
+            found = search.run(options.limits, report, waiting.done)
+        finally:
+            finished.set()
         if found.reason != PAUSED:
             return search, found
         try:

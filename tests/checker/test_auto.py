@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import subprocess
+import time
 from pathlib import Path
 
 import pytest
@@ -64,3 +65,18 @@ def test_what_was_not_compiled_before_waits_for_its_turn(
     monkeypatch.setattr(engines, "PATIENCE", ENDLESS)
     monkeypatch.setattr(subprocess, "Popen", None)
     assert _explored(program).engine == "interpreted"
+
+
+def test_a_compiler_that_hangs_holds_nothing_up(
+    program: Program, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    compiler = tmp_path / "compiler"
+    compiler.write_text(f"#!/bin/sh\necho $$ > {tmp_path}/group\nsleep 100\n")
+    compiler.chmod(0o755)
+    monkeypatch.setenv("CC", str(compiler))
+    monkeypatch.setattr(engines, "PATIENCE", 0)
+    started = time.monotonic()
+    found = _explored(program)
+    assert (found.engine, found.reason, found.notes) == ("interpreted", None, ())
+    assert time.monotonic() - started < 50
+    assert (tmp_path / "group").exists()
