@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from rebsync.forward.cpp_types import cpp_type
 from rebsync.forward.topics import RUNTIME_TYPES, Signature, signature
 from rebsync.model import Parameter
 from rebsync.names import CPP_KEYWORDS, camel_case, carry, graph_name, unique
 from rebsync.package import NodeClass, Package, Publisher, Subscription
+from rebsync.records import dataclass
 
 _RUNTIME_MEMBERS = frozenset({"mailbox", "drive", "node", "state", "state_pub"})
 _RUNTIME_FUNCTIONS = frozenset(

@@ -12,12 +12,12 @@ import signal
 import time
 from collections.abc import Callable
 from contextlib import ExitStack, suppress
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rebsync.cache import cache_directory, is_ours
 from rebsync.checker.engines import Unavailable
+from rebsync.records import dataclass
 
 if TYPE_CHECKING:
     from subprocess import Popen

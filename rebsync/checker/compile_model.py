@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 from rebsync.checker.build import header
 from rebsync.checker.compile_bodies import bodies, branches, number
 from rebsync.checker.program import NULL, Program, RebecInfo
+from rebsync.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

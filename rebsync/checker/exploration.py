@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Protocol
 
 from rebsync.checker.graph import Graph
 from rebsync.checker.steps import Failure, Semantics
+from rebsync.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from rebsync.checker.steps import Semantics, ViolationKind
 from rebsync.checker.trace import Trace
+from rebsync.records import dataclass
 
 Verdict: TypeAlias = Literal["satisfied", "violated", "undetermined"]
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import TypeAlias
 
 from rebsync.checker.exploration import Limits, Progress, Report
 from rebsync.checker.memory import used_memory
+from rebsync.records import dataclass
 
 _SLICE = 0.05  # seconds between two looks at the bounds
 

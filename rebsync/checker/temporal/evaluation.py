@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from rebsync.checker.formulas import And, Atom, Formula, Not, Or, Temporal, Timed
 from rebsync.checker.graph import Graph
 from rebsync.checker.temporal.outcome import Outcome, Window
 from rebsync.checker.temporal.timeline import Timeline
 from rebsync.checker.watch import Look, unwatched
+from rebsync.records import dataclass
 from rebsync.unions import assert_never
 
 _FLIPPED = bytes((1, 0)) + bytes(254)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from array import array
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import TypeAlias
 
 from rebsync.checker.formulas import And, Atom, Formula, Not, Or, Timed
@@ -11,6 +11,7 @@ from rebsync.checker.temporal.components import components
 from rebsync.checker.temporal.elapsed import FOREVER
 from rebsync.checker.temporal.evaluation import Evaluation
 from rebsync.checker.temporal.outcome import Outcome, Window
+from rebsync.records import dataclass
 
 Point: TypeAlias = tuple[int, int]  # a node, and the time that has passed before
 _SHORTEST = 50_000  # points that may be looked at for the shortest run

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from dataclasses import dataclass
 
 from rebsync.checker.formulas import Bound
 from rebsync.checker.temporal.elapsed import (
@@ -16,6 +15,7 @@ from rebsync.checker.temporal.elapsed import (
     surest,
 )
 from rebsync.checker.temporal.timeline import Timeline
+from rebsync.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

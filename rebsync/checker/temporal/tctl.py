@@ -6,7 +6,7 @@ and what bounds mean on them, is said in decision 11.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from rebsync.checker.formulas import And, Atom, Formula, Not, Or, Temporal, Timed
 from rebsync.checker.graph import Graph
@@ -14,6 +14,7 @@ from rebsync.checker.temporal.evaluation import Evaluation, reduced
 from rebsync.checker.temporal.explanation import explain
 from rebsync.checker.temporal.lasso import Lasso, lasso
 from rebsync.checker.watch import Look, unwatched
+from rebsync.records import dataclass
 from rebsync.unions import assert_never
 
 

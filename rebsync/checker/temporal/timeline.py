@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from array import array
-from dataclasses import dataclass
 
 from rebsync.checker.graph import Graph
 from rebsync.checker.watch import Look, unwatched
+from rebsync.records import dataclass
 
 
 @dataclass(slots=True)
