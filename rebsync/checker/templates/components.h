@@ -254,7 +254,7 @@ static void enlarge_memo(struct engine *e, struct memo *m, uint64_t components)
         return;
     if (!entries)
         give_up(e);
-    memset(entries, 255, size * sizeof *entries);
+    memset(in_large_pages(entries, size * sizeof *entries), 255, size * sizeof *entries);
     free(m->entries);
     m->entries = entries;
     m->mask = size - 1;

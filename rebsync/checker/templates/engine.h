@@ -5,6 +5,9 @@
 #include <setjmp.h>
 #include <stdint.h>
 #include <stdio.h>
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
 
 #include "machine.h"
 
@@ -158,6 +161,20 @@ static void give_up(struct engine *e)
     longjmp(e->escape, 1);
 }
 
+/* Asks for large pages: what is large is read here and there, and the tables of small pages do not
+ * fit into the processor. */
+static void *in_large_pages(void *data, size_t size)
+{
+#ifdef MADV_HUGEPAGE
+    enum { LARGE = 1 << 22, PAGE = 1 << 12 };
+    uintptr_t from = ((uintptr_t)data + PAGE - 1) & ~(uintptr_t)(PAGE - 1);
+    uintptr_t to = ((uintptr_t)data + size) & ~(uintptr_t)(PAGE - 1);
+    if (size >= LARGE)
+        madvise((void *)from, to - from, MADV_HUGEPAGE);
+#endif
+    return data;
+}
+
 static void *room_for(struct engine *e, struct vector *v, size_t count, size_t size)
 {
     if (count > v->room) {
@@ -169,7 +186,7 @@ static void *room_for(struct engine *e, struct vector *v, size_t count, size_t s
         }
         if (!moved)
             give_up(e);
-        v->data = moved;
+        v->data = in_large_pages(moved, room * size);
         v->room = room;
     }
     return v->data;
@@ -187,7 +204,7 @@ static void *zeroed(struct engine *e, size_t count, size_t size)
     void *made = calloc(count ? count : 1, size);
     if (!made)
         give_up(e);
-    return made;
+    return in_large_pages(made, count * size);
 }
 
 static inline uint64_t mixed(uint64_t a, uint64_t b)
