@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from rebsync.checker.formulas import And, Atom, Formula, Not, Or, Temporal, Timed
 from rebsync.checker.graph import Graph
 from rebsync.checker.problem import Fairness
 from rebsync.checker.temporal import Lasso, check_ltl, check_tctl
+from rebsync.checker.temporal.emptiness import Find, search
 from rebsync.checker.watch import Look
+from rebsync.records import dataclass
 from rebsync.unions import assert_never
 
 FAIRNESS_CAVEATS = {
@@ -27,14 +27,21 @@ class Refutation:
 
 
 def refutation(
-    graph: Graph, formula: Formula, branching: bool, fairness: Fairness, look: Look
+    graph: Graph,
+    formula: Formula,
+    branching: bool,
+    fairness: Fairness,
+    look: Look,
+    compiled: bool = False,
 ) -> Refutation | None:
     """Why a formula does not hold; None when it does. `branching` says that it is one of TCTL.
+
+    With `compiled` the search for it is in C where that can be had.
 
     Raises Stopped when `look` does, or when deciding takes too much memory.
     """
     if not branching:
-        run = check_ltl(graph, formula, fairness, look)
+        run = check_ltl(graph, formula, fairness, look, _find(compiled))
         return Refutation(run, _said(run)) if run else None
     answer = check_tctl(graph, formula, look)
     if answer.holds:
@@ -43,6 +50,14 @@ def refutation(
         start = next(n for n, state in enumerate(graph.initial) if not answer.states[state])
         return Refutation(Lasso((start,), None), "it does not hold, which no single run shows")
     return Refutation(answer.run, _said(answer.run))
+
+
+def _find(compiled: bool) -> Find:
+    if not compiled:
+        return search
+    from rebsync.checker.temporal.compiled_product import search_compiled
+
+    return search_compiled
 
 
 def _said(run: Lasso) -> str:

@@ -248,8 +248,14 @@ class _Answer:
             return
         graph = self.graph()
         self.watch.begin(f"deciding {formula.name}")
-        fairness = self.options.fairness
-        found = deciding.refutation(graph, formula.formula, branching, fairness, self.watch)
+        found = deciding.refutation(
+            graph,
+            formula.formula,
+            branching,
+            self.options.fairness,
+            self.watch,
+            self.exploration.engine == "compiled",
+        )
         self.verdicts[entry.name] = "violated" if found else "satisfied"
         if found:
             run = found.run

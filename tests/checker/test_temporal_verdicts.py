@@ -2,27 +2,37 @@
 
 from __future__ import annotations
 
+from random import Random
 from typing import Literal, get_args
 
 import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
 
 from rebsync.checker import verify as verification
 from rebsync.checker.engines import Unavailable
 from rebsync.checker.exploration import Limits, Progress
+from rebsync.checker.formulas import And, Atom, Formula, Not, Or, Temporal, Timed
 from rebsync.checker.problem import EngineChoice, Fairness, Options, Problem
 from rebsync.checker.result import Result, Violation
+from rebsync.checker.search import Interpreted
 from rebsync.checker.show.data import trace_json
 from rebsync.checker.show.replay import trace_from_json
 from rebsync.checker.simulate import replay
 from rebsync.checker.steps import Semantics
 from rebsync.checker.telling import Teller
+from rebsync.checker.temporal import check_ltl, check_tctl
 from rebsync.checker.trace import Trace
 from rebsync.checker.verify import verify
 from rebsync.checker.views import view_of
 from rebsync.cli.progress import told
 from rebsync.source import Source
 from tests.checker.comparing import System
+from tests.checker.draw_systems import WITHOUT_DELAY, Drawn, systems
+from tests.checker.temporal_graphs import draw_linear, draw_timed
 
+FAIRNESS: tuple[Fairness, ...] = get_args(Fairness)
+TIMED_VIEWS: tuple[Semantics, ...] = ("tts", "ftts")
 ENGINES: tuple[EngineChoice, ...] = ("interpreted", "compiled")
 # goes on as long as it chooses 1
 ENDS = """
@@ -266,3 +276,51 @@ def test_the_state_space_must_fit_into_the_memory(monkeypatch: pytest.MonkeyPatc
 def test_progress_says_what_is_done_after_the_search() -> None:
     now = Progress(1200, 3000, 7, 0, 12.4, 52 * 2**20, "deciding live")
     assert told(now) == "1,200 states, deciding live, 12 s, 52 MiB"
+
+
+# --- views -------------------------------------------------------------------------------------
+
+
+@given(systems(WITHOUT_DELAY), st.randoms(use_true_random=False))
+def test_without_delay_the_views_agree_where_steps_are_not_counted(
+    drawn: Drawn, random: Random
+) -> None:
+    program = System.of(drawn.model, drawn.properties).program
+    assume(program.predicates)
+    graphs = []
+    for view in TIMED_VIEWS:
+        search = Interpreted(program, view)
+        assume(search.run(Limits(states=300)).reason is None)
+        graphs.append(search.graph())
+    for fairness in FAIRNESS:
+        linear = uncounted(draw_linear(random, random.randint(1, 4)), len(program.predicates))
+        exact, floating = (check_ltl(graph, linear, fairness) is None for graph in graphs)
+        assert exact is floating, (linear, fairness)
+        timed = uncounted(draw_timed(random, random.randint(1, 3)), len(program.predicates))
+        exact, floating = (check_tctl(graph, timed).holds for graph in graphs)
+        assert exact is floating, timed
+
+
+def uncounted(formula: Formula, predicates: int) -> Formula:
+    """The formula without X and without bounds, over so many predicates."""
+
+    def below(inner: Formula) -> Formula:
+        return uncounted(inner, predicates)
+
+    match formula:
+        case Atom(predicate):
+            return Atom(predicate % predicates)
+        case Not(operand):
+            return Not(below(operand))
+        case And(left, right):
+            return And(below(left), below(right))
+        case Or(left, right):
+            return Or(below(left), below(right))
+        case Temporal("X", (operand,)):
+            return below(operand)
+        case Temporal(linear, operands):
+            return Temporal(linear, tuple(below(o) for o in operands))
+        case Timed(timed, _, operands):
+            return Timed(timed, None, tuple(below(o) for o in operands))
+        case _:
+            raise AssertionError(formula)
