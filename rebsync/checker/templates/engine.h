@@ -161,20 +161,6 @@ static void give_up(struct engine *e)
     longjmp(e->escape, 1);
 }
 
-/* Asks for large pages: what is large is read here and there, and the tables of small pages do not
- * fit into the processor. */
-static void *in_large_pages(void *data, size_t size)
-{
-#ifdef MADV_HUGEPAGE
-    enum { LARGE = 1 << 22, PAGE = 1 << 12 };
-    uintptr_t from = ((uintptr_t)data + PAGE - 1) & ~(uintptr_t)(PAGE - 1);
-    uintptr_t to = ((uintptr_t)data + size) & ~(uintptr_t)(PAGE - 1);
-    if (size >= LARGE)
-        madvise((void *)from, to - from, MADV_HUGEPAGE);
-#endif
-    return data;
-}
-
 static void *room_for(struct engine *e, struct vector *v, size_t count, size_t size)
 {
     if (count > v->room) {
@@ -186,7 +172,7 @@ static void *room_for(struct engine *e, struct vector *v, size_t count, size_t s
         }
         if (!moved)
             give_up(e);
-        v->data = in_large_pages(moved, room * size);
+        v->data = moved;
         v->room = room;
     }
     return v->data;
@@ -197,6 +183,20 @@ static void *added(struct engine *e, struct vector *v, size_t size)
 {
     room_for(e, v, v->count + 1, size);
     return v->data + v->count++ * size;
+}
+
+/* Asks for large pages for what is read here and there; the places of small ones would not stay in
+ * the processor. Not for what grows, which would take more memory. */
+static void *in_large_pages(void *data, size_t size)
+{
+#ifdef MADV_HUGEPAGE
+    enum { LARGE = 1 << 22, PAGE = 1 << 12 };
+    uintptr_t from = ((uintptr_t)data + PAGE - 1) & ~(uintptr_t)(PAGE - 1);
+    uintptr_t to = ((uintptr_t)data + size) & ~(uintptr_t)(PAGE - 1);
+    if (size >= LARGE)
+        madvise((void *)from, to - from, MADV_HUGEPAGE);
+#endif
+    return data;
 }
 
 static void *zeroed(struct engine *e, size_t count, size_t size)
