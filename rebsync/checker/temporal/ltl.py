@@ -75,7 +75,9 @@ def _pieced(inside: Callable[[int], list[_Step]], start: int, full: int) -> list
     key, met = start, 0
     while met != full:
         goal = ~met & met + 1  # the lowest one left
-        steps += _shortest(inside, key, goal, lambda _, reached: reached != 0) or []
+        way = _shortest(inside, key, goal, lambda _, reached: reached != 0)
+        assert way, "a component that reaches a goal has a way to it"
+        steps += way
         key = steps[-1][1]
         for _, _, reached in steps:
             met |= reached
