@@ -193,7 +193,7 @@ static size_t length_of(struct actor *a, uint32_t id)
 
 static void enlarge_table(struct engine *e, struct actor *a)
 {
-    uint64_t size = a->mask ? 2 * (a->mask + 1) : 256, *table = zeroed(e, size, sizeof *table);
+    uint64_t size = a->mask ? 2 * (a->mask + 1) : TABLE, *table = zeroed(e, size, sizeof *table);
     for (uint64_t i = 0; a->mask && i <= a->mask; i++) {
         uint64_t entry = a->table[i], at = (entry >> 32) & (size - 1);
         if (!entry)
@@ -244,10 +244,10 @@ static uint32_t number_of(struct engine *e, uint32_t rebec, const struct local *
 static void enlarge_memo(struct engine *e, struct memo *m, uint64_t components)
 {
     uint64_t size = m->entries ? m->mask + 1 : 0;
-    if (size >= (1 << 18) || 4 * components <= size)
+    if (size >= MEMO_AT_MOST || 4 * components <= size)
         return;
-    size = 1024;
-    while (size < 8 * components && size < (1 << 18))
+    size = MEMO;
+    while (size < 8 * components && size < MEMO_AT_MOST)
         size *= 2;
     struct remembered *entries = malloc(size * sizeof *entries);
     if (!entries && m->entries)
@@ -353,7 +353,7 @@ static inline uint32_t received(struct engine *e, uint32_t rebec, uint32_t id, u
 static void enlarge_message_table(struct engine *e)
 {
     size_t stride = e->model->stride;
-    uint64_t size = e->message_mask ? 2 * (e->message_mask + 1) : 256;
+    uint64_t size = e->message_mask ? 2 * (e->message_mask + 1) : TABLE;
     uint32_t *table = zeroed(e, size, sizeof *table);
     for (uint32_t id = 0; id < e->messages.count; id++) {
         const cell *message = (cell *)e->messages.data + (size_t)id * stride;

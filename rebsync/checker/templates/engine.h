@@ -11,6 +11,15 @@
 
 #include "machine.h"
 
+/* How much tables and memories hold, at first or at most, and how often the search looks up. With
+ * little of all that, small systems show whether what is full is handled rightly. */
+#ifdef LITTLE_ROOM
+enum { BATCH = 3, OBSERVED = 2, MEMO = 2, MEMO_AT_MOST = 8, TABLE = 8, SLOTS = 8, TURNS = 2, GONE = 3 };
+#else
+enum { BATCH = 64, OBSERVED = 1024, MEMO = 1024, MEMO_AT_MOST = 1 << 18, TABLE = 256 };
+enum { SLOTS = 1 << 14, TURNS = 256, GONE = 4096 };
+#endif
+
 #define NEVER INT64_MAX
 #define NONE UINT32_MAX
 
@@ -82,7 +91,6 @@ struct event {
 };
 
 enum { PREDICATE = 8, DEADLOCK = 9 };
-enum { BATCH = 64 };
 
 /* States on their way into the visited set; `event` is a failed step instead, or -1. */
 struct pending {
@@ -103,7 +111,6 @@ struct graph {
 };
 
 /* The variables of some components of a rebec that predicates read, unpacked. */
-enum { OBSERVED = 1024 };
 struct observed {
     uint32_t ids[OBSERVED];
     cell *variables;

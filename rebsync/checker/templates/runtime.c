@@ -162,7 +162,7 @@ static void undo(struct engine *e)
 static void forget(struct engine *e)
 {
     uint64_t gone = e->expanded - e->forgotten, left = e->count - e->expanded;
-    if (!e->compact || gone < 4096 || gone < left)
+    if (!e->compact || gone < GONE || gone < left)
         return;
     uint64_t size = e->words * sizeof(uint64_t);
     memmove(e->states.data, e->states.data + gone * size, left * size);
@@ -197,7 +197,7 @@ static int search_on(struct engine *e, uint64_t states, int64_t due)
             if (e->count >= states)
                 return STATES;
         }
-        if (turn % 256 == 0 && clock_now() >= due)
+        if (turn % TURNS == 0 && clock_now() >= due)
             return SLICE;
         e->current = e->expanded;
         unpack(e, words_of(e, e->current), e->ids);
@@ -206,7 +206,7 @@ static int search_on(struct engine *e, uint64_t states, int64_t due)
             return UNENDING;
         }
         e->expanded++;
-        if (turn % 256 == 0)
+        if (turn % TURNS == 0)
             forget(e);
     }
 }

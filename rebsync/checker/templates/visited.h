@@ -95,7 +95,7 @@ static void fill_table(struct engine *e, uint64_t slots)
 
 static void enlarge_prints(struct engine *e)
 {
-    uint64_t slots = e->slots ? e->slots + e->slots / 2 : 1 << 14, old = e->slots;
+    uint64_t slots = e->slots ? e->slots + e->slots / 2 : SLOTS, old = e->slots;
     uint64_t *prints = zeroed(e, slots, sizeof *prints), *before = e->prints;
     e->slots = slots;
     for (uint64_t i = 0; i < old; i++) {
@@ -119,7 +119,7 @@ static void room_for_state(struct engine *e)
     if (e->compact)
         enlarge_prints(e);
     else
-        fill_table(e, e->slots ? 2 * e->slots : 1 << 14);
+        fill_table(e, e->slots ? 2 * e->slots : SLOTS);
 }
 
 /* The slot of a state, or the free one where it would be. */
@@ -227,7 +227,7 @@ static void repack(struct engine *e)
     free(before);
     e->wide = 0;
     if (!e->compact)
-        fill_table(e, e->slots ? e->slots : 1 << 14);
+        fill_table(e, e->slots ? e->slots : SLOTS);
 }
 
 #endif
