@@ -134,6 +134,22 @@ def test_many_rebecs_and_wide_states() -> None:
     assert "64 bits of each state" in again.notes[0]
 
 
+@pytest.mark.parametrize("compacted", [False, True])
+def test_states_that_outgrow_their_words(compacted: bool) -> None:
+    """Sixteen rebecs have 4 bits each at first; when they count on, all states move."""
+    text = WALKERS.replace("?(1, 3)", "1").replace("?(1, 2)", "1").replace("%SIZE%", "300")
+    main = "\n".join(f"    @priority({i}) Walker w{i}():();" for i in range(16))
+    program = System.of(text.replace("%MAIN%", main)).program
+    search = CompiledSearch(program, "ftts", hash_compaction=compacted)
+    interpreted = Interpreted(program, "ftts")
+    found = interpreted.run(Limits())
+    assert found.states > 16 * 256
+    assert _figures(search.run(Limits())) == _figures(found)
+    for state in range(0, found.states, 500):
+        assert search.path(state) == interpreted.path(state)
+    assert search.graph() == interpreted.graph()
+
+
 ENDLESS = """\
 reactiveclass Endless(5) {
     msgsrv begin() { self.go(?(true, false)); }
