@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import chain, repeat
 
 from rebsync.checker.exploration import Exploration, Report, Search
 from rebsync.checker.problem import Options
@@ -19,6 +20,7 @@ class Unavailable(Exception):
 
 GLANCE = 0.05  # seconds after which it pays to look whether a model was compiled before
 PATIENCE = 0.25  # seconds after which a search counts as large
+HEAD_START = 1.0  # seconds that compiling has for itself: beside the interpreter it takes longer
 
 
 def explore(
@@ -96,16 +98,19 @@ def _auto(
 def _compile_aside(
     search: Interpreted, options: Options, report: Report | None
 ) -> tuple[Search, Exploration]:
-    """Compiles while the interpreter goes on; whichever is done first, does the rest."""
-    from concurrent.futures import ThreadPoolExecutor
+    """Compiles; if that takes long the interpreter goes on. Who is done first does the rest."""
+    from concurrent.futures import ThreadPoolExecutor, wait
     from threading import Event
 
     finished = Event()
+    pauses = chain((HEAD_START,), repeat(0.0))
     known = search.program, search.semantics, search.invariants, search.first
     with ThreadPoolExecutor(1) as pool:
         waiting = pool.submit(_compiled, *known, options, wanted=lambda: not finished.is_set())
         try:
-            found = search.run(options.limits, report, waiting.done)
+            found = search.run(
+                options.limits, report, lambda: bool(wait((waiting,), next(pauses)).done)
+            )
         finally:
             finished.set()
         if found.reason != PAUSED:
