@@ -103,15 +103,15 @@ class Whole:
     def line(self, name: str) -> str:
         runs = self.runs
         return (
-            f"{name:30}{self.states:11,}{self.states / self.search:11,.0f}{runs.seconds:9.2f}"
+            f"{name:32}{self.states:11,}{self.states / self.search:11,.0f}{runs.seconds:9.2f}"
             f"{runs.best:8.2f}{runs.cpu:8.2f}{runs.peak / MEGABYTE:9.0f}"
             f"{runs.peak / self.states:13.0f}"
         )
 
 
 HEADING = (
-    f"{'command':30}     states   states/s   median    best     cpu  peak MB  bytes/state\n"
-    f"{'':30}             (searching)        s       s       s  (process)"
+    f"{'command':32}     states   states/s   median    best     cpu  peak MB  bytes/state\n"
+    f"{'':32}             (searching)        s       s       s  (process)"
 )
 
 
@@ -121,6 +121,5 @@ def verified(
     """The command with this exit status, so many times."""
     runs = repeat(times, lambda: run(rebsync(model, *options), cache, status))
     result = json.loads(runs.output)
-    states = result["states"]
-    search = states / result["states_per_second"]
-    return Whole(result["engine"], states, result["transitions"], search, runs)
+    counts = result["states"], result["transitions"]
+    return Whole(result["engine"], *counts, result["search_seconds"], runs)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from rebsync.forward.cpp_layout import call_lines, indented
 from rebsync.forward.cpp_names import CppNames
@@ -13,6 +12,7 @@ from rebsync.forward.lineage import ancestors, base_of, interfaces
 from rebsync.model import Annotation, Block, Parameter
 from rebsync.package import Function, NodeClass, Package, Subscription
 from rebsync.printing import print_line
+from rebsync.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from rebsync import model as m
 from rebsync.forward.cpp_names import CppNames
@@ -13,6 +12,7 @@ from rebsync.forward.effects import conflicting, writes_to
 from rebsync.forward.sends import Send, ToAny, ToKnown, ToSelf, send_of
 from rebsync.forward.topics import Topics
 from rebsync.names import graph_name
+from rebsync.records import dataclass
 from rebsync.static import Analysis
 from rebsync.static.constants import constant
 from rebsync.static.symbols import (

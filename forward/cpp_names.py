@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from rebsync.forward.cpp_types import stored_type
 from rebsync.forward.topics import Signature, signature
 from rebsync.model import Parameter
 from rebsync.names import camel_case, carry, graph_name, unique
 from rebsync.package import NodeClass, Package, Publisher, Subscription
+from rebsync.records import dataclass
 from rebsync.reserved import (
     OF_CONSTRUCTOR,
     RESERVED,

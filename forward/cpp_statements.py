@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from rebsync import model as m
 from rebsync.forward.cpp_expressions import CppExpressions
@@ -11,6 +11,7 @@ from rebsync.forward.cpp_types import cpp_type
 from rebsync.forward.effects import crossing_locals, read_declarations
 from rebsync.forward.remarks import Remarks
 from rebsync.printing import print_line
+from rebsync.records import dataclass
 from rebsync.unions import assert_never
 
 _INDENT = "  "

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence, Set
-from dataclasses import dataclass
 from typing import TypeAlias
 
 from rebsync.model import (
@@ -24,6 +23,7 @@ from rebsync.model import (
     Unary,
     walk,
 )
+from rebsync.records import dataclass
 from rebsync.static import Analysis
 from rebsync.static.constants import constant
 from rebsync.static.symbols import MethodSymbol, StateSymbol

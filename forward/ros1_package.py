@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import prod
 
 from rebsync.forward.templating import fill
 from rebsync.model import Type
 from rebsync.package import Instance, NodeClass, NodeParameter, Package, Remap, Value
 from rebsync.printing import print_line
+from rebsync.records import dataclass
 
 _TYPES = {
     "byte": "int8",

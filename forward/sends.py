@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from rebsync.model import (
     Block,
@@ -18,6 +17,7 @@ from rebsync.model import (
     Self,
     walk,
 )
+from rebsync.records import dataclass
 from rebsync.static import Analysis
 from rebsync.static.symbols import KnownRebecSymbol, ServerSymbol
 

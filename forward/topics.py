@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from rebsync.model import (
     Interface,
@@ -29,6 +28,7 @@ from rebsync.names import (
     unique,
 )
 from rebsync.package import Field, MessageType, StateType
+from rebsync.records import dataclass
 from rebsync.reserved import (
     NO_CLASSES,
     RUNTIME_CLASSES,

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import cast
 
 from rebsync import model as m
 from rebsync import properties as p
 from rebsync.diagnostics import Diagnostic, did_you_mean
+from rebsync.records import dataclass
 from rebsync.source import Span
 
 _LTL = {"G": 1, "F": 1, "X": 1, "U": 2, "W": 2}

@@ -6,7 +6,7 @@ timed_rebeca.lark. Each of these is one pass over the tokens, so lexing stays li
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cache
 from importlib.resources import files
 from itertools import zip_longest
@@ -16,6 +16,7 @@ from lark import Lark, Token
 from rebsync.diagnostics import Diagnostic, Edit, closest
 from rebsync.grammars.tables import load
 from rebsync.grammars.tree import TreeBuilder
+from rebsync.records import dataclass
 from rebsync.source import Span
 
 _TRIVIA = frozenset({"COMMENT", "OPEN_COMMENT", "OPEN_STRING", "ILLEGAL"})

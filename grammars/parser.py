@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from rebsync.diagnostics import Diagnostic, Severity
 from rebsync.grammars.lexer import lex, rebeca_grammar, token_span
 from rebsync.grammars.recovery import RecoveringParser
 from rebsync.model import Broken, Expression, Model, Statement, Switch, walk
+from rebsync.records import dataclass
 from rebsync.source import Source, Span
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -17,6 +16,7 @@ from rebsync.grammars.recovery import RecoveringParser
 from rebsync.grammars.tables import load
 from rebsync.grammars.tree import TreeBuilder
 from rebsync.properties import Define, Properties, Property
+from rebsync.records import dataclass
 from rebsync.source import Source, Span
 
 _NUMBERS = frozenset(("byte", "short", "int", "float", "double"))

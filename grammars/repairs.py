@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from lark import Lark, Token
 from lark.lexer import PatternStr
 
 from rebsync.diagnostics import Diagnostic, Edit, closest
 from rebsync.grammars.lexer import retyped, token_span
+from rebsync.records import dataclass
 from rebsync.source import Span
 
 _INSERTABLE = (("SEMICOLON", ";"), ("RPAR", ")"), ("RBRACE", "}"), ("LBRACE", "{"), ("LPAR", "("))

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, Protocol, TypeAlias, TypeVar
 
 from lark import Token
 
 from rebsync import model as m
+from rebsync.records import dataclass
 from rebsync.source import Span
 
 Children: TypeAlias = list[Any]

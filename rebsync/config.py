@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Literal, TypeAlias, cast
 
 from rebsync.diagnostics import Findings, RebsyncError, did_you_mean
+from rebsync.records import dataclass
 from rebsync.source import Source
 from rebsync.toml import Table, read_toml
 

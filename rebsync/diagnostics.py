@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from difflib import get_close_matches
 from enum import Enum
 
+from rebsync.records import dataclass
 from rebsync.source import NOWHERE, Source, Span
 
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from rebsync.records import dataclass
 from rebsync.spacing import Spacing
 
 WIDTH = 100

@@ -7,7 +7,7 @@ the RoboRebeca thesis. Parentheses are kept (`Paren`), so that a tree prints bac
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, fields
+from dataclasses import field, fields
 from typing import TypeAlias
 
 from rebsync.expressions import (
@@ -38,6 +38,7 @@ from rebsync.expressions import (
     Unary,
     span_field,
 )
+from rebsync.records import dataclass
 from rebsync.source import Span
 from rebsync.statements import (
     ArrayInitializer,

@@ -7,10 +7,10 @@ in `instances`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TypeAlias
 
 from rebsync.model import Annotation, Block, Parameter, Type
+from rebsync.records import dataclass
 
 Value: TypeAlias = "int | float | bool | str | tuple[Value, ...]"
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal, TypeAlias
 
 from rebsync.model import Expression, Paren
+from rebsync.records import dataclass
 from rebsync.source import NOWHERE, Span
 
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from rebsync import model as m
 from rebsync import properties as p
 from rebsync.diagnostics import Diagnostic, Severity, did_you_mean
+from rebsync.records import dataclass
 from rebsync.source import Span
 from rebsync.static import Analysis
 from rebsync.static.constants import constant

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from unicodedata import east_asian_width
 
 from rebsync.diagnostics import Diagnostic, Severity
+from rebsync.records import dataclass
 from rebsync.source import NOWHERE, Source, Span
 
 _WIDTH = 120

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TypeAlias
 
 from rebsync.expressions import Annotation, Expression, Type, span_field
+from rebsync.records import dataclass
 from rebsync.source import Span
 
 

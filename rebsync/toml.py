@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TypeVar
 
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, did_you_mean
+from rebsync.records import dataclass
 from rebsync.source import NOWHERE, Source, Span
 
 if sys.version_info >= (3, 11):

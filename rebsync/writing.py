@@ -11,10 +11,10 @@ import signal
 import stat
 from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from pathlib import Path
 
 from rebsync.files import BOM, operating_on
+from rebsync.records import dataclass
 
 _STAGED = re.compile(r"\..+\.[0-9a-f]{8}\.rebsync\.tmp\Z")
 _ENDING = {"SIGINT", "SIGTERM", "SIGHUP"}

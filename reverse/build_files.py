@@ -7,8 +7,7 @@ under that condition, and variables set there are open afterwards.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from rebsync.records import dataclass
 from rebsync.reverse.unknowns import Open, Text, Unknown
 from rebsync.source import Source, Span
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import posixpath
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from rebsync.records import dataclass
 from rebsync.reverse.build_files import BuildFiles
 from rebsync.reverse.cmake_targets import EXECUTABLE, LIBRARY, Call, Folder, Maker
 from rebsync.reverse.cmake_text import Block, Command, Item, Quote, read_cmake

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import posixpath
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
+from rebsync.records import dataclass
 from rebsync.reverse.build_files import Target
 from rebsync.reverse.cmake_text import Command
 from rebsync.reverse.cmake_values import Unset, Variables, known, sections

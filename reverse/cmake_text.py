@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from enum import Enum
 from typing import TypeAlias
 
+from rebsync.records import dataclass
 from rebsync.reverse.unknowns import Unknown
 from rebsync.source import Source, Span
 

@@ -8,8 +8,9 @@ from __future__ import annotations
 import posixpath
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from rebsync.records import dataclass
 from rebsync.reverse.cmake_text import Argument, Quote
 from rebsync.reverse.unknowns import Open, Text
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from tree_sitter import Node
 
+from rebsync.records import dataclass
 from rebsync.reverse.cpp_tree import named, part, text_of
 
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync import precedence
 from rebsync.names import original
+from rebsync.records import dataclass
 from rebsync.reverse.cpp_literals import literal
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.cpp_types import class_name, type_of

@@ -6,10 +6,11 @@ Header and source are read together: a function's body is looked for wherever it
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from tree_sitter import Node
 
+from rebsync.records import dataclass
 from rebsync.reverse.cpp_tree import Cpp, markers_above, markers_beside, named, part, text_of
 
 _CONTAINERS = frozenset(

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.records import dataclass
 from rebsync.reverse.cpp_expressions import MOVE, CppExpressions
 from rebsync.reverse.cpp_tree import Cpp, markers_in, named, part, text_of
 from rebsync.reverse.cpp_types import type_of

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cache
 
 import tree_sitter_cpp
 from tree_sitter import Language, Node, Parser
 
+from rebsync.records import dataclass
 from rebsync.source import Source, Span
 
 # `class FOO_EXPORT Foo {`: without the macro's definition the parser takes Foo for a variable.

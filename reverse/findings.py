@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import Enum
 
+from rebsync.records import dataclass
 from rebsync.source import Source, Span
 
 

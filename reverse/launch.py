@@ -8,8 +8,9 @@ is in the list of unknowns.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
+from rebsync.records import dataclass
 from rebsync.reverse.graph_names import canonical, join
 from rebsync.reverse.launch_nodes import NodeTag, environment, marker, node_tag
 from rebsync.reverse.launch_parameters import settings

@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 import shlex
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
+from rebsync.records import dataclass
 from rebsync.reverse.graph_names import canonical
 from rebsync.reverse.launch_parameters import settings
 from rebsync.reverse.launch_scope import Scope

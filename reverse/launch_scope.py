@@ -7,8 +7,9 @@ those that are passed to it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from rebsync.records import dataclass
 from rebsync.reverse.graph_names import as_namespace, canonical, is_legal, join
 from rebsync.reverse.launch_values import Substitution, Surroundings, truth
 from rebsync.reverse.launched import LaunchedRemap

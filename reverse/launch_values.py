@@ -5,9 +5,10 @@ from __future__ import annotations
 import posixpath
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from rebsync.names import unique
+from rebsync.records import dataclass
 from rebsync.reverse.arithmetic import Scalar, evaluate
 from rebsync.reverse.parameters import storable
 from rebsync.reverse.unknowns import Open, Text

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from rebsync.records import dataclass
 from rebsync.reverse.graph_names import as_namespace, join, resolve
 from rebsync.reverse.parameters import Parameter
 from rebsync.reverse.unknowns import Open, Text, Unknown

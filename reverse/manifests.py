@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from rebsync.package import Maintainer
+from rebsync.records import dataclass
 from rebsync.reverse.unknowns import Unknown
 from rebsync.reverse.xml_tree import Element, read_xml
 from rebsync.source import Source, Span

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import ast
 import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TypeAlias
 
+from rebsync.records import dataclass
 from rebsync.reverse.unknowns import Open, Unknown
 from rebsync.source import Source, Span
 

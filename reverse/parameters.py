@@ -10,11 +10,11 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import TypeAlias, TypeVar
 
 import yaml
 
+from rebsync.records import dataclass
 from rebsync.reverse.arithmetic import evaluate
 from rebsync.reverse.unknowns import Open, Unknown
 from rebsync.source import Source, Span

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 from tree_sitter import Node
 
@@ -12,6 +11,7 @@ from rebsync import model as m
 from rebsync.literals import initial_of, literal_of
 from rebsync.names import TAKEN_NODES, graph_name, uncarry
 from rebsync.package import Value
+from rebsync.records import dataclass
 from rebsync.reserved import RESERVED_GLOBALS
 from rebsync.reverse.cpp_calls import calls_in, string_of
 from rebsync.reverse.cpp_index import Code, CppFunction

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from rebsync import model as m
 from rebsync.names import uncarry
+from rebsync.records import dataclass
 from rebsync.reserved import RESERVED, RUNTIME_MEMBERS
 from rebsync.reverse.cpp_calls import call_of
 from rebsync.reverse.cpp_index import Code, CppClass, CppField, CppFunction

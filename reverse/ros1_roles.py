@@ -7,12 +7,13 @@ that publishes or posts is a send. Names and markers decide nothing here.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.names import original, uncarry
+from rebsync.records import dataclass
 from rebsync.reserved import OWN_TOPICS, RUNTIME_TOPICS
 from rebsync.reverse.cpp_calls import CppCall, assigned_in, call_of, calls_in, string_of
 from rebsync.reverse.cpp_index import Code, CppClass, CppFunction

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Literal, TypeAlias
 
 from rebsync.model import Expression, Name
+from rebsync.records import dataclass
 from rebsync.reserved import RESERVED, uncarry_local
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TypeAlias
 
+from rebsync.records import dataclass
 from rebsync.source import Source, Span
 
 

@@ -8,10 +8,11 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TypeAlias
 from xml.parsers import expat
 
+from rebsync.records import dataclass
 from rebsync.reverse.unknowns import Unknown
 from rebsync.source import Source, Span
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import hashlib
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+
+from rebsync.records import dataclass
 
 _MARKER = re.compile(
     r"(?P<before>.*?)(?://|\#|<!--)\s*rebsync:\s*(?P<kind>[\w-]+)\s*(?P<path>.*?)\s*(?:-->)?\s*\Z"

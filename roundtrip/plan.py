@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from difflib import unified_diff
 from enum import Enum
 from itertools import count
 from pathlib import Path
 
 from rebsync.files import read_source
+from rebsync.records import dataclass
 from rebsync.roundtrip.manifest import BASE, FOLDER
 from rebsync.roundtrip.markers import user_blocks, with_user_blocks
 

@@ -7,9 +7,9 @@ each has a fixed place. What an instruction means is said in machine.py.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
 from rebsync.checker.program import Body, Instruction, Program
+from rebsync.records import dataclass
 
 _JUMPS = ("JUMP", "JUMPF", "JUMPT")
 _ENDS = ("JUMP", "RET")

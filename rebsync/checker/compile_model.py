@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
+from rebsync.checker.build import header
 from rebsync.checker.compile_bodies import bodies, branches, number
 from rebsync.checker.program import NULL, Program, RebecInfo
+from rebsync.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,19 +17,29 @@ class _RebecText:
     blank: str
 
 
-def model_source(program: Program) -> str:
+class ModelText:
     """The C text of a program; it includes machine.h."""
-    from jinja2 import Environment, PackageLoader, StrictUndefined
 
-    environment = Environment(
-        loader=PackageLoader("rebsync.checker"),
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-        autoescape=False,
-    )
-    return environment.get_template("model.c.j2").render(_context(program))
+    def __init__(self, program: Program) -> None:
+        self._template = header("model.c.j2")
+        self._context = _context(program)
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """What the text is made from; jinja2 is imported only to make it."""
+        return self._template, repr(self._context)
+
+    def render(self) -> str:
+        from jinja2 import Environment, StrictUndefined
+
+        environment = Environment(
+            undefined=StrictUndefined,
+            trim_blocks=True,
+            lstrip_blocks=True,
+            keep_trailing_newline=True,
+            autoescape=False,
+        )
+        return environment.from_string(self._template).render(self._context)
 
 
 def message_cells(program: Program) -> int:

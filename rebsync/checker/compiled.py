@@ -8,18 +8,20 @@ from __future__ import annotations
 import ctypes
 import time
 from array import array
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from rebsync.checker import native
-from rebsync.checker.build import Unit, header, libraries
+from rebsync.checker.build import Unit, always, header, libraries
 from rebsync.checker.compile_bodies import branches
-from rebsync.checker.compile_model import model_source
+from rebsync.checker.compile_model import ModelText
 from rebsync.checker.engines import Unavailable
 from rebsync.checker.exploration import Covered, Event, Exploration, Limits, Progress, Report
 from rebsync.checker.graph import Graph
 from rebsync.checker.memory import used_memory
 from rebsync.checker.program import Program
-from rebsync.checker.search import endless_reason
+from rebsync.checker.search import NO_MEMORY, endless_reason
 from rebsync.checker.steps import Failure, Semantics
 
 _SLICE = 50_000_000  # nanoseconds between two looks at the bounds
@@ -30,7 +32,8 @@ class CompiledSearch:
     """A search of a program made native. `invariants` are the predicates whose failure is an event.
 
     Of the rebecs in `first` one that can act without failing acts alone. With `hash_compaction`
-    only 64 bits of each state are remembered. Raises Unavailable when it cannot be built.
+    only 64 bits of each state are remembered. Raises Unavailable when it cannot be built, or
+    `build` is false and it has not been built before, or is not `wanted` any more meanwhile.
     """
 
     def __init__(
@@ -41,6 +44,8 @@ class CompiledSearch:
         first: frozenset[int] = frozenset(),
         *,
         hash_compaction: bool = False,
+        build: bool = True,
+        wanted: Callable[[], bool] = always,
     ) -> None:
         started = time.perf_counter()
         self.program = program
@@ -51,7 +56,7 @@ class CompiledSearch:
         self._until: int | None = None
         self._spent = 0.0
         self._engine: int | None = None
-        self._library, self._model = _libraries(program)
+        self._library, self._model = _libraries(program, build, wanted)
         self._engine = self._library.rebsync_new(
             ctypes.addressof(ctypes.c_char.in_dll(self._model, "rebsync_model")),
             native.SEMANTICS.index(semantics),
@@ -113,7 +118,7 @@ class CompiledSearch:
                 case "endless":
                     return endless_reason(self.program, self._figures().stuck_pc)
                 case "memory":
-                    return "there was no more memory"
+                    return NO_MEMORY
                 case _:
                     if stop := self._look(limits, report, time.perf_counter() - started):
                         return stop
@@ -189,6 +194,8 @@ class CompiledSearch:
         ordinal = ctypes.c_int64()
         while state >= 0:
             state = self._library.rebsync_before(self._engine, state, ctypes.byref(ordinal))
+            if state == native.NO_MEMORY:
+                raise MemoryError
             ordinals.append(ordinal.value)
         return tuple(reversed(ordinals))
 
@@ -235,11 +242,14 @@ def _zeros(code: str, count: int) -> array[Any]:
     return empty * count
 
 
-def _libraries(program: Program) -> tuple[ctypes.CDLL, ctypes.CDLL]:
+def _libraries(
+    program: Program, build: bool, wanted: Callable[[], bool]
+) -> tuple[ctypes.CDLL, ctypes.CDLL]:
     """The search, and the model."""
-    parts = tuple(header(name) for name in native.PARTS)
-    runtime = Unit("runtime", header("runtime.c"), parts, "-O1")
-    model = Unit("model", model_source(program), (header("machine.h"),), "-O1")
-    search, bodies = libraries((runtime, model))
+    parts = tuple(header(name) for name in ("runtime.c", *native.PARTS))
+    runtime = Unit("runtime", partial(header, "runtime.c"), parts, "-O1")
+    text = ModelText(program)
+    model = Unit("model", text.render, (*text.parts, header("machine.h")), "-O1")
+    search, bodies = libraries((runtime, model), build, wanted)
     native.declare(search)
     return search, bodies

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import time
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable
 from dataclasses import replace
+from itertools import chain, repeat
 
 from rebsync.checker.exploration import Exploration, Report, Search
 from rebsync.checker.problem import Options
 from rebsync.checker.program import Program
-from rebsync.checker.search import PAUSED, Interpreted
+from rebsync.checker.search import PAUSED, Interpreted, Pause
 from rebsync.checker.steps import Semantics
 
 
@@ -17,7 +18,9 @@ class Unavailable(Exception):
     """The compiled engine cannot be had here; the text says why."""
 
 
+GLANCE = 0.05  # seconds after which it pays to look whether a model was compiled before
 PATIENCE = 0.25  # seconds after which a search counts as large
+HEAD_START = 1.0  # seconds that compiling has for itself: beside the interpreter it takes longer
 
 
 def explore(
@@ -49,11 +52,19 @@ def _compiled(
     invariants: tuple[int, ...],
     first: frozenset[int],
     options: Options,
+    build: bool = True,
+    wanted: Callable[[], bool] = lambda: True,
 ) -> Search:
     from rebsync.checker.compiled import CompiledSearch
 
     return CompiledSearch(
-        program, semantics, invariants, first, hash_compaction=options.hash_compaction
+        program,
+        semantics,
+        invariants,
+        first,
+        hash_compaction=options.hash_compaction,
+        build=build,
+        wanted=wanted,
     )
 
 
@@ -65,15 +76,43 @@ def _auto(
     options: Options,
     report: Report | None,
 ) -> tuple[Search, Exploration]:
-    """Interprets for a moment; then compiles, and goes on interpreting until that is done."""
+    """Interprets for a moment; then compiles, and goes on interpreting until that is done.
+
+    What has been compiled before is taken as soon as a model is not tiny.
+    """
     search = Interpreted(program, semantics, invariants, first)
-    large = time.monotonic() + PATIENCE
-    found = search.run(options.limits, report, lambda: time.monotonic() >= large)
+    found = search.run(options.limits, report, _after(GLANCE))
     if found.reason != PAUSED:
         return search, found
+    try:
+        kept = _compiled(program, semantics, invariants, first, options, build=False)
+    except Unavailable:
+        found = search.run(options.limits, report, _after(PATIENCE - GLANCE))
+    else:
+        return kept, kept.run(options.limits, report)
+    if found.reason != PAUSED:
+        return search, found
+    return _compile_aside(search, options, report)
+
+
+def _compile_aside(
+    search: Interpreted, options: Options, report: Report | None
+) -> tuple[Search, Exploration]:
+    """Compiles; if that takes long the interpreter goes on. Who is done first does the rest."""
+    from concurrent.futures import ThreadPoolExecutor, wait
+    from threading import Event
+
+    finished = Event()
+    pauses = chain((HEAD_START,), repeat(0.0))
+    known = search.program, search.semantics, search.invariants, search.first
     with ThreadPoolExecutor(1) as pool:
-        waiting = pool.submit(_compiled, program, semantics, invariants, first, options)
-        found = search.run(options.limits, report, waiting.done)
+        waiting = pool.submit(_compiled, *known, options, wanted=lambda: not finished.is_set())
+        try:
+            found = search.run(
+                options.limits, report, lambda: bool(wait((waiting,), next(pauses)).done)
+            )
+        finally:
+            finished.set()
         if found.reason != PAUSED:
             return search, found
         try:
@@ -83,3 +122,8 @@ def _auto(
             note = f"the interpreter did all the work: {unavailable}"
             return search, replace(found, notes=(*found.notes, note))
     return compiled, compiled.run(options.limits, report)
+
+
+def _after(seconds: float) -> Pause:
+    end = time.monotonic() + seconds
+    return lambda: time.monotonic() >= end

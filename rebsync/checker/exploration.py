@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Protocol
 
 from rebsync.checker.graph import Graph
 from rebsync.checker.steps import Failure, Semantics
+from rebsync.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +27,10 @@ class Limits:
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """How far a search is: `depth` is the breadth-first level, `memory` bytes in use."""
+    """How far a search is: `depth` is the breadth-first level, `memory` bytes in use.
+
+    `task` is what is done after the search, while that is done.
+    """
 
     states: int
     transitions: int
@@ -34,6 +38,7 @@ class Progress:
     waiting: int
     seconds: float
     memory: int
+    task: str = ""
 
 
 Report = Callable[[Progress], None]

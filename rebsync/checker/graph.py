@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from array import array
-from dataclasses import dataclass
+
+from rebsync.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +21,7 @@ class Graph:
     first: array[int]  # 'Q', one more than there are states
     target: array[int]  # 'q'
     actor: array[int]  # 'i'
-    time: array[int]  # 'i'
+    time: array[int]  # 'q'
     labels: array[int]  # 'Q'
     words: int
     initial: tuple[int, ...]

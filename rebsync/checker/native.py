@@ -20,6 +20,7 @@ PARTS = (
 )
 SEMANTICS: tuple[Semantics, ...] = ("tts", "ftts", "core")
 END = ("finished", "slice", "states", "endless", "memory")
+NO_MEMORY = -2  # instead of a state
 STATES_AT_ONCE = 100_000  # between two chances to interrupt the making of a graph
 
 

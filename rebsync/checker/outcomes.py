@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from bisect import bisect
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from rebsync.checker.machine import Coverage, Failed, Machine, Sent
 from rebsync.checker.program import NO_DEADLINE, NULL, UNRANKED, Program
 from rebsync.checker.state import Local, Message
 from rebsync.checker.steps import Failure, Semantics
+from rebsync.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal, TypeAlias
 
 from rebsync.checker.exploration import Limits
 from rebsync.checker.steps import Semantics
 from rebsync.properties import Properties
+from rebsync.records import dataclass
 from rebsync.source import Source
 from rebsync.static import Analysis
 

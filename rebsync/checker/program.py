@@ -9,10 +9,10 @@ The meaning of each instruction is in `machine.py`; both engines run this one li
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, NamedTuple, TypeAlias
 
 from rebsync.model import Type
+from rebsync.records import dataclass
 from rebsync.source import Span
 
 Cell: TypeAlias = int

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from rebsync.checker.steps import Semantics, ViolationKind
 from rebsync.checker.trace import Trace
+from rebsync.records import dataclass
 
 Verdict: TypeAlias = Literal["satisfied", "violated", "undetermined"]
 
@@ -42,7 +42,11 @@ class Coverage:
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """Everything that a verification found."""
+    """Everything that a verification found.
+
+    `seconds` counts all of it; `search_seconds` is the part in which states were searched, and
+    `build_seconds` the one in which the engine that searched was made.
+    """
 
     verdict: Verdict
     reason: str | None
@@ -56,5 +60,6 @@ class Result:
     semantics: Semantics
     engine: str
     seconds: float
+    search_seconds: float
     build_seconds: float
     peak_memory_bytes: int

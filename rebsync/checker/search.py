@@ -25,6 +25,7 @@ from rebsync.checker.steps import Failure, Semantics, Step
 from rebsync.checker.views import view_of
 
 PAUSED = "paused"
+NO_MEMORY = "there was no more memory"
 _SLICE = 0.05  # seconds between two looks at the bounds
 
 Pause: TypeAlias = Callable[[], bool]
@@ -44,6 +45,7 @@ class Interpreted:
         self.semantics: Semantics = semantics
         self.view = view_of(program, semantics, first)
         self.invariants = invariants
+        self.first = first
         self.states: list[State] = []
         self.numbers: dict[State, int] = {}
         self._parents: list[int] = []  # -1 - ordinal for initial states
@@ -71,6 +73,8 @@ class Interpreted:
             reason = "it was interrupted"
         except EndlessBody as endless:
             reason = endless_reason(self.program, endless.pc)
+        except MemoryError:
+            reason = NO_MEMORY
         if reason is None and self._until_reached:
             reason = f"the bound of {limits.until} units of time was reached"
         self._spent = time.perf_counter() - started

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, Protocol, TypeAlias
 
 from rebsync.checker.state import State
+from rebsync.records import dataclass
 
 Semantics: TypeAlias = Literal["tts", "ftts", "core"]
 FailureKind: TypeAlias = Literal[

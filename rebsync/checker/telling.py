@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import product
 
 from rebsync.checker.machine import Sent
@@ -13,6 +12,7 @@ from rebsync.checker.steps import TIME, Action, Failure, Step
 from rebsync.checker.trace import Change, ShownMessage, ShownRebec, Trace, TraceStep
 from rebsync.checker.values import shown
 from rebsync.checker.views import Views
+from rebsync.records import dataclass
 from rebsync.source import Source, Span
 
 

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from contextlib import contextmanager
+from dataclasses import field
+from itertools import islice
 
 from rebsync.checker.engines import explore
-from rebsync.checker.exploration import Event, Exploration, Report, Search
+from rebsync.checker.exploration import Event, Exploration, Progress, Report, Search
 from rebsync.checker.formulas import Atom, NamedFormula
 from rebsync.checker.graph import Graph
 from rebsync.checker.lowering import lower
-from rebsync.checker.memory import peak_memory
+from rebsync.checker.memory import peak_memory, used_memory
 from rebsync.checker.naming import coverage_of, event_name
 from rebsync.checker.problem import Options, Problem
 from rebsync.checker.program import Program
@@ -20,10 +22,11 @@ from rebsync.checker.result import Result, Verdict, Violation
 from rebsync.checker.standstill import ENDLESS, LEAVES, cycle_from, may_stand_still
 from rebsync.checker.steps import Failure, Semantics, ViolationKind
 from rebsync.checker.telling import Teller
-from rebsync.checker.temporal.lasso import Lasso
 from rebsync.checker.trace import Trace
 from rebsync.checker.views import view_of
+from rebsync.checker.watch import Stopped, Watch
 from rebsync.properties import Property
+from rebsync.records import dataclass
 
 FLOATING_CAVEAT = (
     "the floating view of a model with delay leaves overflow, state properties and races of "
@@ -31,13 +34,16 @@ FLOATING_CAVEAT = (
 )
 CYCLE_CAVEAT = "time can stand still for ever in a cycle of steps, which can also be left"
 
+_MAY_FAIL = ("DIV", "MOD", "OFFSET")  # instructions after which a predicate may have no value
+_EDGE = 20  # bytes for each edge of a graph
+
 
 def verify(problem: Problem, options: Options, report: Report | None = None) -> Result:
     """Everything that can go wrong in a model, with a shortest run to each."""
     started = time.perf_counter()
     program, formulas = lower(problem.analysis, problem.properties)
     assertions = formulas[: len(problem.properties.assertions)]
-    invariants = tuple(f.formula.predicate for f in assertions if isinstance(f.formula, Atom))
+    invariants = _invariants(program, assertions, formulas)
     semantics = options.semantics or semantics_for(program, problem)
     first: frozenset[int] = frozenset()
     if options.reduce and len(assertions) == len(formulas):
@@ -45,9 +51,30 @@ def verify(problem: Problem, options: Options, report: Report | None = None) -> 
     search, exploration = explore(program, semantics, invariants, first, options, report)
     view = view_of(program, exploration.semantics, first)
     teller = Teller(view, problem.source)
-    answer = _Answer(problem, options, program, formulas, search, exploration, teller)
+    watch = _watch(exploration, options, report, started)
+    answer = _Answer(problem, options, program, formulas, search, exploration, teller, watch)
     answer.collect()
     return answer.result(time.perf_counter() - started)
+
+
+def _invariants(
+    program: Program, assertions: tuple[NamedFormula, ...], formulas: tuple[NamedFormula, ...]
+) -> tuple[int, ...]:
+    """What a search looks at: the predicates of assertions, and all that may have no value."""
+    everywhere = [f.formula.predicate for f in assertions if isinstance(f.formula, Atom)]
+    for formula in formulas[len(assertions) :]:
+        for number in predicates_of(formula):
+            body = program.bodies[program.predicates[number]]
+            if any(i.op in _MAY_FAIL for i in program.code[body.entry : body.end]):
+                everywhere.append(number)
+    return tuple(dict.fromkeys(everywhere))
+
+
+def _watch(found: Exploration, options: Options, report: Report | None, started: float) -> Watch:
+    """What holds the rest of the work to the bounds of the search."""
+    now = time.perf_counter() - started
+    figures = Progress(found.states, found.transitions, found.depth, 0, now, used_memory())
+    return Watch(options.limits, report, started, figures)
 
 
 def semantics_for(program: Program, problem: Problem) -> Semantics:
@@ -75,19 +102,43 @@ class _Answer:
     search: Search
     exploration: Exploration
     teller: Teller
+    watch: Watch
+    reason: str | None = None
+    undecided: str | None = None
     violations: list[Violation] = field(default_factory=list)
     caveats: list[str] = field(default_factory=list)
     verdicts: dict[str, Verdict] = field(default_factory=dict)
     _graph: Graph | None = None
 
+    def __post_init__(self) -> None:
+        self.reason = self.exploration.reason
+
     @property
     def complete(self) -> bool:
-        return self.exploration.reason is None
+        """Whether all was seen, and no bound has been reached since."""
+        return self.reason is None
 
     def graph(self) -> Graph:
+        """The state space. Raises Stopped when there is no memory left for it."""
         if self._graph is None:
+            found = self.exploration
+            words = max(1, -(-len(self.program.predicates) // 64))
+            size = found.states * 8 * (1 + words) + found.transitions * _EDGE
+            self.watch.begin("storing all steps", size)
             self._graph = self.search.graph()
         return self._graph
+
+    @contextmanager
+    def _within_bounds(self) -> Iterator[None]:
+        """What a bound, or the user, ends in here leaves everything after it undetermined."""
+        try:
+            yield
+        except Stopped as stopped:
+            self.reason = str(stopped)
+        except KeyboardInterrupt:
+            self.reason = "it was interrupted"
+        except MemoryError:
+            self.reason = "there was no more memory"
 
     # --- collecting
 
@@ -107,7 +158,8 @@ class _Answer:
         self._assertions_that_hold()
         self._temporal()
         if exploration.semantics != "core" and self.complete and may_stand_still(self.program):
-            self._standstill()
+            with self._within_bounds():
+                self._standstill()
 
     def _add(self, kind: ViolationKind, name: str, message: str, line: int, trace: Trace) -> None:
         if any((v.kind, v.name) == (kind, name) for v in self.violations):
@@ -155,7 +207,8 @@ class _Answer:
                     self._property(failure.kind, entry, message, self._trace(event))
 
     def _assertion(self, event: Event, predicate: int) -> None:
-        for entry, formula in self._entries():
+        assertions = len(self.problem.properties.assertions)
+        for entry, formula in islice(self._entries(), assertions):
             if formula.formula == Atom(predicate):
                 self.verdicts[entry.name] = "violated"
                 message = "it is false in this state"
@@ -173,37 +226,44 @@ class _Answer:
             self.verdicts.setdefault(entry.name, known)
 
     def _temporal(self) -> None:
-        count = len(self.problem.properties.assertions)
-        for entry, formula in list(self._entries())[count:]:
-            if not self.complete:
-                self.verdicts[entry.name] = "undetermined"
-                continue
-            run = self._refutation(formula, entry in self.problem.properties.tctl)
-            self.verdicts[entry.name] = "satisfied" if run is None else "violated"
-            if run is not None:
-                message = "it does not hold on this run"
-                self._property("property", entry, message, run)
+        entries = list(islice(self._entries(), len(self.problem.properties.assertions), None))
+        if not entries:
+            return
+        from rebsync.checker.deciding import FAIRNESS_CAVEATS
 
-    def _refutation(self, formula: NamedFormula, branching: bool) -> Trace | None:
-        """A run on which a formula does not hold; None when it holds.
+        if self.problem.properties.ltl and self.options.fairness != "none":
+            self.caveats.append(FAIRNESS_CAVEATS[self.options.fairness])
+        for entry, formula in entries:
+            known = self.verdicts.setdefault(entry.name, "undetermined")
+            if known == "undetermined" and self.complete:
+                with self._within_bounds():
+                    self._decide(entry, formula)
 
-        That there is no run of some kind is shown by no run: then the initial state stands alone.
-        """
-        from rebsync.checker.temporal import check_ltl, check_tctl
+    def _decide(self, entry: Property, formula: NamedFormula) -> None:
+        """Decides a temporal property; raises Stopped when that takes too much."""
+        from rebsync.checker import deciding
 
-        if branching:
-            answer = check_tctl(self.graph(), formula.formula)
-            if answer.holds:
-                return None
-            run = answer.run or Lasso((0,), None)
-        else:
-            found = check_ltl(self.graph(), formula.formula, self.options.fairness)
-            if found is None:
-                return None
-            run = found
-        start = self.search.path(self.graph().initial[run.prefix[0]])
-        path = (*start, *run.prefix[1:], *(run.cycle or ()))
-        return self.teller.trace(path, loop=len(run.prefix) - 1 if run.cycle else None)
+        branching = entry in self.problem.properties.tctl
+        if self.exploration.semantics != "tts" and deciding.has_bound(formula.formula):
+            self.undecided = deciding.EXACT_ONLY
+            return
+        graph = self.graph()
+        self.watch.begin(f"deciding {formula.name}")
+        found = deciding.refutation(
+            graph,
+            formula.formula,
+            branching,
+            self.options.fairness,
+            self.watch,
+            self.exploration.engine == "compiled",
+        )
+        self.verdicts[entry.name] = "violated" if found else "satisfied"
+        if found:
+            run = found.run
+            start = self.search.path(graph.initial[run.prefix[0]])
+            path = (*start, *run.prefix[1:], *(run.cycle or ()))
+            trace = self.teller.trace(path, loop=len(run.prefix) - 1 if run.cycle else None)
+            self._property("property", entry, found.message, trace)
 
     # --- time that stands still
 
@@ -222,26 +282,27 @@ class _Answer:
 
     def result(self, seconds: float) -> Result:
         """The answer as a value; `seconds` is what all of it took."""
-        found, exploration = self.exploration, self.exploration
+        found = self.exploration
         verdict: Verdict = "satisfied"
         if self.violations:
             verdict = "violated"
-        elif not self.complete:
+        elif self.reason or self.undecided:
             verdict = "undetermined"
         names = [entry.name for entry in self.problem.properties.all]
         return Result(
             verdict,
-            found.reason,
+            self.reason or self.undecided,
             tuple(self.caveats),
             tuple((name, self.verdicts[name]) for name in names),
             tuple(self.violations),
-            coverage_of(self.program, exploration.covered, self.problem.source),
+            coverage_of(self.program, found.covered, self.problem.source),
             found.states,
             found.transitions,
             found.depth,
             found.semantics,
             found.engine,
             seconds,
+            found.seconds,
             found.build_seconds,
             max(peak_memory(), found.memory),
         )

@@ -52,6 +52,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         status = Status.BROKEN_PIPE
     except OSError as error:
         status = _os_error(error)
+    except MemoryError:
+        status = _say("there is not enough memory for this", Status.UNUSABLE)
     except SystemExit as error:  # click's own answer to a broken pipe
         status = Status.BROKEN_PIPE if error.code == 1 else error.code
     return _closed(int(status or Status.CLEAN))

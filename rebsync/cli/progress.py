@@ -37,7 +37,12 @@ def progress(stream: TextIO) -> Iterator[Report | None]:
 
 
 def told(now: Progress) -> str:
-    """`1,200,000 states, 800,000/s, depth 34, 52 MiB`."""
+    """`1,200,000 states, 800,000/s, depth 34, 52 MiB`; or what is done after the search."""
+    if now.task:
+        return (
+            f"{now.states:,} states, {now.task}, {now.seconds:,.0f} s, "
+            f"{now.memory / 2**20:,.0f} MiB"
+        )
     rate = now.states / now.seconds if now.seconds > 0 else 0
     return (
         f"{now.states:,} states, {rate:,.0f}/s, {now.waiting:,} waiting, "

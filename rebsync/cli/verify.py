@@ -146,6 +146,8 @@ def _options(given: dict[str, Any]) -> Options:
     from rebsync.checker.exploration import Limits
     from rebsync.checker.problem import Options
 
+    if given["language"] == "core" and given["fairness"] == "progress":
+        raise click.UsageError("--language core has no time: leave --fairness progress out")
     return Options(
         semantics=view_named(given),
         engine=given["engine"],

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from rebsync.diagnostics import Diagnostic, Severity
 from rebsync.model import Call, Constructor, Env, Expression, Model, Rebec, Type
+from rebsync.records import dataclass
 from rebsync.source import Span
 from rebsync.static.bodies import check_bodies
 from rebsync.static.classes import build_classes

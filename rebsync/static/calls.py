@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from rebsync.model import BoolLiteral, Call, Expression, Type
+from rebsync.records import dataclass
 from rebsync.static.constants import constant
 from rebsync.static.conversions import check_condition
 from rebsync.static.facts import Delay, Invocation, Send

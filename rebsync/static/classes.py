@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TypeVar
 
 from rebsync.model import (
@@ -18,6 +18,7 @@ from rebsync.model import (
     StateVars,
     Type,
 )
+from rebsync.records import dataclass
 from rebsync.source import Span
 from rebsync.static.facts import Facts
 from rebsync.static.heritage import Heritage, ancestors_first

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass, field
+from dataclasses import field
 from difflib import get_close_matches
 from enum import Enum
 from typing import NamedTuple
@@ -21,6 +21,7 @@ from rebsync.model import (
     ReactiveClass,
     Type,
 )
+from rebsync.records import dataclass
 from rebsync.source import Span
 from rebsync.static.constants import Value, constant
 from rebsync.static.symbols import (

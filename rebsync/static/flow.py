@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from rebsync.model import Block, Call, Constructor, MessageServer, Method, ReactiveClass, Statement
+from rebsync.records import dataclass
 from rebsync.static.facts import Facts, Send
 from rebsync.static.paths import Exit, Outcome, Paths
 from rebsync.static.symbols import ClassInfo, MethodSymbol, ServerSymbol

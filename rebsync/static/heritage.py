@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from rebsync.model import Interface, ReactiveClass
+from rebsync.records import dataclass
 from rebsync.source import NOWHERE, Span
 from rebsync.static.facts import Facts
 from rebsync.static.scope import check_name

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from rebsync.model import Annotation, Binary, Expression, Name
+from rebsync.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

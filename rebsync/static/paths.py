@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from enum import Enum
 from typing import TypeAlias
 
@@ -30,6 +29,7 @@ from rebsync.model import (
     Unary,
     While,
 )
+from rebsync.records import dataclass
 from rebsync.static.constants import constant
 from rebsync.unions import assert_never
 

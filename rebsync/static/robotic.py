@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from rebsync.model import Call, Main, MessageServer, Name
+from rebsync.records import dataclass
 from rebsync.static.facts import BodyFacts, Delay, Event, Facts, Invocation, Move, Send
 from rebsync.static.paths import Exit, Paths
 from rebsync.static.symbols import ClassInfo, ServerSymbol

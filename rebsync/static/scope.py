@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import Enum
 
 from rebsync.model import Declarator, Parameter, Type
+from rebsync.records import dataclass
 from rebsync.source import Span
 from rebsync.static.facts import Access, Event, Facts, Use
 from rebsync.static.symbols import (

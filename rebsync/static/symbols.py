@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TypeAlias
 
 from rebsync.model import (
@@ -17,6 +17,7 @@ from rebsync.model import (
     Rebec,
     Type,
 )
+from rebsync.records import dataclass
 
 # Symbols compare by identity: one object stands for one declaration, `type` is None when the
 # declared type is itself a reported mistake.

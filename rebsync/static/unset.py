@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from rebsync.model import Constructor, MessageServer
+from rebsync.records import dataclass
 from rebsync.source import Span
 from rebsync.static.facts import Access, BodyFacts, Facts, Invocation, Send, Use
 from rebsync.static.symbols import ClassInfo, StateSymbol

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from rebsync.diagnostics import Severity
 from rebsync.model import Main
+from rebsync.records import dataclass
 from rebsync.static.facts import Access, Facts, Invocation, Send, Use
 from rebsync.static.symbols import (
     Callable,

@@ -40,7 +40,7 @@ def graph_of(
         first,
         array("q", (e[0] for e in every)),
         array("i", (e[1] for e in every)),
-        array("i", (e[2] for e in every)),
+        array("q", (e[2] for e in every)),
         array("Q", labels),
         1,
         initial,

@@ -6,7 +6,9 @@ import shutil
 import stat
 import subprocess
 import sys
+import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -29,7 +31,9 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def _works(value: str = "5") -> None:
     """Two libraries are built or found, and answer."""
     texts = f"int answer(void) {{ return {value}; }}", f"int answer(void) {{ return -{value}; }}"
-    units = tuple(Unit(f"part{i}", text, (), "-O0") for i, text in enumerate(texts))
+    units = tuple(
+        Unit(f"part{i}", partial(str, text), (text,), "-O0") for i, text in enumerate(texts)
+    )
     assert [library.answer() for library in libraries(units)] == [int(value), -int(value)]
 
 
@@ -104,6 +108,20 @@ def test_without_a_cache_it_works(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     _works()
 
 
+def test_where_nothing_may_be_run_it_works(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A file system that is mounted so: what lies there is not loaded."""
+    load = build._load
+
+    def refused(path: Path) -> object:
+        if path.parent == cache:
+            raise Unavailable("failed to map segment from shared object")
+        return load(path)
+
+    monkeypatch.setattr(build, "_load", refused)
+    _works()
+    _works()
+
+
 def test_a_full_disk_does_not_matter(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
@@ -170,7 +188,7 @@ def test_no_compiler(cache: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     ("script", "message"),
     [
         ("echo 'model.c:1: it is broken'; exit 1", "fails: model.c:1: it is broken"),
-        ("exit 3", "fails: it fails"),
+        ("exit 3", "fails: it says nothing"),
         ('for last; do :; done; while [ "$1" != -o ]; do shift; done; echo no > "$2"', "be loaded"),
         ("exit 0", "made nothing"),
     ],
@@ -182,6 +200,27 @@ def test_a_compiler_that_fails(
     with pytest.raises(Unavailable, match=message) as raised:
         _works()
     assert "\n" not in str(raised.value)
+
+
+def test_a_compiler_that_is_not_wanted_any_more_is_ended(
+    cache: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    late = tmp_path / "late"
+    monkeypatch.setenv("CC", _compiler(tmp_path, f"sh -c 'sleep 0.7; touch {late}'; exit 1"))
+    unit = Unit("part", lambda: "", (), "-O0")
+    with pytest.raises(Unavailable, match="not wanted any more"):
+        libraries((unit,), wanted=lambda: False)
+    time.sleep(0.8)
+    assert not late.exists()
+
+
+def test_a_compiler_that_takes_too_long(
+    cache: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("CC", _compiler(tmp_path, "sleep 100"))
+    monkeypatch.setattr(build, "_PATIENCE", 0.2)
+    with pytest.raises(Unavailable, match="takes too long"):
+        _works()
 
 
 @pytest.mark.parametrize(

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import shutil
+import subprocess
+import sys
 from dataclasses import astuple, replace
+from pathlib import Path
 
 import pytest
 
+from rebsync.checker import machine
 from rebsync.checker.compiled import CompiledSearch
 from rebsync.checker.exploration import Exploration, Limits, Progress
 from rebsync.checker.program import Program
@@ -130,6 +134,22 @@ def test_many_rebecs_and_wide_states() -> None:
     assert "64 bits of each state" in again.notes[0]
 
 
+@pytest.mark.parametrize("compacted", [False, True])
+def test_states_that_outgrow_their_words(compacted: bool) -> None:
+    """Sixteen rebecs have 4 bits each at first; when they count on, all states move."""
+    text = WALKERS.replace("?(1, 3)", "1").replace("?(1, 2)", "1").replace("%SIZE%", "300")
+    main = "\n".join(f"    @priority({i}) Walker w{i}():();" for i in range(16))
+    program = System.of(text.replace("%MAIN%", main)).program
+    search = CompiledSearch(program, "ftts", hash_compaction=compacted)
+    interpreted = Interpreted(program, "ftts")
+    found = interpreted.run(Limits())
+    assert found.states > 16 * 256
+    assert _figures(search.run(Limits())) == _figures(found)
+    for state in range(0, found.states, 500):
+        assert search.path(state) == interpreted.path(state)
+    assert search.graph() == interpreted.graph()
+
+
 ENDLESS = """\
 reactiveclass Endless(5) {
     msgsrv begin() { self.go(?(true, false)); }
@@ -157,3 +177,71 @@ def test_a_body_that_does_not_end_ends_the_search(model: str, body: str) -> None
     search = CompiledSearch(System.of(model).program, "tts")
     for _ in range(2):
         assert f"{body} did not end" in str(search.run(Limits()).reason)
+
+
+def test_a_body_that_goes_round_at_its_first_instruction_is_named(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(machine, "BUDGET", 1000)  # for the interpreter, which is slow
+    model = ENDLESS.replace("while (on) { }", "for (;;) { }")
+    constructor = model.replace("self.begin();", "for (;;) { }")
+    for text, name in ((model, "go"), (constructor, "Endless")):
+        program = System.of(text).program
+        for engine in (CompiledSearch, Interpreted):
+            reason = engine(program, "tts").run(Limits()).reason
+            assert reason == f"the body of Endless.{name} did not end"
+
+
+# --- memory --------------------------------------------------------------------------------------
+
+
+def test_a_bag_takes_memory_only_for_what_is_in_it() -> None:
+    program = System.of(
+        WALKERS.replace("Walker(5)", "Walker(2000000000)")
+        .replace("%SIZE%", "5")
+        .replace("%MAIN%", "Walker w0():();")
+    ).program
+    search, interpreted = CompiledSearch(program, "tts"), Interpreted(program, "tts")
+    assert _figures(search.run(Limits())) == _figures(interpreted.run(Limits()))
+
+
+_LITTLE_MEMORY = """\
+import resource, sys
+from pathlib import Path
+from rebsync.checker.compiled import CompiledSearch
+from rebsync.checker.exploration import Limits
+from tests.checker.test_compiled import _walkers
+search = CompiledSearch(_walkers(4, 400).program, "ftts", (0,))
+search.run(Limits(states=100))
+paths = [search.path(state) for state in range(100)]
+held = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+most = held + int(sys.argv[1]) * 2**20
+resource.setrlimit(resource.RLIMIT_AS, (most, most))
+for _ in range(2):
+    found = search.run(Limits())
+    assert found.reason == "there was no more memory", found
+assert found.states > 1000, found
+assert found.events
+assert [search.path(state) for state in range(100)] == paths
+assert len(search.path(found.states - 1)) > found.depth
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="memory is bounded as Linux does")
+@pytest.mark.parametrize("more", [20, 30, 40])  # so that it ends in different places
+def test_without_memory_it_tells_what_it_has_found(more: int) -> None:
+    command = [sys.executable, "-c", _LITTLE_MEMORY, str(more)]
+    subprocess.run(command, cwd=Path(__file__).parents[2], check=True, timeout=60)
+
+
+def test_the_interpreter_without_memory(monkeypatch: pytest.MonkeyPatch) -> None:
+    search = Interpreted(_program(), "ftts", (0,))
+    found = search.run(Limits(states=20))
+    monkeypatch.setattr(Interpreted, "_expand", _out_of_memory)
+    again = search.run(Limits())
+    assert again.reason == "there was no more memory"
+    assert _figures(replace(again, reason=None)) == _figures(replace(found, reason=None))
+
+
+def _out_of_memory(*_: object) -> None:
+    raise MemoryError

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import shutil
 from dataclasses import astuple
 from itertools import pairwise
+from unittest import mock
 
 import pytest
 from hypothesis import assume, given, settings
@@ -14,6 +17,7 @@ from rebsync.checker.engines import Unavailable
 from rebsync.checker.exploration import Event, Exploration, Limits
 from rebsync.checker.problem import Options, Problem
 from rebsync.checker.program import Program
+from rebsync.checker.reduction import self_driven
 from rebsync.checker.search import Interpreted
 from rebsync.checker.steps import Failure, Semantics
 from rebsync.checker.verify import verify
@@ -113,35 +117,73 @@ def test_reduction_keeps_the_verdict(view: Semantics, drawn: Drawn) -> None:
 
 
 def _compiled(
-    program: Program, view: Semantics, invariants: tuple[int, ...], compacted: bool = False
+    program: Program,
+    view: Semantics,
+    invariants: tuple[int, ...],
+    first: frozenset[int] = frozenset(),
+    compacted: bool = False,
 ) -> CompiledSearch:
     try:
-        return CompiledSearch(program, view, invariants, hash_compaction=compacted)
+        return CompiledSearch(program, view, invariants, first, hash_compaction=compacted)
     except Unavailable as unavailable:
         pytest.skip(f"no compiled engine: {unavailable}")
 
 
+_FEW = settings(max_examples=max(6, settings().max_examples // 10))  # each is compiled
+
+
 @pytest.mark.parametrize("family", FAMILIES)
-@settings(max_examples=max(6, settings().max_examples // 10))  # each is compiled
+@_FEW
 @given(data=st.data())
 def test_the_compiled_engine_finds_what_the_interpreter_finds(
     family: str, data: st.DataObject
 ) -> None:
     features, view = FAMILIES[family]
-    drawn = data.draw(systems(features))
+    _compare(data.draw(systems(features)), view, 12 if features.clock else None)
+
+
+@pytest.mark.parametrize(
+    ("features", "view"), [(DRIVEN, "ftts"), (DRIVEN, "tts"), (UNTIMED, "core")]
+)
+@_FEW
+@given(data=st.data())
+def test_the_compiled_engine_with_little_room(
+    features: Features, view: Semantics, data: st.DataObject
+) -> None:
+    """Its tables are enlarged again and again, its memories forget, its batches are short."""
+    compiler = os.environ.get("CC") or next(
+        filter(None, map(shutil.which, ("cc", "gcc", "clang"))), "cc"
+    )
+    with mock.patch.dict(os.environ, CC=f"{compiler} -DLITTLE_ROOM"):
+        _compare(data.draw(systems(features)), view, None)
+
+
+def _compare(drawn: Drawn, view: Semantics, until: int | None) -> None:
+    """Both engines on one system: all of it, cut somewhere, and with orders left out."""
     system = System.of(drawn.model, drawn.properties)
-    limits = Limits(until=12 if features.clock else None, states=20_000)
-    interpreted = Interpreted(system.program, view, system.invariants())
+    program, invariants = system.program, system.invariants()
+    limits = Limits(until=until, states=2000)
+    interpreted = Interpreted(program, view, invariants)
     found = interpreted.run(limits)
-    assume(found.states < 20_000)
-    compiled = _compiled(system.program, view, system.invariants())
-    assert _figures(compiled.run(limits)) == _figures(found)
+    _same(program, view, interpreted, limits, found)
+    cut = Limits(until=until, states=1 + found.states // 2)
+    halved = Interpreted(program, view, invariants)
+    _same(program, view, halved, cut, halved.run(cut))
+    if first := self_driven(program):
+        reduced = Interpreted(program, view, invariants, first)
+        _same(program, view, reduced, limits, reduced.run(limits))
+
+
+def _same(
+    program: Program, view: Semantics, search: Interpreted, limits: Limits, found: Exploration
+) -> None:
+    """The compiled engine, with states in full and with fingerprints, on what was interpreted."""
     paths = range(0, found.states, 1 + found.states // 50)
-    assert [compiled.path(s) for s in paths] == [interpreted.path(s) for s in paths]
-    assert astuple(compiled.graph()) == astuple(interpreted.graph())
-    compacted = _compiled(system.program, view, system.invariants(), compacted=True)
-    assert _figures(compacted.run(limits)) == _figures(found)
-    assert [compacted.path(s) for s in paths] == [interpreted.path(s) for s in paths]
+    for compacted in (False, True):
+        compiled = _compiled(program, view, search.invariants, search.first, compacted)
+        assert _figures(compiled.run(limits)) == _figures(found)
+        assert [compiled.path(s) for s in paths] == [search.path(s) for s in paths]
+        assert astuple(compiled.graph()) == astuple(search.graph())
 
 
 def _figures(exploration: Exploration) -> tuple[object, ...]:

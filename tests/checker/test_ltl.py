@@ -9,10 +9,13 @@ from dataclasses import replace
 
 import pytest
 
+from rebsync.checker.engines import Unavailable
 from rebsync.checker.formulas import And, Atom, Formula, Not, Or, Temporal, Timed
 from rebsync.checker.graph import Graph
-from rebsync.checker.temporal import Fairness, Lasso, check_ltl
+from rebsync.checker.temporal import Fairness, Lasso, check_ltl, compiled_product
 from rebsync.checker.temporal.buchi import translate
+from rebsync.checker.temporal.emptiness import Find, search
+from rebsync.checker.watch import Stopped
 from tests.checker.temporal_graphs import Edge, draw_graph, draw_linear, graph_of, random_cases
 
 P, Q = Atom(0), Atom(1)
@@ -237,6 +240,53 @@ def test_a_cycle_is_entered_as_soon_as_the_automaton_can() -> None:
             for start, prefix, cycle in itertools.islice(runs(graph, 6), 300):
                 if len(prefix) + rounds * max(len(cycle), 1) < len(answer.prefix) - 1:
                     assert holds(graph, formula, (start, prefix, cycle))
+
+
+# --- the search in C ---------------------------------------------------------------------------
+
+
+def test_the_search_in_c_finds_the_same() -> None:
+    in_c = needs_c()
+    for random in random_cases(20):
+        graph, formula = draw_graph(random, most=7), draw_linear(random, random.randint(1, 4))
+        fairness = random.choice(FAIRNESS)
+        expected = check_ltl(graph, formula, fairness)
+        assert check_ltl(graph, formula, fairness, find=in_c) == expected, formula
+
+
+def test_the_search_in_c_leaves_large_tables_alone() -> None:
+    in_c = needs_c()
+    edges = [[(n, 63 + n, 1) for n in range(3)]] * 3
+    graph = graph_of(edges, [1, 3, 1 << 15])
+    many = G(F(And(P, Not(Or(Q, Atom(15))))))
+    for fairness in FAIRNESS:
+        expected = check_ltl(graph, many, fairness)
+        assert (expected is None) is (fairness == "weak")
+        assert check_ltl(graph, many, fairness, find=in_c) == expected
+    every = F(Atom(0))
+    for predicate in range(1, 16):
+        every = And(every, F(Atom(predicate)))
+    assert check_ltl(graph_of(edges, [2**16 - 1] * 3), Or(every, G(P)), find=in_c) is None
+
+
+def test_the_search_in_c_looks_at_the_bounds() -> None:
+    in_c = needs_c()
+
+    def look() -> None:
+        raise Stopped("now")
+
+    for find in (search, in_c):
+        with pytest.raises(Stopped, match="now"):
+            check_ltl(graph_of([[(0, 0, 1)]], [0]), G(F(P)), look=look, find=find)
+
+
+def needs_c() -> Find:
+    """The search in C; without a compiler the test is skipped."""
+    try:
+        compiled_product._library()
+    except Unavailable as unavailable:
+        pytest.skip(f"no C: {unavailable}")
+    return compiled_product.search_compiled
 
 
 # --- written down ------------------------------------------------------------------------------

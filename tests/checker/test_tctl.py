@@ -9,6 +9,7 @@ import pytest
 from rebsync.checker.formulas import And, Atom, Bound, Formula, Not, Or, Temporal, Timed
 from rebsync.checker.graph import Graph
 from rebsync.checker.temporal import Lasso, check_tctl
+from rebsync.checker.watch import Stopped
 from tests.checker.temporal_graphs import (
     Edge,
     draw_graph,
@@ -124,11 +125,11 @@ def test_truth_is_that_of_single_units_of_time() -> None:
             only(graph, answer.run)
 
 
-@pytest.mark.parametrize("effort", [50_000, 0])
+@pytest.mark.parametrize("shortest", [50_000, 0])
 def test_a_run_that_is_shown_violates_the_formula_alone(
-    effort: int, monkeypatch: pytest.MonkeyPatch
+    shortest: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("rebsync.checker.temporal.explanation._EFFORT", effort)
+    monkeypatch.setattr("rebsync.checker.temporal.explanation._SHORTEST", shortest)
     for random in random_cases(40):
         graph, formula = draw_graph(random), draw_universal(random, random.randint(1, 3))
         answer = check_tctl(graph, formula)
@@ -273,6 +274,33 @@ def test_long_times_cost_no_more_than_short_ones() -> None:
     assert not check_tctl(graph, AG(AF(Q, ("<", year)))).holds
     assert check_tctl(graph, AG(EF(P, (">=", year)))).holds
     assert check_tctl(graph, EF(And(P, AF(Q, ("==", 7))))).holds
+
+
+def test_a_run_that_takes_too_much_effort_is_not_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+    graph = graph_of([[(0, 0, 1), (1, 0, 0)], [(0, 0, 0)]], [0, 1])
+    never = Not(EF(P, ("==", 400)))
+    assert check_tctl(graph, never).run == Lasso((0, *[0] * 400, 1), None)
+    monkeypatch.setattr("rebsync.checker.temporal.explanation._SHORTEST", 0)
+    monkeypatch.setattr("rebsync.checker.temporal.explanation._EFFORT", 100)
+    answer = check_tctl(graph, never)
+    assert (answer.holds, answer.run) == (False, None)
+
+
+def test_too_many_times_stop_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("rebsync.checker.temporal.elapsed._MOST_BITS", 1000)
+    assert check_tctl(SWITCH, EF(Q, ("==", 93))).holds
+    with pytest.raises(Stopped, match="too many times up to 90000"):
+        check_tctl(SWITCH, EF(Q, ("==", 90_000)))
+
+
+def test_long_work_looks_at_the_bounds() -> None:
+    def look() -> None:
+        raise Stopped("now")
+
+    for bound in (None, ("<=", 3), (">", 3), ("==", 3)):
+        for operator in (AF, EF):
+            with pytest.raises(Stopped, match="now"):
+                check_tctl(SWITCH, operator(Q, bound), look)
 
 
 def test_an_operator_of_ltl_is_refused() -> None:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from rebsync.checker.program import Body, Cell, Instruction, Kind, Slot
 from rebsync.model import Constructor, Declarator, MessageServer, Method, Parameter, Type
+from rebsync.records import dataclass
 from rebsync.source import NOWHERE, Span
 from rebsync.static import Analysis
 from rebsync.static.symbols import ClassInfo, ServerSymbol

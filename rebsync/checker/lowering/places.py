@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal
 
 from rebsync.checker.lowering.emitter import Emitter, kind_of, size_of
 from rebsync.checker.program import Cell, Kind
 from rebsync.model import Type
+from rebsync.records import dataclass
 from rebsync.static.types import element
 
 

@@ -9,11 +9,11 @@ until it is taken.
 from __future__ import annotations
 
 from collections import defaultdict
-from dataclasses import dataclass
 
 from rebsync.checker.show.chart_rows import LINE, Row, row_of, width_of
 from rebsync.checker.show.flights import Flight, flights, lanes
 from rebsync.checker.trace import Trace
+from rebsync.records import dataclass
 
 GUTTER = 92.0  # numbers of steps, and times
 HEAD = 38.0

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from textwrap import wrap
 
 from rebsync.checker.show import words
 from rebsync.checker.show.flights import departures
 from rebsync.checker.show.pieces import columns
 from rebsync.checker.trace import TraceStep
+from rebsync.records import dataclass
 
 CELL = 6.8  # width of a character of the fixed-width font
 LINE = 15.0

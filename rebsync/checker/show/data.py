@@ -36,9 +36,10 @@ def result_json(result: Result) -> str:
             "semantics": result.semantics,
             "engine": result.engine,
             "seconds": result.seconds,
+            "search_seconds": result.search_seconds,
             "build_seconds": result.build_seconds,
             "peak_memory_bytes": result.peak_memory_bytes,
-            "states_per_second": words.rate(result.states, result.seconds),
+            "states_per_second": words.rate(result.states, result.search_seconds),
         }
     )
 

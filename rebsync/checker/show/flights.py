@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from rebsync.checker.trace import ShownMessage, Trace, TraceStep
+from rebsync.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

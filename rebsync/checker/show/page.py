@@ -8,7 +8,6 @@ from __future__ import annotations
 import base64
 import hashlib
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 
@@ -20,6 +19,7 @@ from rebsync.checker.show.markup import Markup, element, joined
 from rebsync.checker.show.page_source import coverage_section, source_section, text_section
 from rebsync.checker.show.page_states import states_table
 from rebsync.checker.trace import Trace
+from rebsync.records import dataclass
 from rebsync.source import Source
 
 HELP = "Select a step: click it, or j and k or the arrow keys; [ and ] select another run."
@@ -111,12 +111,12 @@ def _file(name: str) -> str:
 
 
 def _summary(result: Result) -> Markup:
-    speed = words.rate(result.states, result.seconds)
+    speed = words.rate(result.states, result.search_seconds)
     figures = [
         words.counted(result.states, "state"),
         words.counted(result.transitions, "transition"),
         f"depth {result.depth:,}",
-        words.duration(result.seconds) + (f" ({speed:,.0f} states/s)" if speed else ""),
+        words.duration(result.search_seconds) + (f" ({speed:,.0f} states/s)" if speed else ""),
         words.memory(result.peak_memory_bytes),
         f"engine {result.engine}",
         words.view_of(result.semantics),

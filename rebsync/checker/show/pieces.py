@@ -6,10 +6,10 @@ import os
 import re
 import shutil
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import TextIO
 from unicodedata import combining, east_asian_width
 
+from rebsync.records import dataclass
 from rebsync.report_text import Piece, printable
 
 NARROWEST = 40

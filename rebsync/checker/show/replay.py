@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, TypeAlias, get_args
 
 from rebsync.checker.steps import Action, Semantics
 from rebsync.diagnostics import RebsyncError, did_you_mean
+from rebsync.records import dataclass
 from rebsync.source import Source
 
 _Json: TypeAlias = Any

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from rebsync.checker.show import words
 from rebsync.checker.show.data import dump, rebec_json
 from rebsync.checker.trace import ShownRebec
+from rebsync.records import dataclass
 from rebsync.report_text import printable
 
 

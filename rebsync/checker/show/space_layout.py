@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from dataclasses import dataclass
 
 from rebsync.checker.show import words
 from rebsync.checker.show.chart_rows import cut
 from rebsync.checker.show.space import SpaceEdge, StateSpace, edge_label, levels
 from rebsync.checker.show.space_routes import LOOP, MARGIN, Line, Node, route
 from rebsync.checker.trace import ShownRebec
+from rebsync.records import dataclass
 
 _SPACE = 30.0  # between the nodes of a level
 _LONGEST = 30

@@ -9,11 +9,12 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
 from rebsync.checker.show.chart_rows import width_of
 from rebsync.checker.show.flights import lanes
 from rebsync.checker.show.space import SpaceEdge
+from rebsync.records import dataclass
 
 ROW = 15.0
 MARGIN = 24.0

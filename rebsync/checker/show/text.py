@@ -160,12 +160,13 @@ def _coverage(coverage: Coverage, model: str) -> Iterator[Line]:
 
 
 def _figures(result: Result) -> Iterator[Line]:
-    speed = words.rate(result.states, result.seconds)
+    search = words.duration(result.search_seconds)
+    speed = words.rate(result.states, result.search_seconds)
     rows = {
         "states": f"{result.states:,}",
         "transitions": f"{result.transitions:,}",
         "depth": f"{result.depth:,}",
-        "search": words.duration(result.seconds) + (f", {speed:,.0f} states/s" if speed else ""),
+        "search": search + (f", {speed:,.0f} states/s" if speed else ""),
         "build": words.duration(result.build_seconds) if result.build_seconds else "",
         "memory": words.memory(result.peak_memory_bytes),
         "engine": result.engine,

@@ -91,6 +91,13 @@ static void room_for_frames(struct engine *e, struct local *l, size_t cells)
         give_up(e);
 }
 
+/* Room for so many messages in the bag. */
+static void room_for_bag(struct engine *e, struct local *l, size_t messages)
+{
+    if (!enough((void **)&l->bag, &l->bag_room, messages * e->model->stride, sizeof(cell)))
+        give_up(e);
+}
+
 static void unpack_frames(struct engine *e, const unsigned char *from, struct local *l)
 {
     size_t at = 0;
@@ -116,6 +123,7 @@ static void unpack_local(struct engine *e, uint32_t rebec, uint32_t id, struct l
     l->clock = e->model->reads_clock ? take_number(&from) : 0;
     l->frame_count = (size_t)take_number(&from);
     l->messages = (size_t)take_number(&from);
+    room_for_bag(e, l, l->messages);
     for (size_t i = 0; i < l->messages; i++)
         take_message(e, &from, l->bag + i * stride);
     l->frame_cells = 0;
@@ -185,7 +193,7 @@ static size_t length_of(struct actor *a, uint32_t id)
 
 static void enlarge_table(struct engine *e, struct actor *a)
 {
-    uint64_t size = a->mask ? 2 * (a->mask + 1) : 256, *table = zeroed(e, size, sizeof *table);
+    uint64_t size = a->mask ? 2 * (a->mask + 1) : TABLE, *table = zeroed(e, size, sizeof *table);
     for (uint64_t i = 0; a->mask && i <= a->mask; i++) {
         uint64_t entry = a->table[i], at = (entry >> 32) & (size - 1);
         if (!entry)
@@ -236,15 +244,17 @@ static uint32_t number_of(struct engine *e, uint32_t rebec, const struct local *
 static void enlarge_memo(struct engine *e, struct memo *m, uint64_t components)
 {
     uint64_t size = m->entries ? m->mask + 1 : 0;
-    if (size >= (1 << 18) || 4 * components <= size)
+    if (size >= MEMO_AT_MOST || 4 * components <= size)
         return;
-    size = 1024;
-    while (size < 8 * components && size < (1 << 18))
+    size = MEMO;
+    while (size < 8 * components && size < MEMO_AT_MOST)
         size *= 2;
     struct remembered *entries = malloc(size * sizeof *entries);
+    if (!entries && m->entries)
+        return;
     if (!entries)
         give_up(e);
-    memset(entries, 255, size * sizeof *entries);
+    memset(in_large_pages(entries, size * sizeof *entries), 255, size * sizeof *entries);
     free(m->entries);
     m->entries = entries;
     m->mask = size - 1;
@@ -305,6 +315,7 @@ static int compare_messages(const cell *a, const cell *b, size_t stride)
 static void insert_message(struct engine *e, struct local *l, const cell *message)
 {
     size_t stride = e->model->stride, at = l->messages++;
+    room_for_bag(e, l, l->messages);
     while (e->semantics != CORE && at &&
            compare_messages(l->bag + (at - 1) * stride, message, stride) > 0) {
         memcpy(l->bag + at * stride, l->bag + (at - 1) * stride, stride * sizeof(cell));
@@ -342,7 +353,7 @@ static inline uint32_t received(struct engine *e, uint32_t rebec, uint32_t id, u
 static void enlarge_message_table(struct engine *e)
 {
     size_t stride = e->model->stride;
-    uint64_t size = e->message_mask ? 2 * (e->message_mask + 1) : 256;
+    uint64_t size = e->message_mask ? 2 * (e->message_mask + 1) : TABLE;
     uint32_t *table = zeroed(e, size, sizeof *table);
     for (uint32_t id = 0; id < e->messages.count; id++) {
         const cell *message = (cell *)e->messages.data + (size_t)id * stride;

@@ -5,8 +5,20 @@
 #include <setjmp.h>
 #include <stdint.h>
 #include <stdio.h>
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
 
 #include "machine.h"
+
+/* How much tables and memories hold, at first or at most, and how often the search looks up. With
+ * little of all that, small systems show whether what is full is handled rightly. */
+#ifdef LITTLE_ROOM
+enum { BATCH = 3, OBSERVED = 2, MEMO = 2, MEMO_AT_MOST = 8, TABLE = 8, SLOTS = 8, TURNS = 2, GONE = 3 };
+#else
+enum { BATCH = 64, OBSERVED = 1024, MEMO = 1024, MEMO_AT_MOST = 1 << 18, TABLE = 256 };
+enum { SLOTS = 1 << 14, TURNS = 256, GONE = 4096 };
+#endif
 
 #define NEVER INT64_MAX
 #define NONE UINT32_MAX
@@ -25,7 +37,7 @@ struct vector {
 struct local {
     cell *variables, *bag, *message, *frames;
     cell busy, clock;
-    size_t messages, frame_count, frame_cells, frames_room;
+    size_t messages, bag_room, frame_count, frame_cells, frames_room;
 };
 
 /* A packed local state that occurs: bytes from `at` on, and what it means for the whole. */
@@ -79,7 +91,6 @@ struct event {
 };
 
 enum { PREDICATE = 8, DEADLOCK = 9 };
-enum { BATCH = 64 };
 
 /* States on their way into the visited set; `event` is a failed step instead, or -1. */
 struct pending {
@@ -100,7 +111,6 @@ struct graph {
 };
 
 /* The variables of some components of a rebec that predicates read, unpacked. */
-enum { OBSERVED = 1024 };
 struct observed {
     uint32_t ids[OBSERVED];
     cell *variables;
@@ -129,6 +139,7 @@ struct engine {
     uint32_t *table;
     uint64_t *prints, slots;
     uint32_t number_bits;
+    int exhausted; /* there was no more memory: the search does not go on */
 
     struct pending batch[BATCH];
     struct event failed[BATCH];
@@ -181,12 +192,26 @@ static void *added(struct engine *e, struct vector *v, size_t size)
     return v->data + v->count++ * size;
 }
 
+/* Asks for large pages for what is read here and there; the places of small ones would not stay in
+ * the processor. Not for what grows, which would take more memory. */
+static void *in_large_pages(void *data, size_t size)
+{
+#ifdef MADV_HUGEPAGE
+    enum { LARGE = 1 << 22, PAGE = 1 << 12 };
+    uintptr_t from = ((uintptr_t)data + PAGE - 1) & ~(uintptr_t)(PAGE - 1);
+    uintptr_t to = ((uintptr_t)data + size) & ~(uintptr_t)(PAGE - 1);
+    if (size >= LARGE)
+        madvise((void *)from, to - from, MADV_HUGEPAGE);
+#endif
+    return data;
+}
+
 static void *zeroed(struct engine *e, size_t count, size_t size)
 {
     void *made = calloc(count ? count : 1, size);
     if (!made)
         give_up(e);
-    return made;
+    return in_large_pages(made, count * size);
 }
 
 static inline uint64_t mixed(uint64_t a, uint64_t b)

@@ -14,7 +14,7 @@ static void reach(struct engine *e, int32_t actor, int64_t time, int deadlock)
         return;
     }
     if (e->purpose == PATH) {
-        if (e->found >= 0 || seen(e, e->next) != e->wanted)
+        if (e->found >= 0 || !is_state(e, e->next, e->wanted))
             return;
         int64_t before = e->times.count ? ((int64_t *)e->times.data)[e->current] : 0;
         if (!e->times.count || before + time <= e->until)

@@ -36,7 +36,8 @@ static void start(struct engine *e, int32_t body, const cell *arguments, size_t 
     const struct body *b = e->model->body + body;
     room_for_stack(e, b->need);
     memset(m->stack, 0, b->frame * sizeof(cell));
-    memcpy(m->stack, arguments, count * sizeof(cell));
+    if (count)
+        memcpy(m->stack, arguments, count * sizeof(cell));
     m->base = 0;
     m->pc = b->entry;
 }
@@ -146,6 +147,7 @@ static void copy_bag(struct engine *e, struct local *to, const struct local *fro
 {
     size_t size = e->model->stride * sizeof(cell), stride = e->model->stride;
     to->messages = 0;
+    room_for_bag(e, to, from->messages);
     for (size_t i = 0; i < from->messages; i++)
         if ((int)i != slot)
             memcpy(to->bag + to->messages++ * stride, from->bag + i * stride, size);

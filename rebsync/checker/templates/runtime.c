@@ -15,14 +15,13 @@ struct figures {
 
 static void make_local(struct engine *e, struct local *l)
 {
-    size_t variables = 1, places = 1;
+    size_t variables = 1;
     for (uint32_t r = 0; r < e->rebecs; r++) {
-        const struct rebec *rebec = e->model->rebec + r;
-        variables = rebec->cells > (int)variables ? (size_t)rebec->cells : variables;
-        places = rebec->capacity > (int)places ? (size_t)rebec->capacity : places;
+        size_t cells = (size_t)e->model->rebec[r].cells;
+        variables = cells > variables ? cells : variables;
     }
     l->variables = zeroed(e, variables, sizeof(cell));
-    l->bag = zeroed(e, (places + 2) * e->model->stride, sizeof(cell));
+    room_for_bag(e, l, 1);
     l->message = zeroed(e, e->model->stride, sizeof(cell));
 }
 
@@ -163,7 +162,7 @@ static void undo(struct engine *e)
 static void forget(struct engine *e)
 {
     uint64_t gone = e->expanded - e->forgotten, left = e->count - e->expanded;
-    if (!e->compact || gone < 4096 || gone < left)
+    if (!e->compact || gone < GONE || gone < left)
         return;
     uint64_t size = e->words * sizeof(uint64_t);
     memmove(e->states.data, e->states.data + gone * size, left * size);
@@ -198,7 +197,7 @@ static int search_on(struct engine *e, uint64_t states, int64_t due)
             if (e->count >= states)
                 return STATES;
         }
-        if (turn % 256 == 0 && clock_now() >= due)
+        if (turn % TURNS == 0 && clock_now() >= due)
             return SLICE;
         e->current = e->expanded;
         unpack(e, words_of(e, e->current), e->ids);
@@ -207,9 +206,20 @@ static int search_on(struct engine *e, uint64_t states, int64_t due)
             return UNENDING;
         }
         e->expanded++;
-        if (turn % 256 == 0)
+        if (turn % TURNS == 0)
             forget(e);
     }
+}
+
+/* What was found is still to be told, which takes memory too: the table of states can go. */
+static void exhaust(struct engine *e)
+{
+    free(e->table);
+    e->table = NULL;
+    e->pending = 0;
+    e->exhausted = 1;
+    if (e->purpose == START)
+        e->initials = e->count;
 }
 
 /* Searches for about so many nanoseconds, until `states` are found, up to the time `until`. */
@@ -220,8 +230,12 @@ int rebsync_search(struct engine *e, uint64_t states, int64_t until, int64_t nan
     int escaped = setjmp(e->escape);
     if (escaped == 2)
         undo(e);
+    if (escaped == 1)
+        exhaust(e);
+    if (e->exhausted)
+        return MEMORY;
     if (escaped)
-        return escaped == 2 ? UNENDING : MEMORY;
+        return UNENDING;
     if (!e->initials)
         begin(e);
     int end = search_on(e, states, due);
@@ -258,7 +272,8 @@ void rebsync_covered(struct engine *e, unsigned char *served, unsigned char *cov
         largest[r] = e->actors[r].largest;
 }
 
-/* The state before one on its shortest way, or -1; `ordinal` is that of the step between. */
+/* The state before one on its shortest way, or -1; `ordinal` is that of the step between. It is -2
+ * when there is no memory to find out. */
 int64_t rebsync_before(struct engine *e, uint64_t state, int64_t *ordinal)
 {
     uint32_t parent = ((uint32_t *)e->parents.data)[state];
@@ -270,8 +285,10 @@ int64_t rebsync_before(struct engine *e, uint64_t state, int64_t *ordinal)
         *ordinal = ((uint32_t *)e->ordinals.data)[state];
         return parent;
     }
-    if (setjmp(e->escape))
+    if (setjmp(e->escape)) {
+        e->purpose = SEARCH;
         return -2;
+    }
     e->purpose = PATH;
     e->current = parent;
     e->wanted = (int64_t)state;
@@ -302,6 +319,8 @@ int64_t rebsync_graph(struct engine *e, struct graph graph, uint64_t from, uint6
         e->purpose = SEARCH;
         return -1;
     }
+    if (!e->table)
+        fill_table(e, 2 * e->count + 1);
     e->graph = graph;
     e->edges = edges;
     e->purpose = GRAPH;

@@ -53,6 +53,8 @@ static int holds(struct engine *e, int32_t predicate)
     start(e, e->model->predicate[predicate], NULL, 0);
     int status = e->model->run(m);
     m->covered = e->covered;
+    if (m->exhausted)
+        give_up(e);
     return status == DONE ? m->stack[0] != 0 : -1;
 }
 

@@ -95,7 +95,7 @@ static void fill_table(struct engine *e, uint64_t slots)
 
 static void enlarge_prints(struct engine *e)
 {
-    uint64_t slots = e->slots ? e->slots + e->slots / 2 : 1 << 14, old = e->slots;
+    uint64_t slots = e->slots ? e->slots + e->slots / 2 : SLOTS, old = e->slots;
     uint64_t *prints = zeroed(e, slots, sizeof *prints), *before = e->prints;
     e->slots = slots;
     for (uint64_t i = 0; i < old; i++) {
@@ -119,7 +119,7 @@ static void room_for_state(struct engine *e)
     if (e->compact)
         enlarge_prints(e);
     else
-        fill_table(e, e->slots ? 2 * e->slots : 1 << 14);
+        fill_table(e, e->slots ? 2 * e->slots : SLOTS);
 }
 
 /* The slot of a state, or the free one where it would be. */
@@ -147,6 +147,16 @@ static inline uint64_t find_print(struct engine *e, uint64_t print)
     while (e->prints[at] && e->prints[at] != print)
         at = at + 1 == e->slots ? 0 : at + 1;
     return at;
+}
+
+/* Whether components make up the state of a number. */
+static int is_state(struct engine *e, const uint32_t *ids, int64_t state)
+{
+    for (uint32_t r = 0; r < e->rebecs; r++)
+        if (ids[r] > e->fields[r].mask)
+            return 0;
+    pack(e, ids, e->batch_words);
+    return !memcmp(e->batch_words, words_of(e, (uint64_t)state), e->words * sizeof(uint64_t));
 }
 
 /* The number of a state that was seen, or -1. */
@@ -217,7 +227,7 @@ static void repack(struct engine *e)
     free(before);
     e->wide = 0;
     if (!e->compact)
-        fill_table(e, e->slots ? e->slots : 1 << 14);
+        fill_table(e, e->slots ? e->slots : SLOTS);
 }
 
 #endif

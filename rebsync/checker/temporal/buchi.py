@@ -9,12 +9,13 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import NamedTuple
 
 from rebsync.checker.formulas import Formula
 from rebsync.checker.temporal.components import components
 from rebsync.checker.temporal.terms import FALSE, TRUE, Terms
+from rebsync.records import dataclass
 from rebsync.unions import assert_never
 
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from array import array
 
+from rebsync.checker.watch import Look, unwatched
 
-def components(first: array[int], target: array[int]) -> array[int]:
+
+def components(first: array[int], target: array[int], look: Look = unwatched) -> array[int]:
     """A number for each node; nodes have the same number when each can reach the other.
 
     Edge `e` of node `n` has first[n] <= e < first[n+1]. An edge between components goes to the one
@@ -39,6 +41,8 @@ def components(first: array[int], target: array[int]) -> array[int]:
                 trail.append(node)
                 continue
             trail.pop()
+            if not node & 4095:
+                look()
             if not is_root[node]:
                 closing.append(node)
                 continue

@@ -13,9 +13,11 @@ from heapq import heapify, heappop, heappush
 
 from rebsync.checker.temporal.components import components
 from rebsync.checker.temporal.timeline import Timeline
+from rebsync.checker.watch import Stopped
 
 FOREVER = 2**62  # later than everything
 NEVER = -1  # earlier than everything
+_MOST_BITS = 2**34  # 2 GiB of sets of times
 
 
 def earliest(line: Timeline, left: bytearray, right: bytearray) -> array[int]:
@@ -32,7 +34,9 @@ def latest(line: Timeline, left: bytearray, right: bytearray) -> array[int]:
     values = array("q", bytes(8 * len(line)))
     open_edges = array("q", (len(line.edges(node)) for node in range(len(line))))
     reached = [n for n, holds in enumerate(right) if holds]
-    for node in reached:  # grows
+    for number, node in enumerate(reached):  # grows
+        if not number & 4095:
+            line.look()
         for edge in edges[first[node] : first[node + 1]]:
             before = source[edge]
             if left[before] and not right[before]:
@@ -53,6 +57,8 @@ def longest(line: Timeline, left: bytearray, right: bytearray) -> array[int]:
     inner = sorted((n for n, holds in enumerate(left) if holds), key=lambda n: -component[n])
     start = 0
     while start < len(inner):
+        if not start & 255:
+            line.look()
         end, own = start, component[inner[start]]
         best, advances = NEVER, False
         while end < len(inner) and component[inner[end]] == own:
@@ -103,13 +109,18 @@ def surest(line: Timeline, left: bytearray, right: bytearray) -> array[int]:
 
 
 def exact(line: Timeline, left: bytearray, right: bytearray, limit: int, on_all: bool) -> list[int]:
-    """All times up to a limit at which some run, or every run, is fulfilled, as bits."""
+    """All times up to a limit at which some run, or every run, is fulfilled, as bits.
+
+    Raises Stopped when there are too many to keep.
+    """
     mask = (1 << limit + 1) - 1
     first, edges = line.before()
     values = [0] * len(line)
     waiting = deque(n for n, holds in enumerate(right) if holds)
     queued = bytearray(right)
+    size = 0
     while waiting:
+        line.look()
         node = waiting.popleft()
         queued[node] = 0
         value = int(right[node])
@@ -124,6 +135,9 @@ def exact(line: Timeline, left: bytearray, right: bytearray, limit: int, on_all:
             value |= met
         if value == values[node]:
             continue
+        size += value.bit_length() - values[node].bit_length()
+        if size > _MOST_BITS:
+            raise Stopped(f"too many times up to {limit} had to be told apart")
         values[node] = value
         for edge in edges[first[node] : first[node + 1]]:
             before = line.source[edge]
@@ -146,7 +160,9 @@ def _spread(
     heapify(times)
     while times:
         now = heappop(times)
-        for node in starts[now]:  # grows
+        for number, node in enumerate(starts[now]):  # grows
+            if not number & 4095:
+                line.look()
             if values[node] <= now:
                 continue
             values[node] = now
@@ -169,4 +185,4 @@ def _components(line: Timeline, inner: bytearray, zero: bool) -> array[int]:
                 if inner[line.target[edge]] and not (zero and line.time[edge]):
                     target.append(line.target[edge])
         first.append(len(target))
-    return components(first, target)
+    return components(first, target, line.look)

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from rebsync.checker.formulas import And, Atom, Formula, Not, Or, Temporal, Timed
 from rebsync.checker.graph import Graph
 from rebsync.checker.temporal.outcome import Outcome, Window
 from rebsync.checker.temporal.timeline import Timeline
+from rebsync.checker.watch import Look, unwatched
+from rebsync.records import dataclass
 from rebsync.unions import assert_never
 
 _FLIPPED = bytes((1, 0)) + bytes(254)
@@ -52,9 +54,9 @@ class Evaluation:
     _outcomes: dict[Timed, Outcome] = field(default_factory=dict)
 
     @staticmethod
-    def of(graph: Graph, patience: int) -> Evaluation:
+    def of(graph: Graph, patience: int, look: Look = unwatched) -> Evaluation:
         """Nothing is known yet; `patience` is more than every bound."""
-        return Evaluation(graph, Timeline.of(graph, patience))
+        return Evaluation(graph, Timeline.of(graph, patience, look))
 
     def truth(self, formula: Formula, splits: bool = True) -> bytearray:
         """Where a reduced formula holds.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from array import array
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import TypeAlias
 
 from rebsync.checker.formulas import And, Atom, Formula, Not, Or, Timed
@@ -11,9 +11,11 @@ from rebsync.checker.temporal.components import components
 from rebsync.checker.temporal.elapsed import FOREVER
 from rebsync.checker.temporal.evaluation import Evaluation
 from rebsync.checker.temporal.outcome import Outcome, Window
+from rebsync.records import dataclass
 
 Point: TypeAlias = tuple[int, int]  # a node, and the time that has passed before
-_EFFORT = 50_000  # points that may be looked at for the shortest run
+_SHORTEST = 50_000  # points that may be looked at for the shortest run
+_EFFORT = 500_000  # and for some run
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,13 +143,19 @@ def _narrowest(outcome: Outcome, node: int, wanted: bool) -> Outcome | None:
     return replace(outcome, window=Window(time if wanted else max(time, 0) + 1, window.high))
 
 
-def _fulfilled(evaluation: Evaluation, formula: Timed, start: int) -> Path:
-    """A run on which an until is fulfilled in time, and goes on to show why its end holds."""
+def _fulfilled(evaluation: Evaluation, formula: Timed, start: int) -> Path | None:
+    """A run on which an until is fulfilled in time, and goes on to show why its end holds.
+
+    None: it takes too much effort to find one.
+    """
     outcome = evaluation.outcome(formula)
-    narrow = _narrowest(outcome, start, True)
-    edges, remaining = _way_to_end(outcome, start, _EFFORT if narrow else None) or (
-        _way_to_end(narrow or outcome, start, None) or ([], None)
-    )
+    way = _way_to_end(outcome, start, _SHORTEST)
+    if way is None:
+        narrow = _narrowest(outcome, start, True) or outcome
+        way = _way_to_end(narrow, start, len(outcome.line) + _EFFORT)
+    if way is None:
+        return None
+    edges, remaining = way
     line = evaluation.line
     steps = [line.step[edge] for edge in edges if line.step[edge] >= 0]
     node = line.target[edges[-1]] if edges else start
@@ -158,9 +166,7 @@ def _fulfilled(evaluation: Evaluation, formula: Timed, start: int) -> Path:
     return end.after(steps)
 
 
-def _way_to_end(
-    outcome: Outcome, start: int, effort: int | None
-) -> tuple[list[int], int | None] | None:
+def _way_to_end(outcome: Outcome, start: int, effort: int) -> tuple[list[int], int | None] | None:
     """Edges to where an until is fulfilled in time, and the time that remains of the last one.
 
     None remains of it when that is in the node to which it leads. None: it takes more effort.
@@ -169,6 +175,8 @@ def _way_to_end(
     walk = _Walk(outcome, 0 if outcome.exact else -1 if window.low == 0 else 1)
     walk.meet((start, 0))
     for number, point in enumerate(walk.points):  # grows
+        if not number & 4095:
+            line.look()
         node, elapsed = point
         if right[node] and window.met(elapsed):
             return walk.edges_to(number), None
@@ -182,27 +190,30 @@ def _way_to_end(
             after = walk.next_point(point, edge)
             if outcome.holds(*after):
                 walk.meet(after, number, edge)
-        if effort is not None and number > effort:
+        if number > effort:
             return None
     raise AssertionError("no run fulfils what was found to hold")
 
 
-def _missed(evaluation: Evaluation, formula: Timed, start: int) -> Path:
-    """A run on which an until is not fulfilled in time."""
+def _missed(evaluation: Evaluation, formula: Timed, start: int) -> Path | None:
+    """A run on which an until is not fulfilled in time; None: it takes too much effort."""
     outcome = evaluation.outcome(formula)
-    narrow = _narrowest(outcome, start, False)
-    return _way_past(outcome, start, _EFFORT if narrow else None) or (
-        _way_past(narrow or outcome, start, None) or Path()
-    )
+    found = _way_past(outcome, start, _SHORTEST)
+    if found is None:
+        narrow = _narrowest(outcome, start, False) or outcome
+        found = _way_past(narrow, start, len(outcome.line) + _EFFORT)
+    return found
 
 
-def _way_past(outcome: Outcome, start: int, effort: int | None) -> Path | None:
+def _way_past(outcome: Outcome, start: int, effort: int) -> Path | None:
     """A run from a node on which an until is not fulfilled in time; None: it takes more effort."""
     line, window = outcome.line, outcome.window
     walk = _Walk(outcome, 1 if window.low == 0 else 0)
     walk.meet((start, 0))
     first, target, taken = array("q", [0]), array("q"), array("q")
     for number, point in enumerate(walk.points):  # grows
+        if not number & 4095:
+            line.look()
         node, elapsed = point
         if elapsed > window.high or not outcome.left[node]:
             edges = walk.edges_to(number)
@@ -216,7 +227,7 @@ def _way_past(outcome: Outcome, start: int, effort: int | None) -> Path | None:
                 target.append(walk.meet(after, number, edge))
                 taken.append(edge)
         first.append(len(target))
-        if effort is not None and number > effort:
+        if number > effort:
             return None
     entry, cycle = _shortest_cycle(first, target)
     return Path(

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from rebsync.checker.graph import Graph
+from rebsync.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from dataclasses import dataclass
 
 from rebsync.checker.formulas import Bound
 from rebsync.checker.temporal.elapsed import (
@@ -16,6 +15,7 @@ from rebsync.checker.temporal.elapsed import (
     surest,
 )
 from rebsync.checker.temporal.timeline import Timeline
+from rebsync.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,10 +113,14 @@ class Outcome:
         """Whether it holds, for each node; edges on which that changes are split."""
         values = bytearray(self.holds(node) for node in range(len(self.line)))
         for edge in range(len(self.line.target)):
+            if not edge & 4095:
+                self.line.look()
             if self.line.time[edge] > 1:
                 value = bool(values[self.line.source[edge]])
                 changes = []
                 for remaining in self._candidates(edge):
+                    if not remaining & 4095:
+                        self.line.look()
                     if self.between(edge, remaining) is not value:
                         value = not value
                         changes.append((remaining, value))

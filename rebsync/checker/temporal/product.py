@@ -9,14 +9,17 @@ fair when its edges together reach all goals.
 from __future__ import annotations
 
 from array import array
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import field
 from typing import Literal, TypeAlias
 
 from rebsync.checker.graph import Graph
 from rebsync.checker.temporal.buchi import Automaton
+from rebsync.checker.watch import Look, unwatched
+from rebsync.records import dataclass
 
 Fairness: TypeAlias = Literal["none", "weak", "progress"]
+Classes: TypeAlias = "Callable[[Graph, tuple[int, ...]], tuple[array[int], Sequence[int]]]"
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,31 +45,49 @@ class Product:
     fairness: Fairness
     width: int
     full: int
-    _labels: array[int]  # the class of each state: those of one class agree on all predicates
-    _values: list[int]  # of each class: bit b is the value of predicate b of the automaton
+    look: Look
+    labels: array[int] = field(default_factory=lambda: array("i"))  # the class of each state
+    values: Sequence[int] = ()  # of each class: bit b is the value of predicate b of the automaton
     _choices: dict[int, Choice] = field(default_factory=dict)
 
     @staticmethod
-    def of(graph: Graph, automaton: Automaton, fairness: Fairness) -> Product:
-        """The product, with nothing explored."""
-        labels, values = _classes(graph, automaton.predicates)
+    def of(
+        graph: Graph, automaton: Automaton, fairness: Fairness, look: Look = unwatched
+    ) -> Product:
+        """The product, with nothing explored; `look` is called now and then by what takes long."""
         bits = automaton.promises.bit_length() + 1
         if fairness == "weak":
             bits += max(graph.actor, default=-1) + 1
         elif fairness == "progress":
             bits += 1
         width = len(automaton.moves)
-        return Product(graph, automaton, fairness, width, (1 << bits) - 1, labels, values)
+        return Product(graph, automaton, fairness, width, (1 << bits) - 1, look)
+
+    @property
+    def decisive(self) -> bool:
+        """Whether a node from which the automaton accepts everything settles the matter."""
+        return self.fairness != "progress" and self.automaton.anything >= 0
+
+    @property
+    def shift(self) -> int:
+        """The number of goals that are not those of fairness, which come after them."""
+        return self.automaton.promises.bit_length() + 1
+
+    def classify(self, classes: Classes | None = None) -> None:
+        """Finds out what holds in which state; to be done before anything is explored."""
+        find = classes or classes_of
+        self.labels, self.values = find(self.graph, self.automaton.predicates)
 
     def choice(self, state: int, place: int) -> Choice:
         """What the automaton can do in `place` when it reads `state`."""
-        key = self._labels[state] * self.width + place
+        key = self.labels[state] * self.width + place
         found = self._choices.get(key)
         if found is None:
-            found = self._choices[key] = self._choose(self._values[self._labels[state]], place)
+            found = self._choices[key] = self.choose(self.values[self.labels[state]], place)
         return found
 
-    def _choose(self, values: int, place: int) -> Choice:
+    def choose(self, values: int, place: int) -> Choice:
+        """What the automaton can do in `place` when its predicates have these values."""
         home = self.automaton.home
         outside: dict[int, None] = {}
         inside: dict[int, int] = {}
@@ -86,19 +107,22 @@ class Product:
         In a state without successors the edge is -1: the run stays there for ever.
         """
         state, place = divmod(key, self.width)
-        choice, promises = self.choice(state, place), self.automaton.promises
+        choice = self.choice(state, place)
         if choice.inside:
-            moves = [
-                (move, 1 | (promises & ~put_off) << 1)
-                for move, put_off in zip(choice.inside, choice.promises, strict=True)
-            ]
+            moves = self.goals(choice)
             for edge, target, fair in self._steps(state):
                 for move, kept in moves:
                     yield edge, target * self.width + move, kept | fair
 
+    def goals(self, choice: Choice) -> list[tuple[int, int]]:
+        """The places of moves inside, and the goals that they reach whatever the edge."""
+        promises = self.automaton.promises
+        pairs = zip(choice.inside, choice.promises, strict=True)
+        return [(place, 1 | (promises & ~put_off) << 1) for place, put_off in pairs]
+
     def _steps(self, state: int) -> list[tuple[int, int, int]]:
         """Edges of the graph with their target and the goals of fairness that they reach."""
-        graph, shift = self.graph, self.automaton.promises.bit_length() + 1
+        graph, shift = self.graph, self.shift
         live = [
             (edge, graph.target[edge])
             for edge in range(graph.first[state], graph.first[state + 1])
@@ -120,7 +144,7 @@ class Product:
         ]
 
 
-def _classes(graph: Graph, predicates: tuple[int, ...]) -> tuple[array[int], list[int]]:
+def classes_of(graph: Graph, predicates: tuple[int, ...]) -> tuple[array[int], Sequence[int]]:
     """Classes of states that agree on the predicates, and the values of the predicates in each."""
     if not predicates:
         return array("i", bytes(4 * len(graph))), [0]

@@ -6,13 +6,15 @@ and what bounds mean on them, is said in decision 11.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from rebsync.checker.formulas import And, Atom, Formula, Not, Or, Temporal, Timed
 from rebsync.checker.graph import Graph
 from rebsync.checker.temporal.evaluation import Evaluation, reduced
 from rebsync.checker.temporal.explanation import explain
 from rebsync.checker.temporal.lasso import Lasso, lasso
+from rebsync.checker.watch import Look, unwatched
+from rebsync.records import dataclass
 from rebsync.unions import assert_never
 
 
@@ -28,10 +30,10 @@ class Branching:
     run: Lasso | None
 
 
-def check_tctl(graph: Graph, formula: Formula) -> Branching:
-    """Decides a formula. ValueError: it has an operator of LTL."""
+def check_tctl(graph: Graph, formula: Formula, look: Look = unwatched) -> Branching:
+    """Decides a formula; `look` is called now and then. ValueError: it has an operator of LTL."""
     simple = reduced(formula)
-    evaluation = Evaluation.of(graph, _largest_limit(simple) + 2)
+    evaluation = Evaluation.of(graph, _largest_limit(simple) + 2, look)
     truth = evaluation.truth(simple, splits=False)[: len(graph)]
     for position, state in enumerate(graph.initial):
         if not truth[state]:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from array import array
-from dataclasses import dataclass
 
 from rebsync.checker.graph import Graph
+from rebsync.checker.watch import Look, unwatched
+from rebsync.records import dataclass
 
 
 @dataclass(slots=True)
@@ -24,14 +25,20 @@ class Timeline:
     time: array[int]
     step: array[int]
     origin: array[int]
+    look: Look = unwatched
     _before: tuple[array[int], array[int]] | None = None
 
     @staticmethod
-    def of(graph: Graph, patience: int) -> Timeline:
-        """The states of a graph; `patience` is the time of the edges of final states."""
+    def of(graph: Graph, patience: int, look: Look = unwatched) -> Timeline:
+        """The states of a graph; `patience` is the time of the edges of final states.
+
+        `look` is called now and then by everything that goes over all nodes.
+        """
         first, source, target = array("q", [0]), array("q"), array("q")
         time, step = array("q"), array("q")
         for state in range(len(graph)):
+            if not state & 4095:
+                look()
             start = len(target)
             for edge in range(graph.first[state], graph.first[state + 1]):
                 if graph.target[edge] >= 0:
@@ -45,7 +52,8 @@ class Timeline:
                 time.append(patience)
                 step.append(-1)
             first.append(len(target))
-        return Timeline(first, source, target, time, step, array("q", range(len(graph))))
+        origin = array("q", range(len(graph)))
+        return Timeline(first, source, target, time, step, origin, look)
 
     def __len__(self) -> int:
         return len(self.origin)
@@ -65,6 +73,8 @@ class Timeline:
             place = array("q", first)
             edges = array("q", bytes(8 * len(self.target)))
             for edge, target in enumerate(self.target):
+                if not edge & 4095:
+                    self.look()
                 edges[place[target]] = edge
                 place[target] += 1
             self._before = first, edges

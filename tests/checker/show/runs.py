@@ -240,6 +240,7 @@ def result(*violations: Violation) -> Result:
         17,
         "tts",
         "interpreted",
+        0.75,
         0.5,
         0.0,
         51_200_000,

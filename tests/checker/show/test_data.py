@@ -30,7 +30,7 @@ RESULTS = {
     "satisfied": result(),
     "violated": result(violation(crossing()), violation(lasso(), "property", "Ends")),
     "undetermined": replace(
-        result(), verdict="undetermined", reason="2 states of more", seconds=0.0
+        result(), verdict="undetermined", reason="2 states of more", search_seconds=0.0
     ),
 }
 CONTRACT = {
@@ -45,6 +45,7 @@ CONTRACT = {
     "semantics",
     "engine",
     "seconds",
+    "search_seconds",
     "build_seconds",
     "peak_memory_bytes",
     "states_per_second",

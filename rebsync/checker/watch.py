@@ -1,0 +1,65 @@
+"""The bounds of a verification, looked at while it thinks about what its search has found."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import field, replace
+from typing import TypeAlias
+
+from rebsync.checker.exploration import Limits, Progress, Report
+from rebsync.checker.memory import used_memory
+from rebsync.records import dataclass
+
+_SLICE = 0.05  # seconds between two looks at the bounds
+
+Look: TypeAlias = Callable[[], None]  # called now and then by what takes long
+
+
+class Stopped(Exception):
+    """A bound was reached; the text says which."""
+
+
+def unwatched() -> None:
+    """Looks at nothing: there are no bounds."""
+
+
+@dataclass(slots=True)
+class Watch:
+    """Bounds and progress; calling it raises Stopped when a bound is reached.
+
+    `started` is the moment by time.perf_counter from which seconds count. `progress` has the
+    figures of the search that is over; what is being done now is its `task`.
+    """
+
+    limits: Limits
+    report: Report | None
+    started: float
+    progress: Progress
+    _due: float = field(default=0.0)
+
+    def __call__(self) -> None:
+        now = time.perf_counter()
+        if now < self._due:
+            return
+        self._due = now + _SLICE
+        seconds, memory = now - self.started, used_memory()
+        if self.report:
+            self.report(replace(self.progress, seconds=seconds, memory=memory))
+        if self.limits.seconds is not None and seconds >= self.limits.seconds:
+            raise Stopped(f"the bound of {self.limits.seconds:g} seconds was reached")
+        self._check(memory)
+
+    def begin(self, task: str, size: int = 0) -> None:
+        """From now on the task is this one, which takes so many bytes at once.
+
+        Raises Stopped when a bound is reached, or would be with them.
+        """
+        self.progress = replace(self.progress, task=task)
+        self._check(used_memory() + size)
+        self._due = 0.0
+        self()
+
+    def _check(self, memory: int) -> None:
+        if self.limits.memory is not None and memory >= self.limits.memory:
+            raise Stopped(f"the bound of {self.limits.memory} bytes of memory was reached")
