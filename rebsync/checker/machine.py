@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import NamedTuple
 
 from rebsync.checker.program import NO_DEADLINE, NULL, Cell, Instruction, Program, RebecInfo
@@ -28,6 +28,7 @@ from rebsync.checker.values import (
     whole,
     wrap,
 )
+from rebsync.records import dataclass
 
 BUDGET = 10_000_000  # instructions that one body may run before it counts as endless
 DEPTH = 10_000  # frames

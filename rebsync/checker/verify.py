@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import islice
 
 from rebsync.checker.engines import explore
@@ -26,6 +26,7 @@ from rebsync.checker.trace import Trace
 from rebsync.checker.views import view_of
 from rebsync.checker.watch import Stopped, Watch
 from rebsync.properties import Property
+from rebsync.records import dataclass
 
 FLOATING_CAVEAT = (
     "the floating view of a model with delay leaves overflow, state properties and races of "

@@ -10,12 +10,13 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal, TypeAlias
 
 from rebsync.checker.graph import Graph
 from rebsync.checker.temporal.buchi import Automaton
 from rebsync.checker.watch import Look, unwatched
+from rebsync.records import dataclass
 
 Fairness: TypeAlias = Literal["none", "weak", "progress"]
 Classes: TypeAlias = "Callable[[Graph, tuple[int, ...]], tuple[array[int], Sequence[int]]]"
