@@ -96,7 +96,6 @@ STRUCTURE = {
     "RS430": "`@priority` and `@globalPriority` in one model",
     "RS431": "a queue or an array without places",
     "RS432": "an abstract member of a class that is not abstract",
-    "RS433": "something of Timed Rebeca in a model that is checked as core Rebeca",
 }
 
 WARNINGS = {
@@ -181,6 +180,7 @@ RUNS = {
     "RS923": "a text that holds no run, or not the one that is wanted",
     "RS924": "a run that the model does not have",
     "RS925": "a state space that is too large to draw",
+    "RS926": "something of Timed Rebeca in a model that is checked as core Rebeca",
     "RS931": "no C compiler for the compiled engine, or one that fails",
 }
 

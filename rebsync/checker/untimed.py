@@ -17,7 +17,7 @@ def check_untimed(analysis: Analysis) -> tuple[Diagnostic, ...]:
     """Everything in a model that core Rebeca has no meaning for."""
     hint = "check it as a timed model, without --language core"
     return tuple(
-        Diagnostic("RS433", span, f"core Rebeca has no {what}", hint)
+        Diagnostic("RS926", span, f"core Rebeca has no {what}", hint)
         for span, what in _timed(analysis)
     )
 

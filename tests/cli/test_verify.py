@@ -150,7 +150,7 @@ main { A a():(); }
     (tmp_path / "t.rebeca").write_text(WALK)
     refused = rebsync("verify", "t.rebeca", "--language", "core", cwd=tmp_path)
     assert refused.status == 2
-    assert "RS433" in refused.err
+    assert "RS926" in refused.err
 
 
 # --- views -------------------------------------------------------------------------------------
