@@ -19,6 +19,7 @@ SECTIONS = (
     ("RS8xx: files, options, configuration", codes.FILES),
     ("RS90x and RS91x: properties", codes.PROPERTIES),
     ("RS92x: runs and state spaces", codes.RUNS),
+    ("RS94x: extraction", codes.EXTRACTION),
 )
 
 HEAD = """\

@@ -3,7 +3,7 @@
 RS1xx syntax, RS2xx names, RS3xx types, RS4xx declarations and structure, RS5xx warnings about a
 model that is accepted, RS6xx warnings about robotic models (thesis, section 3.2), RS7xx what
 cannot be generated, RS8xx files, options and configuration, RS90x and RS91x properties, RS92x
-runs and state spaces.
+runs and state spaces, RS94x extraction.
 """
 
 from __future__ import annotations
@@ -174,6 +174,12 @@ PROPERTIES = {
     "RS911": "a property file without its model",
 }
 
+EXTRACTION = {
+    "RS941": "a place of the code that the model lacks",
+    "RS942": "a place of the code of which the model allows more than it does",
+    "RS943": "code in which no class of a model was found",
+}
+
 RUNS = {
     "RS921": "a text that is not JSON where a run is wanted",
     "RS922": "a part of a run that is missing or of the wrong kind",
@@ -195,4 +201,5 @@ CODES: dict[str, str] = {
     **FILES,
     **PROPERTIES,
     **RUNS,
+    **EXTRACTION,
 }

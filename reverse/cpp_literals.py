@@ -7,6 +7,7 @@ import re
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.cpp_calls import string_of
 from rebsync.reverse.cpp_tree import Cpp, text_of
 from rebsync.reverse.findings import Unread
 
@@ -24,6 +25,11 @@ def literal(cpp: Cpp, node: Node) -> m.Expression:
             return m.BoolLiteral(text == "true", span)
         case "string_literal" if text.startswith('"'):
             return m.StringLiteral(text.replace("?\\?", "??"), span)
+        case "concatenated_string":
+            whole = string_of(node)
+            if whole is not None:
+                return m.StringLiteral(f'"{whole}"'.replace("?\\?", "??"), span)
+            raise Unread(span, "the model has no such texts")
         case "identifier" if text == "kNull":
             return m.NullLiteral(span)
         case "identifier" if text == "INT32_MIN":

@@ -40,17 +40,18 @@ class CppStatements:
         return m.Block(statements, span=self.cpp.span(node))
 
     def _statements(self, nodes: Sequence[Node]) -> Iterator[m.Statement]:
-        markers: list[str] = []
+        comments: list[str] = []
         for node in nodes:
             if node.type == "comment":
-                markers += markers_in(text_of(node))
+                comments.append(text_of(node))
                 continue
+            markers = markers_in(comments)
             annotations = tuple(
                 a for text in markers if (a := annotation(text, self.cpp.span(node))) is not None
             )
             local = any(text.startswith("local ") for text in markers)
-            markers = []
-            self.findings.statements += 1
+            comments = []
+            self.findings.statements[self.within] += 1
             try:
                 yield from self._statement(node, annotations, local)
             except Unread as unread:
@@ -274,8 +275,8 @@ class CppStatements:
 
     def _is_hoisting(self, node: Node) -> bool:
         """Whether a block only holds locals of a switch, and the switch."""
-        markers = [t for c in node.named_children for t in markers_in(text_of(c))]
-        return any(t.startswith("local ") for t in markers)
+        comments = [text_of(c) for c in node.named_children if c.type == "comment"]
+        return any(t.startswith("local ") for t in markers_in(comments))
 
     def _return(self, node: Node, annotations: tuple[m.Annotation, ...]) -> Iterator[m.Statement]:
         values = named(node)

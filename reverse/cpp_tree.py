@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import field
 from functools import cache
 
@@ -17,7 +17,7 @@ from rebsync.source import Source, Span
 _EXPORT = re.compile(
     r"(\b(?:class|struct)\s+)([A-Z][A-Z0-9_]*)(?=\s+[A-Za-z_]\w*\s*(?:final\s*)?(?:[{]|:[^:]))"
 )
-_MARKER = re.compile(r"rebsync:\s*(.*?)\s*(?:\*/)?\s*\Z", re.DOTALL)
+_COMMENT = re.compile(r"^\s*//[/!]?|^\s*/\*+|\*+/\s*\Z")
 
 
 @dataclass(frozen=True)
@@ -76,29 +76,34 @@ def part(node: Node, name: str) -> Node:
 
 def markers_above(node: Node) -> tuple[str, ...]:
     """The markers in the comments directly before a node."""
-    found = []
+    found: list[str] = []
     before = node.prev_sibling
     while before is not None and before.type == "comment" and not _trails(before):
-        found += markers_in(text_of(before))
+        found.append(text_of(before))
         before = before.prev_sibling
-    return tuple(reversed(found))
+    return markers_in(reversed(found))
 
 
 def markers_beside(node: Node) -> tuple[str, ...]:
-    """The markers in the comments that follow a node on its last line."""
-    found = []
+    """The markers in the comments that follow a node on its last line, and go on below."""
+    found: list[str] = []
     after = node.next_sibling
     row = node.end_point[0]
-    while after is not None and after.type == "comment" and after.start_point[0] == row:
-        found += markers_in(text_of(after))
+    while (
+        after is not None and after.type == "comment" and after.start_point[0] <= row + len(found)
+    ):
+        found.append(text_of(after))
         after = after.next_sibling
-    return tuple(found)
+    return markers_in(found)
 
 
-def markers_in(comment: str) -> list[str]:
-    """`kind path` of the marker that a comment is, if it is one."""
-    match = _MARKER.search(comment)
-    return [match[1]] if match else []
+def markers_in(comments: Iterable[str]) -> tuple[str, ...]:
+    """`kind path` of the markers in comments that follow each other.
+
+    A formatter may have split a marker over lines, or joined two.
+    """
+    text = " ".join(_COMMENT.sub(" ", comment) for comment in comments)
+    return tuple(" ".join(piece.split()) for piece in text.split("rebsync:")[1:])
 
 
 def _trails(comment: Node) -> bool:

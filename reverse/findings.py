@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import field
 from enum import Enum
 
@@ -45,10 +46,10 @@ class Unread(Exception):
 
 @dataclass(slots=True)
 class Findings:
-    """Collects findings, and counts the statements that were read."""
+    """Collects findings, and counts the statements of each body, whether they were read or not."""
 
     all: list[Finding] = field(default_factory=list)
-    statements: int = 0
+    statements: Counter[str] = field(default_factory=Counter)
 
     def unreadable(self, source: Source, unread: Unread, within: str) -> None:
         """Lists a place that the model lacks."""

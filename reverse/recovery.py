@@ -33,25 +33,35 @@ _CODE = (".h", ".hh", ".hpp", ".hxx", ".c", ".cc", ".cpp", ".cxx")
 
 @dataclass(frozen=True, slots=True)
 class Extracted:
-    """The model of some files, what in them is not in it, and how many statements were read."""
+    """The model of some files, what in them is not in it, and how many statements each body has."""
 
     model: m.Model
     findings: tuple[Finding, ...]
-    statements: int
+    statements: tuple[tuple[str, int], ...]
 
 
-def extract(files: Mapping[str, Source]) -> Extracted:
-    """The model that files say together; paths are relative to the package, with slashes."""
+def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
+    """The model that files say together; paths are relative to the package, with slashes.
+
+    With `only` the classes that this file declares or defines, read with the help of the others.
+    """
     findings = Findings()
     trees = [parse(source) for path, source in sorted(files.items()) if path.endswith(_CODE)]
     code = Code.of(trees)
     classes = Classes(code, findings)
-    read = classes.read()
+    read = classes.read(_classes_in(code, files[only].path) if only is not None else None)
     launches = [s for path, s in sorted(files.items()) if path.endswith(".launch")]
-    launch = _launched(launches, files) if launches else None
+    launch = _launched(launches, files) if launches and only is None else None
     system = _System(code, classes, read, launch)
     model = m.Model(tuple(system.heads()), read, system.main())
-    return Extracted(model, tuple(findings.all), findings.statements)
+    return Extracted(model, tuple(findings.all), tuple(findings.statements.items()))
+
+
+def _classes_in(code: Code, path: str) -> set[str]:
+    """The classes of which a file has at least a part."""
+    found = {c.name for c in code.classes.values() if c.cpp.source.path == path}
+    parts = (f for all_of in code.definitions.values() for f in all_of)
+    return found | {f.owner for f in parts if f.cpp.source.path == path and f.owner}
 
 
 def _launched(launches: Sequence[Source], files: Mapping[str, Source]) -> Launch:
@@ -94,10 +104,11 @@ class _System:
 
     def _used(self) -> Iterator[tuple[str, tuple[m.Type, str, Value | None]]]:
         """The global parameters that classes read: type, name, and default."""
+        names = {c.name for c in self.read}
         for owner in self.code.classes.values():
             roles = self.classes.roles[owner.name]
             for member in owner.fields:
-                if member.name not in roles.globals:
+                if member.name not in roles.globals or class_name(owner.name) not in names:
                     continue
                 key, default = roles.globals[member.name]
                 type_ = type_of(member.type)

@@ -47,12 +47,12 @@ class Classes:
         states = {s for c in self.code.classes.values() for s in _state_types(self.code, c)}
         self.types = frozenset(messages | states | set(self.code.classes))
 
-    def read(self) -> tuple[m.ReactiveClass | m.Interface, ...]:
-        """All of them, in the order of the code."""
+    def read(self, wanted: set[str] | None = None) -> tuple[m.ReactiveClass | m.Interface, ...]:
+        """All of them, or those that are wanted, in the order of the code."""
         return tuple(
             self._reactive(c) if self._has_mailbox(c) else self._interface(c)
             for c in self.code.classes.values()
-            if self._has_mailbox(c) or _is_interface(c)
+            if (self._has_mailbox(c) or _is_interface(c)) and (wanted is None or c.name in wanted)
         )
 
     def _has_mailbox(self, owner: CppClass) -> bool:
@@ -117,8 +117,15 @@ class Classes:
             return
         if name in self.roles[owner.name].sensors:
             yield m.Annotation("Sensor")
-        above = (self.roles[c.name].annotations.get(name) for c in self.code.lineage(owner.name))
-        yield from next((a for a in above if a is not None), [])
+        overload = name, len(function.parameters)
+        for above in self.code.lineage(owner.name):
+            shown = self.roles[above.name].annotations.get(overload)
+            if shown is not None:
+                same = [f for f in above.functions if f.name == function.name]
+                same = [f for f in same if len(f.parameters) == overload[1]]
+                index = next((i for i, f in enumerate(same) if f.types == function.types), 0)
+                yield from shown[min(index, len(shown) - 1)]
+                return
 
     def _is_reactive(self, name: str) -> bool:
         owner = self.code.classes.get(name)
@@ -156,7 +163,7 @@ class Classes:
         if known is not None:
             return known
         for marker in member.markers:
-            kind, _, path = marker.partition(" ")
+            kind, path, *_ = [*marker.split(), "", ""]
             if kind in ("statevar", "env") and path:
                 return path.rpartition(".")[2]
         return uncarry(member.name.removesuffix("_"), RUNTIME_MEMBERS)
@@ -220,7 +227,7 @@ class Classes:
     def _plain(self, function: CppFunction) -> str:
         """The model's name of a function."""
         for marker in function.markers:
-            kind, _, path = marker.partition(" ")
+            kind, path, *_ = [*marker.split(), "", ""]
             if kind in ("msgsrv", "method") and path:
                 return path.rpartition(".")[2]
         return uncarry(function.name, RESERVED | self.types)

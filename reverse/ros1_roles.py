@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import field
+from typing import TypeAlias
 
 from tree_sitter import Node
 
@@ -21,6 +22,7 @@ from rebsync.reverse.cpp_tree import Cpp, named, text_of
 from rebsync.reverse.scope import Sends
 
 _SENSOR = "_sensor_"
+Overload: TypeAlias = tuple[str, int]  # a server, and how many arguments it takes
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +39,8 @@ class Roles:
     """Of one class alone: by function what it serves or sends, by member what that stands for.
 
     `handlers` and `messages` give the server's name in the model, `globals` the entry of the
-    parameter server and the default, `annotations` those of a server that its set-up shows.
+    parameter server and the default, `annotations` those that the set-up of a server shows; of
+    overloads that take equally many arguments the first one's first.
     """
 
     handlers: dict[str, str] = field(default_factory=dict)
@@ -48,7 +51,7 @@ class Roles:
     known: dict[str, str] = field(default_factory=dict)
     globals: dict[str, tuple[str, Node]] = field(default_factory=dict)
     constants: set[str] = field(default_factory=set)
-    annotations: dict[str, list[m.Annotation]] = field(default_factory=dict)
+    annotations: dict[Overload, list[tuple[m.Annotation, ...]]] = field(default_factory=dict)
     on_bridge: bool = False
     sensors: set[str] = field(default_factory=set)
     topics: dict[str, str] = field(default_factory=dict)
@@ -173,13 +176,14 @@ def _queue_length(constructor: CppFunction) -> int | None:
 
 def _received(code: Code, roles: Roles, function: CppFunction, call: CppCall) -> None:
     server = server_of(code, function.cpp, text_of(call.arguments[0]))
-    handler = next((c.name for c in _own_calls(call.arguments[4])), None)
+    handler = next(_own_calls(call.arguments[4]), None)
     if server is None or handler is None or not function.parameters:
         return
     message = text_of(function.parameters[0].type).partition("::ConstPtr")[0]
     roles.shims.add(function.name)
-    roles.handlers[handler] = server
-    roles.annotations[server] = [*_port(roles, function.name), *_priority(code, function, call)]
+    roles.handlers[handler.name] = server
+    shown = *_port(roles, function.name), *_priority(code, function, call)
+    roles.annotations.setdefault((server, len(handler.arguments)), []).append(shown)
     roles.messages[message.rpartition("::")[2]] = server
     roles.constants.add(text_of(call.arguments[0]))
 

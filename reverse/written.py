@@ -15,10 +15,23 @@ def annotation(marker: str, span: Span) -> Annotation | None:
     kind, _, text = marker.partition(" ")
     if kind != "annotation":
         return None
-    source = Source("marker", f"{text} reactiveclass A(1) {{}}")
+    source = Source("marker", f"{_without_rest(text)} reactiveclass A(1) {{}}")
     try:
         classes = parse_model(source).model.classes
     except RebsyncError:
         return None
     found = [a for c in classes if isinstance(c, ReactiveClass) for a in c.annotations]
     return replace(found[0], span=span) if len(found) == 1 else None
+
+
+def _without_rest(text: str) -> str:
+    """`@name(...)` without what follows it in a comment that goes on."""
+    name, opening, _ = text.partition("(")
+    if " " in name.strip() or not opening:
+        return name.split()[0] if name.split() else ""
+    depth = 0
+    for index, character in enumerate(text):
+        depth += (character == "(") - (character == ")")
+        if character == ")" and depth == 0:
+            return text[: index + 1]
+    return text

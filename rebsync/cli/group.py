@@ -10,6 +10,7 @@ from rebsync.diagnostics import did_you_mean
 
 COMMANDS = {
     "export": "Print a model in the form that another tool accepts.",
+    "extract": "Read the code of a package back into a model.",
     "fmt": "Bring models into the canonical layout.",
     "generate": "Write the ROS package of a model.",
     "lint": "Report mistakes in models and properties.",

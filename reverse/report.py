@@ -1,0 +1,92 @@
+"""How much of some code is in the model, and what is not, as text or JSON."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Iterable
+
+from rebsync.diagnostics import Diagnostic, Findings
+from rebsync.reverse.findings import Finding, Grade
+from rebsync.reverse.recovery import Extracted
+from rebsync.source import Source
+
+_CODES = {Grade.UNREADABLE: "RS941", Grade.APPROXIMATED: "RS942"}
+
+
+def diagnostics(found: Iterable[Finding]) -> tuple[Findings, ...]:
+    """The findings of each file, in the order of the text."""
+    by_source: dict[str, tuple[Source, list[Finding]]] = {}
+    for finding in found:
+        by_source.setdefault(finding.source.path, (finding.source, []))[1].append(finding)
+    return tuple(
+        Findings(source, tuple(map(_diagnostic, sorted(each, key=lambda f: f.span.start))))
+        for source, each in by_source.values()
+    )
+
+
+def _diagnostic(finding: Finding) -> Diagnostic:
+    within = f" (in {finding.within})" if finding.within else ""
+    message = f"{finding.grade.value}: {finding.why}{within}"
+    return Diagnostic(_CODES[finding.grade], finding.span, message, finding.hint or None)
+
+
+def shares(extracted: Extracted) -> list[tuple[str, int, int, int]]:
+    """Each body with its number of statements, and how many are not exact: of either grade."""
+    grades = Counter((f.within, f.grade) for f in extracted.findings)
+    return [
+        (name, count, grades[name, Grade.APPROXIMATED], grades[name, Grade.UNREADABLE])
+        for name, count in extracted.statements
+    ]
+
+
+def grade_of(extracted: Extracted) -> str:
+    """The worst grade of all: exact, over-approximated or unreadable."""
+    grades = {f.grade for f in extracted.findings}
+    worst = next((g for g in (Grade.UNREADABLE, Grade.APPROXIMATED) if g in grades), None)
+    return worst.value if worst is not None else "exact"
+
+
+def as_text(extracted: Extracted) -> str:
+    """A line for each body, and one for all."""
+    rows = shares(extracted)
+    width = max((len(name) for name, *_ in rows), default=0)
+    lines = [f"{name:{width}}  {_share(*counts)}" for name, *counts in rows]
+    total = [sum(column) for column in zip(*(counts for _, *counts in rows), strict=True)]
+    lines.append(f"{'all':{width}}  {_share(*(total or [0, 0, 0]))}")
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _share(statements: int, approximated: int, unreadable: int) -> str:
+    exact = max(statements - approximated - unreadable, 0)
+    text = f"{exact} of {statements} statements exact"
+    if approximated:
+        text += f", {approximated} {Grade.APPROXIMATED.value}"
+    if unreadable:
+        text += f", {unreadable} {Grade.UNREADABLE.value}"
+    return text
+
+
+def as_json(extracted: Extracted) -> str:
+    """One object: the worst grade, the share of each body, the findings with their places."""
+    bodies = [
+        {"name": name, "statements": count, "over_approximated": approximated, "unreadable": unread}
+        for name, count, approximated, unread in shares(extracted)
+    ]
+    found = [_finding(f) for f in extracted.findings]
+    result = {"grade": grade_of(extracted), "bodies": bodies, "findings": found}
+    return json.dumps(result, indent=2, ensure_ascii=False) + "\n"
+
+
+def _finding(finding: Finding) -> dict[str, object]:
+    position = finding.source.position(finding.span.start)
+    return {
+        "grade": finding.grade.value,
+        "file": finding.source.path,
+        "line": position.line,
+        "column": position.column,
+        "within": finding.within,
+        "text": finding.text,
+        "why": finding.why,
+        "hint": finding.hint or None,
+    }
