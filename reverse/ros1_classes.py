@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import field
 
 from rebsync import model as m
-from rebsync.names import uncarry
+from rebsync.names import carry, uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED, RUNTIME_MEMBERS
 from rebsync.reverse.cpp_calls import call_of
@@ -158,14 +159,16 @@ class Classes:
         return known, state
 
     def variable(self, owner: CppClass, member: CppField) -> str:
-        """The model's name of a member variable."""
+        """The model's name of a member variable, from its marker unless it was renamed."""
         known = self.roles[owner.name].known.get(member.name)
         if known is not None:
             return known
         for marker in member.markers:
             kind, path, *_ = [*marker.split(), "", ""]
-            if kind in ("statevar", "env") and path:
-                return path.rpartition(".")[2]
+            name = path.rpartition(".")[2]
+            carried = re.escape(carry(name, RUNTIME_MEMBERS))
+            if kind in ("statevar", "env") and re.fullmatch(rf"{carried}_(_\d+)?", member.name):
+                return name
         return uncarry(member.name.removesuffix("_"), RUNTIME_MEMBERS)
 
     def _runtime(self, member: CppField) -> Runtime | None:
@@ -225,11 +228,15 @@ class Classes:
         return None
 
     def _plain(self, function: CppFunction) -> str:
-        """The model's name of a function."""
+        """The model's name of a function, from its marker unless it was renamed."""
         for marker in function.markers:
             kind, path, *_ = [*marker.split(), "", ""]
-            if kind in ("msgsrv", "method") and path:
-                return path.rpartition(".")[2]
+            name = path.rpartition(".")[2]
+            if kind not in ("msgsrv", "method") or not path:
+                continue
+            apart = function.name.startswith(f"{name}_")  # from overloads that C++ cannot tell
+            if apart or carry(name, RESERVED | self.types) == function.name:
+                return name
         return uncarry(function.name, RESERVED | self.types)
 
     def _server(self, owner: CppClass, function: CppFunction, name: str) -> m.MessageServer:

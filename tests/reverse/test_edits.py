@@ -1,0 +1,50 @@
+"""Edits by hand come back as the change of the model that they are (edits.toml)."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from rebsync.grammars.parser import parse_model
+from rebsync.source import Source
+from tests.reverse.laws import assert_says
+from tests.reverse.test_laws import EXAMPLES, package_of
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+EDITS: dict[str, Any] = tomllib.loads(
+    Path(__file__).with_name("edits.toml").read_text(encoding="utf-8")
+)
+BY_NAME = {example.name: example for example in EXAMPLES}
+
+
+@pytest.mark.parametrize("name", EDITS)
+def test_edits_come_back(name: str) -> None:
+    edit = EDITS[name]
+    example = BY_NAME[edit["example"]]
+    files = package_of(example)
+    for path, old, new in edit["code"]:
+        files[path] = replaced(files[path], old, new)
+    text = (example / f"{example.name}.rebeca").read_text(encoding="utf-8")
+    for old, new, *within in edit["model"]:
+        text = replaced_in(text, within[0], old, new) if within else replaced(text, old, new)
+    assert_says(files, parse_model(Source("edited.rebeca", text)).model)
+
+
+def replaced(text: str, old: str, new: str) -> str:
+    """The text with all of `old` replaced, which must be there."""
+    assert old in text, old
+    return text.replace(old, new)
+
+
+def replaced_in(text: str, class_name: str, old: str, new: str) -> str:
+    """The same within one class."""
+    before, head, rest = text.partition(f"reactiveclass {class_name}(")
+    own, end, after = rest.partition("\n}\n")
+    return before + head + replaced(own, old, new) + end + after
