@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from itertools import count
 from typing import TYPE_CHECKING
 
 import click
@@ -68,7 +69,9 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     if steps is None and until is None:
         steps = _STEPS
     told = tuple(run(teller, choose, until=until, steps=steps))
-    write_run(Trace(problem.source.path, semantics, told), problem.source, given["style"], output)
+    if not (given["interactive"] and _told_already(given["style"], output)):
+        trace = Trace(problem.source.path, semantics, told)
+        write_run(trace, problem.source, given["style"], output)
     return Status.VIOLATED if told and told[-1].failure else Status.CLEAN
 
 
@@ -83,22 +86,37 @@ def _seed(given: int | None) -> int:
 
 
 def _by_hand(teller: Teller) -> Chooser:
-    """Asks on the terminal, unless there is only one step; an empty line or q ends the run."""
-    from rebsync.checker.show.words import heading
+    """Asks on the terminal, unless there is only one step, and tells what the step does."""
+    from rebsync.checker.show.pieces import print_lines
+    from rebsync.checker.show.text import step_lines
+    from rebsync.checker.show.words import option
+
+    numbers = count()
 
     def choose(time: int, state: State, steps: Sequence[Step]) -> int | None:
-        labels = [heading(teller.step(0, time, state, step)) for step in steps]
-        if len(labels) == 1:
-            click.echo(f"{time:>4}  {labels[0]}", err=True)
-            return 0
-        for number, label in enumerate(labels, 1):
-            click.echo(f"  {number}) {label}", err=True)
-        while True:
-            click.echo(f"at {time}, 1 to {len(labels)}, q to end: ", nl=False, err=True)
-            answer = sys.stdin.readline().strip()
-            if answer in ("", "q"):
-                return None
-            if answer.isdecimal() and 1 <= int(answer) <= len(labels):
-                return int(answer) - 1
+        number = next(numbers)
+        told = [teller.step(number, time, state, step) for step in steps]
+        picked = _asked(time, [option(step) for step in told]) if len(told) > 1 else 0
+        if picked is not None:
+            print_lines(step_lines(told[picked], teller.source.path), sys.stderr)
+        return picked
 
     return choose
+
+
+def _told_already(style: str, output: str) -> bool:
+    """Whether a run that was made by hand would be shown to the same eyes a second time."""
+    return style == "text" and output == "-" and sys.stdout.isatty() and sys.stderr.isatty()
+
+
+def _asked(time: int, options: Sequence[str]) -> int | None:
+    """The number of the option that is picked; None after an empty line, q, or the last line."""
+    for number, option in enumerate(options, 1):
+        click.echo(f"  {number}) {option}", err=True)
+    while True:
+        click.echo(f"at {time}, 1 to {len(options)}, q to end: ", nl=False, err=True)
+        answer = sys.stdin.readline().strip()
+        if answer in ("", "q"):
+            return None
+        if answer.isdecimal() and 1 <= int(answer) <= len(options):
+            return int(answer) - 1

@@ -67,6 +67,14 @@ def test_by_hand(tmp_path: Path) -> None:
     assert (left.status, len(json.loads(left.out)["trace"])) == (0, 2)
 
 
+def test_by_hand_the_choices_can_be_told_apart(tmp_path: Path) -> None:
+    (tmp_path / "m.rebeca").write_text(UNSAFE)
+    done = rebsync("simulate", "m.rebeca", "--interactive", cwd=tmp_path, stdin=b"1\nq\n")
+    assert "  1) walker.go() from walker, chooses 1\n  2) walker.go() from" in done.err
+    assert "place: 0 -> 1\n" in done.err.partition("to end: ")[2]
+    assert "place: 0 -> 1\n" in done.out
+
+
 def test_a_simulated_run_can_be_made_again(tmp_path: Path) -> None:
     options = ("--seed", "5", "--format", "json")
     rebsync("simulate", MODEL, *options, "-o", "run.json", cwd=tmp_path)
