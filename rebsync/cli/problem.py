@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import click
+
 from rebsync.cli.paths import PROPERTY
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
 from rebsync.files import STANDARD_INPUT, read_source
@@ -24,6 +26,10 @@ def read_problem(model: str, property_file: str | None, *, untimed: bool = False
     from rebsync.checker.problem import Problem
     from rebsync.properties import Properties
 
+    if Path(model).suffix == PROPERTY:
+        raise click.UsageError(
+            f'"{model}" holds properties: name the model, and these with --property'
+        )
     source = read_source(model)
     analysis = _analysed(source, untimed)
     path = property_file or _beside(model)

@@ -237,6 +237,13 @@ def test_bounds_that_are_none(tmp_path: Path, option: tuple[str, str]) -> None:
 # --- engines -----------------------------------------------------------------------------------
 
 
+def test_properties_are_no_model(tmp_path: Path) -> None:
+    (tmp_path / "m.property").write_text("property { }")
+    refused = rebsync("verify", "m.property", cwd=tmp_path)
+    assert refused.status == 2
+    assert "--property" in refused.err
+
+
 def test_without_a_compiler(tmp_path: Path) -> None:
     (tmp_path / "m.rebeca").write_text(ENDLESS)
     nothing = {"PATH": str(tmp_path), "REBSYNC_CACHE": str(tmp_path / "cache"), "CC": ""}
