@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -32,7 +33,7 @@ def read_problem(model: str, property_file: str | None, *, untimed: bool = False
         )
     source = read_source(model)
     analysis = _analysed(source, untimed)
-    path = property_file or _beside(model)
+    path = _beside(model) if property_file is None else property_file
     if path is None:
         return Problem(source, analysis, Properties())
     properties = read_source(path)
@@ -40,8 +41,9 @@ def read_problem(model: str, property_file: str | None, *, untimed: bool = False
 
 
 def _beside(model: str) -> str | None:
+    """The property file of a model; what is there but cannot be read is a mistake later on."""
     path = Path(model).with_suffix(PROPERTY)
-    return str(path) if model != STANDARD_INPUT and path.is_file() else None
+    return str(path) if model != STANDARD_INPUT and os.path.lexists(path) else None
 
 
 def _analysed(source: Source, untimed: bool) -> Analysis:

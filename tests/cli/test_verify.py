@@ -237,6 +237,21 @@ def test_bounds_that_are_none(tmp_path: Path, option: tuple[str, str]) -> None:
 # --- engines -----------------------------------------------------------------------------------
 
 
+def test_a_bound_without_bounds(tmp_path: Path) -> None:
+    result = verified(tmp_path, WALK, "--memory", "9" * 400, "--max-time", "9" * 400)
+    assert result["status"] == 3
+
+
+def test_a_property_file_that_cannot_be_read_is_not_passed_over(tmp_path: Path) -> None:
+    (tmp_path / "m.rebeca").write_text(WALK)
+    (tmp_path / "m.property").symlink_to("gone.property")
+    done = rebsync("verify", "m.rebeca", cwd=tmp_path)
+    assert (done.status, done.out) == (2, "")
+    assert "m.property: RS801" in done.err
+    done = rebsync("verify", "m.rebeca", "--property", "", cwd=tmp_path)
+    assert done.status == 2
+
+
 def test_properties_are_no_model(tmp_path: Path) -> None:
     (tmp_path / "m.property").write_text("property { }")
     refused = rebsync("verify", "m.property", cwd=tmp_path)
