@@ -43,11 +43,15 @@ def run(
 
 
 class NotARun(Exception):
-    """A recorded run that the model does not have; `number` is the first step that differs."""
+    """A recorded run that the model does not have; `number` is the first step that differs.
 
-    def __init__(self, number: int) -> None:
-        super().__init__(number)
+    With `repeats` it is the step after which the run is said to repeat, and does not.
+    """
+
+    def __init__(self, number: int, repeats: bool = False) -> None:
+        super().__init__(number, repeats)
         self.number = number
+        self.repeats = repeats
 
 
 def replay(teller: Teller, actions: Sequence[Action], loop: int | None) -> Trace:
@@ -55,6 +59,7 @@ def replay(teller: Teller, actions: Sequence[Action], loop: int | None) -> Trace
     state: State = ()
     time = 0
     told: list[TraceStep] = []
+    states: list[State] = []
     for number, action in enumerate(actions):
         step = _next(teller.view, state, action)
         if step is None:
@@ -66,6 +71,9 @@ def replay(teller: Teller, actions: Sequence[Action], loop: int | None) -> Trace
                 raise NotARun(number + 1)
             break
         state = step.result
+        states.append(state)
+    if loop is not None and (loop >= len(told) - 1 or [states[loop]] != states[len(told) - 1 :]):
+        raise NotARun(loop, repeats=True)
     return Trace(teller.source.path, teller.view.semantics, tuple(told), loop)
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from rebsync.cli.options import refuse_to_overwrite
 from rebsync.cli.paths import PROPERTY
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
 from rebsync.files import STANDARD_INPUT, read_source
@@ -38,6 +39,15 @@ def read_problem(model: str, property_file: str | None, *, untimed: bool = False
         return Problem(source, analysis, Properties())
     properties = read_source(path)
     return Problem(source, analysis, _properties(properties, analysis), properties)
+
+
+def keep_what_is_read(problem: Problem, *written: str | None, replayed: str | None = None) -> None:
+    """A RebsyncError when a file that will be written is one that was read."""
+    properties = problem.property_source
+    read = (problem.source.path, properties.path if properties else None, replayed)
+    for output in filter(None, written):
+        for given in filter(None, read):
+            refuse_to_overwrite(given, output)
 
 
 def _beside(model: str) -> str | None:

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rebsync.cli.options import refuse_to_overwrite
-from rebsync.cli.problem import read_problem
+from rebsync.cli.problem import keep_what_is_read, read_problem
 from rebsync.cli.runs import STYLES, write_run
 from rebsync.cli.status import Status
 from rebsync.cli.verify import view_named, view_options
@@ -59,8 +58,8 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     given = ctx.params
     if given["interactive"] and given["seed"] is not None:
         raise click.UsageError("--interactive and --seed exclude each other")
-    refuse_to_overwrite(model, output)
     problem = read_problem(model, given["property_file"], untimed=given["language"] == "core")
+    keep_what_is_read(problem, output)
     program, _formulas = lower(problem.analysis, problem.properties)
     semantics = view_named(given) or semantics_for(program, problem)
     teller = Teller(view_of(program, semantics), problem.source)
