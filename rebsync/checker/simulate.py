@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from random import Random
 from typing import TypeAlias
 
+from rebsync.checker.machine import EndlessBody
 from rebsync.checker.state import State
 from rebsync.checker.steps import Action, Failure, Step
 from rebsync.checker.telling import Teller
@@ -78,6 +79,9 @@ def replay(teller: Teller, actions: Sequence[Action], loop: int | None) -> Trace
 
 
 def _next(view: Views, state: State, action: Action) -> Step | None:
-    if state:
-        return view.next_state(state, action)
-    return next((s for s in view.initial_states() if s.action == action), None)
+    try:
+        if state:
+            return view.next_state(state, action)
+        return next((s for s in view.initial_states() if s.action == action), None)
+    except EndlessBody:
+        return None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from itertools import count
 from typing import TYPE_CHECKING
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from rebsync.checker.state import State
     from rebsync.checker.steps import Step
     from rebsync.checker.telling import Teller
+    from rebsync.checker.trace import TraceStep
 
 _STEPS = 100
 
@@ -46,9 +48,11 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     """Make one run of a model, by chance or by hand.
 
     Without --seed every run is another one; the seed is told on standard error. Exit status: 3 if
-    the run ends in a step that fails, else 0.
+    the run ends in a step that fails, 4 if in a body that does not end, else 0.
     """
     from rebsync.checker.lowering import lower
+    from rebsync.checker.machine import EndlessBody
+    from rebsync.checker.search import endless_reason
     from rebsync.checker.simulate import by_chance, run
     from rebsync.checker.telling import Teller
     from rebsync.checker.trace import Trace
@@ -67,10 +71,19 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     until, steps = given["until"], given["steps"]
     if steps is None and until is None:
         steps = _STEPS
-    told = tuple(run(teller, choose, until=until, steps=steps))
-    if not (given["interactive"] and _told_already(given["style"], output)):
-        trace = Trace(problem.source.path, semantics, told)
+    told: list[TraceStep] = []
+    reason = None
+    try:
+        for step in run(teller, choose, until=until, steps=steps):
+            told.append(step)
+    except EndlessBody as endless:
+        reason = endless_reason(program, endless.pc)
+    if told and not (given["interactive"] and _told_already(given["style"], output)):
+        trace = Trace(problem.source.path, semantics, tuple(told))
         write_run(trace, problem.source, given["style"], output)
+    if reason is not None:
+        click.echo(f"the run ends here: {reason}", err=True)
+        return Status.UNDETERMINED
     return Status.VIOLATED if told and told[-1].failure else Status.CLEAN
 
 
@@ -110,12 +123,22 @@ def _told_already(style: str, output: str) -> bool:
 
 def _asked(time: int, options: Sequence[str]) -> int | None:
     """The number of the option that is picked; None after an empty line, q, or the last line."""
-    for number, option in enumerate(options, 1):
+    numbers = [str(number) for number in range(1, len(options) + 1)]
+    for number, option in zip(numbers, options, strict=True):
         click.echo(f"  {number}) {option}", err=True)
     while True:
         click.echo(f"at {time}, 1 to {len(options)}, q to end: ", nl=False, err=True)
-        answer = sys.stdin.readline().strip()
+        answer = _line()
         if answer in ("", "q"):
             return None
-        if answer.isdecimal() and 1 <= int(answer) <= len(options):
-            return int(answer) - 1
+        if answer in numbers:
+            return numbers.index(answer)
+
+
+def _line() -> str:
+    """The next line of standard input; nothing when it has ended, or is closed."""
+    if sys.stdin is None:
+        return ""
+    with suppress(AttributeError, ValueError):
+        sys.stdin.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
+    return sys.stdin.readline().strip()
