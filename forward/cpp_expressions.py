@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from rebsync import model as m
 from rebsync.forward.cpp_names import CppNames
-from rebsync.forward.cpp_operands import bare, float_literal, is_distance, is_int, when
+from rebsync.forward.cpp_operands import bare, float_literal, is_bitwise, is_distance, is_int, when
 from rebsync.forward.cpp_types import LOWEST, cpp_type, stored_type
 from rebsync.forward.effects import conflicting, writes_to
 from rebsync.forward.sends import Send, ToAny, ToKnown, ToSelf, send_of
@@ -124,6 +124,8 @@ class CppExpressions:
     def braced(self, expression: m.Expression, type_: m.Type) -> str:
         """The expression as stored by a list in braces, where C++ refuses what may lose digits."""
         text, given = self.stored(expression, type_), self.type_of(expression)
+        if type_.name == "boolean" and is_bitwise(expression):
+            return f"widen<bool>({text})"
         if given is None or not is_floating(type_) or not is_integer(given):
             return text
         value = constant(expression)

@@ -21,6 +21,19 @@ def is_int(expression: m.Expression) -> bool:
             return False
 
 
+def is_bitwise(expression: m.Expression) -> bool:
+    """Whether an expression is one of `&`, `|`, `^`, of which C++ makes an int of truth values."""
+    match expression:
+        case m.Paren(inner):
+            return is_bitwise(inner)
+        case m.Binary(operator):
+            return operator in ("&", "|", "^")
+        case m.Conditional(then=then, otherwise=otherwise):
+            return is_bitwise(then) or is_bitwise(otherwise)
+        case _:
+            return False
+
+
 def is_distance(expression: m.Expression) -> bool:
     """Whether a distance to shift by is a constant for which C++ means what the model does."""
     value = constant(expression)

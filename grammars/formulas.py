@@ -12,7 +12,8 @@ from rebsync.source import Span
 
 _LTL = {"G": 1, "F": 1, "X": 1, "U": 2, "W": 2}
 _TCTL = {"AG": 1, "AF": 1, "AU": 2, "EG": 1, "EF": 1, "EU": 2}
-_KNOWN = {"LTL": _LTL, "TCTL": _TCTL}
+OPERATORS = {"LTL": _LTL, "TCTL": _TCTL}
+"""The temporal operators of each section, with the formulas that each takes."""
 _COMPARISONS = ("<", "<=", ">", ">=", "==")
 
 
@@ -48,7 +49,7 @@ class _Lifting:
                 return self._state(node)
 
     def _operator(self, call: m.Call) -> p.Formula:
-        known = _KNOWN.get(self.section, {})
+        known = OPERATORS.get(self.section, {})
         if call.name not in known:
             self._no_operator(call)
             return m.Broken(call.span)
@@ -71,12 +72,12 @@ class _Lifting:
         return p.Ltl(cast("p.LtlOperator", call.name), operands, call.span)
 
     def _no_operator(self, call: m.Call) -> None:
-        home = next((s for s, known in _KNOWN.items() if call.name in known), None)
+        home = next((s for s, known in OPERATORS.items() if call.name in known), None)
         if home:
             message = f"the temporal operator {call.name} cannot stand in {_place(self.section)}"
             self._report("RS906", call.span, message, f"it belongs into {home} {{ ... }}")
         else:
-            known = _KNOWN.get(self.section, {})
+            known = OPERATORS.get(self.section, {})
             message = f'unknown operator "{call.name}"'
             hint = did_you_mean(call.name, known) or (
                 "known here: " + ", ".join(known) if known else "properties call no methods"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -10,7 +11,7 @@ from lark import Lark, Token, Tree
 
 from rebsync import model as m
 from rebsync.diagnostics import Diagnostic, Edit, Severity
-from rebsync.grammars.formulas import lift
+from rebsync.grammars.formulas import OPERATORS, lift
 from rebsync.grammars.lexer import retyped, token_span
 from rebsync.grammars.recovery import RecoveringParser
 from rebsync.grammars.tables import load
@@ -21,6 +22,12 @@ from rebsync.source import Source, Span
 
 _NUMBERS = frozenset(("byte", "short", "int", "float", "double"))
 _LISTS = ("__properties_star", "__defines_star", "__section_star")
+_ENTRY_ENDS = frozenset(("SEMICOLON", "LBRACE", "RBRACE"))
+_FOREIGN = frozenset(("[", "<", ">"))
+_WRITTEN = {
+    "LTL": "operators are written G(p), F(p), X(p), U(p, q) and W(p, q)",
+    "TCTL": "operators are written AG(p), AF(time <= 5, p), AU(p, q) and so on",
+}
 _ILLEGAL = {
     "ILLEGAL": ("RS102", "this character is not part of the language"),
     "OPEN_COMMENT": ("RS103", "this comment never ends"),
@@ -124,6 +131,30 @@ def _with_colons(tokens: list[Token], found: list[Diagnostic]) -> list[Token]:
 
 class _PropertyParser(RecoveringParser):
     """Goes on behind the entry that cannot be read."""
+
+    def _report(self, i: int, diagnostic: Diagnostic) -> None:
+        """Who knows other checkers writes `G p`, `[] p`, `p U q` or `AF[<=5] p`."""
+        if diagnostic.code in ("RS101", "RS105") and self._is_foreign(i):
+            hint = _WRITTEN[self._section(i)]
+            diagnostic = replace(diagnostic, hint=hint, edits=())
+        super()._report(i, diagnostic)
+
+    def _section(self, i: int) -> str:
+        """The kind of section that a token stands in."""
+        braces = (k for k in range(i - 1, 0, -1) if self.tokens[k].type == "LBRACE")
+        return str(self.tokens[next(braces, 1) - 1])
+
+    def _is_foreign(self, i: int) -> bool:
+        """Whether a token, or an operator before it in its formula, is in another notation."""
+        operators = OPERATORS.get(self._section(i), ())
+        if not operators:
+            return False
+        if i < len(self.tokens) and self.tokens[i] in (*_FOREIGN, *operators):
+            return True
+        ends = (k for k in range(i - 1, 0, -1) if self.tokens[k].type in _ENTRY_ENDS)
+        formula = self.tokens[next(ends, 0) + 1 : i + 1]
+        named = (k for k, t in enumerate(formula[:-1]) if t in (*operators, "A", "E"))
+        return any(formula[k + 1].type not in ("LPAR", "COLON") for k in named)
 
     def _at_boundary(self, depth: int) -> bool:
         if depth == 1:

@@ -187,7 +187,7 @@ class _Check:
         return None
 
     def _unknown(self, node: m.Name) -> None:
-        if node.name.startswith(_OF_MESSAGES):
+        if node.name == "time" or node.name.startswith(_OF_MESSAGES):
             hint: str | None = "properties speak of state variables; AG(time <= 5, p) of time"
         else:
             known = (*self.defines, *self.rebecs, *self.analysis.env)

@@ -14,6 +14,9 @@ import pytest
 from rebsync.cli.group import COMMANDS
 from rebsync.codes import CODES
 from rebsync.config import TARGETS, Config
+from rebsync.grammars.formulas import OPERATORS
+from rebsync.grammars.properties import parse_properties
+from rebsync.source import Source
 from tests.consoles import ROOT, play
 
 DOCS = ROOT / "docs"
@@ -45,7 +48,8 @@ def test_every_option_is_described(name: str) -> None:
 
 
 def test_every_setting_is_described_with_its_default() -> None:
-    rows = dict(re.findall(r"^\| `(\w+)` \| (.*?) \|", REFERENCE, re.MULTILINE))
+    settings = REFERENCE.partition("\n## Settings")[2]
+    rows = dict(re.findall(r"^\| `(\w+)` \| (.*?) \|", settings, re.MULTILINE))
     assert set(rows) == {f.name for f in fields(Config)}
     for field in fields(Config):
         default = getattr(Config(), field.name)
@@ -64,6 +68,15 @@ def test_links_lead_somewhere(page: Path) -> None:
     for target in re.findall(r"\]\(([^)#]+)[^)]*\)", page.read_text(encoding="utf-8")):
         if not target.startswith("http"):
             assert (page.parent / target).exists(), target
+
+
+def test_the_page_of_properties_has_every_operator() -> None:
+    page = (DOCS / "properties.md").read_text(encoding="utf-8")
+    for operators in OPERATORS.values():
+        assert all(f"`{name}(p" in page for name in operators)
+    shown = re.findall(r"^```text\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    assert shown
+    assert all(parse_properties(Source("shown.property", text)).ok for text in shown)
 
 
 def test_the_tutorial_does_what_it_shows(tmp_path: Path) -> None:

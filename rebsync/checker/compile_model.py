@@ -9,6 +9,8 @@ from rebsync.checker.compile_bodies import bodies, branches, number
 from rebsync.checker.program import NULL, Program, RebecInfo
 from rebsync.records import dataclass
 
+_LARGEST = 2**31 - 1  # capacity that C holds; no bag of so many messages fits any memory
+
 
 @dataclass(frozen=True, slots=True)
 class _RebecText:
@@ -89,7 +91,7 @@ def _rebec(rebec: RebecInfo) -> _RebecText:
     blank = [NULL if s.kind == "rebec" else 0 for s in rebec.state for _ in range(s.size)]
     figures = (
         rebec.cells,
-        rebec.capacity,
+        min(rebec.capacity, _LARGEST),
         rebec.priority,
         rebec.constructor,
         len(rebec.arguments),

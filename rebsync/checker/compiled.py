@@ -25,7 +25,7 @@ from rebsync.checker.search import NO_MEMORY, endless_reason
 from rebsync.checker.steps import Failure, Semantics
 
 _SLICE = 50_000_000  # nanoseconds between two looks at the bounds
-_ENDLESS_TIME = 2**63 - 1
+_ENDLESS = 2**63 - 1  # states, or time: more than any search has
 
 
 class CompiledSearch:
@@ -106,8 +106,8 @@ class CompiledSearch:
         )
 
     def _search(self, limits: Limits, report: Report | None, started: float) -> str | None:
-        states = 2**64 - 1 if limits.states is None else limits.states
-        until = _ENDLESS_TIME if limits.until is None else limits.until
+        states = _ENDLESS if limits.states is None else min(limits.states, _ENDLESS)
+        until = _ENDLESS if limits.until is None else min(limits.until, _ENDLESS)
         while True:
             end = native.END[self._library.rebsync_search(self._engine, states, until, _SLICE)]
             match end:

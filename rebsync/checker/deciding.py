@@ -48,7 +48,8 @@ def refutation(
         return None
     if answer.run is None:
         start = next(n for n, state in enumerate(graph.initial) if not answer.states[state])
-        return Refutation(Lasso((start,), None), "it does not hold, which no single run shows")
+        message = "it does not hold in this state, which no single run shows"
+        return Refutation(Lasso((start,), None), message)
     return Refutation(answer.run, _said(answer.run))
 
 

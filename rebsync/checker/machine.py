@@ -32,11 +32,15 @@ from rebsync.records import dataclass
 
 BUDGET = 10_000_000  # instructions that one body may run before it counts as endless
 DEPTH = 10_000  # frames
+WAYS = 2**20  # ways to choose in one run of a body
 FOREVER = 2**31 - 1  # what currentMessageDeadline reads without a deadline, as in RMC
 
 
 class EndlessBody(Exception):
-    """A body ran for BUDGET instructions or called DEPTH methods; `pc` is where it was then."""
+    """A body ran for BUDGET instructions, called DEPTH methods, or can choose in over WAYS ways.
+
+    `pc` is in that body.
+    """
 
     def __init__(self, pc: int) -> None:
         super().__init__(pc)

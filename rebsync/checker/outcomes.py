@@ -8,10 +8,11 @@ from __future__ import annotations
 from bisect import bisect
 from collections.abc import Iterator
 
-from rebsync.checker.machine import Coverage, Failed, Machine, Sent
+from rebsync.checker.machine import WAYS, Coverage, EndlessBody, Failed, Machine, Sent
 from rebsync.checker.program import NO_DEADLINE, NULL, UNRANKED, Program
 from rebsync.checker.state import Local, Message
 from rebsync.checker.steps import Failure, Semantics
+from rebsync.checker.watch import Look, unwatched
 from rebsync.records import dataclass
 
 
@@ -31,7 +32,10 @@ class Outcome:
 
 
 class Actor:
-    """One rebec of a program. It remembers its outcomes, and the largest bag that it had."""
+    """One rebec of a program. It remembers its outcomes, and the largest bag that it had.
+
+    What it calls between two of them, `look`, may raise what ends the work.
+    """
 
     def __init__(
         self, program: Program, index: int, semantics: Semantics, coverage: Coverage
@@ -42,6 +46,7 @@ class Actor:
         self.semantics = semantics
         self.coverage = coverage
         self.largest = 0
+        self.look: Look = unwatched
         self._known: dict[Local, tuple[Outcome, ...]] = {}
 
     # --- who may act
@@ -117,15 +122,20 @@ class Actor:
     def _run(self, local: Local, slot: int) -> Iterator[Outcome]:
         """Runs a body once for each way to choose, the last choice changing first."""
         choices: list[int] = []
-        while True:
+        for _ in range(WAYS):
             machine, outcome = self._once(local, slot, choices)
             yield outcome
+            self.look()
             choices = machine.choices[: len(machine.options)]
             while choices and choices[-1] == machine.options[len(choices) - 1] - 1:
                 choices.pop()
             if not choices:
                 return
             choices[-1] += 1
+        if local.point:
+            raise EndlessBody(local.point.frames[0].pc - 1)
+        body = self.program.servers[local.bag[slot].server].body
+        raise EndlessBody(self.program.bodies[body].entry)
 
     def _once(self, local: Local, slot: int, choices: list[int]) -> tuple[Machine, Outcome]:
         message, bag = self._taken(local, slot)

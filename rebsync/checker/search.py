@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import time
 from array import array
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import TypeAlias
 
 from rebsync.checker.exploration import (
@@ -16,13 +17,14 @@ from rebsync.checker.exploration import (
     Report,
 )
 from rebsync.checker.graph import Graph
-from rebsync.checker.machine import EndlessBody, Failed, Machine
+from rebsync.checker.machine import BUDGET, DEPTH, WAYS, EndlessBody, Failed, Machine
 from rebsync.checker.memory import used_memory
 from rebsync.checker.program import NO_DEADLINE, Program
 from rebsync.checker.standstill import marks_of
 from rebsync.checker.state import Message, State
 from rebsync.checker.steps import Failure, Semantics, Step
 from rebsync.checker.views import view_of
+from rebsync.checker.watch import Look, Stopped, unwatched
 
 PAUSED = "paused"
 NO_MEMORY = "there was no more memory"
@@ -71,6 +73,8 @@ class Interpreted:
             reason = self._search(limits, report, started, pause)
         except KeyboardInterrupt:
             reason = "it was interrupted"
+        except Stopped as stopped:
+            reason = str(stopped)
         except EndlessBody as endless:
             reason = endless_reason(self.program, endless.pc)
         except MemoryError:
@@ -106,18 +110,35 @@ class Interpreted:
             for ordinal, step in enumerate(self.view.initial_states()):
                 self._reach(step, -1, ordinal, limits)
         due = time.perf_counter() + _SLICE
-        while self._expanded < len(self.states):
-            if limits.states is not None and len(self.states) >= limits.states:
-                return f"the bound of {limits.states} states was reached"
+
+        def look() -> None:
+            nonlocal due
             now = time.perf_counter()
             if now >= due:
                 due = now + _SLICE
                 if stop := self._look(limits, report, now - started):
-                    return stop
+                    raise Stopped(stop)
                 if pause and pause():
-                    return PAUSED
-            self._expand(self._expanded, limits)
+                    raise Stopped(PAUSED)
+
+        with self._looking(look):
+            while self._expanded < len(self.states):
+                if limits.states is not None and len(self.states) >= limits.states:
+                    return f"the bound of {limits.states} states was reached"
+                look()
+                self._expand(self._expanded, limits)
         return None
+
+    @contextmanager
+    def _looking(self, look: Look) -> Iterator[None]:
+        """A body that can choose in many ways must not outlast the bounds."""
+        for actor in self.view.actors:
+            actor.look = look
+        try:
+            yield
+        finally:
+            for actor in self.view.actors:
+                actor.look = unwatched
 
     def _look(self, limits: Limits, report: Report | None, seconds: float) -> str | None:
         memory = used_memory()
@@ -235,4 +256,7 @@ class Interpreted:
 
 def endless_reason(program: Program, pc: int) -> str:
     """Why a search ends at a body that does not."""
-    return f"the body of {program.body_at(pc).name} did not end"
+    return (
+        f"the body of {program.body_at(pc).name} did not end within {BUDGET:,} instructions, "
+        f"{DEPTH:,} calls and {WAYS:,} ways to choose"
+    )

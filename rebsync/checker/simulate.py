@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from random import Random
 from typing import TypeAlias
 
+from rebsync.checker.machine import EndlessBody
 from rebsync.checker.state import State
 from rebsync.checker.steps import Action, Failure, Step
 from rebsync.checker.telling import Teller
@@ -43,11 +44,15 @@ def run(
 
 
 class NotARun(Exception):
-    """A recorded run that the model does not have; `number` is the first step that differs."""
+    """A recorded run that the model does not have; `number` is the first step that differs.
 
-    def __init__(self, number: int) -> None:
-        super().__init__(number)
+    With `repeats` it is the step after which the run is said to repeat, and does not.
+    """
+
+    def __init__(self, number: int, repeats: bool = False) -> None:
+        super().__init__(number, repeats)
         self.number = number
+        self.repeats = repeats
 
 
 def replay(teller: Teller, actions: Sequence[Action], loop: int | None) -> Trace:
@@ -55,6 +60,7 @@ def replay(teller: Teller, actions: Sequence[Action], loop: int | None) -> Trace
     state: State = ()
     time = 0
     told: list[TraceStep] = []
+    states: list[State] = []
     for number, action in enumerate(actions):
         step = _next(teller.view, state, action)
         if step is None:
@@ -66,10 +72,16 @@ def replay(teller: Teller, actions: Sequence[Action], loop: int | None) -> Trace
                 raise NotARun(number + 1)
             break
         state = step.result
+        states.append(state)
+    if loop is not None and (loop >= len(told) - 1 or [states[loop]] != states[len(told) - 1 :]):
+        raise NotARun(loop, repeats=True)
     return Trace(teller.source.path, teller.view.semantics, tuple(told), loop)
 
 
 def _next(view: Views, state: State, action: Action) -> Step | None:
-    if state:
-        return view.next_state(state, action)
-    return next((s for s in view.initial_states() if s.action == action), None)
+    try:
+        if state:
+            return view.next_state(state, action)
+        return next((s for s in view.initial_states() if s.action == action), None)
+    except EndlessBody:
+        return None

@@ -187,8 +187,8 @@ class Teller:
                 due = time + message.deadline
                 return f"{rebec} takes {body} at {time}, but it was due by {due}"
             case "overflow":
-                places = program.rebecs[failure.rebec].capacity
-                return f"the bag of {rebec} has no place for another message (it has {places})"
+                room = f"it has room for {program.rebecs[failure.rebec].capacity}"
+                return f"the bag of {rebec} has no place for another message ({room})"
             case "assertion":
                 said = f': "{failure.text}"' if failure.text else ""
                 return f"an assertion fails in {body}{said}"

@@ -16,6 +16,9 @@ from rebsync.checker.program import Program
 from rebsync.checker.state import Local, State, later
 from rebsync.checker.steps import TIME, Action, Failure, Semantics, Step
 
+_Begun: TypeAlias = tuple[State | Failure, tuple[int, ...]]
+"""The rebecs constructed so far, or what failed; and all that was chosen."""
+
 
 class _Bodies:
     """What the views share: bodies run, and what they sent is delivered in order."""
@@ -32,20 +35,29 @@ class _Bodies:
 
     def initial_states(self) -> tuple[Step, ...]:
         """Constructors run in the order of main; those that fail leave no state."""
-        empty: State = tuple(Local((), ()) for _ in self.actors)
-        return tuple(self._constructed(empty, 0, ()))
+        return tuple(self._constructed())
 
-    def _constructed(self, state: State, index: int, choices: tuple[int, ...]) -> Iterator[Step]:
-        if index == len(self.actors):
-            yield self._step(Action(TIME, -1, choices), state)
-            return
+    def _constructed(self) -> Iterator[Step]:
+        """The ways to construct all rebecs, what the last one chooses changing first."""
+        empty: State = tuple(Local((), ()) for _ in self.actors)
+        begun: list[Iterator[_Begun]] = [iter([(empty, ())])]
+        while begun:
+            index = len(begun) - 1
+            state, choices = next(begun[-1], (None, ()))
+            if state is None:
+                begun.pop()
+            elif isinstance(state, Failure):
+                yield Step(Action(TIME, -1, choices), state)
+            elif index == len(self.actors):
+                yield self._step(Action(TIME, -1, choices), state)
+            else:
+                begun.append(self._construct(state, index, choices))
+
+    def _construct(self, state: State, index: int, choices: tuple[int, ...]) -> Iterator[_Begun]:
+        """What the constructor of one more rebec makes of a state."""
         outcomes = tuple(self.actors[index].construct(state[index].bag))
         for outcome, result in self._delivered(state, index, outcomes):
-            chosen = (*choices, *outcome.choices)
-            if isinstance(result, Failure):
-                yield Step(Action(TIME, -1, chosen), result)
-            else:
-                yield from self._constructed(result, index + 1, chosen)
+            yield result, (*choices, *outcome.choices)
 
     def steps(self, state: State) -> tuple[Step, ...]:
         """Rebecs in the order of main, messages in that of the bag, choices from first to last."""

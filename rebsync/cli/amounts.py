@@ -6,6 +6,7 @@ import re
 
 import click
 
+_MOST = 2**63 - 1  # bytes
 _BYTES = {"": 1, "K": 2**10, "M": 2**20, "G": 2**30, "T": 2**40}
 _SECONDS = {"": 1.0, "ms": 0.001, "s": 1.0, "m": 60.0, "h": 3600.0}
 
@@ -17,7 +18,7 @@ def amount(_: click.Context, __: click.Parameter, given: str | None) -> int | No
     match = re.fullmatch(r"(\d+(?:\.\d+)?)\s*([KMGT]?)(?:i?B)?", given.strip(), re.IGNORECASE)
     if match is None or float(match[1]) == 0:
         raise click.BadParameter(f'"{given}" is not a size such as 500M or 2G')
-    return int(float(match[1]) * _BYTES[match[2].upper()])
+    return int(min(float(match[1]) * _BYTES[match[2].upper()], _MOST))
 
 
 def duration(_: click.Context, __: click.Parameter, given: str | None) -> float | None:

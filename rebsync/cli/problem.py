@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import click
+
+from rebsync.cli.options import refuse_to_overwrite
 from rebsync.cli.paths import PROPERTY
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
 from rebsync.files import STANDARD_INPUT, read_source
@@ -24,18 +28,32 @@ def read_problem(model: str, property_file: str | None, *, untimed: bool = False
     from rebsync.checker.problem import Problem
     from rebsync.properties import Properties
 
+    if Path(model).suffix == PROPERTY:
+        raise click.UsageError(
+            f'"{model}" holds properties: name the model, and these with --property'
+        )
     source = read_source(model)
     analysis = _analysed(source, untimed)
-    path = property_file or _beside(model)
+    path = _beside(model) if property_file is None else property_file
     if path is None:
         return Problem(source, analysis, Properties())
     properties = read_source(path)
     return Problem(source, analysis, _properties(properties, analysis), properties)
 
 
+def keep_what_is_read(problem: Problem, *written: str | None, replayed: str | None = None) -> None:
+    """A RebsyncError when a file that will be written is one that was read."""
+    properties = problem.property_source
+    read = (problem.source.path, properties.path if properties else None, replayed)
+    for output in filter(None, written):
+        for given in filter(None, read):
+            refuse_to_overwrite(given, output)
+
+
 def _beside(model: str) -> str | None:
+    """The property file of a model; what is there but cannot be read is a mistake later on."""
     path = Path(model).with_suffix(PROPERTY)
-    return str(path) if model != STANDARD_INPUT and path.is_file() else None
+    return str(path) if model != STANDARD_INPUT and os.path.lexists(path) else None
 
 
 def _analysed(source: Source, untimed: bool) -> Analysis:

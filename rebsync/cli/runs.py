@@ -67,6 +67,8 @@ def replay_file(
         trace = replay(teller, recorded.actions, recorded.loop)
     except NotARun as different:
         message = f"step {different.number} of this run is none of {problem.source.path}"
+        if different.repeats:
+            message = f"this run does not repeat after step {different.number}"
         hint = "the model has changed since: verify it again"
         found = Diagnostic("RS924", NOWHERE, message, hint)
         raise RebsyncError([Findings(source, (found,))]) from None

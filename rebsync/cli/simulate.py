@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
+from itertools import count
 from typing import TYPE_CHECKING
 
 import click
 
-from rebsync.cli.options import refuse_to_overwrite
-from rebsync.cli.problem import read_problem
+from rebsync.cli.problem import keep_what_is_read, read_problem
 from rebsync.cli.runs import STYLES, write_run
 from rebsync.cli.status import Status
 from rebsync.cli.verify import view_named, view_options
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from rebsync.checker.state import State
     from rebsync.checker.steps import Step
     from rebsync.checker.telling import Teller
+    from rebsync.checker.trace import TraceStep
 
 _STEPS = 100
 
@@ -46,9 +48,11 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     """Make one run of a model, by chance or by hand.
 
     Without --seed every run is another one; the seed is told on standard error. Exit status: 3 if
-    the run ends in a step that fails, else 0.
+    the run ends in a step that fails, 4 if in a body that does not end, else 0.
     """
     from rebsync.checker.lowering import lower
+    from rebsync.checker.machine import EndlessBody
+    from rebsync.checker.search import endless_reason
     from rebsync.checker.simulate import by_chance, run
     from rebsync.checker.telling import Teller
     from rebsync.checker.trace import Trace
@@ -58,8 +62,8 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     given = ctx.params
     if given["interactive"] and given["seed"] is not None:
         raise click.UsageError("--interactive and --seed exclude each other")
-    refuse_to_overwrite(model, output)
     problem = read_problem(model, given["property_file"], untimed=given["language"] == "core")
+    keep_what_is_read(problem, output)
     program, _formulas = lower(problem.analysis, problem.properties)
     semantics = view_named(given) or semantics_for(program, problem)
     teller = Teller(view_of(program, semantics), problem.source)
@@ -67,8 +71,19 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     until, steps = given["until"], given["steps"]
     if steps is None and until is None:
         steps = _STEPS
-    told = tuple(run(teller, choose, until=until, steps=steps))
-    write_run(Trace(problem.source.path, semantics, told), problem.source, given["style"], output)
+    told: list[TraceStep] = []
+    reason = None
+    try:
+        for step in run(teller, choose, until=until, steps=steps):
+            told.append(step)
+    except EndlessBody as endless:
+        reason = endless_reason(program, endless.pc)
+    if told and not (given["interactive"] and _told_already(given["style"], output)):
+        trace = Trace(problem.source.path, semantics, tuple(told))
+        write_run(trace, problem.source, given["style"], output)
+    if reason is not None:
+        click.echo(f"the run ends here: {reason}", err=True)
+        return Status.UNDETERMINED
     return Status.VIOLATED if told and told[-1].failure else Status.CLEAN
 
 
@@ -83,22 +98,47 @@ def _seed(given: int | None) -> int:
 
 
 def _by_hand(teller: Teller) -> Chooser:
-    """Asks on the terminal, unless there is only one step; an empty line or q ends the run."""
-    from rebsync.checker.show.words import heading
+    """Asks on the terminal, unless there is only one step, and tells what the step does."""
+    from rebsync.checker.show.pieces import print_lines
+    from rebsync.checker.show.text import step_lines
+    from rebsync.checker.show.words import option
+
+    numbers = count()
 
     def choose(time: int, state: State, steps: Sequence[Step]) -> int | None:
-        labels = [heading(teller.step(0, time, state, step)) for step in steps]
-        if len(labels) == 1:
-            click.echo(f"{time:>4}  {labels[0]}", err=True)
-            return 0
-        for number, label in enumerate(labels, 1):
-            click.echo(f"  {number}) {label}", err=True)
-        while True:
-            click.echo(f"at {time}, 1 to {len(labels)}, q to end: ", nl=False, err=True)
-            answer = sys.stdin.readline().strip()
-            if answer in ("", "q"):
-                return None
-            if answer.isdecimal() and 1 <= int(answer) <= len(labels):
-                return int(answer) - 1
+        number = next(numbers)
+        told = [teller.step(number, time, state, step) for step in steps]
+        picked = _asked(time, [option(step) for step in told]) if len(told) > 1 else 0
+        if picked is not None:
+            print_lines(step_lines(told[picked], teller.source.path), sys.stderr)
+        return picked
 
     return choose
+
+
+def _told_already(style: str, output: str) -> bool:
+    """Whether a run that was made by hand would be shown to the same eyes a second time."""
+    return style == "text" and output == "-" and sys.stdout.isatty() and sys.stderr.isatty()
+
+
+def _asked(time: int, options: Sequence[str]) -> int | None:
+    """The number of the option that is picked; None after an empty line, q, or the last line."""
+    numbers = [str(number) for number in range(1, len(options) + 1)]
+    for number, option in zip(numbers, options, strict=True):
+        click.echo(f"  {number}) {option}", err=True)
+    while True:
+        click.echo(f"at {time}, 1 to {len(options)}, q to end: ", nl=False, err=True)
+        answer = _line()
+        if answer in ("", "q"):
+            return None
+        if answer in numbers:
+            return numbers.index(answer)
+
+
+def _line() -> str:
+    """The next line of standard input; nothing when it has ended, or is closed."""
+    if sys.stdin is None:
+        return ""
+    with suppress(AttributeError, ValueError):
+        sys.stdin.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
+    return sys.stdin.readline().strip()

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rebsync.cli.options import refuse_to_overwrite, write_output
+from rebsync.cli.options import write_output
 
 if TYPE_CHECKING:
     from rebsync.checker.problem import Options, Problem
@@ -18,15 +18,16 @@ if TYPE_CHECKING:
 SUFFIXES = (".dot", ".svg", ".json")
 
 
-def check_name(path: str | None, model: str) -> None:
-    """A UsageError when a file name does not say how to draw a state space."""
+def check_name(path: str | None, output: str) -> None:
+    """A UsageError when a file name does not say how to draw a state space, or is the output's."""
     if path is None:
         return
     if Path(path).suffix not in SUFFIXES:
         raise click.UsageError(
             f'--states takes a file that ends in {", ".join(SUFFIXES)}: "{path}"'
         )
-    refuse_to_overwrite(model, path)
+    if Path(path) == Path(output):
+        raise click.UsageError(f'--states and --output name one file: "{path}"')
 
 
 def write_space(

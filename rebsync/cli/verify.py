@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import click
 
 from rebsync.cli.amounts import amount, duration
-from rebsync.cli.options import refuse_to_overwrite, write_output
-from rebsync.cli.problem import read_problem
+from rebsync.cli.options import write_output
+from rebsync.cli.problem import keep_what_is_read, read_problem
 from rebsync.cli.status import Status
 from rebsync.diagnostics import RebsyncError
 
@@ -122,10 +122,12 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     from rebsync.cli.spaces import check_name
 
     given = ctx.params
-    refuse_to_overwrite(model, output)
-    check_name(given["states"], model)
+    check_name(given["states"], output)
+    if given["replay"] is not None and (given["states"] or given["export"]):
+        raise click.UsageError("--replay makes one run: leave --states and --export out")
     problem = read_problem(model, given["property_file"], untimed=given["language"] == "core")
-    if given["replay"]:
+    keep_what_is_read(problem, output, given["states"], replayed=given["replay"])
+    if given["replay"] is not None:
         from rebsync.cli.runs import replay_file
 
         return replay_file(problem, given["replay"], given["violation"], given["style"], output)

@@ -141,7 +141,7 @@ def test_runs_show_why_tctl_does_not_hold(engine: EngineChoice) -> None:
     ends, three, soon = (told_of(result, name) for name in ("ends", "three", "soon"))
     assert values(ends.trace, "x") == ["0", "1", "1", "1"]
     assert ends.trace.loop == 1
-    assert three.message == "it does not hold, which no single run shows"
+    assert three.message == "it does not hold in this state, which no single run shows"
     assert len(three.trace.steps) == 1
     assert soon.trace.steps[-1].until == 4  # 1 from 0 on, and then more than 2 units
 

@@ -10,6 +10,16 @@ import pytest
 from tests.cli.run import ROOT, rebsync
 
 MODEL = str(ROOT / "examples" / "experiment3" / "experiment3.rebeca")
+ONCE = """\
+reactiveclass A(2) {
+  statevars { int x; }
+  A() { self.go(); }
+  int f(int n) { return f(n) + 1; }
+  msgsrv go() { x = 1; }
+}
+
+main { A a():(); }
+"""
 UNSAFE = """\
 reactiveclass Walker(2) {
   statevars { int place; }
@@ -67,6 +77,14 @@ def test_by_hand(tmp_path: Path) -> None:
     assert (left.status, len(json.loads(left.out)["trace"])) == (0, 2)
 
 
+def test_by_hand_the_choices_can_be_told_apart(tmp_path: Path) -> None:
+    (tmp_path / "m.rebeca").write_text(UNSAFE)
+    done = rebsync("simulate", "m.rebeca", "--interactive", cwd=tmp_path, stdin=b"1\nq\n")
+    assert "  1) walker.go() from walker, chooses 1\n  2) walker.go() from" in done.err
+    assert "place: 0 -> 1\n" in done.err.partition("to end: ")[2]
+    assert "place: 0 -> 1\n" in done.out
+
+
 def test_a_simulated_run_can_be_made_again(tmp_path: Path) -> None:
     options = ("--seed", "5", "--format", "json")
     rebsync("simulate", MODEL, *options, "-o", "run.json", cwd=tmp_path)
@@ -84,3 +102,37 @@ def test_formats(tmp_path: Path, style: str) -> None:
 def test_a_hand_needs_no_seed(tmp_path: Path) -> None:
     done = rebsync("simulate", MODEL, "--interactive", "--seed", "1", cwd=tmp_path)
     assert done.status == 2
+
+
+def test_a_body_that_does_not_end(tmp_path: Path) -> None:
+    endless = ONCE.replace("x = 1;", "x = f(1);")
+    (tmp_path / "m.rebeca").write_text(endless)
+    done = rebsync("simulate", "m.rebeca", "--seed", "1", cwd=tmp_path)
+    assert done.status == 4
+    assert "the constructors run" in done.out
+    assert "the body of A.f did not end" in done.err
+
+
+@pytest.mark.parametrize("style", ["text", "json", "svg", "html"])
+@pytest.mark.parametrize("main", ["", "A a():(0);"])
+def test_runs_that_end_before_they_begin(tmp_path: Path, style: str, main: str) -> None:
+    classes = "reactiveclass A(2) { statevars { int x; } A(int d) { x = 1 / d; } }"
+    (tmp_path / "m.rebeca").write_text(f"{classes} main {{ {main} }}")
+    done = rebsync("simulate", "m.rebeca", "--seed", "1", "--format", style, cwd=tmp_path)
+    assert done.status == (3 if main else 0)
+    assert done.out
+
+
+def test_answers_that_are_none(tmp_path: Path) -> None:
+    (tmp_path / "m.rebeca").write_text(ONCE.replace("main {", "main { A b():();"))
+    answers = b"x\n\xff\n" + b"9" * 5000 + "\n\u00b2\n0\n1\n".encode()
+    done = rebsync(
+        "simulate",
+        "m.rebeca",
+        "--interactive",
+        cwd=tmp_path,
+        stdin=answers,
+        env={"PYTHONIOENCODING": "utf-8:strict"},
+    )
+    assert done.status == 0
+    assert done.err.count("q to end") == 6

@@ -237,6 +237,28 @@ def test_bounds_that_are_none(tmp_path: Path, option: tuple[str, str]) -> None:
 # --- engines -----------------------------------------------------------------------------------
 
 
+def test_a_bound_without_bounds(tmp_path: Path) -> None:
+    result = verified(tmp_path, WALK, "--memory", "9" * 400, "--max-time", "9" * 400)
+    assert result["status"] == 3
+
+
+def test_a_property_file_that_cannot_be_read_is_not_passed_over(tmp_path: Path) -> None:
+    (tmp_path / "m.rebeca").write_text(WALK)
+    (tmp_path / "m.property").symlink_to("gone.property")
+    done = rebsync("verify", "m.rebeca", cwd=tmp_path)
+    assert (done.status, done.out) == (2, "")
+    assert "m.property: RS801" in done.err
+    done = rebsync("verify", "m.rebeca", "--property", "", cwd=tmp_path)
+    assert done.status == 2
+
+
+def test_properties_are_no_model(tmp_path: Path) -> None:
+    (tmp_path / "m.property").write_text("property { }")
+    refused = rebsync("verify", "m.property", cwd=tmp_path)
+    assert refused.status == 2
+    assert "--property" in refused.err
+
+
 def test_without_a_compiler(tmp_path: Path) -> None:
     (tmp_path / "m.rebeca").write_text(ENDLESS)
     nothing = {"PATH": str(tmp_path), "REBSYNC_CACHE": str(tmp_path / "cache"), "CC": ""}
@@ -287,6 +309,44 @@ def test_a_run_of_another_model(tmp_path: Path) -> None:
     refused = rebsync("verify", other, *options, cwd=tmp_path)
     assert refused.status == 2
     assert "RS924" in refused.err
+
+
+def test_a_run_that_does_not_repeat_as_it_says(tmp_path: Path) -> None:
+    run = verified(tmp_path, ENDLESS, "--max-states", "3", properties="Assertion { a: false; }")
+    recorded = run["violations"][0]
+    for loop in (0, 9, 10**400):
+        (tmp_path / "r.json").write_text(json.dumps({**recorded, "loop": loop}))
+        done = rebsync("verify", "m.rebeca", "--replay", "r.json", cwd=tmp_path)
+        assert (done.status, done.out) == (2, "")
+        assert "RS924" in done.err
+    ticks = verified(tmp_path, ENDLESS.replace("count++; ", ""), properties="LTL { a: F(false); }")
+    (tmp_path / "r.json").write_text(json.dumps(ticks))
+    assert ticks["violations"][0]["loop"] is not None
+    assert rebsync("verify", "m.rebeca", "--replay", "r.json", cwd=tmp_path).status == 0
+
+
+@pytest.mark.parametrize("command", ["verify", "simulate"])
+def test_nothing_that_is_read_is_overwritten(tmp_path: Path, command: str) -> None:
+    (tmp_path / "m.rebeca").write_text(WALK)
+    (tmp_path / "m.property").write_text("property { Assertion { a: true; } }")
+    for name in ("m.rebeca", "m.property"):
+        kept = (tmp_path / name).read_text()
+        done = rebsync(command, "m.rebeca", "-o", f"./{name}", cwd=tmp_path)
+        assert (done.status, (tmp_path / name).read_text()) == (2, kept)
+        assert "RS802" in done.err
+
+
+def test_a_replay_writes_no_more_than_its_run(tmp_path: Path) -> None:
+    (tmp_path / "r.json").write_text(json.dumps(verified(tmp_path, WALK)))
+    kept = (tmp_path / "r.json").read_text()
+    for options in (("-o", "r.json"), ("--states", "s.dot"), ("--export", "rmc-xml")):
+        done = rebsync("verify", "m.rebeca", "--replay", "r.json", *options, cwd=tmp_path)
+        assert (done.status, done.out) == (2, "")
+    assert (tmp_path / "r.json").read_text() == kept
+    done = rebsync("verify", "m.rebeca", "--states", "r.json", "-o", "r.json", cwd=tmp_path)
+    assert done.status == 2
+    assert (tmp_path / "r.json").read_text() == kept
+    assert rebsync("verify", "m.rebeca", "--replay", "", cwd=tmp_path).status == 2
 
 
 @pytest.mark.parametrize("style", ["svg", "html"])

@@ -65,6 +65,13 @@ def test_findings(case: Path) -> None:
         assert str(seen[3]).startswith(str(expected[3]))
 
 
+def test_the_notation_of_other_checkers_is_answered_with_ours() -> None:
+    found = findings(read_source(str(FOLDER / "foreign.property")))
+    hints = [d.hint or "" for d in found]
+    assert all("G(p)" in hint or "AG(" in hint for hint in hints), hints
+    assert not any(d.edits for d in found)
+
+
 def test_every_code_has_a_case() -> None:
     text = "".join(case.read_text(encoding="utf-8") for case in CASES)
     assert set(PROPERTIES) - {"RS911"} <= set(re.findall(r"RS9\d\d", text))

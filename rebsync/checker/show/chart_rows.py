@@ -110,4 +110,4 @@ def _common_row(step: TraceStep, names: tuple[str, ...]) -> Row:
         leaving.append(y + SEND - 3)
         for name in (message.sender,) if alone else names:
             below[name] = y + SEND
-    return Row(step, -1, tuple(texts), tuple(leaving), None, max(*below.values(), y) + _PAD)
+    return Row(step, -1, tuple(texts), tuple(leaving), None, max((*below.values(), y)) + _PAD)

@@ -73,11 +73,15 @@
     }
   }
 
+  // Scrolling across hides what happens in a step: only a variable that cannot be seen is worth it.
   function revealRow(row) {
     const pane = row.closest('.pane');
-    const changed = row.querySelector('.changed');
+    const changed = row.querySelector('.changed:not(:has(.bag))');
     reveal(around([row]), pane);
-    if (changed) revealAcross(around([changed]), pane);
+    if (!changed) return;
+    const place = around([changed]);
+    const seen = Math.min(place.right, place.left + 80);
+    revealAcross(seen <= pane.getBoundingClientRect().right ? { ...place, right: seen } : place, pane);
   }
 
   // A step of one rebec is revealed with all its texts.

@@ -22,7 +22,8 @@ from rebsync.checker.trace import Trace
 from rebsync.records import dataclass
 from rebsync.source import Source
 
-HELP = "Select a step: click it, or j and k or the arrow keys; [ and ] select another run."
+HELP = "Select a step: click it, or j and k or the arrow keys"
+OTHER_RUNS = "; [ and ] select another run"
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,8 +145,12 @@ def _tabs(runs: Sequence[Shown]) -> Markup:
         element("a", run.heading, href=f"#v{number}", data_run=str(number))
         for number, run in enumerate(runs, 1)
     ]
-    tabs = element("nav", joined(*links), aria_label="Runs") if len(links) > 1 else Markup("")
-    return joined(tabs, element("p", HELP, class_="help") if links else Markup(""))
+    if not links:
+        return Markup("")
+    if len(links) == 1:
+        return element("p", f"{HELP}.", class_="help")
+    tabs = element("nav", joined(*links), aria_label="Runs")
+    return joined(tabs, element("p", f"{HELP}{OTHER_RUNS}.", class_="help"))
 
 
 # --- runs --------------------------------------------------------------------------------------

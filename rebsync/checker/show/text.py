@@ -64,6 +64,11 @@ def trace_lines(trace: Trace, ending: str | None = None) -> list[Line]:
     return shown
 
 
+def step_lines(step: TraceStep, model: str) -> list[Line]:
+    """The lines that show a step of a run that is still being made."""
+    return list(_step(step, Piece(" "), (4, 4), model))
+
+
 def _remarks(result: Result) -> Iterator[Line]:
     if result.reason is not None:
         yield line("reason: ", result.reason, hang=2)

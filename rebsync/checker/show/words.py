@@ -53,6 +53,12 @@ def heading(step: TraceStep) -> str:
             return step.rebec
 
 
+def option(step: TraceStep) -> str:
+    """A step among others that could be made: what happens, and which choices tell it apart."""
+    chosen = f", chooses {', '.join(step.choices)}" if step.choices else ""
+    return heading(step) + chosen
+
+
 def sending(message: ShownMessage, now: int) -> str:
     """A message that is sent, and the times of it that are not the usual ones."""
     return f"{message.receiver}.{call(message)}{times(message, now)}"

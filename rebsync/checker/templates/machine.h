@@ -14,6 +14,7 @@ typedef int64_t cell;
 #define NO_DEADLINE (INT64_C(1) << 62)
 #define FOREVER INT32_MAX
 #define BUDGET 10000000
+#define WAYS (1 << 20)
 #define DEPTH 10000
 
 /* How a run ends; AGAIN: not yet, the body at `pc` goes on. */

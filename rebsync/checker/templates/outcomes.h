@@ -192,7 +192,7 @@ static int act(struct engine *e, uint32_t rebec, const struct local *l, int slot
     struct machine *m = &e->machine;
     int32_t shared = -1;
     m->given = 0;
-    for (;;) {
+    for (int32_t ways = 0; ways < WAYS; ways++) {
         if (!act_once(e, rebec, l, slot, shared))
             return 0;
         size_t last = m->chosen;
@@ -204,6 +204,9 @@ static int act(struct engine *e, uint32_t rebec, const struct local *l, int slot
         m->given = last;
         shared = (int32_t)last - 1;
     }
+    e->stuck_pc = slot == RESUMES ? (uint32_t)l->frames[0] - 1
+                                  : e->model->body[e->model->server[m->message[SERVER]].body].entry;
+    return 0;
 }
 
 static int serve(struct engine *e, uint32_t rebec, const struct local *l, int slot)

@@ -132,6 +132,14 @@ def test_what_is_selected_is_in_view(chromium: Browser, page: Path) -> None:
         assert chromium.run(_IN_VIEW)
 
 
+def test_what_happens_in_a_step_is_not_scrolled_away(chromium: Browser, page: Path) -> None:
+    page.write_text(trace_page(lasso(), SOURCE), encoding="utf-8")
+    chromium.open(page, "#v1-s3")
+    scrolled = "return [...document.querySelectorAll('.pane')].map((pane) => pane.scrollLeft)"
+    assert chromium.run(scrolled) == [0, 0]
+    assert not chromium.run("return document.body.textContent.includes('another run')")
+
+
 def test_without_scripts_everything_is_visible(chromium: Browser, page: Path) -> None:
     text = re.sub(r"<script>.*?</script>", "", page_text(), flags=re.DOTALL)
     page.write_text(text, encoding="utf-8")
