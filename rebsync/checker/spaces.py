@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 
-from rebsync.checker.machine import Failed
+from rebsync.checker.machine import EndlessBody, Failed
 from rebsync.checker.search import Interpreted
 from rebsync.checker.show import words
 from rebsync.checker.show.space import SpaceEdge, StateSpace
@@ -28,7 +29,7 @@ def space_of(search: Interpreted, teller: Teller, invariants: Mapping[int, str])
         marks += [
             (number, f"{n} does not hold") for n in invariants.values() if n not in holds[number]
         ]
-        if search.view.is_deadlock(state):
+        if _is_deadlock(search, state):
             marks.append((number, "deadlock"))
     edges = [
         edge
@@ -55,9 +56,22 @@ def _holds(search: Interpreted, state: State, predicate: int) -> bool:
         return False
 
 
+def _is_deadlock(search: Interpreted, state: State) -> bool:
+    try:
+        return search.view.is_deadlock(state)
+    except EndlessBody:
+        return False
+
+
+def _steps(search: Interpreted, state: State) -> Iterator[Step]:
+    """The steps from a state, up to one that does not end, where the search gave up too."""
+    with suppress(EndlessBody):
+        yield from search.view.steps(state)
+
+
 def _edges(search: Interpreted, teller: Teller, number: int, state: State) -> Iterator[SpaceEdge]:
     """The steps from a state, but for those to states that a bounded search has not seen."""
-    for step in search.view.steps(state):
+    for step in _steps(search, state):
         target = None
         if not isinstance(step.result, Failure):
             target = search.numbers.get(step.result)

@@ -18,6 +18,8 @@ from rebsync.cli.group import LazyGroup
 from rebsync.cli.status import Status
 from rebsync.diagnostics import RebsyncError
 
+_AGAIN = 2.0  # seconds after which a signal that did not end the process is repeated
+
 
 @click.command(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, "-V", "--version", message="%(prog)s %(version)s")
@@ -68,6 +70,10 @@ def _end_in_order() -> None:
 
 
 def _exit_by(number: int, _: object) -> NoReturn:
+    """Ends the process; and again if that is lost, as in a finaliser, where Python ignores it."""
+    if hasattr(signal, "setitimer"):
+        signal.signal(signal.SIGALRM, lambda *_: _exit_by(number, None))
+        signal.setitimer(signal.ITIMER_REAL, _AGAIN)
     raise SystemExit(128 + number)
 
 

@@ -57,12 +57,14 @@ def _beside(model: str) -> str | None:
 
 
 def _analysed(source: Source, untimed: bool) -> Analysis:
+    from rebsync.checker.sizes import check_sizes
     from rebsync.grammars.parser import parse_model
     from rebsync.static import analyse
 
     parsed = parse_model(source)
     analysis = analyse(parsed.model, incomplete=not parsed.ok)
     _refuse(source, (*parsed.diagnostics, *analysis.diagnostics))
+    _refuse(source, check_sizes(analysis))
     if untimed:
         from rebsync.checker.untimed import check_untimed
 

@@ -372,6 +372,34 @@ def test_state_spaces(tmp_path: Path, suffix: str) -> None:
         assert "walker" in text
 
 
+@pytest.mark.parametrize("suffix", ["dot", "svg", "json"])
+@pytest.mark.parametrize(
+    ("body", "rebecs", "status"),
+    [
+        ("A() { self.go(); } msgsrv go() { while (true) { x = 1; } }", "A a():();", 4),
+        ("A() { assertion(x > 0); } msgsrv go() { x = 1; }", "A a():();", 3),
+        ("A() { x = 1; } msgsrv go() { x = 1; }", "", 3),
+    ],
+)
+def test_odd_state_spaces(tmp_path: Path, suffix: str, body: str, rebecs: str, status: int) -> None:
+    """Without steps, or without states at all."""
+    text = f"reactiveclass A(3) {{ statevars {{ int x; }} {body} }} main {{ {rebecs} }}"
+    (tmp_path / "m.rebeca").write_text(text)
+    done = rebsync("verify", "m.rebeca", "--states", f"s.{suffix}", cwd=tmp_path)
+    assert done.status == status, done.err
+    assert (tmp_path / f"s.{suffix}").read_text()
+
+
+@pytest.mark.parametrize("type_", ["int[100000][100000]", "byte[60000]"])
+def test_too_large_to_check(tmp_path: Path, type_: str) -> None:
+    variables = f"statevars {{ {type_} x; {type_} y; }}"
+    text = f"reactiveclass A(3) {{ {variables} A() {{}} }} main {{ A a():(); }}"
+    (tmp_path / "m.rebeca").write_text(text)
+    done = rebsync("verify", "m.rebeca", cwd=tmp_path)
+    assert (done.status, done.out) == (2, "")
+    assert "RS927" in done.err
+
+
 def test_the_format_of_rmc(tmp_path: Path) -> None:
     (tmp_path / "m.rebeca").write_text(WALK)
     done = rebsync("verify", "m.rebeca", "--export", "rmc-xml", cwd=tmp_path)

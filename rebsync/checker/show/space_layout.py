@@ -30,7 +30,7 @@ class Drawing:
 def drawing_of(space: StateSpace) -> Drawing:
     """Lays out a state space."""
     nodes, lines = _parts(space)
-    rows: list[list[Node]] = [[] for _ in range(max(node.level for node in nodes) + 1)]
+    rows: list[list[Node]] = [[] for _ in range(max((node.level for node in nodes), default=0) + 1)]
     for node in nodes:
         rows[node.level].append(node)
     _order(rows, lines)
@@ -132,7 +132,7 @@ def _spread(rows: list[list[Node]], lines: list[Line]) -> None:
         for row in reversed(rows) if sweep % 2 else rows:
             wished = [_middle([m.x for m in near[id(n)]], n.x) for n in row]
             _place(row, wished, right)
-    left = min(node.x - node.width / 2 for row in rows for node in row)
+    left = min((node.x - node.width / 2 for row in rows for node in row), default=0.0)
     for row in rows:
         for node in row:
             node.x += MARGIN - left

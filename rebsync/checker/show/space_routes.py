@@ -115,7 +115,7 @@ class _Gap:
 def route(rows: list[list[Node]], lines: list[Line]) -> tuple[float, float]:
     """Places levels and lines; the width and height of it all."""
     _set_ports(lines)
-    right = max(node.x + node.width / 2 for row in rows for node in row)
+    right = max((node.x + node.width / 2 for row in rows for node in row), default=0.0)
     right = max([right, *(_loop_end(line) for line in lines if line.loops)])
     _set_channels([line for line in lines if line.goes_around], right + MARGIN)
     gaps = [_gap(level, row, lines) for level, row in enumerate([[], *rows], -1)]

@@ -22,7 +22,7 @@ def space_svg(space: StateSpace) -> str:
         hint = "write them to a .json or .dot file, or bound the model"
         raise RebsyncError.of(space.model, "RS925", message, hint)
     drawing = drawing_of(space)
-    left = min(0.0, *(line.at[0] - MARGIN for line in drawing.lines))
+    left = min((0.0, *(line.at[0] - MARGIN for line in drawing.lines)))
     width = drawing.width - left
     wrong = dict(space.marks)
     said = f"{words.counted(size, 'state')}, {words.counted(len(space.edges), 'transition')}."
