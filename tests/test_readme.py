@@ -71,3 +71,4 @@ def test_the_demo_runs_on_a_fresh_checkout(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     assert "void R1::P1(int32_t cmd) {" in done.stdout
     assert (tmp_path / "demo" / "experiment2" / "package.xml").is_file()
+    assert "Collision_Avoidance  violated" in done.stdout
