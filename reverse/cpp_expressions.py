@@ -100,6 +100,9 @@ class CppExpressions:
                 return m.Name(of_model, span)
             case Runtime():
                 raise self.unread(node, f'"{name}" belongs to the run-time part')
+            case None if name in self.scope.constants:
+                cpp, value = self.scope.constants[name]
+                return CppExpressions(cpp, self.scope.without_constant(name)).read(value)
             case None:
                 return literal(self.cpp, node)
 

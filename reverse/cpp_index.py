@@ -11,8 +11,10 @@ from dataclasses import field
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.cpp_tree import Cpp, markers_above, markers_beside, named, part, text_of
+from rebsync.reverse.cpp_tree import Cpp, markers_above, markers_beside, named, parse, part, text_of
+from rebsync.source import Source
 
+_HEADERS = (".h", ".hh", ".hpp", ".hxx")
 _CONTAINERS = frozenset(
     {
         *("translation_unit", "namespace_definition", "declaration_list", "ERROR"),
@@ -114,6 +116,18 @@ class Code:
         """The value of a constant of a file."""
         return self.constants.get((cpp.source.path, name))
 
+    def constants_for(self, cpp: Cpp) -> dict[str, tuple[Cpp, Node]]:
+        """The constants that a file can name: its own, and those of headers that agree on them."""
+        found: dict[str, tuple[Cpp, Node]] = {}
+        differing = set()
+        for (path, name), value in self.constants.items():
+            if path.endswith(_HEADERS):
+                before = found.setdefault(name, value)
+                if text_of(before[1]) != text_of(value[1]):
+                    differing.add(name)
+        own = {n: v for (path, n), v in self.constants.items() if path == cpp.source.path}
+        return {n: v for n, v in found.items() if n not in differing} | own
+
     def _defined(self, declared: CppFunction) -> CppFunction | None:
         if declared.body is not None:
             return None
@@ -134,6 +148,8 @@ class Code:
                     self.definitions.setdefault(place, []).append(function)
             elif child.type == "declaration":
                 self._add_constants(cpp, child)
+            elif child.type == "preproc_def":
+                self._add_macro(cpp, child)
 
     def _add_class(self, cpp: Cpp, node: Node) -> None:
         name, body = node.child_by_field_name("name"), node.child_by_field_name("body")
@@ -145,6 +161,9 @@ class Code:
             function = function_of(cpp, member, text_of(name))
             if function is not None:
                 functions.append(function)
+            elif member.type == "field_declaration" and _is_constant(member):
+                for declarator, value in _valued(member):
+                    self.constants[cpp.source.path, text_of(declarator)] = cpp, value
             elif member.type == "field_declaration":
                 fields += _fields(cpp, member)
         bases = tuple(_bases(node))
@@ -154,10 +173,25 @@ class Code:
         self.classes.setdefault(read.name, read)
 
     def _add_constants(self, cpp: Cpp, node: Node) -> None:
+        if not _is_constant(node):
+            return
         for declarator in node.children_by_field_name("declarator"):
             if declarator.type == "init_declarator":
                 name, value = part(declarator, "declarator"), part(declarator, "value")
                 self.constants[cpp.source.path, text_of(name)] = cpp, value
+
+    def _add_macro(self, cpp: Cpp, node: Node) -> None:
+        """`#define LIMIT 8`: the text as an expression, if it is one."""
+        name, text = node.child_by_field_name("name"), node.child_by_field_name("value")
+        if name is None or text is None:
+            return
+        inside = parse(Source(cpp.source.path, f"const auto x = {text_of(text)};"))
+        declaration = inside.root.named_children[0] if inside.root.named_children else None
+        if declaration is None or inside.root.has_error or declaration.type != "declaration":
+            return
+        declarator = part(declaration, "declarator")
+        if (value := declarator.child_by_field_name("value")) is not None:
+            self.constants[cpp.source.path, text_of(name)] = inside, value
 
 
 def function_of(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
@@ -212,6 +246,20 @@ def _parameters(node: Node) -> Iterator[CppParameter]:
         while name is not None and name.type in ("reference_declarator", "pointer_declarator"):
             name = name.named_children[-1] if name.named_children else None
         yield CppParameter(text_of(name) if name else "", part(parameter, "type"), parameter)
+
+
+def _is_constant(node: Node) -> bool:
+    """Whether a declaration is of constants: `const` or `constexpr`, and of no pointer."""
+    qualifiers = {text_of(c) for c in node.named_children if c.type == "type_qualifier"}
+    return bool(qualifiers & {"const", "constexpr"})
+
+
+def _valued(node: Node) -> Iterator[tuple[Node, Node]]:
+    """The member constants of a declaration with their values."""
+    declarators = node.children_by_field_name("declarator")
+    value = node.child_by_field_name("default_value")
+    if value is not None and len(declarators) == 1:
+        yield declarators[0], value
 
 
 def _fields(cpp: Cpp, node: Node) -> Iterator[CppField]:

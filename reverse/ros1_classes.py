@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import field
+from dataclasses import field, replace
 
 from rebsync import model as m
 from rebsync.names import carry, uncarry
@@ -287,6 +287,8 @@ class Classes:
     def _body(self, function: CppFunction, scope: Scope, within: str) -> m.Block | None:
         if function.body is None:
             return None
+        constants = self.code.constants_for(function.cpp)
+        scope = replace(scope, constants=constants)
         inside = scope.declare(*(p.name for p in function.parameters))
         reader = CppStatements(function.cpp, inside, self.findings, within)
         return reader.block(function.body)

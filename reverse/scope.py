@@ -6,9 +6,12 @@ from collections.abc import Mapping
 from dataclasses import field, replace
 from typing import Literal, TypeAlias
 
+from tree_sitter import Node
+
 from rebsync.model import Expression, Name
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED, uncarry_local
+from rebsync.reverse.cpp_tree import Cpp
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +57,10 @@ Function: TypeAlias = Called | Sends
 
 @dataclass(frozen=True, slots=True)
 class Scope:
-    """The names of one class, those of its ancestors included, and the locals of one body."""
+    """The names of one class, those of its ancestors included, and the locals of one body.
+
+    `constants` are those of C++ that the body's file can name: their values stand for them.
+    """
 
     members: Mapping[str, Member]
     functions: Mapping[str, Function]
@@ -62,10 +68,16 @@ class Scope:
     types: frozenset[str] = frozenset()
     callable: frozenset[str] = frozenset()
     locals: Mapping[str, Expression] = field(default_factory=dict)
+    constants: Mapping[str, tuple[Cpp, Node]] = field(default_factory=dict)
 
     def with_locals(self, found: Mapping[str, Expression]) -> Scope:
         """The same with more locals, which hide what has their names."""
         return replace(self, locals={**self.locals, **found})
+
+    def without_constant(self, name: str) -> Scope:
+        """What the value of a constant can name: all but itself."""
+        others = {n: v for n, v in self.constants.items() if n != name}
+        return replace(self, constants=others, locals={})
 
     def local(self, name: str) -> str:
         """The model's name of a local variable or parameter."""
