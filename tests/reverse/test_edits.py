@@ -29,9 +29,15 @@ def test_edits_come_back(name: str) -> None:
     edit = EDITS[name]
     example = BY_NAME[edit["example"]]
     files = package_of(example)
+    for source, target, old, new in edit.get("copies", ()):
+        files[target] = files[source].replace(old, new).replace(old.lower(), new.lower())
     for path, old, new in edit["code"]:
         files[path] = replaced(files[path], old, new)
     text = (example / f"{example.name}.rebeca").read_text(encoding="utf-8")
+    for old, new in edit.get("copied", ()):
+        _, head, rest = text.partition(f"@Robot\nreactiveclass {old}(")
+        own, end, _ = rest.partition("\n}\n")
+        text = text.replace("\nmain {", f"\n{head}{own}{end}".replace(old, new) + "\nmain {")
     for old, new, *within in edit["model"]:
         text = replaced_in(text, within[0], old, new) if within else replaced(text, old, new)
     assert_says(files, parse_model(Source("edited.rebeca", text)).model)
