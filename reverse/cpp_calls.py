@@ -47,9 +47,10 @@ def calls_in(node: Node | None) -> Iterator[CppCall]:
     waiting = [node] if node is not None else []
     while waiting:
         current = waiting.pop()
-        if (call := call_of(current)) is not None:
+        if current.type == "call_expression" and (call := call_of(current)) is not None:
             yield call
-        waiting += reversed(current.named_children)
+        if current.named_child_count:
+            waiting += reversed(current.named_children)
 
 
 def string_of(node: Node) -> str | None:

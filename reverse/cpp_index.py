@@ -11,6 +11,7 @@ from dataclasses import field
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.cpp_calls import CppCall, calls_in
 from rebsync.reverse.cpp_tree import Cpp, markers_above, markers_beside, named, parse, part, text_of
 from rebsync.source import Source
 
@@ -87,6 +88,7 @@ class Code:
     classes: dict[str, CppClass] = field(default_factory=dict)
     definitions: dict[tuple[str, str], list[CppFunction]] = field(default_factory=dict)
     constants: dict[tuple[str, str], tuple[Cpp, Node]] = field(default_factory=dict)
+    _calls: dict[int, tuple[CppCall, ...]] = field(default_factory=dict)
 
     @staticmethod
     def of(files: Iterable[Cpp]) -> Code:
@@ -111,6 +113,14 @@ class Code:
         """The functions of a class, with their bodies where these are known."""
         for declared in owner.functions:
             yield self._defined(declared) or declared
+
+    def calls_of(self, function: CppFunction) -> tuple[CppCall, ...]:
+        """The calls in a function's body."""
+        if function.body is None:
+            return ()
+        if function.body.id not in self._calls:
+            self._calls[function.body.id] = tuple(calls_in(function.body))
+        return self._calls[function.body.id]
 
     def constant(self, cpp: Cpp, name: str) -> tuple[Cpp, Node] | None:
         """The value of a constant of a file."""

@@ -75,7 +75,7 @@ def roles_of(code: Code, owner: CppClass) -> Roles:
         if constructor.name == owner.name:
             roles.queue_length = _queue_length(constructor) or roles.queue_length
     for function in functions:
-        for call in calls_in(function.body):
+        for call in code.calls_of(function):
             if call.name == "receive" and len(call.arguments) == 5:
                 _received(code, roles, function, call)
     return roles
@@ -88,7 +88,7 @@ def add_sends(code: Code, owner: CppClass, all_roles: dict[str, Roles]) -> None:
     servers = {m: s for roles in all_roles.values() for m, s in roles.messages.items()}
     roles = all_roles[owner.name]
     for function in code.functions_of(owner):
-        for call in calls_in(function.body):
+        for call in code.calls_of(function):
             sends = _sent(code, function, call, publishers, servers)
             if sends is not None:
                 roles.sends[function.name] = sends
