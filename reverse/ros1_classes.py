@@ -16,6 +16,7 @@ from rebsync.reverse.cpp_statements import CppStatements
 from rebsync.reverse.cpp_tree import named, text_of
 from rebsync.reverse.cpp_types import class_name, type_of
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.ros1_plumbing import check_plumbing
 from rebsync.reverse.ros1_roles import Roles, add_sends, roles_of
 from rebsync.reverse.scope import Called, Function, Member, Runtime, Scope, Variable
 from rebsync.reverse.written import annotation
@@ -74,6 +75,7 @@ class Classes:
         )
 
     def _reactive(self, owner: CppClass) -> m.ReactiveClass:
+        check_plumbing(self.code, owner, self.roles, self.findings)
         functions = [f for f in self.code.functions_of(owner) if self._is_of_model(owner, f)]
         constructors = [f for f in self.code.functions_of(owner) if f.name == "construct"]
         methods = [f for f in functions if self._served(owner, f) is None]

@@ -66,6 +66,27 @@ def test_what_cannot_be_read_is_listed(package: Path) -> None:
     assert {b["name"]: b["unreadable"] for b in found["bodies"]}["R_1.moveForward"] == 1
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "why"),
+    [
+        ("  begin_sub_ = mailbox_", "  // begin_sub_ = mailbox_", "those of others do not arrive"),
+        ("  mailbox_.construct(", "  // mailbox_.construct(", "no constructor has this run"),
+        ("  msg_.pos_x = posX;", "  msg_.pos_x = posX + 1;", "more than to send"),
+        ("  msg_.pos_x = posX;\n", "", "more than to send"),
+        ("[this, msg] { P1(msg->cmd); }", "[this, msg] { P1(msg->cmd + 1); }", "hand a message"),
+        ("[this] { begin(); }", "[this] { begin(); begin(); }", "hand a message"),
+        ("  e1_ = global", "  pos_[0] = 3;\n  e1_ = global", "only sets up"),
+        ("[=] { MoveInX(); }", "[=] { if (stopped_) MoveInX(); }", "more than to send"),
+    ],
+)
+def test_what_the_model_cannot_show_is_listed(tmp_path: Path, old: str, new: str, why: str) -> None:
+    shutil.copytree(ROOT / "examples" / "experiment2" / "experiment2", tmp_path / "package")
+    edit(tmp_path / "package" / "src" / "r1.cpp", old, new)
+    done = rebsync("extract", "package", cwd=tmp_path)
+    assert done.status == 4
+    assert why in done.err
+
+
 def test_the_report_counts_statements(package: Path) -> None:
     done = rebsync("extract", "experiment1", "--report", "text", cwd=package.parent)
     assert (done.status, done.err) == (0, "")
