@@ -59,7 +59,7 @@ def when(call: m.Call, times: Sequence[str]) -> list[str]:
 
 
 def bare(target: m.Expression | None) -> m.Expression:
-    """The target of a send without the parentheses that its cast needs in the model."""
+    """An expression without parentheses around it, such as the target of a send has."""
     if isinstance(target, m.Paren):
         return bare(target.inner)
     assert target is not None

@@ -9,6 +9,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Callable
 
+from rebsync.forward.cpp_operands import bare
 from rebsync.model import (
     Assign,
     Binary,
@@ -18,7 +19,6 @@ from rebsync.model import (
     If,
     Interface,
     Method,
-    Paren,
     ReactiveClass,
     Return,
     Type,
@@ -78,13 +78,9 @@ def _of_binary(sign: str, left: Expression, right: Expression) -> set[str]:
         found.add("-Wlogical-not-parentheses")
     if sign in _COMPARISONS and any(_is_wide(e) for e in (left, right)):
         found.add("-Wtype-limits")
-    if sign in _COMPARISONS | {"&&", "||"} and _bare(left) == _bare(right):
+    if sign in _COMPARISONS | {"&&", "||"} and bare(left) == bare(right):
         found |= {"-Wtautological-compare", "-Wlogical-op"}
     return found
-
-
-def _bare(expression: Expression) -> Expression:
-    return _bare(expression.inner) if isinstance(expression, Paren) else expression
 
 
 def _overflows(operator: str, left: object, right: object) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import field
 from typing import Literal, TypeAlias
 
-from rebsync.model import Expression, Paren
+from rebsync.model import Expression
 from rebsync.records import dataclass
 from rebsync.source import NOWHERE, Span
 
@@ -141,10 +141,3 @@ def state_expressions(formula: Formula) -> Iterator[Expression]:
         yield formula
     for each in below:
         yield from state_expressions(each)
-
-
-def unwrapped(expression: Expression) -> Expression:
-    """The expression inside of any parentheses."""
-    while isinstance(expression, Paren):
-        expression = expression.inner
-    return expression

@@ -89,6 +89,7 @@ class Code:
     definitions: dict[tuple[str, str], list[CppFunction]] = field(default_factory=dict)
     constants: dict[tuple[str, str], tuple[Cpp, Node]] = field(default_factory=dict)
     _calls: dict[int, tuple[CppCall, ...]] = field(default_factory=dict)
+    _visible: dict[str, dict[str, tuple[Cpp, Node]]] = field(default_factory=dict)
 
     @staticmethod
     def of(files: Iterable[Cpp]) -> Code:
@@ -128,6 +129,11 @@ class Code:
 
     def constants_for(self, cpp: Cpp) -> dict[str, tuple[Cpp, Node]]:
         """The constants that a file can name: its own, and those of headers that agree on them."""
+        if cpp.source.path not in self._visible:
+            self._visible[cpp.source.path] = self._constants_for(cpp)
+        return self._visible[cpp.source.path]
+
+    def _constants_for(self, cpp: Cpp) -> dict[str, tuple[Cpp, Node]]:
         found: dict[str, tuple[Cpp, Node]] = {}
         differing = set()
         for (path, name), value in self.constants.items():

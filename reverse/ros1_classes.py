@@ -38,6 +38,7 @@ class Classes:
     findings: Findings
     types: frozenset[str] = frozenset()
     roles: dict[str, Roles] = field(default_factory=dict)
+    _scopes: dict[str, Scope] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for owner in self.code.classes.values():
@@ -299,6 +300,11 @@ class Classes:
 
     def scope(self, owner: CppClass) -> Scope:
         """What the bodies of a class can name."""
+        if owner.name not in self._scopes:
+            self._scopes[owner.name] = self._scope(owner)
+        return self._scopes[owner.name]
+
+    def _scope(self, owner: CppClass) -> Scope:
         members: dict[str, Member] = {}
         functions: dict[str, Function] = {}
         callable_: set[str] = set()
