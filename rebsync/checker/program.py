@@ -87,7 +87,6 @@ class RebecInfo:
     capacity: int
     priority: int
     known: tuple[int, ...]
-    known_names: tuple[str, ...]
     state: tuple[Slot, ...]
     cells: int
     constructor: int

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, Protocol, TypeAlias
+from typing import Literal, TypeAlias
 
 from rebsync.checker.state import State
 from rebsync.records import dataclass
@@ -48,21 +48,3 @@ class Step:
     action: Action
     result: State | Failure
     time: int = 0
-
-
-class View(Protocol):
-    """What a model does, seen as states and steps; the order of steps is always the same."""
-
-    semantics: Semantics
-
-    def initial_states(self) -> tuple[Step, ...]:
-        """The states at time 0, or the failures of constructors; one for each way to choose."""
-
-    def steps(self, state: State) -> tuple[Step, ...]:
-        """All that can happen: rebecs in the order of main, messages of the bag, choices."""
-
-    def next_state(self, state: State, action: Action) -> Step | None:
-        """The step that an action makes, or None when the state does not allow it."""
-
-    def is_deadlock(self, state: State) -> bool:
-        """Whether all bags are empty and nobody is suspended."""

@@ -187,8 +187,10 @@ class Teller:
                 due = time + message.deadline
                 return f"{rebec} takes {body} at {time}, but it was due by {due}"
             case "overflow":
-                room = f"it has room for {program.rebecs[failure.rebec].capacity}"
-                return f"the bag of {rebec} has no place for another message ({room})"
+                to = program.rebecs[failure.rebec]
+                sent = program.servers[to.dispatch[program.code[failure.pc].a]].name
+                room = f"it has room for {to.capacity}"
+                return f"the bag of {rebec} has no place for another message, {sent} ({room})"
             case "assertion":
                 said = f': "{failure.text}"' if failure.text else ""
                 return f"an assertion fails in {body}{said}"

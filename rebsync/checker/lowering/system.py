@@ -140,7 +140,6 @@ def _rebec(rebec: Rebec, world: World) -> RebecInfo:
         declaration.queue_length,
         _priority(rebec.annotations, analysis),
         tuple(_bound(b, world) for b in rebec.bindings),
-        tuple(k.name for k in info.known),
         tuple(slots.values()),
         sum(s.size for s in slots.values()),
         world.body_of(info, constructor) if constructor is not None else -1,
