@@ -15,7 +15,17 @@ from rebsync.reverse.cpp_literals import literal
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.cpp_types import class_name, type_of
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.scope import Called, Runtime, Scope, Sends, Variable
+from rebsync.reverse.scope import (
+    Called,
+    Outside,
+    Publishes,
+    Record,
+    Runtime,
+    Scope,
+    Sends,
+    TimerOf,
+    Variable,
+)
 
 _OPERATIONS = {
     "divide": "/",
@@ -93,9 +103,7 @@ class CppExpressions:
 
     def _name(self, node: Node) -> m.Expression:
         name, span = text_of(node), self.cpp.span(node)
-        if name in self.scope.locals:
-            return self.scope.locals[name]
-        match self.scope.members.get(name):
+        match self.scope.meaning(name):
             case Variable(of_model):
                 return m.Name(of_model, span)
             case Runtime():
@@ -105,6 +113,10 @@ class CppExpressions:
                 return CppExpressions(cpp, self.scope.without_constant(name)).read(value)
             case None:
                 return literal(self.cpp, node)
+            case Outside() | Record() | Publishes() | TimerOf():
+                raise self.unread(node, f'the model cannot know "{name}"')
+            case expression:
+                return expression
 
     def _field(self, node: Node) -> m.Expression:
         target, name = part(node, "argument"), part(node, "field")

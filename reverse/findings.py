@@ -50,8 +50,16 @@ class Findings:
 
     all: list[Finding] = field(default_factory=list)
     statements: Counter[str] = field(default_factory=Counter)
+    # Members that get values that the model cannot know: with these outside more can be read.
+    open_members: set[str] = field(default_factory=set)
 
     def unreadable(self, source: Source, unread: Unread, within: str) -> None:
         """Lists a place that the model lacks."""
         grade = Grade.UNREADABLE
         self.all.append(Finding(grade, source, unread.span, unread.why, unread.hint, within))
+
+    def approximated(
+        self, source: Source, span: Span, why: str, hint: str = "", within: str = ""
+    ) -> None:
+        """Lists a place of which the model allows more than the code does."""
+        self.all.append(Finding(Grade.APPROXIMATED, source, span, why, hint, within))

@@ -4,21 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import field, replace
+from fractions import Fraction
 from typing import Literal, TypeAlias
 
 from tree_sitter import Node
 
-from rebsync.model import Expression, Name
+from rebsync.model import Expression, Name, Type
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED, uncarry_local
+from rebsync.reverse.cpp_index import CppFunction
 from rebsync.reverse.cpp_tree import Cpp
+
+# --- variables ----------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, slots=True)
 class Variable:
-    """A state variable, a known rebec or a constant of the model."""
+    """A state variable, a known rebec, a constant, a parameter or a local of the model.
+
+    With `type` None nothing is converted when it is read or written: the code says it all.
+    `bits` is the width of an unsigned type that `type` holds but that wraps sooner (8 or 16).
+    """
 
     name: str
+    type: Type | None = None
+    bits: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,15 +38,87 @@ class Runtime:
     kind: Literal["mailbox", "drive", "sensor"]
 
 
-Member: TypeAlias = Variable | Runtime
+@dataclass(frozen=True, slots=True)
+class Outside:
+    """What the model does not have: reading it gives a value that the model cannot know.
+
+    Writing it changes nothing of the model. `type` is what its values would be in the model, if
+    that is known. `reaches` says that its member functions may act on what the model has.
+    """
+
+    type: Type | None = None
+    reaches: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """A message whose fields are variables of the model, each by its path: `linear.x`.
+
+    Fields that are not named here are outside. `type` is `package/Type` where it is known.
+    """
+
+    fields: Mapping[str, Variable]
+    type: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """A receiver of what a publisher sends: a known rebec (None: the class itself) and its server.
+
+    `fields` are the paths of the message's fields that the server's parameters get, in their order.
+    """
+
+    known: str | None
+    server: str
+    fields: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Publishes:
+    """A publisher; without targets nobody in the model receives what it sends."""
+
+    targets: tuple[Target, ...]
+    type: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class TimerOf:
+    """A timer whose callback is a server."""
+
+    server: str
+    periodic: bool = True
+
+
+Member: TypeAlias = Variable | Runtime | Outside | Record | Publishes | TimerOf
+Meaning: TypeAlias = Member | Expression
+
+# --- functions ----------------------------------------------------------------------------------
+
+# What is passed on for a parameter: its value, those fields of a message, or nothing.
+Takes: TypeAlias = Type | tuple[str, ...] | None
 
 
 @dataclass(frozen=True, slots=True)
 class Called:
-    """A local method, or a message server, by its name in the model."""
+    """A local method, or a message server, by its name in the model.
+
+    `takes` says what the method gets for each parameter of the function (None: each as it is).
+    A callback that other bodies call is `Called` with the method that the model has for its body.
+    """
 
     name: str
     server: bool = False
+    takes: tuple[Takes, ...] | None = None
+    returns: Type | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Inline:
+    """A function whose body stands in the place of its call: it takes or returns messages or
+    references, or it chooses, which no method of a model can.
+    """
+
+    function: CppFunction
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +134,16 @@ class Sends:
     arguments: int
 
 
-Function: TypeAlias = Called | Sends
+@dataclass(frozen=True, slots=True)
+class Ignored:
+    """A function that touches nothing of the model and whose result it cannot know."""
+
+    returns: Type | None = None
+
+
+Function: TypeAlias = Called | Inline | Sends | Ignored
+
+# --- scopes -------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,10 +158,31 @@ class Scope:
     bases: Mapping[str, str]
     types: frozenset[str] = frozenset()
     callable: frozenset[str] = frozenset()
-    locals: Mapping[str, Expression] = field(default_factory=dict)
+    locals: Mapping[str, Meaning] = field(default_factory=dict)
     constants: Mapping[str, tuple[Cpp, Node]] = field(default_factory=dict)
+    # Of enumerations the values by name (`RED`, `Color::RED`), and the names of the types.
+    enumerators: Mapping[str, int] = field(default_factory=dict)
+    enums: frozenset[str] = frozenset()
+    # The fields of message types (`std_msgs/Int32`) by their paths; None where the model has no
+    # such type.
+    messages: Mapping[str, Mapping[str, Type | None]] = field(default_factory=dict)
+    # The servers of callbacks that calls (`createTimer`), by the id of the call's node, set timers
+    # for.
+    timers: Mapping[int, TimerOf] = field(default_factory=dict)
+    # Whether names that are not known are outside: so it is in what people wrote.
+    open: bool = False
+    # Whether `?(...)` may stand here: only in the body of a message server.
+    chooses: bool = True
+    # The server whose body this is, if it is one.
+    server: str | None = None
+    # Seconds that a unit of the model's time takes.
+    unit: Fraction = Fraction(1)
 
-    def with_locals(self, found: Mapping[str, Expression]) -> Scope:
+    def meaning(self, name: str) -> Meaning | None:
+        """What a name stands for: a local hides a member."""
+        return self.locals.get(name) or self.members.get(name)
+
+    def with_locals(self, found: Mapping[str, Meaning]) -> Scope:
         """The same with more locals, which hide what has their names."""
         return replace(self, locals={**self.locals, **found})
 
