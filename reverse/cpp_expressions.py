@@ -58,6 +58,8 @@ class CppExpressions:
     def read(self, node: Node) -> m.Expression:
         """The expression, with parentheses where the code has them or the model needs them."""
         span = self.cpp.span(node)
+        if node.id in self.scope.values:
+            return self.scope.values[node.id]
         match node.type:
             case "identifier":
                 return self._name(node)

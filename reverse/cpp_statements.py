@@ -13,7 +13,7 @@ from rebsync.reverse.cpp_expressions import MOVE, CppExpressions
 from rebsync.reverse.cpp_tree import Cpp, markers_in, named, part, text_of
 from rebsync.reverse.cpp_types import type_of
 from rebsync.reverse.findings import Findings, Unread
-from rebsync.reverse.scope import Scope
+from rebsync.reverse.scope import Scope, Stores
 from rebsync.reverse.written import annotation
 
 _LOGGING = ("ROS_DEBUG", "ROS_INFO", "ROS_WARN", "ROS_ERROR", "ROS_FATAL")
@@ -39,6 +39,23 @@ class CppStatements:
         self.scope = outside
         return m.Block(statements, span=self.cpp.span(node))
 
+    def read(self, nodes: Sequence[Node]) -> tuple[m.Statement, ...]:
+        """Statements that follow each other; their locals stay in `scope`."""
+        return tuple(self._statements(nodes))
+
+    def _known(self, node: Node, known: Sequence[m.Statement | Stores]) -> Iterator[m.Statement]:
+        """What stands for a statement whose meaning is known from elsewhere."""
+        for each in known:
+            if not isinstance(each, Stores):
+                yield each
+                continue
+            span = self.cpp.span(node)
+            try:
+                target = self._expressions.read(each.target)
+            except Unread:
+                continue  # it is stored outside
+            yield m.ExpressionStatement(m.Assign("=", target, each.value, span), (), span)
+
     def _statements(self, nodes: Sequence[Node]) -> Iterator[m.Statement]:
         comments: list[str] = []
         for node in nodes:
@@ -52,6 +69,9 @@ class CppStatements:
             local = any(text.startswith("local ") for text in markers)
             comments = []
             self.findings.statements[self.within] += 1
+            if (known := self.scope.instead.get(node.id)) is not None:
+                yield from self._known(node, known)
+                continue
             try:
                 yield from self._statement(node, annotations, local)
             except Unread as unread:

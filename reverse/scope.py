@@ -9,7 +9,7 @@ from typing import Literal, TypeAlias
 
 from tree_sitter import Node
 
-from rebsync.model import Expression, Name, Type
+from rebsync.model import Expression, Name, Statement, Type
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED, uncarry_local
 from rebsync.reverse.cpp_index import CppFunction
@@ -143,6 +143,20 @@ class Ignored:
 
 Function: TypeAlias = Called | Inline | Sends | Ignored
 
+# --- set-up -------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Stores:
+    """A call that stores a value where its argument `target` says: `getParam("x", x_)`.
+
+    Nothing where that is outside.
+    """
+
+    target: Node
+    value: Expression
+
+
 # --- scopes -------------------------------------------------------------------------------------
 
 
@@ -169,6 +183,10 @@ class Scope:
     # The servers of callbacks that calls (`createTimer`), by the id of the call's node, set timers
     # for.
     timers: Mapping[int, TimerOf] = field(default_factory=dict)
+    # What whole statements of the code stand for, by the ids of their nodes, and expressions:
+    # what sets a node up is known from elsewhere.
+    instead: Mapping[int, tuple[Statement | Stores, ...]] = field(default_factory=dict)
+    values: Mapping[int, Expression] = field(default_factory=dict)
     # Whether names that are not known are outside: so it is in what people wrote.
     open: bool = False
     # Whether `?(...)` may stand here: only in the body of a message server.
