@@ -12,10 +12,41 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.cpp_calls import CppCall, calls_in
-from rebsync.reverse.cpp_tree import Cpp, markers_above, markers_beside, named, parse, part, text_of
+from rebsync.reverse.cpp_declarations import (
+    TYPES,
+    CppAlias,
+    CppClass,
+    CppEnumerator,
+    CppField,
+    CppFunction,
+    CppParameter,
+    bases_of,
+    declared_name,
+    function_of,
+    is_constant,
+    members_of,
+    only_braces,
+    other_fields,
+    plain_fields,
+    unscoped,
+    valued,
+    whole_number,
+)
+from rebsync.reverse.cpp_tree import Cpp, markers_above, parse, part, text_of
 from rebsync.source import Source
 
-_HEADERS = (".h", ".hh", ".hpp", ".hxx")
+__all__ = [
+    "Code",
+    "CppAlias",
+    "CppClass",
+    "CppEnumerator",
+    "CppField",
+    "CppFunction",
+    "CppParameter",
+    "function_of",
+]
+
+_HEADERS = (".h", ".hh", ".hpp", ".hxx", ".cuh", ".ipp", ".tpp")
 _CONTAINERS = frozenset(
     {
         *("translation_unit", "namespace_definition", "declaration_list", "ERROR"),
@@ -25,66 +56,19 @@ _CONTAINERS = frozenset(
 )
 
 
-@dataclass(frozen=True, slots=True)
-class CppParameter:
-    """A parameter; its name is empty where the code gives none."""
-
-    name: str
-    type: Node
-    node: Node
-
-
-@dataclass(frozen=True, slots=True)
-class CppFunction:
-    """A function, declared or defined; `owner` is the class it belongs to, or empty."""
-
-    name: str
-    owner: str
-    parameters: tuple[CppParameter, ...]
-    result: Node | None
-    body: Node | None
-    initialisers: Node | None
-    markers: tuple[str, ...]
-    cpp: Cpp
-    node: Node
-    pure: bool = False
-    overrides: bool = False
-
-    @property
-    def types(self) -> tuple[str, ...]:
-        """The parameters' types as text, which tells overloads apart."""
-        return tuple("".join(text_of(p.type).split()) for p in self.parameters)
-
-
-@dataclass(frozen=True, slots=True)
-class CppField:
-    """A member variable."""
-
-    name: str
-    type: Node
-    value: Node | None
-    markers: tuple[str, ...]
-    cpp: Cpp
-    node: Node
-
-
-@dataclass(frozen=True, slots=True)
-class CppClass:
-    """A class with a body; its functions are as declared in it, in their order."""
-
-    name: str
-    bases: tuple[str, ...]
-    fields: tuple[CppField, ...]
-    functions: tuple[CppFunction, ...]
-    markers: tuple[str, ...]
-    cpp: Cpp
-    node: Node
-
-
 @dataclass(slots=True)
 class Code:
-    """All declarations of some files."""
+    """All declarations of some files.
 
+    `classes` has the first class of each name; `all_classes` has all of them, those inside of
+    classes too.
+    """
+
+    files: list[Cpp] = field(default_factory=list)
+    all_classes: dict[str, list[CppClass]] = field(default_factory=dict)
+    enumerators: dict[str, list[CppEnumerator]] = field(default_factory=dict)
+    aliases: dict[str, list[CppAlias]] = field(default_factory=dict)
+    variables: dict[str, list[CppField]] = field(default_factory=dict)
     classes: dict[str, CppClass] = field(default_factory=dict)
     definitions: dict[tuple[str, str], list[CppFunction]] = field(default_factory=dict)
     constants: dict[tuple[str, str], tuple[Cpp, Node]] = field(default_factory=dict)
@@ -96,6 +80,7 @@ class Code:
         """The declarations of these files."""
         code = Code()
         for cpp in files:
+            code.files.append(cpp)
             code._add(cpp, cpp.root)
         return code
 
@@ -154,47 +139,123 @@ class Code:
 
     def _add(self, cpp: Cpp, node: Node) -> None:
         for child in node.named_children:
-            if child.type in _CONTAINERS:
-                self._add(cpp, child)
-            elif child.type in ("class_specifier", "struct_specifier"):
-                self._add_class(cpp, child)
-            elif child.type == "function_definition" or _only_braces(child):
-                if (function := function_of(cpp, child, "")) is not None:
-                    place = function.owner, function.name
-                    self.definitions.setdefault(place, []).append(function)
-            elif child.type == "declaration":
-                self._add_constants(cpp, child)
-            elif child.type == "preproc_def":
-                self._add_macro(cpp, child)
+            match child.type:
+                case "class_specifier" | "struct_specifier":
+                    self._add_class(cpp, child)
+                case "preproc_def":
+                    self._add_macro(cpp, child)
+                case "enum_specifier":
+                    self._add_enum(cpp, child, "")
+                case "type_definition" | "alias_declaration":
+                    self._add_aliases(cpp, child)
+                case "function_definition":
+                    self._add_function(cpp, child)
+                case "declaration":
+                    if only_braces(child):
+                        self._add_function(cpp, child)
+                    self._add_variables(cpp, child)
+                case kind if kind in _CONTAINERS:
+                    self._add(cpp, child)
 
-    def _add_class(self, cpp: Cpp, node: Node) -> None:
+    def _add_function(self, cpp: Cpp, node: Node) -> None:
+        if (function := function_of(cpp, node, "")) is not None:
+            self.definitions.setdefault((function.owner, function.name), []).append(function)
+
+    def _add_class(self, cpp: Cpp, node: Node, outer: str = "") -> None:
         name, body = node.child_by_field_name("name"), node.child_by_field_name("body")
         if name is None or body is None:
             return
+        own = unscoped(name)
         fields: list[CppField] = []
+        others: list[CppField] = []
         functions: list[CppFunction] = []
-        for member in named(body):
-            function = function_of(cpp, member, text_of(name))
+        for member in members_of(body):
+            function = function_of(cpp, member, own)
             if function is not None:
                 functions.append(function)
-            elif member.type == "field_declaration" and _is_constant(member):
-                for declarator, value in _valued(member):
+            elif member.type in ("type_definition", "alias_declaration"):
+                self._add_aliases(cpp, member)
+            elif member.type != "field_declaration":
+                continue
+            elif not self._add_nested(cpp, member, own) and is_constant(member):
+                for declarator, value in valued(member):
                     self.constants[cpp.source.path, text_of(declarator)] = cpp, value
-            elif member.type == "field_declaration":
-                fields += _fields(cpp, member)
-        bases = tuple(_bases(node))
+                others += plain_fields(cpp, member)
+            else:
+                fields += plain_fields(cpp, member)
+                others += other_fields(cpp, member)
         read = CppClass(
-            text_of(name), bases, tuple(fields), tuple(functions), markers_above(node), cpp, node
+            own,
+            tuple(bases_of(node)),
+            tuple(fields),
+            tuple(functions),
+            markers_above(node),
+            cpp,
+            node,
+            tuple(others),
+            outer,
         )
-        self.classes.setdefault(read.name, read)
+        self.all_classes.setdefault(own, []).append(read)
+        if not outer:
+            self.classes.setdefault(own, read)
 
-    def _add_constants(self, cpp: Cpp, node: Node) -> None:
-        if not _is_constant(node):
+    def _add_nested(self, cpp: Cpp, member: Node, outer: str) -> bool:
+        """Takes the class or enumeration that a member declares, if it does."""
+        type_ = member.child_by_field_name("type")
+        if type_ is None or type_.type not in TYPES:
+            return False
+        if type_.type == "enum_specifier":
+            self._add_enum(cpp, type_, outer)
+        else:
+            self._add_class(cpp, type_, outer)
+        return True
+
+    def _add_enum(self, cpp: Cpp, node: Node, scope: str) -> None:
+        name, body = node.child_by_field_name("name"), node.child_by_field_name("body")
+        next_: int | None = 0
+        for child in body.named_children if body is not None else []:
+            if child.type != "enumerator":
+                continue
+            if (given := child.child_by_field_name("value")) is not None:
+                next_ = whole_number(given)
+            own = text_of(part(child, "name"))
+            read = CppEnumerator(own, text_of(name) if name else "", scope, next_, cpp, child)
+            self.enumerators.setdefault(own, []).append(read)
+            next_ = next_ + 1 if next_ is not None else None
+
+    def _add_aliases(self, cpp: Cpp, node: Node) -> None:
+        type_ = node.child_by_field_name("type")
+        names = node.children_by_field_name("declarator") + node.children_by_field_name("name")
+        if type_ is None:
             return
+        if type_.type in ("class_specifier", "struct_specifier"):
+            self._add_class(cpp, type_)
+        elif type_.type == "enum_specifier":
+            self._add_enum(cpp, type_, "")
+        for name in names:
+            if name.type == "type_identifier":
+                read = CppAlias(text_of(name), type_, cpp)
+                self.aliases.setdefault(read.name, []).append(read)
+
+    def _add_variables(self, cpp: Cpp, node: Node) -> None:
+        type_ = node.child_by_field_name("type")
+        if type_ is None:
+            return
+        if type_.type in ("class_specifier", "struct_specifier"):
+            self._add_class(cpp, type_)
+        elif type_.type == "enum_specifier":
+            self._add_enum(cpp, type_, "")
+        constant = is_constant(node)
         for declarator in node.children_by_field_name("declarator"):
+            value = None
             if declarator.type == "init_declarator":
-                name, value = part(declarator, "declarator"), part(declarator, "value")
-                self.constants[cpp.source.path, text_of(name)] = cpp, value
+                value, declarator = part(declarator, "value"), part(declarator, "declarator")
+                if constant:
+                    self.constants[cpp.source.path, text_of(declarator)] = cpp, value
+            name = declared_name(declarator)
+            if name is not None:
+                read = CppField(text_of(name), type_, value, (), cpp, node)
+                self.variables.setdefault(read.name, []).append(read)
 
     def _add_macro(self, cpp: Cpp, node: Node) -> None:
         """`#define LIMIT 8`: the text as an expression, if it is one."""
@@ -208,89 +269,3 @@ class Code:
         declarator = part(declaration, "declarator")
         if (value := declarator.child_by_field_name("value")) is not None:
             self.constants[cpp.source.path, text_of(name)] = inside, value
-
-
-def function_of(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
-    """The function that a node declares or defines, if it is one; `owner` is the class around."""
-    if node.type not in ("function_definition", "field_declaration", "declaration"):
-        return None
-    declarator = node.child_by_field_name("declarator")
-    while declarator is not None and declarator.type in (
-        "reference_declarator",
-        "pointer_declarator",
-    ):
-        declarator = declarator.named_children[-1] if declarator.named_children else None
-    body = node.child_by_field_name("body")
-    if declarator is not None and _only_braces(node):
-        body, declarator = part(declarator, "value"), part(declarator, "declarator")
-    if declarator is None or declarator.type != "function_declarator":
-        return None
-    name = part(declarator, "declarator")
-    if name.type == "qualified_identifier":
-        owner, name = text_of(part(name, "scope")), part(name, "name")
-    value = node.child_by_field_name("default_value")
-    lists = [c for c in node.named_children if c.type == "field_initializer_list"]
-    return CppFunction(
-        text_of(name),
-        owner,
-        tuple(_parameters(part(declarator, "parameters"))),
-        node.child_by_field_name("type"),
-        body,
-        lists[0] if lists else None,
-        markers_above(node),
-        cpp,
-        node,
-        pure=value is not None and text_of(value) == "0",
-        overrides=any(c.type == "virtual_specifier" for c in declarator.named_children),
-    )
-
-
-def _only_braces(node: Node) -> bool:
-    """Whether it is `void f() { {} }`, which the grammar takes for a variable."""
-    declarator = node.child_by_field_name("declarator")
-    if node.type != "declaration" or declarator is None or declarator.type != "init_declarator":
-        return False
-    function, value = part(declarator, "declarator"), part(declarator, "value")
-    return function.type == "function_declarator" and value.type == "initializer_list"
-
-
-def _parameters(node: Node) -> Iterator[CppParameter]:
-    for parameter in named(node):
-        if parameter.type not in ("parameter_declaration", "optional_parameter_declaration"):
-            continue
-        name = parameter.child_by_field_name("declarator")
-        while name is not None and name.type in ("reference_declarator", "pointer_declarator"):
-            name = name.named_children[-1] if name.named_children else None
-        yield CppParameter(text_of(name) if name else "", part(parameter, "type"), parameter)
-
-
-def _is_constant(node: Node) -> bool:
-    """Whether a declaration is of constants: `const` or `constexpr`, and of no pointer."""
-    qualifiers = {text_of(c) for c in node.named_children if c.type == "type_qualifier"}
-    return bool(qualifiers & {"const", "constexpr"})
-
-
-def _valued(node: Node) -> Iterator[tuple[Node, Node]]:
-    """The member constants of a declaration with their values."""
-    declarators = node.children_by_field_name("declarator")
-    value = node.child_by_field_name("default_value")
-    if value is not None and len(declarators) == 1:
-        yield declarators[0], value
-
-
-def _fields(cpp: Cpp, node: Node) -> Iterator[CppField]:
-    declarators = node.children_by_field_name("declarator")
-    value = node.child_by_field_name("default_value")
-    for declarator in declarators:
-        if declarator.type == "field_identifier":
-            only = value if len(declarators) == 1 else None
-            markers = (*markers_above(node), *markers_beside(node))
-            yield CppField(text_of(declarator), part(node, "type"), only, markers, cpp, node)
-
-
-def _bases(node: Node) -> Iterator[str]:
-    for clause in node.named_children:
-        if clause.type == "base_class_clause":
-            for base in clause.named_children:
-                if base.type in ("type_identifier", "qualified_identifier"):
-                    yield text_of(base).rpartition("::")[2]
