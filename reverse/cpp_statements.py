@@ -43,18 +43,26 @@ class CppStatements:
         """Statements that follow each other; their locals stay in `scope`."""
         return tuple(self._statements(nodes))
 
-    def _known(self, node: Node, known: Sequence[m.Statement | Stores]) -> Iterator[m.Statement]:
+    def _known(
+        self, node: Node, known: Sequence[m.Statement | Stores | Node]
+    ) -> Iterator[m.Statement]:
         """What stands for a statement whose meaning is known from elsewhere."""
         for each in known:
-            if not isinstance(each, Stores):
-                yield each
-                continue
-            span = self.cpp.span(node)
-            try:
-                target = self._expressions.read(each.target)
-            except Unread:
-                continue  # it is stored outside
-            yield m.ExpressionStatement(m.Assign("=", target, each.value, span), (), span)
+            match each:
+                case Stores(target, value):
+                    span = self.cpp.span(node)
+                    try:
+                        written = (
+                            self._expressions.read(target) if isinstance(target, Node) else target
+                        )
+                    except Unread:
+                        continue  # it is stored outside
+                    read = self._expressions.read(value) if isinstance(value, Node) else value
+                    yield m.ExpressionStatement(m.Assign("=", written, read, span), (), span)
+                case Node():
+                    yield from self._statement(each, (), False)
+                case _:
+                    yield each
 
     def _statements(self, nodes: Sequence[Node]) -> Iterator[m.Statement]:
         comments: list[str] = []
@@ -69,11 +77,11 @@ class CppStatements:
             local = any(text.startswith("local ") for text in markers)
             comments = []
             self.findings.statements[self.within] += 1
-            if (known := self.scope.instead.get(node.id)) is not None:
-                yield from self._known(node, known)
-                continue
             try:
-                yield from self._statement(node, annotations, local)
+                if (known := self.scope.instead.get(node.id)) is not None:
+                    yield from self._known(node, known)
+                else:
+                    yield from self._statement(node, annotations, local)
             except Unread as unread:
                 yield self._unreadable(node, unread)
             except ValueError:

@@ -148,13 +148,13 @@ Function: TypeAlias = Called | Inline | Sends | Ignored
 
 @dataclass(frozen=True, slots=True)
 class Stores:
-    """A call that stores a value where its argument `target` says: `getParam("x", x_)`.
+    """A value that is stored where `target` says, as `getParam("x", x_)` does.
 
     Nothing where that is outside.
     """
 
-    target: Node
-    value: Expression
+    target: Node | Expression
+    value: Node | Expression
 
 
 # --- scopes -------------------------------------------------------------------------------------
@@ -184,8 +184,8 @@ class Scope:
     # for.
     timers: Mapping[int, TimerOf] = field(default_factory=dict)
     # What whole statements of the code stand for, by the ids of their nodes, and expressions:
-    # what sets a node up is known from elsewhere.
-    instead: Mapping[int, tuple[Statement | Stores, ...]] = field(default_factory=dict)
+    # what sets a node up is known from elsewhere. A node among them is read as it is.
+    instead: Mapping[int, tuple[Statement | Stores | Node, ...]] = field(default_factory=dict)
     values: Mapping[int, Expression] = field(default_factory=dict)
     # Whether names that are not known are outside: so it is in what people wrote.
     open: bool = False

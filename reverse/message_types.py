@@ -1,0 +1,107 @@
+"""The message types of a package: which of their fields the model has, and as what."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import field
+
+from rebsync.model import Type
+from rebsync.records import dataclass
+from rebsync.reverse.common_messages import COMMON
+from rebsync.reverse.messages import plain_type, read_message
+from rebsync.source import Source
+
+# What the model keeps of a field's values. Wider integers are taken for `int`.
+_TYPES = {
+    **{"bool": "boolean", "int8": "byte", "int16": "short", "uint8": "short", "int32": "int"},
+    **{"uint16": "int", "uint32": "int", "int64": "int", "uint64": "int"},
+    **{"float32": "float", "float64": "double"},
+}
+WIDER = frozenset({"uint32", "int64", "uint64"})
+_DEEPEST = 8
+_POINTERS = re.compile(r"(::)?(Const)?(Shared|Unique|Weak)?Ptr$")
+_MESSAGE = re.compile(r"/?msg/([^/]+)\.msg\Z")
+
+Fields = Mapping[str, Type | None]
+
+
+@dataclass(slots=True)
+class MessageTypes:
+    """The types that the files of a package declare, and those that come with ROS.
+
+    `wide` are the paths of fields that hold more than the model's `int`, by type.
+    """
+
+    own: dict[str, list[tuple[str, str, int | None]]]
+    package: str
+    wide: dict[str, set[str]] = field(default_factory=dict)
+    _fields: dict[str, Fields] = field(default_factory=dict)
+
+    @staticmethod
+    def of(files: Mapping[str, Source], package: str) -> MessageTypes:
+        """The types that a package declares, and those that come with ROS."""
+        own = {}
+        for path, source in sorted(files.items()):
+            found = _MESSAGE.search(f"/{path}")
+            if found is not None:
+                read = read_message(source, package, found[1])
+                own[read.full_name] = [(f.name, f.type, f.length) for f in read.fields]
+        return MessageTypes(own, package)
+
+    def fields(self, type_: str) -> Fields | None:
+        """The fields of a type by their paths, inner ones too; None for a type that is not known.
+
+        The model's type of a field is None where the model has none.
+        """
+        if type_ not in self._fields:
+            if self._declared(type_) is None:
+                return None
+            self._fields[type_] = dict(self._flat(type_, "", type_, 0))
+        return self._fields[type_]
+
+    def all_fields(self, types: set[str]) -> dict[str, Fields]:
+        """The fields of several types, of those that are known."""
+        found = {t: self.fields(t) for t in sorted(types)}
+        return {t: f for t, f in found.items() if f is not None}
+
+    def named(self, text: str) -> str | None:
+        """The message type of a type of C++: `const std_msgs::Int32::ConstPtr&` is one."""
+        plain = "".join(text.replace("const ", "").split()).rstrip("&*").removeprefix("::")
+        inner = re.fullmatch(r"(?:boost|std)::shared_ptr<(.*)>", plain)
+        if inner is not None:
+            return self.named(inner[1].removesuffix("const"))
+        plain = _POINTERS.sub("", plain).removesuffix("_<std::allocator<void>>")
+        package, _, name = plain.rpartition("::")
+        if package:
+            full = f"{package}/{name}"
+            return full if self._declared(full) is not None else None
+        same = [t for t in (*self.own, *COMMON) if t.partition("/")[2] == name]
+        return same[0] if len(same) == 1 else None
+
+    def _declared(self, type_: str) -> list[tuple[str, str, int | None]] | None:
+        if type_ in self.own:
+            return self.own[type_]
+        text = COMMON.get(type_)
+        return list(map(_field, text.split(", "))) if text else ([] if text == "" else None)
+
+    def _flat(
+        self, type_: str, path: str, whole: str, depth: int
+    ) -> Iterator[tuple[str, Type | None]]:
+        for name, inner, length in self._declared(type_) or ():
+            at, plain = f"{path}{name}", plain_type(inner)
+            if plain in WIDER:
+                self.wide.setdefault(whole, set()).add(at)
+            if plain in _TYPES:
+                dimensions = () if length is None else (length,)
+                yield at, Type(_TYPES[plain], dimensions) if length != 0 else None
+            elif length is None and depth < _DEEPEST and self._declared(inner) is not None:
+                yield from self._flat(inner, f"{at}.", whole, depth + 1)
+            else:
+                yield at, None
+
+
+def _field(text: str) -> tuple[str, str, int | None]:
+    name, _, type_ = text.partition(" ")
+    plain, bracket, length = type_.partition("[")
+    return name, plain, int(length.rstrip("]") or 0) if bracket else None
