@@ -99,7 +99,7 @@ class _Walk:
                     inner.append(entry.path)
                 elif not _is_built(entry):
                     waiting.append((entry.path, f"{inside}{shown(entry.name)}/"))
-        return listing, inner
+        return listing, sorted(inner)
 
     def _entries(self, listing: Listing, folder: str, inside: str) -> list[os.DirEntry[str]]:
         """What is in a directory that was not seen before, in an order that is always the same."""
