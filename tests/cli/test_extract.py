@@ -6,11 +6,13 @@ import json
 import shutil
 from pathlib import Path
 
+import jsonschema  # type: ignore[import-untyped]
 import pytest
 
 from tests.cli.run import rebsync
 from tests.consoles import ROOT
 
+SCHEMA = json.loads((ROOT / "docs" / "extract.schema.json").read_text(encoding="utf-8"))
 EXAMPLE = ROOT / "examples" / "experiment1" / "experiment1"
 
 
@@ -99,3 +101,91 @@ def test_what_is_no_package(tmp_path: Path) -> None:
     assert (done.status, done.out) == (2, "")
     assert "node.cpp: RS943 no class of a model was found here" in done.err
     assert rebsync("extract", "none", cwd=tmp_path).status == 2
+
+
+def test_one_object_tells_everything(package: Path) -> None:
+    done = rebsync("extract", "experiment1", "--format", "json", cwd=package.parent)
+    assert (done.status, done.err) == (0, "")
+    found = json.loads(done.out)
+    jsonschema.Draft202012Validator(SCHEMA).validate(found)
+    assert (found["package"], found["path"], found["file"]) == ("experiment1", "experiment1", None)
+    assert found["model"] == rebsync("extract", "experiment1", cwd=package.parent).out
+    report = rebsync("extract", "experiment1", "--report", "json", cwd=package.parent).out
+    assert found["report"] == json.loads(report)
+
+
+def test_the_object_lists_what_cannot_be_read(package: Path) -> None:
+    source = package / "src" / "r_1.cpp"
+    edit(source, "void R_1::moveForward() {\n", "void R_1::moveForward() {\n  std::sort(a, b);\n")
+    done = rebsync("extract", "experiment1/src/r_1.cpp", "--format", "json", cwd=package.parent)
+    assert (done.status, done.err) == (4, "")
+    found = json.loads(done.out)
+    jsonschema.Draft202012Validator(SCHEMA).validate(found)
+    assert found["file"] == "src/r_1.cpp"
+    assert [f["text"] for f in found["report"]["findings"]] == ["std::sort(a, b)"]
+
+
+@pytest.fixture
+def workspace(tmp_path: Path) -> Path:
+    """Two packages and one without code."""
+    for name in ("experiment1", "experiment2"):
+        shutil.copytree(ROOT / "examples" / name / name, tmp_path / "src" / name)
+    (tmp_path / "src" / "messages").mkdir()
+    manifest = "<package><name>messages</name></package>\n"
+    (tmp_path / "src" / "messages" / "package.xml").write_text(manifest)
+    return tmp_path
+
+
+def test_several_packages_give_a_model_each(workspace: Path) -> None:
+    done = rebsync("extract", "src", cwd=workspace)
+    assert (done.status, done.err) == (0, "")
+    heads = [line for line in done.out.splitlines() if line.startswith("// ")]
+    assert heads == ["// src/experiment1", "// src/experiment2"]
+    named = rebsync("extract", "src/experiment1", "src/experiment2", cwd=workspace)
+    assert named.out == done.out
+    report = rebsync("extract", "src", "--report", "text", cwd=workspace).out
+    assert [line for line in report.splitlines() if line.startswith("src/")] == [
+        "src/experiment1:",
+        "src/experiment2:",
+    ]
+
+
+def test_several_packages_give_an_object_each(workspace: Path) -> None:
+    done = rebsync("extract", "src", "--format", "json", cwd=workspace)
+    assert done.status == 0
+    found = [json.loads(line) for line in done.out.splitlines()]
+    assert [f["package"] for f in found] == ["experiment1", "experiment2"]
+
+
+def test_several_packages_go_to_a_directory(workspace: Path) -> None:
+    refused = rebsync("extract", "src", "-o", "models", cwd=workspace)
+    assert (refused.status, refused.out) == (2, "")
+    assert "models: RS802 for several packages a directory is wanted" in refused.err
+    (workspace / "models").mkdir()
+    assert rebsync("extract", "src", "-o", "models", cwd=workspace).status == 0
+    done = rebsync("extract", "src", "-o", "models", "--format", "json", cwd=workspace)
+    assert (done.status, done.out) == (0, "")
+    written = sorted(p.name for p in (workspace / "models").iterdir())
+    assert written == [f"experiment{n}.{suffix}" for n in (1, 2) for suffix in ("json", "rebeca")]
+    assert "reactiveclass" in (workspace / "models" / "experiment2.rebeca").read_text()
+
+
+def test_the_worst_of_several_packages_is_the_status(workspace: Path) -> None:
+    source = workspace / "src" / "experiment1" / "src" / "r_1.cpp"
+    edit(source, "void R_1::moveForward() {\n", "void R_1::moveForward() {\n  std::sort(a, b);\n")
+    assert rebsync("extract", "src", cwd=workspace).status == 4
+
+
+def test_the_object_and_the_report_exclude_each_other(package: Path) -> None:
+    done = rebsync(
+        "extract", "experiment1", "--format", "json", "--report", "json", cwd=package.parent
+    )
+    assert (done.status, done.out) == (2, "")
+    assert "leave out --report" in done.err
+
+
+def test_an_output_is_no_input(package: Path) -> None:
+    source = "experiment1/src/r_1.cpp"
+    done = rebsync("extract", "experiment1", source, "-o", source, cwd=package.parent)
+    assert done.status == 2
+    assert "RS802" in done.err
