@@ -17,6 +17,7 @@ from rebsync.reverse.cpp_types import class_name, type_of
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.scope import (
     Called,
+    Lambda,
     Outside,
     Publishes,
     Record,
@@ -115,7 +116,7 @@ class CppExpressions:
                 return CppExpressions(cpp, self.scope.without_constant(name)).read(value)
             case None:
                 return literal(self.cpp, node)
-            case Outside() | Record() | Publishes() | TimerOf():
+            case Outside() | Record() | Publishes() | TimerOf() | Lambda():
                 raise self.unread(node, f'the model cannot know "{name}"')
             case expression:
                 return expression

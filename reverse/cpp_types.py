@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 
 from tree_sitter import Node
 
 from rebsync.model import Type
 from rebsync.names import uncarry
+from rebsync.records import dataclass
 from rebsync.reserved import NO_CLASSES
 from rebsync.reverse.cpp_tree import named, part, text_of
 
@@ -18,6 +20,19 @@ _INTEGERS = {
 }
 _PLAIN = {spelled: name for name, all_of in _INTEGERS.items() for spelled in all_of}
 _PLAIN |= {"bool": "boolean", "float": "float", "double": "double", "void": "void"}
+_UNSIGNED = {
+    **dict.fromkeys(("uint8_t", "unsigned char", "u_char", "u_int8_t"), ("short", 8)),
+    **dict.fromkeys(("uint16_t", "unsigned short", "unsigned short int"), ("int", 16)),
+}
+_WIDE = frozenset(
+    {
+        *("int64_t", "uint32_t", "uint64_t", "size_t", "ssize_t", "ptrdiff_t", "intptr_t"),
+        *("uint", "unsigned", "unsigned int", "long", "long int", "long long", "long long int"),
+        *("unsigned long", "unsigned long int", "unsigned long long", "unsigned long long int"),
+        *("int_fast8_t", "int_fast16_t", "int_fast32_t", "int_fast64_t"),
+    }
+)
+_TIMES = frozenset({"Time", "Duration", "WallTime", "WallDuration", "SteadyTime"})
 _SCOPES = re.compile(r"^(?:::)?(?:std::)?")
 
 
@@ -53,3 +68,50 @@ def _of_template(node: Node) -> Type | None:
 def class_name(text: str) -> str:
     """The reactive class of a C++ class."""
     return uncarry(text.rpartition("::")[2], NO_CLASSES)
+
+
+# --- types that people write --------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Carried:
+    """What the model keeps of the values of a type of C++.
+
+    `bits` is the width of an unsigned type that wraps sooner than `type`; `why` says what gets
+    lost, empty if nothing does.
+    """
+
+    type: Type
+    bits: int = 0
+    why: str = ""
+
+
+def carried(node: Node, enums: Collection[str] = ()) -> Carried | None:
+    """What the model keeps of a type that a person wrote, or None if it has nothing like it.
+
+    Times and durations of ROS are whole numbers of the model's unit of time.
+    """
+    if node.type == "type_descriptor":
+        return carried(part(node, "type"), enums)
+    if node.type == "template_type" or (
+        node.type == "qualified_identifier" and "<" in text_of(node)
+    ):
+        array = type_of(node)
+        return Carried(array) if array is not None else None
+    text = " ".join(text_of(node).split())
+    name = _SCOPES.sub("", text)
+    words = set(name.split())
+    if "unsigned" in words and "char" not in words and "short" not in words:
+        name = "unsigned"
+    scope, _, last = text.rpartition("::")
+    if name in _PLAIN and name != "void":
+        return Carried(Type(_PLAIN[name]))
+    if name == "char":
+        return Carried(Type("byte"))
+    if name in _UNSIGNED:
+        return Carried(Type(_UNSIGNED[name][0]), _UNSIGNED[name][1])
+    if name in _WIDE or words and words <= {"long", "int", "unsigned", "signed"}:
+        return Carried(Type("int"), why=f'"{text}" holds more than the model\'s int does')
+    if last in _TIMES and scope.strip(":") == "ros":
+        return Carried(Type("int"))
+    return Carried(Type("int")) if text in enums or last in enums else None

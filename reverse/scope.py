@@ -24,11 +24,13 @@ class Variable:
 
     With `type` None nothing is converted when it is read or written: the code says it all.
     `bits` is the width of an unsigned type that `type` holds but that wraps sooner (8 or 16).
+    `domain` are the values that a hint beside its declaration gives it.
     """
 
     name: str
     type: Type | None = None
     bits: int = 0
+    domain: tuple[Expression, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,10 +57,13 @@ class Record:
     """A message whose fields are variables of the model, each by its path: `linear.x`.
 
     Fields that are not named here are outside. `type` is `package/Type` where it is known.
+    A `constant` one cannot be changed through its name; a `pointer` is copied by its name alone.
     """
 
     fields: Mapping[str, Variable]
     type: str = ""
+    constant: bool = False
+    pointer: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +94,15 @@ class TimerOf:
     periodic: bool = True
 
 
-Member: TypeAlias = Variable | Runtime | Outside | Record | Publishes | TimerOf
+@dataclass(frozen=True, slots=True)
+class Lambda:
+    """A local that holds a function: its body reads what the names around it stood for."""
+
+    node: Node
+    scope: Scope
+
+
+Member: TypeAlias = Variable | Runtime | Outside | Record | Publishes | TimerOf | Lambda
 Meaning: TypeAlias = Member | Expression
 
 # --- functions ----------------------------------------------------------------------------------
@@ -116,9 +129,12 @@ class Called:
 class Inline:
     """A function whose body stands in the place of its call: it takes or returns messages or
     references, or it chooses, which no method of a model can.
+
+    `constants` are those that its file can name; None where these are the caller's.
     """
 
     function: CppFunction
+    constants: Mapping[str, tuple[Cpp, Node]] | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,89 @@
+"""Expressions of the model made from others, in parentheses where they need them."""
+
+from __future__ import annotations
+
+from rebsync import model as m
+from rebsync import precedence
+from rebsync.source import NOWHERE, Span
+
+_OPPOSITE = {"==": "!=", "!=": "==", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
+_MATHEMATICS = frozenset({"pow", "sqrt"})
+UNKNOWN_TRUTH = m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)))
+
+
+def tight(expression: m.Expression, least: int) -> m.Expression:
+    """The expression where only what binds at least so tightly may stand."""
+    return m.Paren(expression) if precedence.binding(expression) < least else expression
+
+
+def binary(
+    operator: str, left: m.Expression, right: m.Expression, span: Span = NOWHERE
+) -> m.Binary:
+    """`left operator right`."""
+    level = precedence.BINARY[operator]
+    return m.Binary(operator, tight(left, level), tight(right, level + 1), span)
+
+
+def chosen(condition: m.Expression, then: m.Expression, otherwise: m.Expression) -> m.Conditional:
+    """`condition ? then : otherwise`."""
+    return m.Conditional(tight(condition, precedence.CHAIN), then, otherwise)
+
+
+def cast(type_: m.Type, operand: m.Expression) -> m.Cast:
+    """`(type) operand`."""
+    return m.Cast(type_, tight(operand, precedence.CAST))
+
+
+def negated(condition: m.Expression) -> m.Expression:
+    """What is true where the condition is false."""
+    match bare(condition):
+        case m.Unary("!", operand):
+            return bare(operand)
+        case m.Choice():
+            return condition
+        case m.BoolLiteral(value):
+            return m.BoolLiteral(not value)
+        case m.Binary(operator, left, right, span) if operator in ("==", "!="):
+            return m.Binary(_OPPOSITE[operator], left, right, span)
+        case other:
+            return m.Unary("!", tight(other, precedence.PREFIX))
+
+
+def bare(expression: m.Expression) -> m.Expression:
+    """The expression without parentheses around it."""
+    while isinstance(expression, m.Paren):
+        expression = expression.inner
+    return expression
+
+
+def is_calm(expression: m.Expression) -> bool:
+    """Whether evaluating it changes nothing, and gives the same again if done twice."""
+    for node in m.walk(expression):
+        match node:
+            case m.Assign() | m.Postfix() | m.Unary(operator="++" | "--") | m.Choice():
+                return False
+            case m.Call(target, name) if target is not None or name not in _MATHEMATICS:
+                return False
+    return True
+
+
+def is_effect(expression: m.Expression) -> bool:
+    """Whether it is one that stands as a statement: an assignment or a call."""
+    match bare(expression):
+        case m.Assign() | m.Postfix() | m.Unary(operator="++" | "--") | m.Call():
+            return True
+        case _:
+            return False
+
+
+def is_plain(expression: m.Expression) -> bool:
+    """Whether it is a literal or a name, which cost nothing to repeat."""
+    match bare(expression):
+        case m.Name() | m.IntLiteral() | m.FloatLiteral() | m.BoolLiteral():
+            return True
+        case m.Member(m.Self()):
+            return True
+        case m.Unary("-", m.IntLiteral() | m.FloatLiteral()):
+            return True
+        case _:
+            return False

@@ -1,0 +1,320 @@
+"""Whether a piece of C++ can touch what the model has: state, messages, time, control flow."""
+
+from __future__ import annotations
+
+from dataclasses import field
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reverse.cpp_calls import CppCall, call_of
+from rebsync.reverse.cpp_tree import Cpp, named, text_of
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.known_functions import ACTS, LOOKS, takes_values, type_takes_values
+from rebsync.reverse.scope import (
+    Ignored,
+    Lambda,
+    Meaning,
+    Outside,
+    Publishes,
+    Record,
+    Runtime,
+    Scope,
+    TimerOf,
+    Variable,
+)
+
+_LEAVES = {
+    "return_statement": "this leaves the function",
+    "throw_statement": "an exception leaves the function",
+    "goto_statement": "the model has no goto",
+    "co_await_expression": "the model has no coroutines",
+    "co_yield_statement": "the model has no coroutines",
+    "co_return_statement": "the model has no coroutines",
+}
+_LOOPS = frozenset({"for_statement", "while_statement", "do_statement", "for_range_loop"})
+
+
+class Touches(Unread):
+    """What a piece of code does to the model."""
+
+
+@dataclass(slots=True)
+class Effects:
+    """Looks through pieces of one body.
+
+    `own` are the locals of the body whose change is only noted, in `written`.
+    """
+
+    cpp: Cpp
+    scope: Scope
+    own: frozenset[str] = frozenset()
+    written: set[str] = field(default_factory=set)
+    _inner: set[str] = field(default_factory=set)
+    _loops: int = 0
+
+    def check(self, node: Node) -> None:
+        """Raises `Touches` where a piece of code may touch what the model has."""
+        match node.type:
+            case "assignment_expression":
+                self._write(node.children_by_field_name("left")[0])
+                self.check(node.children_by_field_name("right")[0])
+            case "update_expression":
+                self._write(node.children_by_field_name("argument")[0])
+            case "call_expression":
+                self._call(node)
+            case "pointer_expression" if text_of(node).startswith("&"):
+                self._address(named(node)[0])
+            case "declaration":
+                self._declaration(node)
+            case "for_range_loop":
+                self._range(node)
+            case "break_statement" | "continue_statement" if not self._loops:
+                raise self._touches(node, "this leaves the loop")
+            case kind if kind in _LEAVES:
+                raise self._touches(node, _LEAVES[kind])
+            case "new_expression" | "argument_list" | "initializer_list":
+                self._arguments(named(node))
+            case kind:
+                looping = kind in _LOOPS or kind == "switch_statement"
+                before = set(self._inner)
+                self._loops += looping
+                for child in node.named_children:
+                    self.check(child)
+                self._loops -= looping
+                if looping or kind == "compound_statement":
+                    self._inner = before
+
+    def _touches(self, node: Node, why: str, hint: str = "") -> Touches:
+        return Touches(self.cpp.span(node), why, hint)
+
+    # --- what names stand for -------------------------------------------------------------------
+
+    def _root(self, node: Node) -> tuple[str, Meaning | None]:
+        """The variable that an expression is, or is part of."""
+        match node.type:
+            case "identifier":
+                name = text_of(node)
+                return name, None if name in self._inner else self.scope.meaning(name)
+            case "field_expression":
+                target = node.children_by_field_name("argument")[0]
+                if target.type == "this":
+                    name = text_of(node.children_by_field_name("field")[0])
+                    return name, self.scope.members.get(name)
+                return self._root(target)
+            case "subscript_expression" | "pointer_expression":
+                return self._root(node.children_by_field_name("argument")[0])
+            case "parenthesized_expression" if len(named(node)) == 1:
+                return self._root(named(node)[0])
+            case "qualified_identifier":
+                name = text_of(node).rpartition("::")[2]
+                return name, self.scope.members.get(name)
+            case "this":
+                return "this", Outside(reaches=True)
+            case "call_expression":
+                target = node.children_by_field_name("function")[0]
+                if target.type == "field_expression":
+                    return self._root(target)
+        return "", None
+
+    def _is_modelled(self, node: Node, meaning: Meaning | None) -> bool:
+        """Whether a change of the variable is one of the model."""
+        match meaning:
+            case None | Outside(reaches=False):
+                return False
+            case Record(fields):
+                path = self.path_in(node)
+                return any(p == path or not path or p.startswith(f"{path}.") for p in fields)
+            case _:
+                return True
+
+    def path_in(self, node: Node) -> str:
+        """The path of a field in its message: `linear.x` of `m.linear.x`; empty for all of it."""
+        if node.type == "parenthesized_expression" and len(named(node)) == 1:
+            return self.path_in(named(node)[0])
+        if node.type == "subscript_expression":
+            return self.path_in(node.children_by_field_name("argument")[0])
+        if node.type != "field_expression":
+            return ""
+        target = node.children_by_field_name("argument")[0]
+        if target.type == "this":
+            return ""
+        before = self.path_in(target)
+        own = text_of(node.children_by_field_name("field")[0])
+        return f"{before}.{own}" if before else own
+
+    # --- writing --------------------------------------------------------------------------------
+
+    def _write(self, node: Node) -> None:
+        name, meaning = self._root(node)
+        self._subscripts(node)
+        if not self._is_modelled(node, meaning):
+            if not name and node.type not in ("identifier", "call_expression"):
+                self.check(node)
+            return
+        if name in self.own:
+            path = self.path_in(node) if isinstance(meaning, Record) else ""
+            self.written.add(f"{name}.{path}" if path else name)
+            return
+        raise self._touches(node, f'this changes "{text_of(node)}"')
+
+    def _subscripts(self, node: Node) -> None:
+        """What is evaluated to find the place that is written."""
+        if node.type == "subscript_expression":
+            for child in node.children_by_field_name("indices"):
+                self.check(child)
+        if node.type in ("subscript_expression", "field_expression", "pointer_expression"):
+            self._subscripts(node.children_by_field_name("argument")[0])
+
+    def _address(self, node: Node) -> None:
+        name, meaning = self._root(node)
+        if self._is_modelled(node, meaning):
+            if name in self.own:
+                self.written.add(name)
+                return
+            raise self._touches(node, f'the address of "{text_of(node)}" is taken')
+        self.check(node)
+
+    def _declaration(self, node: Node) -> None:
+        by_value = type_takes_values(text_of(node.children_by_field_name("type")[0]))
+        for declarator in node.children_by_field_name("declarator"):
+            value = declarator.child_by_field_name("value")
+            inner = declarator.child_by_field_name("declarator")
+            target = inner if declarator.type == "init_declarator" and inner else declarator
+            constant = any(text_of(c) == "const" for c in node.named_children)
+            if target.type == "reference_declarator" and value is not None and not constant:
+                self._address(value)
+            elif value is not None and value.type == "argument_list" and by_value:
+                for argument in named(value):
+                    self.check(argument)
+            elif value is not None:
+                self.check(value)
+            self._declare(target)
+
+    def _declare(self, declarator: Node) -> None:
+        waiting = [declarator]
+        while waiting:
+            current = waiting.pop()
+            if current.type == "identifier":
+                self._inner.add(text_of(current))
+            elif current.type != "parameter_list":
+                waiting += current.named_children
+
+    def _range(self, node: Node) -> None:
+        declarator = node.children_by_field_name("declarator")[0]
+        over = node.children_by_field_name("right")[0]
+        constant = any(text_of(c) == "const" for c in node.named_children)
+        if declarator.type == "reference_declarator" and not constant:
+            self._address(over)
+        else:
+            self.check(over)
+        self._declare(declarator)
+        self._loops += 1
+        self.check(node.children_by_field_name("body")[0])
+        self._loops -= 1
+
+    # --- calls ----------------------------------------------------------------------------------
+
+    def _call(self, node: Node) -> None:
+        call = call_of(node)
+        function = node.children_by_field_name("function")[0]
+        if call is None or function.type == "lambda_expression":
+            self._lambda(node, function)
+            return
+        name = call.name.rpartition("::")[2]
+        if call.target is None or call.target.type == "this":
+            if name in self.scope.functions and not isinstance(self.scope.functions[name], Ignored):
+                raise self._touches(node, f'"{name}" may change what the model has')
+            if isinstance(self.scope.meaning(name), Lambda):
+                raise self._touches(node, f'"{name}" may change what the model has')
+        else:
+            self._method(call, name)
+        if name in ACTS:
+            raise self._touches(node, f'"{text_of(function)}" {ACTS[name]}')
+        if takes_values(call):
+            for argument in call.arguments:
+                self.check(argument)
+        else:
+            self._arguments(call.arguments)
+
+    def _lambda(self, node: Node, function: Node) -> None:
+        if function.type != "lambda_expression":
+            for child in node.named_children:
+                self.check(child)
+            return
+        raise self._touches(node, "this runs a function of its own")
+
+    def _method(self, call: CppCall, name: str) -> None:
+        """A call of a function of some object."""
+        target = call.target
+        assert target is not None
+        of, meaning = self._root(target)
+        match meaning:
+            case None | Outside(reaches=False):
+                if name == "publish" and (meaning is not None or not of):
+                    raise self._touches(call.node, "what is published here is not known")
+            case Outside():
+                raise self._touches(call.node, f'"{text_of(target)}" may act on the node')
+            case Publishes(targets):
+                if name == "publish" and not targets:
+                    return
+                if name not in LOOKS:
+                    raise self._touches(call.node, "this sends, or ends that the node can send")
+            case TimerOf():
+                if name not in LOOKS:
+                    raise self._touches(call.node, "this changes a timer")
+            case Record() | Variable():
+                if name not in LOOKS and self._is_modelled(target, meaning):
+                    if of in self.own:
+                        self.written.add(of)
+                    else:
+                        raise self._touches(call.node, f'this may change "{of}"')
+            case Runtime() | Lambda():
+                raise self._touches(call.node, f'"{of}" acts on the node')
+            case _:
+                if name not in LOOKS:
+                    raise self._touches(call.node, f'this may change "{of}"')
+        self.check(target)
+
+    def _arguments(self, arguments: tuple[Node, ...] | list[Node]) -> None:
+        """Arguments of a function that is not known: it may keep or change what it gets."""
+        for argument in arguments:
+            if argument.type == "lambda_expression":
+                self._handed(argument)
+                continue
+            name, meaning = self._root(argument)
+            if argument.type == "call_expression" or not self._is_modelled(argument, meaning):
+                self.check(argument)
+            elif isinstance(meaning, Record) and meaning.constant:
+                continue
+            elif name in self.own:
+                self.written.add(name)
+            else:
+                hint = "hand over a copy: +x, or a const local"
+                raise self._touches(argument, f'this may change "{text_of(argument)}"', hint)
+
+    def _handed(self, function: Node) -> None:
+        """A function that is handed on: it may run at any time."""
+        outer, loops = self._inner, self._loops
+        self._inner, self._loops = set(outer), 0
+        declarator = function.child_by_field_name("declarator")
+        if declarator is not None:
+            for parameter in named(declarator.children_by_field_name("parameters")[0]):
+                for inner in parameter.children_by_field_name("declarator"):
+                    self._declare(inner)
+        for child in named(function.children_by_field_name("body")[0]):
+            if child.type == "return_statement":
+                for value in named(child):
+                    self.check(value)
+            else:
+                self.check(child)
+        self._inner, self._loops = outer, loops
+
+
+def is_outside(cpp: Cpp, scope: Scope, node: Node) -> bool:
+    """Whether a piece of code provably touches nothing that the model has."""
+    try:
+        Effects(cpp, scope).check(node)
+    except Touches:
+        return False
+    return True
