@@ -10,8 +10,9 @@ import json
 import sys
 from pathlib import Path
 
+from tests.reverse.corpus.packages import PACKAGES
 from tests.reverse.corpus.printing import as_data, as_text
-from tests.reverse.corpus.repositories import PACKAGES, results
+from tests.reverse.corpus.repositories import results
 
 
 def main() -> int:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -15,29 +14,14 @@ from rebsync.reverse.graph_json import graph_data
 from rebsync.reverse.ros_calls import graph_of
 from rebsync.source import Source
 from tests.reverse.corpus.compare import Comparison, answers_of, compare
-from tests.reverse.corpus.values import Json
+from tests.reverse.corpus.packages import PACKAGES, facts_of
 
-FACTS = Path(__file__).parent
 _CODE = frozenset(
     {
         *(".h", ".hh", ".hpp", ".hxx", ".ipp", ".tpp", ".cuh"),
         *(".c", ".cc", ".cpp", ".cxx", ".C", ".cu"),
     }
 )
-
-# The packages that the facts cover, as README.md lists them.
-PACKAGES = {
-    "ros_tutorials": ("turtlesim", "roscpp_tutorials"),
-    "teleop_twist_joy": (".",),
-    "f1tenth_simulator": (".",),
-    "costmap_converter": (".",),
-    "yujin_ocs": (
-        *("yocs_cmd_vel_mux", "yocs_velocity_smoother", "yocs_joyop", "yocs_navigator"),
-        *("yocs_ar_marker_tracking", "yocs_ar_pair_tracking", "yocs_diff_drive_pose_controller"),
-        *("yocs_virtual_sensor", "yocs_waypoint_provider"),
-    ),
-    "autorally": ("autorally_core", "autorally_control"),
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,12 +33,6 @@ class Result:
     files: int
     size: int
     seconds: float
-
-
-def facts_of(name: str) -> list[Json]:
-    """The facts of a repository."""
-    facts: list[Json] = json.loads((FACTS / f"{name}.json").read_text(encoding="utf-8"))
-    return facts
 
 
 def results(folder: Path) -> Iterator[Result]:

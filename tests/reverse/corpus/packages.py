@@ -1,0 +1,30 @@
+"""The public packages of which there are facts."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from tests.reverse.corpus.values import Json
+
+FACTS = Path(__file__).parent
+
+# The packages that the facts cover, as README.md lists them.
+PACKAGES = {
+    "ros_tutorials": ("turtlesim", "roscpp_tutorials"),
+    "teleop_twist_joy": (".",),
+    "f1tenth_simulator": (".",),
+    "costmap_converter": (".",),
+    "yujin_ocs": (
+        *("yocs_cmd_vel_mux", "yocs_velocity_smoother", "yocs_joyop", "yocs_navigator"),
+        *("yocs_ar_marker_tracking", "yocs_ar_pair_tracking", "yocs_diff_drive_pose_controller"),
+        *("yocs_virtual_sensor", "yocs_waypoint_provider"),
+    ),
+    "autorally": ("autorally_core", "autorally_control"),
+}
+
+
+def facts_of(name: str) -> list[Json]:
+    """The facts of a repository."""
+    facts: list[Json] = json.loads((FACTS / f"{name}.json").read_text(encoding="utf-8"))
+    return facts
