@@ -1,0 +1,227 @@
+"""The message servers of a unit: one for each callback of subscriptions, and for each timer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.cpp_index import CppFunction
+from rebsync.reverse.cpp_tree import Cpp, named, text_of
+from rebsync.reverse.graph import Callback, SubscriptionFact, TimerFact
+from rebsync.reverse.message_types import Fields, MessageTypes
+from rebsync.reverse.node_names import Names
+from rebsync.reverse.node_units import Unit
+
+_HEADER = "header."
+
+
+@dataclass(frozen=True, slots=True)
+class Carried:
+    """A field of a message that a server gets as a parameter."""
+
+    path: str
+    name: str
+    type: m.Type
+
+
+@dataclass(frozen=True, slots=True)
+class Server:
+    """A message server to be.
+
+    `message` is the name of the callback's parameter that is the message, or the timer's event;
+    `arguments` are those that a bind fills, by name.
+    """
+
+    name: str
+    callback: Callback
+    cpp: Cpp
+    body: Node
+    message: str
+    arguments: tuple[tuple[str, Node], ...]
+    type: str | None = None
+    parameters: tuple[Carried, ...] = ()
+    subscriptions: tuple[SubscriptionFact, ...] = ()
+    timer: TimerFact | None = None
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """The paths of the fields that it gets."""
+        return tuple(p.path for p in self.parameters)
+
+
+def servers(unit: Unit, types: MessageTypes, names: Names) -> tuple[Server, ...]:
+    """The servers of a unit, in the order of its subscriptions and timers."""
+    by_callback: dict[tuple[int, object], Server] = {}
+    for fact in unit.facts:
+        if not isinstance(fact, SubscriptionFact | TimerFact):
+            continue
+        for callback in fact.callbacks:
+            body = _body(callback, fact.site.cpp) if isinstance(callback, Callback) else None
+            if not isinstance(callback, Callback) or body is None:
+                continue
+            about = _type(fact, callback, types) if isinstance(fact, SubscriptionFact) else id(fact)
+            key = body[1].id, about
+            if key in by_callback and isinstance(fact, SubscriptionFact):
+                known = by_callback[key]
+                by_callback[key] = _with(known, fact)
+                continue
+            by_callback[key] = _server(fact, callback, body, types, names)
+    return tuple(by_callback.values())
+
+
+def _with(server: Server, fact: SubscriptionFact) -> Server:
+    return replace(server, subscriptions=(*server.subscriptions, fact))
+
+
+def _body(callback: Callback, cpp: Cpp) -> tuple[Cpp, Node] | None:
+    if callback.function is not None and callback.function.body is not None:
+        return callback.function.cpp, callback.function.body
+    if callback.lambda_ is not None:
+        body = callback.lambda_.child_by_field_name("body")
+        return (cpp, body) if body is not None else None
+    return None
+
+
+def _server(
+    fact: SubscriptionFact | TimerFact,
+    callback: Callback,
+    body: tuple[Cpp, Node],
+    types: MessageTypes,
+    names: Names,
+) -> Server:
+    wish = callback.name.rpartition("::")[2] or _kept(fact) or "callback"
+    given = _parameters(callback)
+    bound = tuple(zip((n for n, _ in given), callback.bound, strict=False))
+    message = given[len(bound)][0] if len(given) > len(bound) else ""
+    name = names.give(wish if wish != "operator()" else callback.through or "callback")
+    if isinstance(fact, TimerFact):
+        return Server(name, callback, *body, message, bound, timer=fact)
+    type_ = _type(fact, callback, types)
+    fields = types.fields(type_) if type_ is not None else None
+    carried = tuple(_carried(fields or {}, message, body[1], names.used))
+    return Server(name, callback, *body, message, bound, type_, carried, (fact,))
+
+
+def _kept(fact: SubscriptionFact | TimerFact) -> str:
+    return fact.site.kept.removeprefix("this->").rstrip("_")
+
+
+def _type(fact: SubscriptionFact, callback: Callback, types: MessageTypes) -> str | None:
+    """The type of the messages: as the subscription or the callback's signature says."""
+    if isinstance(fact.type, str):
+        return fact.type
+    parameters = _parameters(callback)[len(callback.bound) :]
+    return types.named(parameters[0][1]) if parameters else None
+
+
+def _parameters(callback: Callback) -> list[tuple[str, str]]:
+    """Name and type of each parameter of a callback."""
+    if isinstance(callback.function, CppFunction):
+        return [(p.name, text_of(p.type)) for p in callback.function.parameters]
+    found = []
+    declarator = (
+        callback.lambda_.child_by_field_name("declarator") if callback.lambda_ is not None else None
+    )
+    listed = declarator.child_by_field_name("parameters") if declarator is not None else None
+    for parameter in named(listed) if listed is not None else []:
+        at = parameter.child_by_field_name("declarator")
+        while at is not None and at.type != "identifier":
+            at = at.named_children[-1] if at.named_children else None
+        type_ = parameter.child_by_field_name("type")
+        found.append((text_of(at) if at is not None else "", text_of(type_) if type_ else ""))
+    return found
+
+
+# --- which fields are used ----------------------------------------------------------------------
+
+
+def _carried(fields: Fields, message: str, body: Node, taken: set[str]) -> Iterator[Carried]:
+    """The fields of the model's types that a body uses, in the order of the message."""
+    used = set(used_paths(fields, message, [body]))
+    names = Names.beside(declared(body) | taken)
+    for path, type_ in fields.items():
+        if path in used and type_ is not None:
+            yield Carried(path, names.give(path.replace(".", "_")), type_)
+
+
+def used_paths(fields: Fields, variable: str, bodies: Sequence[Node]) -> Iterator[str]:
+    """The paths of a variable's fields that are named; all where it is used as a whole."""
+    for body in bodies:
+        for node in _named(body, variable):
+            path = _path(node)
+            if path in fields:
+                yield path
+                continue
+            inner = f"{path}." if path else ""
+            for each, type_ in fields.items():
+                plain = type_ is not None and not type_.dimensions
+                if each.startswith(inner) and plain and (inner or not _of_header(each)):
+                    yield each
+
+
+def _of_header(path: str) -> bool:
+    return path.startswith(_HEADER) or f".{_HEADER}" in path
+
+
+def _named(body: Node, variable: str) -> Iterator[Node]:
+    waiting = [body]
+    while waiting:
+        node = waiting.pop()
+        if node.type in ("identifier", "field_identifier") and text_of(node) == variable:
+            yield node
+        waiting += node.named_children
+
+
+def _path(node: Node) -> str:
+    """The fields that follow a variable: `linear.x` of `msg->linear.x` and `(*msg).linear.x`."""
+    at, parts = node, list[str]()
+    while at.parent is not None:
+        around = at.parent
+        if around.type == "field_expression" and around.child_by_field_name("argument") == at:
+            field = around.child_by_field_name("field")
+            call = around.parent
+            function = call.child_by_field_name("function") if call is not None else None
+            if field is None or function == around:
+                break
+            parts.append(text_of(field))
+        elif around.type == "field_expression" and text_of(around).startswith("this->"):
+            pass
+        elif around.type not in ("pointer_expression", "parenthesized_expression") or parts:
+            break
+        at = around
+    return ".".join(parts)
+
+
+def declared(body: Node) -> set[str]:
+    """The names of the variables that a body declares."""
+    found = set()
+    waiting = [body]
+    while waiting:
+        node = waiting.pop()
+        if node.type in (
+            "declaration",
+            "init_declarator",
+            "for_range_loop",
+            "parameter_declaration",
+        ):
+            for child in node.children_by_field_name("declarator"):
+                found |= {text_of(n) for n in _identifiers(child)}
+        waiting += node.named_children
+    return found
+
+
+def _identifiers(node: Node) -> Iterator[Node]:
+    """The names that a declarator declares, without those of its value."""
+    if node.type == "identifier":
+        yield node
+    elif node.type == "init_declarator":
+        inner = node.child_by_field_name("declarator")
+        if inner is not None:
+            yield from _identifiers(inner)
+    elif node.type.endswith("declarator"):
+        for child in node.named_children:
+            yield from _identifiers(child)
