@@ -11,12 +11,9 @@ import tree_sitter_cpp
 from tree_sitter import Language, Node, Parser
 
 from rebsync.records import dataclass
+from rebsync.reverse.cpp_text import readable
 from rebsync.source import Source, Span
 
-# `class FOO_EXPORT Foo {`: without the macro's definition the parser takes Foo for a variable.
-_EXPORT = re.compile(
-    r"(\b(?:class|struct)\s+)([A-Z][A-Z0-9_]*)(?=\s+[A-Za-z_]\w*\s*(?:final\s*)?(?:[{]|:[^:]))"
-)
 _COMMENT = re.compile(r"^\s*//[/!]?|^\s*/\*+|\*+/\s*\Z")
 
 
@@ -42,7 +39,7 @@ def _parser() -> Parser:
 
 def parse(source: Source) -> Cpp:
     """The tree of a file; where the text is no C++ it has error nodes."""
-    text = _EXPORT.sub(lambda m: m[1] + " " * len(m[2]), source.text)
+    text = readable(source.text)
     data = text.encode("utf-8", "surrogatepass")
     offsets = None if len(data) == len(text) else tuple(_characters(text))
     return Cpp(source, _parser().parse(data).root_node, offsets)
