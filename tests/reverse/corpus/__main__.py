@@ -1,4 +1,4 @@
-"""Figures on public packages: `python -m tests.reverse.corpus DIR [--json]`.
+"""Figures on public packages: `python -m tests.reverse.corpus DIR`.
 
 DIR holds checkouts of the repositories that README.md lists, each in a folder of its name.
 """
@@ -21,8 +21,9 @@ def main() -> int:
     parser.add_argument("folder", type=Path, metavar="DIR")
     parser.add_argument("--json", action="store_true", help="one object instead of text")
     parser.add_argument("--short", action="store_true", help="no list of what differs")
+    parser.add_argument("--bodies", action="store_true", help="how bodies are read as well")
     given = parser.parse_args()
-    found = list(results(given.folder))
+    found = list(results(given.folder, given.bodies))
     if not found:
         print(f"{given.folder}: no checkout of {', '.join(PACKAGES)}", file=sys.stderr)
         return 1

@@ -7,13 +7,17 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from tests.reverse.corpus.compare import KINDS, Comparison, share, together
 from tests.reverse.corpus.facts import Pair
-from tests.reverse.corpus.repositories import Result
+from tests.reverse.corpus.repositories import Bodies, Result
+from tests.reverse.corpus.repositories import together as all_bodies
 from tests.reverse.corpus.values import OPEN, RIGHT, WRONG, Json, Verdict
 
 _HEAD = (
     *("repository", "facts", "found", "recall", "reported", "right", "wrong", "precision"),
     *("open", "unresolved", "unknown", "files", "KB", "seconds"),
 )
+_GRADES = ("over-approximated", "unreadable")
+_PACKAGES = ("exact", *_GRADES)
+_MOST = 15
 
 
 def as_text(results: Sequence[Result], short: bool = False) -> str:
@@ -24,6 +28,7 @@ def as_text(results: Sequence[Result], short: bool = False) -> str:
         _table([("kind", "facts", "found", "recall"), *_kinds(every)]),
         _table([("detail", "facts", "right", "open", "wrong", "recall"), *_details(every)]),
     ]
+    blocks += _bodies(results)
     if not short:
         for result in results:
             lines = [_line(d) for d in differences(result.comparison)]
@@ -40,12 +45,14 @@ def as_data(results: Sequence[Result]) -> Json:
 
 
 def _all(results: Sequence[Result]) -> Result:
+    bodies = [r.bodies for r in results if r.bodies is not None]
     return Result(
         "all",
         together(r.comparison for r in results),
         sum(r.files for r in results),
         sum(r.size for r in results),
         sum(r.seconds for r in results),
+        all_bodies(bodies) if bodies else None,
     )
 
 
@@ -82,6 +89,27 @@ def _details(comparison: Comparison) -> Iterator[tuple[str, ...]]:
         yield key, str(sum(each)), *map(str, each), recall
 
 
+def _bodies(results: Sequence[Result]) -> Iterator[str]:
+    """The table of what is exact, and the reasons why something is not."""
+    every = [(r.name, r.bodies) for r in [*results, _all(results)] if r.bodies is not None]
+    if not every:
+        return
+    head = ("bodies", "statements", *_GRADES, "exact", *(f"packages {g}" for g in _PACKAGES))
+    yield _table([(*head, "seconds"), *(_grades(name, bodies) for name, bodies in every)])
+    reasons = every[-1][1].reasons
+    for grade in _GRADES:
+        most = [(why, n) for (g, why), n in reasons.most_common() if g == grade][:_MOST]
+        yield _table([(f"{grade} because", "places"), *((why, str(n)) for why, n in most)])
+
+
+def _grades(name: str, bodies: Bodies) -> tuple[str, ...]:
+    places = [bodies.grades[grade] for grade in _GRADES]
+    exact = share(max(bodies.statements - sum(places), 0), bodies.statements)
+    packages = [bodies.packages[grade] for grade in _PACKAGES]
+    counts = map(str, [bodies.statements, *places])
+    return name, *counts, _percent(exact), *map(str, packages), f"{bodies.seconds:.2f}"
+
+
 def _table(rows: Iterable[tuple[str, ...]]) -> str:
     """Columns as wide as they must be; the first to the left, others to the right."""
     every = list(rows)
@@ -112,7 +140,21 @@ def _data(result: Result) -> Json:
         "details": {
             key: {v.value: counts[v] for v in Verdict} for key, counts in c.details().items()
         },
+        "bodies": None if result.bodies is None else _bodies_data(result.bodies),
         "differences": list(differences(c)),
+    }
+
+
+def _bodies_data(bodies: Bodies) -> Json:
+    return {
+        "statements": bodies.statements,
+        "places": dict(bodies.grades),
+        "packages": dict(bodies.packages),
+        "reasons": [
+            {"grade": grade, "why": why, "places": n}
+            for (grade, why), n in bodies.reasons.most_common()
+        ],
+        "seconds": bodies.seconds,
     }
 
 

@@ -1,70 +1,110 @@
-"""The public repositories of which there are facts, and what is extracted from their checkouts."""
+"""What is extracted from the checkouts of public repositories, compared with the facts."""
 
 from __future__ import annotations
 
+import re
 import time
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from rebsync.records import dataclass
 from rebsync.reverse.cpp_index import Code
 from rebsync.reverse.cpp_tree import parse
-from rebsync.reverse.graph import Graph
 from rebsync.reverse.graph_json import graph_data
+from rebsync.reverse.packages import CODE
+from rebsync.reverse.reading import Chosen, packages
 from rebsync.reverse.ros_calls import graph_of
-from rebsync.source import Source
 from tests.reverse.corpus.compare import Comparison, answers_of, compare
 from tests.reverse.corpus.packages import PACKAGES, facts_of
+from tests.reverse.corpus.values import Json
 
-_CODE = frozenset(
-    {
-        *(".h", ".hh", ".hpp", ".hxx", ".ipp", ".tpp", ".cuh"),
-        *(".c", ".cc", ".cpp", ".cxx", ".C", ".cu"),
-    }
-)
+# What a reason says of one place only.
+_PARTICULAR = re.compile(r"`[^`]*`|\"[^\"]*\"|(?<!\w)'[^']*'|\b\d+\b")
+
+
+@dataclass(frozen=True, slots=True)
+class Bodies:
+    """How the bodies of packages are read.
+
+    `statements` are all, and `grades` those findings of each grade; `reasons` those of findings,
+    by grade, without what is particular; `packages` the grades of packages.
+    """
+
+    statements: int
+    grades: Counter[str]
+    reasons: Counter[tuple[str, str]]
+    packages: Counter[str]
+    seconds: float
 
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """A repository compared with its facts; `seconds` are those of reading."""
+    """A repository compared with its facts; `seconds` are those of reading and of the graph."""
 
     name: str
     comparison: Comparison
     files: int
     size: int
     seconds: float
+    bodies: Bodies | None = None
 
 
-def results(folder: Path) -> Iterator[Result]:
+def results(folder: Path, bodies: bool = False) -> Iterator[Result]:
     """Each repository that has a checkout in a folder."""
     for name in PACKAGES:
         if (folder / name).is_dir():
-            yield _result(name, folder / name)
+            yield result(name, folder / name, bodies)
 
 
-def _result(name: str, root: Path) -> Result:
-    packages = [files_of(root, package) for package in PACKAGES[name]]
+def result(name: str, root: Path, bodies: bool = False) -> Result:
+    """A repository whose checkout is in a directory; with `bodies`, these as well."""
     start = time.perf_counter()
-    answers = [a for files in packages for a in answers_of(graph_data(_graph(files)))]
+    given = list(packages(str(root / package) for package in PACKAGES[name]))
+    answers = [answer for package in given for answer in _answers(package, root)]
     seconds = time.perf_counter() - start
-    every = [source for files in packages for source in files]
-    size = sum(len(source.text) for source in every)
-    return Result(name, compare(facts_of(name), answers), len(every), size, seconds)
+    code = [s for package in given for p, s in package.files.items() if Path(p).suffix in CODE]
+    return Result(
+        name,
+        compare(facts_of(name), answers),
+        len(code),
+        sum(len(source.text) for source in code),
+        seconds,
+        _bodies(given) if bodies else None,
+    )
 
 
-def _graph(files: list[Source]) -> Graph:
-    return graph_of(Code.of(parse(source) for source in files))
+def _answers(package: Chosen, root: Path) -> Iterator[Json]:
+    """What the nodes of a package ask ROS for, by the files of the repository."""
+    code = [s for path, s in sorted(package.files.items()) if Path(path).suffix in CODE]
+    for answer in answers_of(graph_data(graph_of(Code.of(map(parse, code))))):
+        yield {**answer, "file": Path(answer["file"]).relative_to(root).as_posix()}
 
 
-def files_of(root: Path, package: str) -> list[Source]:
-    """The C++ files of a package, known by their paths in the repository."""
-    paths = sorted(p for p in (root / package).rglob("*") if p.suffix in _CODE and p.is_file())
-    return [Source(p.relative_to(root).as_posix(), _text(p)) for p in paths]
+def _bodies(given: Sequence[Chosen]) -> Bodies:
+    from rebsync.reverse.recovery import extract
+    from rebsync.reverse.report import grade_of
+
+    start = time.perf_counter()
+    read = [extract(package.files) for package in given]
+    seconds = time.perf_counter() - start
+    findings = [f for package in given for f in package.findings]
+    findings += [f for extracted in read for f in extracted.findings]
+    return Bodies(
+        sum(count for extracted in read for _, count in extracted.statements),
+        Counter(f.grade.value for f in findings if f.within),
+        Counter((f.grade.value, _PARTICULAR.sub("...", f.why)) for f in findings),
+        Counter(map(grade_of, read)),
+        seconds,
+    )
 
 
-def _text(path: Path) -> str:
-    data = path.read_bytes()
-    try:
-        return data.decode("utf-8").replace("\r\n", "\n")
-    except UnicodeDecodeError:
-        return data.decode("latin-1").replace("\r\n", "\n")
+def together(bodies: Sequence[Bodies]) -> Bodies:
+    """Those of several repositories as one."""
+    return Bodies(
+        sum(b.statements for b in bodies),
+        sum((b.grades for b in bodies), Counter[str]()),
+        sum((b.reasons for b in bodies), Counter[tuple[str, str]]()),
+        sum((b.packages for b in bodies), Counter[str]()),
+        sum(b.seconds for b in bodies),
+    )
