@@ -129,7 +129,7 @@ def function_of(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
     return CppFunction(
         text_of(name),
         owner,
-        tuple(_parameters(part(declarator, "parameters"))),
+        tuple(parameters_in(part(declarator, "parameters"))),
         node.child_by_field_name("type"),
         body,
         lists[0] if lists else None,
@@ -195,7 +195,8 @@ def only_braces(node: Node) -> bool:
     return function.type == "function_declarator" and value.type == "initializer_list"
 
 
-def _parameters(node: Node) -> Iterator[CppParameter]:
+def parameters_in(node: Node) -> Iterator[CppParameter]:
+    """The parameters of a list of them."""
     for parameter in named(node):
         if parameter.type not in ("parameter_declaration", "optional_parameter_declaration"):
             continue

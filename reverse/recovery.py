@@ -23,6 +23,8 @@ from rebsync.reverse.launch_values import Surroundings
 from rebsync.reverse.launched import Launch, LaunchedNode
 from rebsync.reverse.parameters import Parameter
 from rebsync.reverse.ros1_classes import Classes
+from rebsync.reverse.ros1_messages import own_messages
+from rebsync.reverse.ros1_names import variable_name
 from rebsync.reverse.written import annotation
 from rebsync.source import Source
 from rebsync.static.values import converted
@@ -48,7 +50,7 @@ def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
     findings = Findings()
     trees = [parse(source) for path, source in sorted(files.items()) if path.endswith(_CODE)]
     code = Code.of(trees)
-    classes = Classes(code, findings)
+    classes = Classes(code, findings, own_messages(files))
     read = classes.read(_classes_in(code, files[only].path) if only is not None else None)
     launches = [s for path, s in sorted(files.items()) if path.endswith(".launch")]
     launch = _launched(launches, files) if launches and only is None else None
@@ -113,7 +115,7 @@ class _System:
                 key, default = roles.globals[member.name]
                 type_ = type_of(member.type)
                 if type_ is not None:
-                    name = self.classes.variable(owner, member)
+                    name = variable_name(roles, member)
                     yield key, (type_, name, _constant(default))
 
     def _taken(self) -> frozenset[str]:

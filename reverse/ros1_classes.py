@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import field, replace
+from fractions import Fraction
 
 from rebsync import model as m
-from rebsync.names import carry, uncarry
+from rebsync.names import uncarry
 from rebsync.records import dataclass
-from rebsync.reserved import RESERVED, RUNTIME_MEMBERS
+from rebsync.reserved import RESERVED
 from rebsync.reverse.cpp_calls import call_of
 from rebsync.reverse.cpp_index import Code, CppClass, CppField, CppFunction
-from rebsync.reverse.cpp_statements import CppStatements
 from rebsync.reverse.cpp_tree import named, text_of
 from rebsync.reverse.cpp_types import class_name, type_of
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.ros1_bodies import Bodies
+from rebsync.reverse.ros1_free import free_functions
+from rebsync.reverse.ros1_names import is_interface, plain_name, state_types, variable_name
 from rebsync.reverse.ros1_plumbing import check_plumbing
-from rebsync.reverse.ros1_roles import Roles, add_sends, roles_of
+from rebsync.reverse.ros1_roles import Roles, roles_of, shown_of
+from rebsync.reverse.ros1_sends import add_sends
+from rebsync.reverse.ros1_timers import Timer, checked, server_of_timer, timers_of
+from rebsync.reverse.ros1_values import initial_values
 from rebsync.reverse.scope import Called, Function, Member, Runtime, Scope, Variable
 from rebsync.reverse.written import annotation
 
@@ -26,18 +31,24 @@ _RUNTIME: dict[str, Runtime] = {
     "Drive": Runtime("drive"),
     "Sensor": Runtime("sensor"),
 }
-_ROS = frozenset({"Publisher", "Publishers", "Subscriber"})
+_ROS = frozenset({"Publisher", "Publishers", "Subscriber", "Timer", "WallTimer", "NodeHandle"})
 _PLUMBING = frozenset({"mailbox", "publishState"})
 
 
 @dataclass(slots=True)
 class Classes:
-    """Reads the classes of some code that have a mailbox, and the interfaces of these."""
+    """Reads the classes of some code that have a mailbox, and the interfaces of these.
+
+    `messages` are the fields of the package's message types, `unit` the seconds of a unit of time.
+    """
 
     code: Code
     findings: Findings
+    messages: Mapping[str, Mapping[str, m.Type | None]] = field(default_factory=dict)
+    unit: Fraction = Fraction(1)
     types: frozenset[str] = frozenset()
     roles: dict[str, Roles] = field(default_factory=dict)
+    timers: dict[str, tuple[Timer, ...]] = field(default_factory=dict)
     _scopes: dict[str, Scope] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -47,15 +58,17 @@ class Classes:
             add_sends(self.code, owner, self.roles)
         messages = {n for roles in self.roles.values() for n in roles.messages}
         messages |= {p.message for roles in self.roles.values() for p in roles.publishers.values()}
-        states = {s for c in self.code.classes.values() for s in _state_types(self.code, c)}
+        states = {s for c in self.code.classes.values() for s in state_types(self.code, c)}
         self.types = frozenset(messages | states | set(self.code.classes))
+        for owner in self.code.classes.values():
+            self.timers[owner.name] = tuple(self._timed(owner))
 
     def read(self, wanted: set[str] | None = None) -> tuple[m.ReactiveClass | m.Interface, ...]:
         """All of them, or those that are wanted, in the order of the code."""
         return tuple(
             self._reactive(c) if self._has_mailbox(c) else self._interface(c)
             for c in self.code.classes.values()
-            if (self._has_mailbox(c) or _is_interface(c)) and (wanted is None or c.name in wanted)
+            if (self._has_mailbox(c) or is_interface(c)) and (wanted is None or c.name in wanted)
         )
 
     def _has_mailbox(self, owner: CppClass) -> bool:
@@ -63,11 +76,23 @@ class Classes:
             text_of(f.type) == "Mailbox" for c in self.code.lineage(owner.name) for f in c.fields
         )
 
+    def _timed(self, owner: CppClass) -> Iterator[Timer]:
+        """The timers of a class; their callbacks are servers, unless they only post a message."""
+        roles = self.roles[owner.name]
+        for timer in timers_of(self.code, owner, roles) if self._has_mailbox(owner) else ():
+            if timer.callback and timer.one_shot and timer.posts is not None:
+                roles.passing.add(timer.callback)
+            elif timer.callback:
+                roles.handlers[timer.callback] = uncarry(timer.callback, RESERVED | self.types)
+            yield timer
+
     # --- one class ------------------------------------------------------------------------------
 
     def _interface(self, owner: CppClass) -> m.Interface:
         servers = tuple(
-            self._server(owner, f, self._plain(f)) for f in self.code.functions_of(owner) if f.pure
+            self._server(owner, f, plain_name(f, self.types))
+            for f in self.code.functions_of(owner)
+            if f.pure
         )
         extends = tuple(class_name(b) for b in owner.bases)
         span = owner.cpp.span(owner.node)
@@ -76,24 +101,27 @@ class Classes:
         )
 
     def _reactive(self, owner: CppClass) -> m.ReactiveClass:
-        check_plumbing(self.code, owner, self.roles, self.findings)
+        check_plumbing(self.code, owner, self.roles, self.messages, self.findings)
+        for timer in self.timers[owner.name]:
+            checked(timer, f"{owner.name}.{timer.function.name}", self.findings)
         functions = [f for f in self.code.functions_of(owner) if self._is_of_model(owner, f)]
-        constructors = [f for f in self.code.functions_of(owner) if f.name == "construct"]
         methods = [f for f in functions if self._served(owner, f) is None]
         known, state = self._variables(owner)
         members: list[m.ClassMember] = [m.KnownRebecs(tuple(known))] if known else []
         members += [m.StateVars(tuple(state))] if state else []
-        members += [self._constructor(owner, f) for f in constructors]
+        members += self._constructors(owner)
         members += [
             self._server(owner, f, name)
             for f in functions
             if (name := self._served(owner, f)) is not None
         ]
+        members += self._lambdas(owner)
         members += [self._method(owner, f) for f in methods]
+        members += [self._method(owner, f) for f in self._free(owner)]
         extends = [b for b in owner.bases if self._is_reactive(b)]
         return m.ReactiveClass(
             class_name(owner.name),
-            self.roles[owner.name].queue_length or 1,
+            (self.roles[owner.name].queue_length or 1) + self._ticking(owner),
             tuple(members),
             self._is_abstract(owner),
             class_name(extends[0]) if extends else None,
@@ -101,6 +129,10 @@ class Classes:
             tuple(self._class_annotations(owner)),
             owner.cpp.span(owner.node),
         )
+
+    def _ticking(self, owner: CppClass) -> int:
+        """The places in the queue that timers' own messages need beside those of the code."""
+        return sum(not t.one_shot for t in self.timers[owner.name])
 
     def _class_annotations(self, owner: CppClass) -> Iterator[m.Annotation]:
         """Those of the markers; without markers, those that the set-up shows."""
@@ -156,23 +188,10 @@ class Classes:
                     self.findings.unreadable(member.cpp.source, unread, owner.name)
                 continue
             span = member.cpp.span(member.node)
-            declarator = m.Declarator(self.variable(owner, member), None, span)
+            declarator = m.Declarator(variable_name(self.roles[owner.name], member), None, span)
             declaration = m.Declaration(type_, (declarator,), span=span)
             (known if member.name in roles.known else state).append(declaration)
         return known, state
-
-    def variable(self, owner: CppClass, member: CppField) -> str:
-        """The model's name of a member variable, from its marker unless it was renamed."""
-        known = self.roles[owner.name].known.get(member.name)
-        if known is not None:
-            return known
-        for marker in member.markers:
-            kind, path, *_ = [*marker.split(), "", ""]
-            name = path.rpartition(".")[2]
-            carried = re.escape(carry(name, RUNTIME_MEMBERS))
-            if kind in ("statevar", "env") and re.fullmatch(rf"{carried}_(_\d+)?", member.name):
-                return name
-        return uncarry(member.name.removesuffix("_"), RUNTIME_MEMBERS)
 
     def _runtime(self, member: CppField) -> Runtime | None:
         text = text_of(member.type)
@@ -184,7 +203,8 @@ class Classes:
         roles = self.roles[owner.name]
         if function.name in (owner.name, f"~{owner.name}", "construct"):
             return False
-        if function.name in _PLUMBING or function.name in roles.shims | set(roles.sends):
+        plain = roles.shims | roles.passing | set(roles.sends)
+        if function.name in _PLUMBING or function.name in plain:
             return False
         if function.pure and not self._declares(owner, function):
             return False
@@ -227,74 +247,102 @@ class Classes:
             if not self._has_mailbox(above) and any(
                 f.name == function.name for f in above.functions
             ):
-                return self._plain(function)
+                return plain_name(function, self.types)
         return None
 
-    def _plain(self, function: CppFunction) -> str:
-        """The model's name of a function, from its marker unless it was renamed."""
-        for marker in function.markers:
-            kind, path, *_ = [*marker.split(), "", ""]
-            name = path.rpartition(".")[2]
-            if kind not in ("msgsrv", "method") or not path:
-                continue
-            apart = function.name.startswith(f"{name}_")  # from overloads that C++ cannot tell
-            if apart or carry(name, RESERVED | self.types) == function.name:
-                return name
-        return uncarry(function.name, RESERVED | self.types)
+    def _free(self, owner: CppClass) -> list[CppFunction]:
+        """The free functions that the functions of a class call, not those of its ancestors."""
+        above = [f for c in self.code.lineage(owner.name)[1:] for f in self.code.functions_of(c)]
+        known = {f.name for f in free_functions(self.code, above)}
+        known |= {f.name for c in self.code.lineage(owner.name) for f in c.functions}
+        own = free_functions(self.code, self.code.functions_of(owner))
+        return [f for f in own if f.name not in known]
 
     def _server(self, owner: CppClass, function: CppFunction, name: str) -> m.MessageServer:
-        scope = self.scope(owner)
+        bodies, within = self._bodies(owner), f"{owner.name}.{name}"
+        timer = next((t for t in self.timers[owner.name] if t.callback == function.name), None)
+        if timer is not None:
+            parameters: tuple[m.Parameter, ...] = ()
+            body: m.Block | None = bodies.ticking(timer, function, name, within)
+        else:
+            parameters = bodies.parameters(function)
+            body = bodies.block(function, within)
         return m.MessageServer(
             name,
-            self._parameters(function, scope),
-            self._body(function, scope, f"{owner.name}.{name}"),
+            parameters,
+            body,
             function.pure and self._has_mailbox(owner),
             tuple(self._server_annotations(owner, function, name)),
             function.cpp.span(function.node),
         )
 
+    def _lambdas(self, owner: CppClass) -> Iterator[m.MessageServer]:
+        """The servers whose handlers are lambdas: what the subscriptions hand over, and timers."""
+        bodies = self._bodies(owner)
+        for taken in self.roles[owner.name].taken:
+            if taken.handler is None:
+                fields = self.messages.get(taken.type)
+                within = f"{owner.name}.{taken.server}"
+                parameters, body = bodies.taken(taken, fields, within)
+                span = taken.function.cpp.span(taken.call.node)
+                shown = shown_of(self.code, taken)
+                yield m.MessageServer(taken.server, parameters, body, False, shown, span)
+        for timer, name in self._timed_servers(owner):
+            if timer.lambda_ is not None and not (timer.one_shot and timer.posts is not None):
+                body = bodies.ticking(timer, timer.function, name, f"{owner.name}.{name}")
+                span = timer.function.cpp.span(timer.lambda_)
+                yield m.MessageServer(name, (), body, False, (), span)
+
+    def _timed_servers(self, owner: CppClass) -> Iterator[tuple[Timer, str]]:
+        """The timers of a class with the servers that these send messages to."""
+        roles = self.roles[owner.name]
+        for index, timer in enumerate(self.timers[owner.name], 1):
+            if timer.one_shot and timer.posts is not None:
+                yield timer, timer.posts
+            elif timer.callback:
+                yield timer, roles.handlers[timer.callback]
+            else:
+                yield timer, f"timer{index}"
+
     def _method(self, owner: CppClass, function: CppFunction) -> m.Method:
-        scope, name = self.scope(owner), self._plain(function)
+        bodies, name = self._bodies(owner), plain_name(function, self.types)
         result = type_of(function.result) if function.result is not None else None
         return m.Method(
             result or m.Type("void"),
             name,
-            self._parameters(function, scope),
-            self._body(function, scope, f"{owner.name}.{name}"),
+            bodies.parameters(function),
+            bodies.block(function, f"{owner.name}.{name}"),
             function.pure,
             _annotations(function.markers, owner),
             function.cpp.span(function.node),
         )
 
-    def _constructor(self, owner: CppClass, function: CppFunction) -> m.Constructor:
-        scope = self.scope(owner)
-        return m.Constructor(
-            class_name(owner.name),
-            self._parameters(function, scope),
-            self._body(function, scope, owner.name),
-            _annotations(function.markers, owner),
-            function.cpp.span(function.node),
-        )
+    def _constructors(self, owner: CppClass) -> Iterator[m.Constructor]:
+        """Those of the model, with what happens before and after them."""
+        bodies = self._bodies(owner)
+        given = bodies.given(initial_values(self.code, owner), owner.name)
+        at_start = (p for p in self._timed_servers(owner) if p[0].at_start)
+        started = bodies.started(at_start, owner.name)
+        name, found = class_name(owner.name), 0
+        for function in self.code.functions_of(owner):
+            if function.name != "construct":
+                continue
+            found += 1
+            body = bodies.block(function, owner.name)
+            if body is not None:
+                body = replace(body, statements=(*given, *body.statements, *started))
+            yield m.Constructor(
+                name,
+                bodies.parameters(function),
+                body,
+                _annotations(function.markers, owner),
+                function.cpp.span(function.node),
+            )
+        if not found and (given or started):
+            yield m.Constructor(name, (), m.Block((*given, *started)))
 
-    def _parameters(self, function: CppFunction, scope: Scope) -> tuple[m.Parameter, ...]:
-        found = []
-        for parameter in function.parameters:
-            span = function.cpp.span(parameter.node)
-            type_ = type_of(parameter.type)
-            if type_ is None:
-                why = f'the model has no type "{text_of(parameter.type)}"'
-                self.findings.unreadable(function.cpp.source, Unread(span, why), function.name)
-            found.append(m.Parameter(type_ or m.Type("int"), scope.local(parameter.name), span))
-        return tuple(found)
-
-    def _body(self, function: CppFunction, scope: Scope, within: str) -> m.Block | None:
-        if function.body is None:
-            return None
-        constants = self.code.constants_for(function.cpp)
-        scope = replace(scope, constants=constants)
-        inside = scope.declare(*(p.name for p in function.parameters))
-        reader = CppStatements(function.cpp, inside, self.findings, within)
-        return reader.block(function.body)
+    def _bodies(self, owner: CppClass) -> Bodies:
+        return Bodies(self.code, self.scope(owner), self.findings)
 
     # --- names ----------------------------------------------------------------------------------
 
@@ -312,7 +360,7 @@ class Classes:
             roles = self.roles[above.name]
             for member in above.fields:
                 runtime = self._runtime(member)
-                members[member.name] = runtime or Variable(self.variable(above, member))
+                members[member.name] = runtime or Variable(variable_name(roles, member))
             for function in self.code.functions_of(above):
                 served = self._served(above, function)
                 if function.name in roles.sends:
@@ -320,31 +368,26 @@ class Classes:
                 elif served is not None:
                     functions[function.name] = Called(served, server=True)
                 elif self._is_of_model(above, function):
-                    functions[function.name] = Called(self._plain(function))
+                    functions[function.name] = Called(plain_name(function, self.types))
                     callable_.add(function.name)
             callable_ |= roles.constants | set(roles.sends)
+        for function in self._free(owner):
+            functions[function.name] = Called(plain_name(function, self.types))
+            callable_.add(function.name)
         bases = {b: class_name(b) for b in self._above(owner)}
-        return Scope(members, functions, bases, self.types, frozenset(callable_))
-
-
-def _is_interface(owner: CppClass) -> bool:
-    """Whether a class only says what its heirs can do."""
-    destructor = f"~{owner.name}"
-    names = {f.name for f in owner.functions}
-    others = (f for f in owner.functions if f.name != destructor)
-    return not owner.fields and destructor in names and all(f.pure for f in others)
+        timers = {t.call.node.id: server_of_timer(t, n) for t, n in self._timed_servers(owner)}
+        return Scope(
+            members,
+            functions,
+            bases,
+            self.types,
+            frozenset(callable_),
+            timers=timers,
+            messages=self.messages,
+            unit=self.unit,
+        )
 
 
 def _annotations(markers: tuple[str, ...], owner: CppClass) -> tuple[m.Annotation, ...]:
     span = owner.cpp.span(owner.node)
     return tuple(a for text in markers if (a := annotation(text, span)) is not None)
-
-
-def _state_types(code: Code, owner: CppClass) -> Iterator[str]:
-    """The types of the messages that tell the state of a class's nodes."""
-    for function in code.functions_of(owner):
-        if function.name == "publishState" and function.body is not None:
-            for statement in named(function.body)[:1]:
-                type_ = statement.child_by_field_name("type")
-                if type_ is not None:
-                    yield text_of(type_)

@@ -6,45 +6,55 @@ generated. Anything else is listed: the model would not show it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Container, Iterator, Mapping, Sequence
 
 from tree_sitter import Node
 
-from rebsync.reverse.cpp_calls import call_of, calls_in
+from rebsync.reverse.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.cpp_tree import named, part, text_of
 from rebsync.reverse.findings import Findings, Unread
-from rebsync.reverse.ros1_roles import Roles
+from rebsync.reverse.ros1_roles import Roles, Taken, call_in
+from rebsync.reverse.ros1_sends import odd_in_send
+from rebsync.reverse.ros1_timers import timers_of
 
-_SETS_UP = frozenset(
-    {
-        *("param", "advertise", "advertiseAll", "subscribe", "subscribeOnBridge"),
-        *("readArray", "onServed", "construct", "unused"),
-    }
-)
+_SETS_UP = frozenset({"param", "advertise", "advertiseAll", "readArray", "unused"})
+_SUBSCRIBES = frozenset({"subscribe", "subscribeOnBridge"})
+_TELLS = frozenset({"flatten", "publish"})
 
 
 def check_plumbing(
-    code: Code, owner: CppClass, all_roles: Mapping[str, Roles], findings: Findings
+    code: Code,
+    owner: CppClass,
+    all_roles: Mapping[str, Roles],
+    fields: Mapping[str, Collection[str]],
+    findings: Findings,
 ) -> None:
-    """Lists what a class does outside of its bodies that the model cannot show."""
+    """Lists what a class does outside of its bodies that the model cannot show.
+
+    `fields` are those of each message type, in their order.
+    """
     roles = all_roles[owner.name]
-    topics = {t for c in code.lineage(owner.name) for t in all_roles[c.name].topics}
+    lineage = [all_roles[c.name] for c in code.lineage(owner.name)]
+    topics = {t for above in lineage for t in above.topics}
     for function in code.functions_of(owner):
         if function.body is None:
             continue
         if function.name == owner.name:
-            odd = _odd_in_constructor(function, roles)
+            odd = _odd_in_constructor(code, owner, function, roles)
             why = "a constructor of generated code only sets up; the model's own is construct()"
         elif function.name in roles.shims and function.name not in topics:
             odd = iter((function.node,))
             why = "no subscription takes messages to this: those of others do not arrive"
         elif function.name in roles.shims:
-            odd = _odd_in_shim(function)
+            odd = _odd_in_shim(function, roles, fields)
             why = "this does more than to hand a message to its handler"
         elif function.name in roles.sends:
-            odd = _odd_in_send(function)
+            odd = _odd_send(function, lineage, fields)
             why = "this does more than to send its arguments"
+        elif function.name == "publishState":
+            odd = (s for s in _statements(function) if not _tells(s))
+            why = "this does more than to tell the state"
         elif function.name == "construct" and not _is_constructed(code, owner):
             odd = iter((function.node,))
             why = "no constructor has this run"
@@ -66,32 +76,93 @@ def _statements(function: CppFunction) -> list[Node]:
     return named(function.body) if function.body is not None else []
 
 
-def _odd_in_constructor(function: CppFunction, roles: Roles) -> Iterator[Node]:
+def _odd_in_constructor(
+    code: Code, owner: CppClass, function: CppFunction, roles: Roles
+) -> Iterator[Node]:
     """Statements that neither set up anything nor prepare that."""
+    timers = {t.call.node.id for t in timers_of(code, owner, roles)}
     for statement in _statements(function):
-        names = {c.name for c in calls_in(statement)}
-        given = text_of(statement).partition("=")[0].strip()
-        handle = text_of(statement).startswith("const ros::NodeHandle ")
-        if not (names & _SETS_UP or handle or given in roles.globals):
+        given, _, _ = text_of(statement).partition("=")
+        prepares = given.startswith("const ros::NodeHandle ") or given.strip() in roles.globals
+        if not prepares and not _sets_up(statement, function, roles, timers):
             yield statement
 
 
-def _odd_in_shim(function: CppFunction) -> Iterator[Node]:
-    """The whole body, unless it hands every field on once."""
-    received = [c for c in calls_in(function.body) if c.name == "receive"]
+def _sets_up(statement: Node, function: CppFunction, roles: Roles, timers: Container[int]) -> bool:
+    """Whether it is one call that sets something up, whose value may be kept."""
+    inner = named(statement)[0] if statement.type == "expression_statement" else statement
+    if inner.type == "assignment_expression":
+        inner = part(inner, "right")
+    call = call_of(inner)
+    if call is None:
+        return False
+    match call.name:
+        case "createTimer" | "createWallTimer" | "createSteadyTimer":
+            return call.node.id in timers
+        case "onServed":
+            return _hands_on(call, "publishState", None)
+        case "construct":
+            return _hands_on(call, "construct", [p.name for p in function.parameters])
+        case name if name in _SUBSCRIBES:
+            callback = call.arguments[-1] if call.arguments else None
+            lambda_ = callback is not None and callback.type == "lambda_expression"
+            taken = any(callback == t.shim for t in roles.taken)
+            return call.node.id in roles.wired and (taken or not lambda_)
+        case name:
+            return name in _SETS_UP
+
+
+def _hands_on(call: CppCall, function: str, given: Sequence[str] | None) -> bool:
+    """Whether a lambda only calls this function, with the last of what is given in its order."""
+    found = call_in(call.arguments[-1]) if call.arguments else None
+    passed = [text_of(a) for a in found[1]] if found is not None else []
+    in_order = given is None or passed == list(given)[len(given) - len(passed) :]
+    return found is not None and found[0] == function and in_order
+
+
+def _tells(statement: Node) -> bool:
+    """Whether it is a statement of `publishState`: fills the message, or publishes it."""
+    if statement.type == "declaration":
+        return True
+    expression = named(statement)[0] if named(statement) else statement
+    if expression.type == "assignment_expression":
+        target, value = part(expression, "left"), part(expression, "right")
+        return text_of(target).startswith("msg.") and next(calls_in(value), None) is None
+    call = call_of(expression)
+    return call is not None and call.name in _TELLS
+
+
+def _odd_send(
+    function: CppFunction, lineage: Sequence[Roles], fields: Mapping[str, Collection[str]]
+) -> Iterator[Node]:
+    handlers = {f: s for roles in reversed(lineage) for f, s in roles.handlers.items()}
+    made = next((s for s in _statements(function) if s.type == "declaration"), None)
+    type_ = text_of(part(made, "type")).rpartition("::")[2] if made is not None else ""
+    order = list(fields[type_]) if type_ in fields else None
+    return odd_in_send(function, lineage[0].sends[function.name], handlers, order)
+
+
+def _odd_in_shim(
+    function: CppFunction, roles: Roles, fields: Mapping[str, Collection[str]]
+) -> Iterator[Node]:
+    """The whole body, unless it hands every field on once, in the message's order."""
+    received = [t for t in roles.taken if t.shim == function.node]
     statements = _statements(function)
     if len(statements) != 1 or len(received) != 1:
         yield from statements
-        return
-    body = received[0].arguments[-1]
-    called = [c for c in calls_in(body) if c.target is None or c.target.type == "this"]
-    handler = called[0] if called else None
-    if handler is None or len(named(part(body, "body"))) != 1:
-        yield body
-        return
-    fields = [_field(a) for a in handler.arguments]
-    if None in fields or len(set(fields)) != len(fields):
-        yield body
+    elif not _hands_fields_on(received[0], fields.get(received[0].type)):
+        yield received[0].call.arguments[-1]
+
+
+def _hands_fields_on(taken: Taken, order: Collection[str] | None) -> bool:
+    """Whether a handler gets the fields; a lambda that is the handler takes what it wants."""
+    called = call_in(taken.call.arguments[-1])
+    if taken.handler is None or called is None:
+        return taken.handler is None
+    passed = [_field(a) for a in called[1]]
+    if None in passed or len(set(passed)) != len(passed):
+        return False
+    return order is None or passed == list(order)
 
 
 def _field(argument: Node) -> str | None:
@@ -101,46 +172,3 @@ def _field(argument: Node) -> str | None:
         text = text[text.rindex("(") + 1 : -1]
     name = text.removeprefix("msg->")
     return name if name != text and name.isidentifier() else None
-
-
-def _odd_in_send(function: CppFunction) -> Iterator[Node]:
-    """Statements that do not put one parameter after the other into the message, or send it."""
-    waiting = [p.name for p in function.parameters if p.name not in ("when_", "to_")]
-    for statement in _statements(function):
-        if statement.type == "declaration":
-            continue
-        call = next(calls_in(statement), None)
-        if call is not None and call.name == "post":
-            if _passed(call.arguments[-1]) != waiting:
-                yield statement
-            waiting = []
-        elif call is not None and (call.name == "publish" or _is_sender(statement)):
-            continue
-        elif not waiting or not _stores(statement, waiting.pop(0)):
-            yield statement
-    if waiting and function.body is not None:
-        yield function.body
-
-
-def _stores(statement: Node, parameter: str) -> bool:
-    """Whether it is `msg_.field = parameter;` or `flatten(parameter, msg_.field);`."""
-    (expression,) = named(statement) or [statement]
-    if expression.type == "assignment_expression":
-        target, value = part(expression, "left"), part(expression, "right")
-    elif (call := next(calls_in(expression), None)) is not None and call.name == "flatten":
-        value, target = call.arguments
-    else:
-        return False
-    return text_of(value) == parameter and text_of(target).startswith("msg_.")
-
-
-def _is_sender(statement: Node) -> bool:
-    return "".join(text_of(statement).split()) == "msg_.sender=mailbox_.self();"
-
-
-def _passed(body: Node) -> list[str] | None:
-    """The arguments of the call that is all a lambda does; None where it does something else."""
-    statements = named(part(body, "body")) if body.type == "lambda_expression" else []
-    inner = named(statements[0]) if len(statements) == 1 else []
-    call = call_of(inner[0]) if len(inner) == 1 else None
-    return [text_of(a) for a in call.arguments] if call is not None else None

@@ -15,13 +15,17 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.names import original, uncarry
 from rebsync.records import dataclass
-from rebsync.reserved import OWN_TOPICS, RUNTIME_TOPICS
+from rebsync.reserved import OWN_TOPICS
 from rebsync.reverse.cpp_calls import CppCall, assigned_in, call_of, calls_in, string_of
-from rebsync.reverse.cpp_index import Code, CppClass, CppFunction
-from rebsync.reverse.cpp_tree import Cpp, named, text_of
+from rebsync.reverse.cpp_declarations import parameters_in
+from rebsync.reverse.cpp_index import Code, CppClass, CppFunction, CppParameter
+from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.scope import Sends
 
 _SENSOR = "_sensor_"
+_DEEP = 100
+# Handles of the rebec's own topics.
+_OWN_HANDLES = ("node", "ros::NodeHandle(node)")
 Overload: TypeAlias = tuple[str, int]  # a server, and how many arguments it takes
 
 
@@ -34,13 +38,40 @@ class Advertised:
     message: str
 
 
+@dataclass(frozen=True, slots=True)
+class Taken:
+    """A call that puts a message into the mailbox: `message` is the parameter that has it.
+
+    `handler` is the function that serves it; None where a lambda does all that itself. `shim` is
+    what the subscription calls, a function or a lambda.
+    """
+
+    server: str
+    handler: str | None
+    message: CppParameter
+    shim: Node
+    topic: str
+    function: CppFunction
+    call: CppCall
+
+    @property
+    def type(self) -> str:
+        """The message's type, without its package."""
+        text = text_of(self.message.type)
+        for end in ("::ConstPtr", "ConstPtr", "::Ptr"):
+            text = text.removesuffix(end)
+        return text.rpartition("::")[2]
+
+
 @dataclass(slots=True)
 class Roles:
     """Of one class alone: by function what it serves or sends, by member what that stands for.
 
     `handlers` and `messages` give the server's name in the model, `globals` the entry of the
     parameter server and the default, `annotations` those that the set-up of a server shows; of
-    overloads that take equally many arguments the first one's first.
+    overloads that take equally many arguments the first one's first. `topics` are those of shims
+    by their names, `wired` the calls that make them and publishers of the rebec; `passing` are
+    callbacks of timers that only post a message.
     """
 
     handlers: dict[str, str] = field(default_factory=dict)
@@ -55,13 +86,16 @@ class Roles:
     on_bridge: bool = False
     sensors: set[str] = field(default_factory=set)
     topics: dict[str, str] = field(default_factory=dict)
+    taken: list[Taken] = field(default_factory=list)
+    wired: set[int] = field(default_factory=set)
+    passing: set[str] = field(default_factory=set)
     queue_length: int | None = None
 
 
 def roles_of(code: Code, owner: CppClass) -> Roles:
     """Reads what a class's constructors set up, and what its functions do with it.
 
-    Sends are left out here: `add_sends` needs the handlers of all classes.
+    Sends are left out here: `ros1_sends.add_sends` needs the handlers of all classes.
     """
     roles = Roles()
     functions = list(code.functions_of(owner))
@@ -77,26 +111,13 @@ def roles_of(code: Code, owner: CppClass) -> Roles:
     for function in functions:
         for call in code.calls_of(function):
             if call.name == "receive" and len(call.arguments) == 5:
-                _received(code, roles, function, call)
+                _received(code, owner, roles, function, call)
     return roles
 
 
-def add_sends(code: Code, owner: CppClass, all_roles: dict[str, Roles]) -> None:
-    """Reads which functions of a class send what to whom."""
-    lineage = [all_roles[c.name] for c in code.lineage(owner.name)]
-    publishers = {n: p for roles in reversed(lineage) for n, p in roles.publishers.items()}
-    servers = {m: s for roles in all_roles.values() for m, s in roles.messages.items()}
-    roles = all_roles[owner.name]
-    for function in code.functions_of(owner):
-        for call in code.calls_of(function):
-            sends = _sent(code, function, call, publishers, servers)
-            if sends is not None:
-                roles.sends[function.name] = sends
-
-
-def _port(roles: Roles, shim: str) -> Iterator[m.Annotation]:
+def _port(topic: str) -> Iterator[m.Annotation]:
     """`@Port` of a server whose topic says so."""
-    if roles.topics.get(shim, "").startswith("port/"):
+    if topic.startswith("port/"):
         yield m.Annotation("Port")
 
 
@@ -145,14 +166,21 @@ def _member(roles: Roles, member: str, call: CppCall) -> None:
             roles.known[member] = original(first.partition("/")[2])
         case "param", "global" if len(call.arguments) == 2:
             roles.globals[member] = first, call.arguments[1]
+        case "subscribe", on if on in _OWN_HANDLES and len(call.arguments) in (3, 4):
+            if _is_deep(call.arguments[1]):
+                roles.wired.add(call.node.id)
+                roles.topics[text_of(call.arguments[2]).rpartition("::")[2]] = first
         case "advertise", "mailbox_" if call.types:
+            roles.wired.add(call.node.id)
             known, _, key = first.rpartition("/")
             to = uncarry(known, OWN_TOPICS)
             roles.publishers[member] = Advertised(to, key, text_of(call.types[0]))
         case "subscribe" | "subscribeOnBridge", "mailbox_" if len(call.arguments) == 3:
+            roles.wired.add(call.node.id)
             roles.on_bridge = roles.on_bridge or call.name == "subscribeOnBridge"
             roles.topics[text_of(call.arguments[1]).rpartition("::")[2]] = first
         case "advertiseAll", "mailbox_" if call.types and len(call.arguments) == 2:
+            roles.wired.add(call.node.id)
             key = string_of(call.arguments[1]) or ""
             roles.publishers[member] = Advertised(None, key, text_of(call.types[0]))
 
@@ -174,45 +202,85 @@ def _queue_length(constructor: CppFunction) -> int | None:
 # --- what functions do --------------------------------------------------------------------------
 
 
-def _received(code: Code, roles: Roles, function: CppFunction, call: CppCall) -> None:
+def _received(
+    code: Code, owner: CppClass, roles: Roles, function: CppFunction, call: CppCall
+) -> None:
     server = server_of(code, function.cpp, text_of(call.arguments[0]))
-    handler = next(_own_calls(call.arguments[4]), None)
-    if server is None or handler is None or not function.parameters:
+    shim = _around(call.node, function, "lambda_expression")
+    parameters = function.parameters if shim is None else parameters_of(shim)
+    if server is None or not parameters:
         return
-    message = text_of(function.parameters[0].type).partition("::ConstPtr")[0]
-    roles.shims.add(function.name)
-    roles.handlers[handler.name] = server
-    shown = *_port(roles, function.name), *_priority(code, function, call)
-    roles.annotations.setdefault((server, len(handler.arguments)), []).append(shown)
-    roles.messages[message.rpartition("::")[2]] = server
+    if shim is None:
+        roles.shims.add(function.name)
+        topic = roles.topics.get(function.name, "")
+    else:
+        topic = _topic_around(shim, function)
+    called = call_in(call.arguments[4])
+    handler = called[0] if called is not None and _is_plain(code, owner, called[0]) else None
+    taken = Taken(server, handler, parameters[0], shim or function.node, topic, function, call)
+    roles.taken.append(taken)
+    if handler is not None:
+        roles.handlers[handler] = server
+        arguments = len(called[1]) if called is not None else 0
+        shown = *_port(topic), *_priority(code, function, call)
+        roles.annotations.setdefault((server, arguments), []).append(shown)
+    roles.messages[taken.type] = server
     roles.constants.add(text_of(call.arguments[0]))
 
 
-def _sent(
-    code: Code,
-    function: CppFunction,
-    call: CppCall,
-    publishers: dict[str, Advertised],
-    servers: dict[str, str],
-) -> Sends | None:
-    if call.name == "post" and len(call.arguments) == 4 and call.on == "mailbox_":
-        server = server_of(code, function.cpp, text_of(call.arguments[0]))
-        return Sends("self", server, len(function.parameters) - 1) if server else None
-    if call.name != "publish" or call.on != "mailbox_" or len(call.arguments) != 3:
-        return None
-    where, others = call.arguments[0], 1
-    chosen = call_of(where)
-    if chosen is not None and chosen.name == "to" and chosen.arguments:
-        where, others = chosen.arguments[0], 2
-    publisher = publishers.get(text_of(where))
-    if publisher is None:
-        return None
-    server = servers.get(publisher.message) or uncarry(publisher.key, RUNTIME_TOPICS)
-    return Sends(publisher.known, server, len(function.parameters) - others)
+def shown_of(code: Code, taken: Taken) -> tuple[m.Annotation, ...]:
+    """The annotations that the set-up of a server shows whose handler is a lambda."""
+    return *_port(taken.topic), *_priority(code, taken.function, taken.call)
 
 
-def _own_calls(node: Node) -> Iterator[CppCall]:
-    """The calls of functions of the class in a lambda."""
-    for call in calls_in(node):
-        if call.target is None or call.target.type == "this":
-            yield call
+def _is_plain(code: Code, owner: CppClass, name: str) -> bool:
+    """Whether it is a function of the class or above that does not just send."""
+    found = [f for c in code.lineage(owner.name) for f in c.functions if f.name == name]
+    return any(not f.types or f.types[-1] != "When" for f in found)
+
+
+def _around(node: Node, function: CppFunction, kind: str) -> Node | None:
+    """The innermost node of a kind around one, with parameters if it is a lambda."""
+    above = node.parent
+    while above is not None and above != function.node:
+        if above.type == kind and (kind != "lambda_expression" or parameters_of(above)):
+            return above
+        above = above.parent
+    return None
+
+
+def _topic_around(shim: Node, function: CppFunction) -> str:
+    """The topic of the subscription whose callback a lambda is."""
+    around = _around(shim, function, "call_expression")
+    call = call_of(around) if around is not None else None
+    if call is None or not call.name.startswith("subscribe") or not call.arguments:
+        return ""
+    return string_of(call.arguments[0]) or ""
+
+
+def parameters_of(lambda_: Node) -> tuple[CppParameter, ...]:
+    """The parameters of a lambda."""
+    declarator = lambda_.child_by_field_name("declarator")
+    found = declarator.child_by_field_name("parameters") if declarator is not None else None
+    return tuple(parameters_in(found)) if found is not None else ()
+
+
+def call_in(body: Node) -> tuple[str, list[Node]] | None:
+    """The function of the class that a lambda only calls, or that is bound, and the arguments."""
+    if body.type == "call_expression":
+        bound = call_of(body)
+        if bound is None or not bound.name.endswith("bind") or len(bound.arguments) < 2:
+            return None
+        return text_of(bound.arguments[0]).rpartition("::")[2], list(bound.arguments[2:])
+    statements = named(part(body, "body")) if body.type == "lambda_expression" else []
+    inner = named(statements[0]) if len(statements) == 1 else []
+    call = call_of(inner[0]) if len(inner) == 1 else None
+    if call is None or not (call.target is None or call.target.type == "this"):
+        return None
+    return call.name, list(call.arguments)
+
+
+def _is_deep(depth: Node) -> bool:
+    """Whether so deep a queue loses nothing before the mailbox takes it in."""
+    text = text_of(depth)
+    return text == "kQueueSize" or (text.isdecimal() and int(text) >= _DEEP)

@@ -1,4 +1,4 @@
-"""Edits by hand come back as the change of the model that they are (edits.toml)."""
+"""Edits by hand come back as the change of the model that they are (edits.toml), or are listed."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 
 from rebsync.grammars.parser import parse_model
 from rebsync.source import Source
-from tests.reverse.laws import assert_says
+from tests.reverse.laws import assert_says, extracted
 from tests.reverse.test_laws import EXAMPLES, package_of
 
 if sys.version_info >= (3, 11):
@@ -18,9 +18,9 @@ if sys.version_info >= (3, 11):
 else:
     import tomli as tomllib
 
-EDITS: dict[str, Any] = tomllib.loads(
-    Path(__file__).with_name("edits.toml").read_text(encoding="utf-8")
-)
+HERE = Path(__file__).parent
+EDITS: dict[str, Any] = tomllib.loads((HERE / "edits.toml").read_text(encoding="utf-8"))
+LISTED: dict[str, Any] = tomllib.loads((HERE / "listed_edits.toml").read_text(encoding="utf-8"))
 BY_NAME = {example.name: example for example in EXAMPLES}
 
 
@@ -28,11 +28,7 @@ BY_NAME = {example.name: example for example in EXAMPLES}
 def test_edits_come_back(name: str) -> None:
     edit = EDITS[name]
     example = BY_NAME[edit["example"]]
-    files = package_of(example)
-    for source, target, old, new in edit.get("copies", ()):
-        files[target] = files[source].replace(old, new).replace(old.lower(), new.lower())
-    for path, old, new in edit["code"]:
-        files[path] = replaced(files[path], old, new)
+    files = edited(edit)
     text = (example / f"{example.name}.rebeca").read_text(encoding="utf-8")
     for old, new in edit.get("copied", ()):
         _, head, rest = text.partition(f"@Robot\nreactiveclass {old}(")
@@ -41,6 +37,25 @@ def test_edits_come_back(name: str) -> None:
     for old, new, *within in edit["model"]:
         text = replaced_in(text, within[0], old, new) if within else replaced(text, old, new)
     assert_says(files, parse_model(Source("edited.rebeca", text)).model)
+
+
+@pytest.mark.parametrize("name", LISTED)
+def test_what_the_model_cannot_show_is_listed(name: str) -> None:
+    edit = LISTED[name]
+    found = extracted(edited(edit)).findings
+    assert len(found) == len(edit["listed"]), [(f.text, f.why) for f in found]
+    for finding, text in zip(found, edit["listed"], strict=True):
+        assert finding.text.startswith(text), (finding.text, finding.why)
+
+
+def edited(edit: dict[str, Any]) -> dict[str, str]:
+    """The package with its copies, new files (replaced is nothing) and replaced texts."""
+    files = package_of(BY_NAME[edit["example"]])
+    for source, target, old, new in edit.get("copies", ()):
+        files[target] = files[source].replace(old, new).replace(old.lower(), new.lower())
+    for path, old, new in edit["code"]:
+        files[path] = replaced(files[path], old, new) if old else new
+    return files
 
 
 def replaced(text: str, old: str, new: str) -> str:

@@ -1,0 +1,61 @@
+"""The model's names of what a class of generated code declares."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator
+
+from rebsync.names import carry, uncarry
+from rebsync.reserved import RESERVED, RUNTIME_MEMBERS
+from rebsync.reverse.cpp_index import Code, CppClass, CppField, CppFunction
+from rebsync.reverse.cpp_tree import named, text_of
+from rebsync.reverse.ros1_roles import Roles
+
+
+def variable_name(roles: Roles, member: CppField) -> str:
+    """The model's name of a member variable, from its marker unless it was renamed."""
+    known = roles.known.get(member.name)
+    if known is not None:
+        return known
+    for marker in member.markers:
+        kind, path, *_ = [*marker.split(), "", ""]
+        name = path.rpartition(".")[2]
+        carried = re.escape(carry(name, RUNTIME_MEMBERS))
+        if kind in ("statevar", "env") and re.fullmatch(rf"{carried}_(_\d+)?", member.name):
+            return name
+    return uncarry(member.name.removesuffix("_"), RUNTIME_MEMBERS)
+
+
+def plain_name(function: CppFunction, types: Collection[str]) -> str:
+    """The model's name of a function, from its marker unless it was renamed.
+
+    `types` are the names of classes and messages, which functions give way to.
+    """
+    reserved = RESERVED | set(types)
+    for marker in function.markers:
+        kind, path, *_ = [*marker.split(), "", ""]
+        name = path.rpartition(".")[2]
+        if kind not in ("msgsrv", "method") or not path:
+            continue
+        apart = function.name.startswith(f"{name}_")  # from overloads that C++ cannot tell
+        if apart or carry(name, reserved) == function.name:
+            return name
+    return uncarry(function.name, reserved)
+
+
+def is_interface(owner: CppClass) -> bool:
+    """Whether a class only says what its heirs can do."""
+    destructor = f"~{owner.name}"
+    names = {f.name for f in owner.functions}
+    others = (f for f in owner.functions if f.name != destructor)
+    return not owner.fields and destructor in names and all(f.pure for f in others)
+
+
+def state_types(code: Code, owner: CppClass) -> Iterator[str]:
+    """The types of the messages that tell the state of a class's nodes."""
+    for function in code.functions_of(owner):
+        if function.name == "publishState" and function.body is not None:
+            for statement in named(function.body)[:1]:
+                type_ = statement.child_by_field_name("type")
+                if type_ is not None:
+                    yield text_of(type_)
