@@ -24,12 +24,13 @@ _BUILDS = frozenset({"build", "devel", "install", "log"})
 _TESTS = frozenset({"test", "tests"})
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Listing:
     """The files of a package, or of a directory that is none, by their paths in it.
 
     `only` is the file that is asked for, if it is one; `odd` are the files that cannot be read,
-    each with the reason. Paths have slashes, and are text whatever the bytes of the names.
+    each with the reason; `size` is that of all code in bytes. Paths have slashes, and are text
+    whatever the bytes of the names.
     """
 
     root: str
@@ -37,6 +38,7 @@ class Listing:
     only: str | None = None
     odd: dict[str, str] = field(default_factory=dict)
     is_package: bool = True
+    size: int = 0
 
 
 def listings(path: str) -> Iterator[Listing]:
@@ -60,7 +62,7 @@ def listings(path: str) -> Iterator[Listing]:
 
 def _around(path: str) -> Listing:
     """A file together with the package that it is in, if it is in one."""
-    here = Path(path)
+    here = Path(path) if ".." not in Path(path).parts else Path(path).resolve()
     root = next((d for d in _above(here) if _has_manifest(str(d))), None)
     if root is None:
         return Listing(str(here.parent), {here.name: path}, here.name, is_package=False)
@@ -128,12 +130,13 @@ def _add(listing: Listing, entry: os.DirEntry[str], inside: str) -> None:
         return
     name = inside + shown(entry.name)
     try:
-        mode = entry.stat().st_mode
+        found = entry.stat()
     except OSError as error:
         listing.odd[name] = _reason(entry.path, error)
         return
-    if stat.S_ISREG(mode):
+    if stat.S_ISREG(found.st_mode):
         listing.files[name] = entry.path
+        listing.size += found.st_size if suffix in CODE else 0
     else:
         listing.odd[name] = "this is no regular file"
 
