@@ -190,11 +190,11 @@ def _queue_length(constructor: CppFunction) -> int | None:
     if constructor.initialisers is not None:
         for initialiser in named(constructor.initialisers):
             for argument in named(initialiser.named_children[-1]):
-                if argument.type == "number_literal":
+                if text_of(argument).isdecimal():
                     return int(text_of(argument))
     for parameter in constructor.parameters:
         default = parameter.node.child_by_field_name("default_value")
-        if default is not None and default.type == "number_literal":
+        if default is not None and text_of(default).isdecimal():
             return int(text_of(default))
     return None
 
