@@ -60,7 +60,7 @@ def test_what_is_missed() -> None:
 
 def test_what_no_fact_says() -> None:
     found = compare([fact()], [answer(), answer(line=4), answer("parameter")])
-    assert (found.recall, found.precision) == (1.0, 1 / 3)
+    assert (found.recall, found.precision, found.count(WRONG)) == (1.0, 1 / 3, 2)
     assert [e["line"] for e in found.extra] == [3, 4] or [e["line"] for e in found.extra] == [4, 3]
 
 
@@ -131,6 +131,8 @@ def test_callers_stand_for_a_helper() -> None:
     assert figures(compare([helper], [at_x, at_y])) == (1, 2, 0, 0)
     assert figures(compare([helper], [at_x])) == (0, 1, 0, 0)
     assert figures(compare([helper], [at_x, {**at_y, "name": "~z"}])) == (0, 1, 0, 1)
+    inside = answer("parameter", name=UNKNOWN, default=None)
+    assert figures(compare([helper], [inside, at_x, at_y])) == (1, 2, 1, 0)
     both = answer("parameter", name={"one_of": ["~y", "~x"]}, default=None)
     assert figures(compare([helper], [both, at_x])) == (1, 2, 0, 0)
 
@@ -169,6 +171,7 @@ def test_callers_stand_for_a_helper() -> None:
         ("parameter", "default", None, None, RIGHT),
         ("parameter", "default", None, [], RIGHT),
         ("parameter", "default", None, 5, WRONG),
+        ("parameter", "default", None, UNKNOWN, OPEN),
         ("parameter", "default", True, 1, WRONG),
         ("parameter", "value", "on", "on", RIGHT),
         ("parameter", "value", "on", "off", WRONG),
@@ -180,6 +183,13 @@ def test_a_detail(kind: str, key: str, wanted: Json, given: Json, verdict: Verdi
     found = compare([fact(kind, **{key: wanted})], [answer(kind, **{key: given})])
     assert found.details()[key] == {verdict: 1}
     assert found.found == 1
+
+
+def test_details_that_are_not_spoken_of() -> None:
+    counts = compare([fact("timer")], [answer("timer")]).details()
+    assert set(counts) == {"callback", "period", "one_shot", "node_class"}
+    stopped = compare([fact("timer")], [answer("timer", autostart=False)])
+    assert stopped.details()["autostart"] == {WRONG: 1}
 
 
 def test_callbacks_that_have_two_names() -> None:
@@ -194,7 +204,13 @@ def test_callbacks_that_have_two_names() -> None:
 
 def test_callbacks_of_which_one_is_chosen() -> None:
     chosen = fact("subscription", callback={"one_of": ["C::a", "C::b"]})
-    for names, verdict in ((["C::b", "C::a"], RIGHT), (["C::a"], WRONG), (["C::a", "C::c"], WRONG)):
+    unsaid = ["C::a", None]
+    for names, verdict in (
+        (["C::b", "C::a"], RIGHT),
+        (["C::a"], WRONG),
+        (["C::a", "C::c"], WRONG),
+        (unsaid, OPEN),
+    ):
         given = {"one_of": [{"function": name} for name in names]}
         found = compare([chosen], [answer("subscription", callback=given)])
         assert found.details()["callback"] == {verdict: 1}
@@ -241,12 +257,14 @@ PERIOD = {"parameter": "~rate", "default": 0.2, "expression": "1/value"}
         (TOPIC, "scan", WRONG),
         ({"parameter": "~t"}, {"parameter": "~t", "default": ""}, RIGHT),
         ({"parameter": "~t"}, {"parameter": "~t", "default": "x"}, WRONG),
+        ({"parameter": "~t"}, {"parameter": "~t", "default": UNKNOWN}, OPEN),
         (PERIOD, {**PERIOD, "default": 5.0, "expression": "1.0 / value"}, RIGHT),
         (PERIOD, {**PERIOD, "default": 4.0}, WRONG),
         (PERIOD, {**PERIOD, "expression": "2 / value"}, WRONG),
         (PERIOD, {"parameter": "~rate", "default": 0.2}, WRONG),
         ({"one_of": ["x", "y"]}, {"one_of": ["y", "x"]}, RIGHT),
         ({"one_of": ["x", "y"]}, {"one_of": ["x"]}, WRONG),
+        ({"one_of": ["x", "y", "z"]}, {"one_of": ["x"]}, WRONG),
         ({"one_of": ["x", "y"]}, {"one_of": ["x", "y", "z"]}, WRONG),
         ({"one_of": ["x", "y"]}, {"one_of": ["x", UNKNOWN]}, OPEN),
         (
@@ -263,6 +281,7 @@ PERIOD = {"parameter": "~rate", "default": 0.2, "expression": "1/value"}
         (HANDLE, {**UNKNOWN, "partial": "*/speed"}, RIGHT),
         (HANDLE, {**UNKNOWN, "partial": "*/pace"}, WRONG),
         (HANDLE, UNKNOWN, OPEN),
+        (HANDLE, {"parameter": "~speed"}, WRONG),
     ],
 )
 def test_a_value(wanted: Json, given: Json, verdict: Verdict) -> None:
