@@ -1,0 +1,152 @@
+"""How long extraction takes, against what the parser alone needs for the same files.
+
+    python bench/extract.py [DIRECTORY] [--size MB] [--packages N] [--profile]
+
+Without a directory, packages are made whose code has so many megabytes (default 4, the size of
+ros_comm). `bare` is tree-sitter's parse of all files of C++, without looking at the trees;
+`one process` is reading and extracting all packages in turn, `ratio` the one over the other;
+`all processors` is what a command does. `--packages` makes N small packages and prints the
+memory on the way. Peak memory is that of the largest process.
+"""
+
+from __future__ import annotations
+
+import argparse
+import cProfile
+import gc
+import os
+import pstats
+import resource
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from time import perf_counter
+
+import tree_sitter_cpp
+from ros_packages import write_packages
+from tree_sitter import Language, Parser
+
+from rebsync.reverse.packages import CODE
+from rebsync.reverse.parallel import each
+from rebsync.reverse.reading import Chosen, packages
+from rebsync.reverse.recovery import extract
+
+
+def main() -> None:
+    options = _options()
+    gc.disable()  # as the command line does
+    with tempfile.TemporaryDirectory() as made:
+        if options.packages:
+            write_packages(Path(made), options.packages, libraries=1)
+            watch_memory(made, options.packages)
+            return
+        root = options.directory
+        if root is None:
+            root, size = made, 0
+            while size < options.size * 1e6:
+                size += write_packages(Path(made) / str(size), 5, seed=size)
+        compare(root)
+        if options.profile:
+            profile(root)
+
+
+def _options() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
+    parser.add_argument("directory", nargs="?")
+    parser.add_argument("--size", type=float, default=4.0, metavar="MB")
+    parser.add_argument("--packages", type=int, default=0, metavar="N")
+    parser.add_argument("--profile", action="store_true")
+    return parser.parse_args()
+
+
+# --- speed --------------------------------------------------------------------------------------
+
+
+def compare(root: str) -> None:
+    """Prints times, speeds and their ratio."""
+    texts = [p.read_bytes() for p in sorted(Path(root).rglob("*")) if _is_code(p, root)]
+    size = sum(map(len, texts)) / 1e6
+    bare = best(lambda: parse_all(texts))
+    alone = best(lambda: [work(given) for given in packages([root])])
+    every = best(lambda: list(each([root], work)))
+    read = sum(_size(given) for given in packages([root])) / 1e6
+    print(f"{len(texts)} files, {size:.2f} MB, of which {read:.2f} MB can matter")
+    for name, seconds in (("bare", bare), ("one process", alone), ("all processors", every)):
+        print(f"{name:15}{seconds:8.3f} s{size / seconds:8.2f} MB/s  ratio {seconds / bare:.2f}")
+    print(f"peak memory {peak():.0f} MB")
+
+
+def best(what: Callable[[], object], runs: int = 3) -> float:
+    """Seconds, the least of some runs."""
+    found = []
+    for _ in range(runs):
+        gc.collect()
+        start = perf_counter()
+        what()
+        found.append(perf_counter() - start)
+    return min(found)
+
+
+def parse_all(texts: list[bytes]) -> None:
+    """What tree-sitter alone does."""
+    parser = Parser(Language(tree_sitter_cpp.language()))
+    for text in texts:
+        parser.parse(text)
+
+
+def work(given: Chosen) -> tuple[int, int, float]:
+    """What is done with a package: the process, its memory now and the classes found."""
+    found = extract(given.files, given.only)
+    return os.getpid(), len(found.model.classes), memory()
+
+
+def _is_code(path: Path, root: str) -> bool:
+    """Whether a file is of C++, and in no hidden directory."""
+    hidden = any(part.startswith(".") for part in path.relative_to(root).parts)
+    return path.suffix in CODE and not hidden
+
+
+def _size(given: Chosen) -> int:
+    return sum(len(s.text) for name, s in given.files.items() if Path(name).suffix in CODE)
+
+
+def profile(root: str) -> None:
+    """Prints where the time goes."""
+    profiler = cProfile.Profile()
+    profiler.runcall(lambda: [work(given) for given in packages([root])])
+    pstats.Stats(profiler, stream=sys.stdout).sort_stats("tottime").print_stats(40)
+
+
+# --- memory -------------------------------------------------------------------------------------
+
+
+def watch_memory(root: str, count: int) -> None:
+    """Prints the memory after a tenth, a half and all of the packages."""
+    start = perf_counter()
+    largest: dict[int, float] = {}
+    marks = {max(1, round(count * share)): share for share in (0.1, 0.5, 1.0)}
+    for number, (process, _, used) in enumerate(each([root], work), 1):
+        largest[process] = used
+        if number in marks:
+            others = " ".join(f"{m:.0f}" for p, m in largest.items() if p != os.getpid())
+            print(
+                f"{marks[number]:4.0%} {number:6} packages {perf_counter() - start:7.1f} s"
+                f"  memory {memory():.0f} MB, of the others {others or '-'} MB"
+            )
+
+
+def memory() -> float:
+    """Megabytes that this process holds now."""
+    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
+    return pages * resource.getpagesize() / 1e6
+
+
+def peak() -> float:
+    """Megabytes that the largest process has held."""
+    who = (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
+    return max(resource.getrusage(w).ru_maxrss for w in who) / 1e3
+
+
+if __name__ == "__main__":
+    main()
