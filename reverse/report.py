@@ -7,12 +7,8 @@ from collections import Counter
 from collections.abc import Iterable
 
 from rebsync.diagnostics import Diagnostic, Findings
-from rebsync.printing import print_model
 from rebsync.reverse.findings import Finding, Grade
-from rebsync.reverse.graph import Graph
-from rebsync.reverse.graph_json import Data, Item, graph_data
-from rebsync.reverse.manifests import read_manifest
-from rebsync.reverse.reading import Chosen
+from rebsync.reverse.graph_json import Data, Item
 from rebsync.reverse.recovery import Extracted
 from rebsync.source import Source
 
@@ -85,35 +81,6 @@ def report_data(extracted: Extracted) -> Item:
     ]
     findings: list[Data] = [_finding(f) for f in extracted.findings]
     return {"grade": grade_of(extracted), "bodies": bodies, "findings": findings}
-
-
-def package_json(given: Chosen, extracted: Extracted) -> str:
-    """All that is known of a package, as one object on one line: graph, model, report."""
-    has_model = bool(extracted.model.classes)
-    return json.dumps(
-        {
-            "package": package_name(given),
-            "path": given.root,
-            "file": given.only,
-            **graph_data(graph_in(extracted)),
-            "model": print_model(extracted.model) if has_model else None,
-            "report": report_data(extracted),
-        },
-        ensure_ascii=False,
-        allow_nan=False,
-    )
-
-
-def package_name(given: Chosen) -> str | None:
-    """The name that the manifest of a package gives it."""
-    manifest = given.files.get("package.xml")
-    return read_manifest(manifest).name if manifest is not None else None
-
-
-def graph_in(extracted: Extracted) -> Graph:
-    """What the nodes ask ROS for."""
-    graph = getattr(extracted, "graph", None)
-    return graph if isinstance(graph, Graph) else Graph()
 
 
 def _finding(finding: Finding) -> Item:

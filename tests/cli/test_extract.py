@@ -76,7 +76,7 @@ def test_what_cannot_be_read_is_listed(package: Path) -> None:
         ("  msg_.pos_x = posX;", "  msg_.pos_x = posX + 1;", "more than to send"),
         ("  msg_.pos_x = posX;\n", "", "more than to send"),
         ("[this, msg] { P1(msg->cmd); }", "[this, msg] { P1(msg->cmd + 1); }", "hand a message"),
-        ("[this] { begin(); }", "[this] { begin(); begin(); }", "hand a message"),
+        ("[this] { begin(); }", "[this] { begin(); begin(); }", "more than to send"),
         ("  e1_ = global", "  pos_[0] = 3;\n  e1_ = global", "only sets up"),
         ("[=] { MoveInX(); }", "[=] { if (stopped_) MoveInX(); }", "more than to send"),
     ],

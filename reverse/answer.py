@@ -1,0 +1,84 @@
+"""What is told of a package: its model, a report, or one object with everything."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+from rebsync.diagnostics import Findings
+from rebsync.printing import print_model
+from rebsync.records import dataclass
+from rebsync.reverse.graph import Graph
+from rebsync.reverse.graph_json import graph_data
+from rebsync.reverse.manifests import read_manifest
+from rebsync.reverse.reading import Chosen
+from rebsync.reverse.recovery import Extracted, extract
+from rebsync.reverse.report import as_json, as_text, diagnostics, grade_of, report_data
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What is told of a package, as texts that another process can hand over.
+
+    `model` is None where no class was found; `asks` says that its nodes ask something of ROS.
+    `report` and `whole` are empty unless they are wanted.
+    """
+
+    name: str
+    root: str
+    grade: str
+    model: str | None
+    asks: bool
+    findings: tuple[Findings, ...]
+    report: str = ""
+    whole: str = ""
+
+
+def answer(given: Chosen, style: str | None, whole: bool) -> Answer:
+    """Reads a package; `style` is that of the report, `whole` asks for the object."""
+    read = extract(given.files, given.only)
+    extracted = replace(read, findings=given.findings + read.findings)
+    report = as_text if style == "text" else as_json
+    return Answer(
+        _package(given) or Path(given.root).resolve().name,
+        given.root,
+        grade_of(extracted),
+        _model(extracted),
+        bool(graph_in(extracted).facts),
+        () if whole or style == "json" else diagnostics(extracted.findings),
+        report(extracted) if style is not None else "",
+        package_json(given, extracted) if whole else "",
+    )
+
+
+def package_json(given: Chosen, extracted: Extracted) -> str:
+    """All that is known of a package, as one object on one line: graph, model, report."""
+    return json.dumps(
+        {
+            "package": _package(given),
+            "path": given.root,
+            "file": given.only,
+            **graph_data(graph_in(extracted)),
+            "model": _model(extracted),
+            "report": report_data(extracted),
+        },
+        ensure_ascii=False,
+        allow_nan=False,
+    )
+
+
+def _package(given: Chosen) -> str | None:
+    """The name that the manifest of a package gives it."""
+    manifest = given.files.get("package.xml")
+    return read_manifest(manifest).name if manifest is not None else None
+
+
+def _model(extracted: Extracted) -> str | None:
+    return print_model(extracted.model) if extracted.model.classes else None
+
+
+def graph_in(extracted: Extracted) -> Graph:
+    """What the nodes ask of ROS."""
+    graph = getattr(extracted, "graph", None)
+    return graph if isinstance(graph, Graph) else Graph()
