@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 from rebsync.diagnostics import RebsyncError
 from rebsync.grammars.parser import parse_model
@@ -15,13 +16,20 @@ def annotation(marker: str, span: Span) -> Annotation | None:
     kind, _, text = marker.partition(" ")
     if kind != "annotation":
         return None
-    source = Source("marker", f"{_without_rest(text)} reactiveclass A(1) {{}}")
+    found = _parsed(_without_rest(text))
+    return replace(found, span=span) if found is not None else None
+
+
+@cache
+def _parsed(text: str) -> Annotation | None:
+    """The annotation that a text is; kept, as packages have few and parsing takes a while."""
+    source = Source("marker", f"{text} reactiveclass A(1) {{}}")
     try:
         classes = parse_model(source).model.classes
     except RebsyncError:
         return None
     found = [a for c in classes if isinstance(c, ReactiveClass) for a in c.annotations]
-    return replace(found[0], span=span) if len(found) == 1 else None
+    return found[0] if len(found) == 1 else None
 
 
 def _without_rest(text: str) -> str:
