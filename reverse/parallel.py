@@ -22,7 +22,7 @@ from rebsync.reverse.reading import Chosen, all_listings, read
 
 T = TypeVar("T")
 
-_ENOUGH = 400_000  # bytes, from which on starting processes is paid back
+_ENOUGH = 100_000  # bytes, from which on starting processes is paid back
 _AHEAD = 4  # packages for each process that are handed out before their turn
 
 
