@@ -14,7 +14,7 @@ from rebsync.reverse.graph_json import graph_data
 from rebsync.reverse.manifests import read_manifest
 from rebsync.reverse.reading import Chosen
 from rebsync.reverse.recovery import Extracted, extract
-from rebsync.reverse.report import as_json, as_text, diagnostics, grade_of, report_data
+from rebsync.reverse.report import as_json, as_text, diagnostics, grade_of, report_data, summary
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,7 +22,8 @@ class Answer:
     """What is told of a package, as texts that another process can hand over.
 
     `model` is None where no class was found; `asks` says that its nodes ask something of ROS.
-    `report` and `whole` are empty unless they are wanted.
+    `summary` says how much is exact, and is empty when all is. `report` and `whole` are empty
+    unless they are wanted.
     """
 
     name: str
@@ -31,6 +32,7 @@ class Answer:
     model: str | None
     asks: bool
     findings: tuple[Findings, ...]
+    summary: str
     report: str = ""
     whole: str = ""
 
@@ -47,6 +49,7 @@ def answer(given: Chosen, style: str | None, whole: bool) -> Answer:
         _model(extracted),
         bool(graph_in(extracted).facts),
         () if whole or style == "json" else diagnostics(extracted.findings),
+        summary(extracted) if extracted.findings else "",
         report(extracted) if style is not None else "",
         package_json(given, extracted) if whole else "",
     )

@@ -50,12 +50,25 @@ def grade_of(extracted: Extracted) -> str:
 
 def as_text(extracted: Extracted) -> str:
     """A line for each body, and one for all."""
-    rows = shares(extracted)
-    width = max((len(name) for name, *_ in rows), default=0)
-    lines = [f"{name:{width}}  {_share(*counts)}" for name, *counts in rows]
-    total = [sum(column) for column in zip(*(counts for _, *counts in rows), strict=True)]
-    lines.append(f"{'all':{width}}  {_share(*(total or [0, 0, 0]))}")
-    return "".join(f"{line}\n" for line in lines)
+    rows = [(name, _share(*counts)) for name, *counts in shares(extracted)]
+    if outside := _outside(extracted):
+        rows.append(("elsewhere", outside))
+    rows.append(("all", summary(extracted)))
+    width = max(len(name) for name, _ in rows)
+    return "".join(f"{name:{width}}  {text}\n" for name, text in rows)
+
+
+def summary(extracted: Extracted) -> str:
+    """How many statements of all bodies are exact, and how many are not."""
+    rows = [counts for _, *counts in shares(extracted)]
+    return _share(*(sum(column) for column in zip([0, 0, 0], *rows, strict=True)))
+
+
+def _outside(extracted: Extracted) -> str:
+    """How many findings are in no body: files, plumbing, launch files."""
+    bodies = {name for name, _ in extracted.statements}
+    grades = Counter(f.grade for f in extracted.findings if f.within not in bodies)
+    return ", ".join(f"{grades[grade]} {grade.value}" for grade in Grade if grades[grade])
 
 
 def _share(statements: int, approximated: int, unreadable: int) -> str:

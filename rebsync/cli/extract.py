@@ -98,6 +98,9 @@ class _Told:
                 return None
             print_report(_nothing(given.root, True).findings, sys.stderr)
             return Status.UNDETERMINED
+        if given.summary and not given.report:
+            sys.stdout.flush()
+            click.echo(f"{given.root}: {given.summary}", err=True)
         return _STATUS[given.grade]
 
     def _tell_model(self, given: Answer, model: str) -> None:

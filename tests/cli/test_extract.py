@@ -60,6 +60,7 @@ def test_what_cannot_be_read_is_listed(package: Path) -> None:
     assert "@Unreadable;" in done.out
     line = 1 + source.read_text().split("\n").index("  std::sort(a, b);")
     assert f"experiment1/src/r_1.cpp:{line}:3: RS941 unreadable: " in done.err
+    assert done.err.endswith("experiment1: 31 of 32 statements exact, 1 unreadable\n")
     report = rebsync("extract", "experiment1", "--report", "json", cwd=package.parent)
     assert report.status == 4
     found = json.loads(report.out)
