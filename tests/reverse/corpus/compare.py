@@ -70,13 +70,13 @@ class Comparison:
     @property
     def unresolved(self) -> float:
         """Of all answers those that are open where the fact is not."""
-        return share(self.count(OPEN), self.reported)
+        return share(self.count(OPEN), self.reported, 0.0)
 
     @property
     def unknown(self) -> float:
         """Of all answers those with an unknown name or type, whether one can know it or not."""
         answers = [*(p.answer for p in self.answers), *self.extra]
-        return share(sum(map(_has_unknown, answers)), len(answers))
+        return share(sum(map(_has_unknown, answers)), len(answers), 0.0)
 
     def details(self) -> dict[str, Counter[Verdict]]:
         """The verdicts on each further key."""
@@ -87,9 +87,9 @@ class Comparison:
         return dict(found)
 
 
-def share(part: int, whole: int) -> float:
-    """A part of a whole; all of nothing."""
-    return part / whole if whole else 1.0
+def share(part: int, whole: int, of_nothing: float = 1.0) -> float:
+    """A part of a whole."""
+    return part / whole if whole else of_nothing
 
 
 def together(comparisons: Iterable[Comparison]) -> Comparison:

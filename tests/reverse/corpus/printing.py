@@ -16,7 +16,7 @@ _HEAD = (
     *("open", "unresolved", "unknown", "files", "KB", "seconds"),
 )
 _GRADES = ("over-approximated", "unreadable")
-_PACKAGES = ("exact", *_GRADES)
+_PACKAGES = ("no model", "exact", *_GRADES)
 _MOST = 15
 
 
@@ -94,7 +94,7 @@ def _bodies(results: Sequence[Result]) -> Iterator[str]:
     every = [(r.name, r.bodies) for r in [*results, _all(results)] if r.bodies is not None]
     if not every:
         return
-    head = ("bodies", "statements", *_GRADES, "exact", *(f"packages {g}" for g in _PACKAGES))
+    head = ("bodies", "statements", *_GRADES, "exact", *(f"packages: {g}" for g in _PACKAGES))
     yield _table([(*head, "seconds"), *(_grades(name, bodies) for name, bodies in every)])
     reasons = every[-1][1].reasons
     for grade in _GRADES:

@@ -28,7 +28,7 @@ class Bodies:
     """How the bodies of packages are read.
 
     `statements` are all, and `grades` those findings of each grade; `reasons` those of findings,
-    by grade, without what is particular; `packages` the grades of packages.
+    by grade, without what is particular; `packages` the grades of packages, or `no model`.
     """
 
     statements: int
@@ -94,7 +94,7 @@ def _bodies(given: Sequence[Chosen]) -> Bodies:
         sum(count for extracted in read for _, count in extracted.statements),
         Counter(f.grade.value for f in findings if f.within),
         Counter((f.grade.value, _PARTICULAR.sub("...", f.why)) for f in findings),
-        Counter(map(grade_of, read)),
+        Counter(grade_of(e) if e.model.classes else "no model" for e in read),
         seconds,
     )
 

@@ -58,6 +58,11 @@ def test_what_is_missed() -> None:
     assert [m["line"] for m in found.missed] == [4]
 
 
+def test_no_answers_are_not_wrong() -> None:
+    found = compare([fact()], [])
+    assert (found.recall, found.precision, found.unresolved, found.unknown) == (0.0, 1.0, 0.0, 0.0)
+
+
 def test_what_no_fact_says() -> None:
     found = compare([fact()], [answer(), answer(line=4), answer("parameter")])
     assert (found.recall, found.precision, found.count(WRONG)) == (1.0, 1 / 3, 2)
