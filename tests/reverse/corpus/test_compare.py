@@ -256,6 +256,7 @@ PERIOD = {"parameter": "~rate", "default": 0.2, "expression": "1/value"}
         (TOPIC, {**TOPIC, "parameter": "topic"}, WRONG),
         (TOPIC, {**TOPIC, "in": ""}, WRONG),
         (TOPIC, {**TOPIC, "in": ["~", ""]}, WRONG),
+        (TOPIC, {**TOPIC, "in": "*"}, OPEN),
         (TOPIC, {**TOPIC, "search": True}, WRONG),
         (TOPIC, {**TOPIC, "expression": "value + '/x'"}, WRONG),
         (TOPIC, UNKNOWN, OPEN),

@@ -148,13 +148,24 @@ def _from_parameter(fact: Json, answer: Json) -> Verdict:
     if not isinstance(answer, dict) or "parameter" not in answer:
         return OPEN if _is_open(answer) else WRONG
     within = _listed(answer.get("in", ""))
-    differs = (
-        set(_listed(fact.get("in", ""))) != set(within)
-        or bool(fact.get("search")) != bool(answer.get("search"))
-        or not _same_use(fact.get("expression"), answer.get("expression"))
+    differs = bool(fact.get("search")) != bool(answer.get("search")) or not _same_use(
+        fact.get("expression"), answer.get("expression")
     )
-    name = judge(fact["parameter"], answer["parameter"])
-    return worst([name, _default(fact, answer, within), WRONG if differs else RIGHT])
+    return worst(
+        [
+            judge(fact["parameter"], answer["parameter"]),
+            _default(fact, answer, within),
+            _within(_listed(fact.get("in", "")), within),
+            WRONG if differs else RIGHT,
+        ]
+    )
+
+
+def _within(facts: list[str], given: list[str]) -> Verdict:
+    """The namespaces of the handles; `*` is an unknown one."""
+    if set(facts) == set(given):
+        return RIGHT
+    return OPEN if any("*" in namespace for namespace in given) else WRONG
 
 
 def _listed(value: Json) -> list[str]:
