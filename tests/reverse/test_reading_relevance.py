@@ -48,7 +48,7 @@ NAMED: dict[str, tuple[dict[str, bytes], set[str]]] = {
     ),
     "macros, constants, enumerators, aliases, functions": (
         {
-            "node.cpp": b'#include "all.h"\nros::Rate r(RATE * kGain + SLOW); Alias a; help(Old());',
+            "node.cpp": b'#include "all.h"\nros::Rate(RATE * kGain + SLOW); Alias a; help(Old{});',
             "all.h": b"".join(b'#include "%d.h"\n' % n for n in range(1, 9)),
             "1.h": b"#define RATE 10",
             "2.h": b"static const double kGain = 3.0;",
