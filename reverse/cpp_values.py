@@ -1,0 +1,363 @@
+"""What expressions of C++ are worth, as far as the files alone tell: asked for one at a time.
+
+The value of a variable is what may have been put into it; that of a parameter is what the callers
+give. Where the files do not tell, the value is unknown, with the reason.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import field
+from typing import TypeVar
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reverse.cpp_calls import string_of
+from rebsync.reverse.cpp_flow import Texts, nearness
+from rebsync.reverse.cpp_flow_calls import Calls
+from rebsync.reverse.cpp_flow_types import Types
+from rebsync.reverse.cpp_index import Code
+from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
+from rebsync.reverse.cpp_values_calls import called_value
+from rebsync.reverse.cpp_values_made import constructed
+from rebsync.reverse.cpp_values_plain import (
+    MOST,
+    Frame,
+    Function,
+    Length,
+    Nothing,
+    Open,
+    Use,
+    Value,
+    added,
+    at,
+    choice,
+    computed,
+    converted,
+    each,
+    pairs,
+    same,
+    used,
+    ways,
+)
+from rebsync.reverse.cpp_values_variables import Variables
+from rebsync.reverse.graph import FromParameter, Unresolved
+
+T = TypeVar("T")
+
+_DEEPEST = 48
+_LONGEST = 6
+_STEPS = 20_000
+_KNOWN = {
+    "M_PI": 3.141592653589793,
+    "M_PI_2": 1.5707963267948966,
+    "M_PI_4": 0.7853981633974483,
+    "INT_MAX": 2147483647,
+    "INT32_MAX": 2147483647,
+}
+_NONE = frozenset({"NULL", "nullptr"})
+
+
+@dataclass(slots=True)
+class Values:
+    """Finds the values of expressions in some code."""
+
+    code: Code
+    texts: Texts = field(init=False)
+    types: Types = field(init=False)
+    calls: Calls = field(init=False)
+    variables: Variables = field(init=False)
+    _active: set[tuple[int, int]] = field(default_factory=set)
+    _steps: int = 0
+
+    def __post_init__(self) -> None:
+        self.texts = Texts(self.code)
+        self.types = Types(self.texts)
+        self.calls = Calls(self.texts, self.types)
+        self.variables = Variables(self)
+
+    # --- ways into a function -------------------------------------------------------------------
+
+    def settle(self, frame: Frame, do: Callable[[Frame], T]) -> list[T]:
+        """What `do` gives in a frame; if it asks for open parameters, for each of the callers.
+
+        Callers outside of the files count only where there are none inside.
+        """
+        waiting, inside, outside = [frame], [], []
+        while waiting and len(inside) < MOST:
+            current = waiting.pop(0)
+            try:
+                result = do(current)
+            except Open as asked:
+                if asked.frame is not current.root:
+                    raise
+                waiting += self._called(current)
+                continue
+            (outside if current.root.outside else inside).append(result)
+        return inside or outside
+
+    def _called(self, frame: Frame) -> Iterator[Frame]:
+        """The frame with each of the calls that lead into it."""
+        root = frame.root
+        uses = self.calls.uses(root.function) if root.function is not None else []
+        uses = [u for u in uses if not _on_the_way(frame, u)]
+        if frame.depth >= _LONGEST or not uses:
+            yield _with_root(frame, Frame(root.cpp, root.function, outside=True))
+            return
+        for use in uses[:MOST]:
+            caller = Frame(use.cpp, use.around)
+            yield _with_root(frame, Frame(root.cpp, root.function, use, caller))
+
+    def open_frame(self, cpp: Cpp, node: Node) -> Frame:
+        """A frame for a place, its callers open."""
+        return Frame(cpp, self.texts.function_around(cpp, node))
+
+    # --- expressions ----------------------------------------------------------------------------
+
+    def unknown(self, why: str, node: Node, frame: Frame, partial: str | None = None) -> Unresolved:
+        """An unknown value."""
+        return Unresolved(why, at(frame.cpp, node), partial)
+
+    def fresh(self) -> None:
+        """Begins a question of its own: nothing of the one before counts against it."""
+        self._steps = 0
+        self._active.clear()
+
+    def value(self, node: Node, frame: Frame) -> Value:
+        """The value of an expression in a frame. Open: it needs the frame's callers."""
+        key = node.id, id(frame)
+        self._steps += 1
+        if key in self._active:
+            return Nothing()
+        if len(self._active) > _DEEPEST or self._steps > _STEPS:
+            return self.unknown("too far to follow", node, frame)
+        self._active.add(key)
+        try:
+            return self._value(node, frame)
+        finally:
+            self._active.discard(key)
+
+    def _value(self, node: Node, frame: Frame) -> Value:
+        match node.type:
+            case "string_literal" | "concatenated_string":
+                text = string_of(node)
+                return text if text is not None else self.unknown("a text of macros", node, frame)
+            case "raw_string_literal" | "char_literal":
+                return "".join(text_of(c) for c in node.named_children[-1:]) or text_of(node)
+            case "number_literal":
+                return _number(node, self, frame)
+            case "true" | "false":
+                return node.type == "true"
+            case "null":
+                return Nothing()
+            case "identifier" | "field_identifier" | "type_identifier" | "qualified_identifier":
+                return self._named(node, frame)
+            case "field_expression":
+                return self.variables.field_value(node, frame)
+            case "call_expression":
+                return called_value(self, node, frame)
+            case "new_expression" | "compound_literal_expression":
+                return self._constructed(node, frame)
+            case "lambda_expression":
+                return Function(node, frame)
+            case _:
+                return self._combined(node, frame)
+
+    def _combined(self, node: Node, frame: Frame) -> Value:
+        match node.type:
+            case "parenthesized_expression" | "condition_clause":
+                inside = named(node)
+                value = self.value(inside[-1], frame) if inside else Nothing()
+                return each(_in_parentheses, value)
+            case "pointer_expression":
+                return self._pointed(node, frame)
+            case "unary_expression":
+                return self._unary(node, frame)
+            case "binary_expression":
+                return self._binary(node, frame)
+            case "conditional_expression":
+                return self._conditional(node, frame)
+            case "cast_expression":
+                type_ = self.types.plain(frame.cpp, part(node, "type"))
+                return converted(self.value(part(node, "value"), frame), type_)
+            case "assignment_expression":
+                return self.value(part(node, "right"), frame)
+            case "initializer_list" if len(named(node)) == 1:
+                return self.value(named(node)[0], frame)
+            case "subscript_expression":
+                return self.unknown("an element picked at run time", node, frame)
+            case _:
+                return self.unknown("no expression that is followed", node, frame)
+
+    def _pointed(self, node: Node, frame: Frame) -> Value:
+        argument = part(node, "argument")
+        if argument.type == "qualified_identifier" and node.children[0].type == "&":
+            return Function(node, frame)
+        return self.value(argument, frame)
+
+    def _constructed(self, node: Node, frame: Frame) -> Value:
+        given = node.child_by_field_name("arguments") or node.child_by_field_name("value")
+        arguments = tuple(named(given)) if given is not None else ()
+        use = Use(frame.cpp, node, arguments, frame.function)
+        return constructed(self, self.types.plain(frame.cpp, part(node, "type")), use, frame)
+
+    def _named(self, node: Node, frame: Frame) -> Value:
+        text = "".join(text_of(node).split())
+        name = text.rpartition("::")[2]
+        if name in _KNOWN:
+            return _KNOWN[name]
+        if name in _NONE:
+            return Nothing()
+        variable = self.types.variable(frame.cpp, node)
+        if variable is not None:
+            return self.variables.value(variable, "", node, frame)
+        found = self._enumerator(text, frame.cpp)
+        if found is not None:
+            return found
+        constants = self.code.constants_for(frame.cpp)
+        constant = constants.get(text) or constants.get(name)
+        if constant is not None:
+            return self._constant(*constant)
+        if self.code.definitions.get(("", name)):
+            return Function(node, frame)
+        return self.unknown(f"{text} is not declared in the files", node, frame)
+
+    def _constant(self, cpp: Cpp, node: Node) -> Value:
+        inside = named(node) if node.type in ("argument_list", "initializer_list") else [node]
+        return self.value(inside[0], Frame(cpp)) if len(inside) == 1 else Nothing()
+
+    def _enumerator(self, text: str, cpp: Cpp) -> int | None:
+        scope, _, name = text.rpartition("::")
+        scope = scope.rpartition("::")[2]
+        found = self.code.enumerators.get(name, [])
+        found = [e for e in found if not scope or scope in (e.enum, e.scope)] or found
+        return max(found, key=lambda e: nearness(e.cpp, cpp)).value if found else None
+
+    # --- operators ------------------------------------------------------------------------------
+
+    def _unary(self, node: Node, frame: Frame) -> Value:
+        operator = text_of(node.children[0])
+
+        def one(value: Value) -> Value:
+            match value:
+                case bool() | int() | float():
+                    results = {"-": -value, "+": value, "!": not value}
+                    return results.get(operator, self.unknown(f"{operator}", node, frame))
+                case FromParameter():
+                    return used(value, f"{operator}value", one)
+                case Unresolved():
+                    return value
+                case _:
+                    return self.unknown(f"the operator {operator}", node, frame)
+
+        return each(one, self.value(part(node, "argument"), frame))
+
+    def _binary(self, node: Node, frame: Frame) -> Value:
+        left, right = part(node, "left"), part(node, "right")
+        operator = text_of(part(node, "operator"))
+        a = self.value(left, frame)
+        if operator in ("&&", "||") and same(a, operator == "||"):
+            return operator == "||"
+        return pairs(
+            lambda x, y: self._operation(operator, x, y, node, frame), a, self.value(right, frame)
+        )
+
+    def _operation(self, operator: str, a: Value, b: Value, node: Node, frame: Frame) -> Value:
+        match a, b:
+            case ((bool() | int() | float() | str()), (bool() | int() | float() | str())):
+                result = computed(operator, a, b)
+                return result if result is not None else self._no(operator, node, frame)
+            case ((str() | Unresolved()), (str() | Unresolved())) if operator == "+":
+                return added(a, b)
+            case FromParameter(), str() | str(), FromParameter() if operator == "+":
+                return added(a, b)
+            case FromParameter(), (int() | float()) if operator in "+-*/":
+                text = _operand(part(node, "right"), b)
+                again = f"value{operator}{text}"
+                return used(a, again, lambda v: self._operation(operator, v, b, node, frame))
+            case ((int() | float()), FromParameter()) if operator in "+-*/":
+                text = _operand(part(node, "left"), a)
+                again = f"{text}{operator}value"
+                return used(b, again, lambda v: self._operation(operator, a, v, node, frame))
+            case Length(), (int() | float()) | (int() | float()), Length():
+                return _scaled(operator, a, b) or self._no(operator, node, frame)
+            case Unresolved(), _:
+                return Unresolved(a.why, a.place)
+            case _, Unresolved():
+                return Unresolved(b.why, b.place)
+            case _:
+                return self._no(operator, node, frame)
+
+    def _no(self, operator: str, node: Node, frame: Frame) -> Unresolved:
+        return self.unknown(f"the operator {operator} on what is not known", node, frame)
+
+    def _conditional(self, node: Node, frame: Frame) -> Value:
+        known = self.holds(part(node, "condition"), frame)
+        yes, no = part(node, "consequence"), part(node, "alternative")
+        sides = [yes] if known is True else [no] if known is False else [yes, no]
+        return choice([self.value(side, frame) for side in sides])
+
+    def holds(self, condition: Node, frame: Frame) -> bool | None:
+        """Whether a condition is met; None if that is not known."""
+        if condition.end_byte - condition.start_byte > 120:
+            return None
+        known = list(ways(self.value(condition, frame)))
+        match known:
+            case [bool() | int() | float()]:
+                return bool(known[0])
+            case _:
+                return None
+
+
+def _on_the_way(frame: Frame, use: Use) -> bool:
+    at_: Frame | None = frame
+    while at_ is not None:
+        if at_.call is not None and at_.call.node == use.node:
+            return True
+        if at_.function is not None and at_.function is use.around:
+            return True
+        at_ = at_.caller
+    return False
+
+
+def _with_root(frame: Frame, root: Frame) -> Frame:
+    if frame.caller is None:
+        return root
+    return Frame(frame.cpp, frame.function, frame.call, _with_root(frame.caller, root))
+
+
+def _number(node: Node, values: Values, frame: Frame) -> Value:
+    text = text_of(node).replace("'", "").lower()
+    plain = text if text.startswith("0x") else text.rstrip("ful")
+    try:
+        if not plain.startswith("0x") and any(c in plain for c in ".e"):
+            return float(plain)
+        if len(plain) > 1 and plain.startswith("0") and plain.isdigit():
+            return int(plain, 8)
+        return float(int(plain)) if text.endswith("f") and plain.isdigit() else int(plain, 0)
+    except ValueError:
+        return values.unknown(f"the number {text}", node, frame)
+
+
+def _in_parentheses(value: Value) -> Value:
+    if not isinstance(value, FromParameter) or value.expression is None:
+        return value
+    expression = f"({value.expression})"
+    return FromParameter(value.name, value.default, expression, value.search, value.within)
+
+
+def _operand(node: Node, value: Value) -> str:
+    return text_of(node) if node.type == "number_literal" else str(value)
+
+
+def _scaled(operator: str, a: Value, b: Value) -> Value | None:
+    """A span of time times or by a number."""
+    match a, b:
+        case Length(seconds), (int() | float()) if isinstance(seconds, (int, float)):
+            result = computed(operator, float(seconds), b) if operator in "*/" else None
+            return Length(result) if result is not None else None
+        case ((int() | float()), Length(seconds)) if isinstance(seconds, (int, float)):
+            return Length(float(seconds) * a) if operator == "*" else None
+        case _:
+            return None

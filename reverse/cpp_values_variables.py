@@ -1,0 +1,557 @@
+"""The values that variables may hold where they are used."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import field
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reverse.cpp_flow import climb
+from rebsync.reverse.cpp_flow_reach import Definition, Reach, definitions, reaching
+from rebsync.reverse.cpp_flow_types import Variable, unscoped_member
+from rebsync.reverse.cpp_index import CppClass, CppFunction
+from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
+from rebsync.reverse.cpp_values_calls import from_parameter
+from rebsync.reverse.cpp_values_made import constructed, default_of
+from rebsync.reverse.cpp_values_plain import (
+    Found,
+    Frame,
+    Handle,
+    Nothing,
+    Open,
+    Use,
+    Value,
+    added,
+    choice,
+    converted,
+    each,
+    name_under,
+    pairs,
+    resolved,
+    ways,
+)
+from rebsync.reverse.graph import FromParameter, Under
+from rebsync.reverse.roscpp_vocabulary import ENTRIES, FUNCTIONS, HANDLE, HANDLE_TYPE, Kind
+
+if TYPE_CHECKING:
+    from rebsync.reverse.cpp_values import Values
+
+_OUTSIDE = "handed in by callers outside of the files"
+_READERS = frozenset({"getline", "get", "sscanf", "scanf", "read", "fread"})
+_Key = tuple[int, str, str]
+
+
+@dataclass(slots=True)
+class Variables:
+    """Finds the values of variables; `values` those of the expressions that they are given."""
+
+    values: Values
+    _entries: dict[tuple[int, _Key], Value] = field(default_factory=dict)
+    _active: set[tuple[int, _Key]] = field(default_factory=set)
+    _writers: dict[_Key, list[CppFunction]] = field(default_factory=dict)
+    _found: dict[tuple[int, _Key], list[Definition]] = field(default_factory=dict)
+
+    # --- at a place -----------------------------------------------------------------------------
+
+    def value(self, variable: Variable, path: str, node: Node, frame: Frame) -> Value:
+        """What a variable, or a field of it, may hold where a node uses it."""
+        found = self._at(variable, path, node, frame)
+        if path:
+            return found
+        return converted(found, self.values.types.plain(variable.cpp, variable.type))
+
+    def field_value(self, node: Node, frame: Frame) -> Value:
+        """The value of `a.b`, `this->b` or `a->b.c`."""
+        root, path = node, ""
+        while root.type in ("field_expression", "parenthesized_expression", "pointer_expression"):
+            if root.type == "field_expression":
+                inner = part(root, "argument")
+                name = text_of(part(root, "field"))
+                if inner.type == "this":
+                    root = part(root, "field")
+                    break
+                path = f"{name}.{path}" if path else name
+                root = inner
+            else:
+                inside = named(root)
+                root = inside[-1] if inside else root.children[0]
+        variable = None
+        if root.type in ("identifier", "field_identifier"):
+            variable = self.values.types.variable(frame.cpp, root)
+        if variable is None:
+            return self._of_class(node, frame)
+        if not path:
+            return self.value(variable, "", node, frame)
+        if variable.kind == "member" and _is_pointer(variable):
+            return self._of_class(node, frame)
+        found = self._at(variable, path, node, frame)
+        return self._of_class(node, frame) if isinstance(found, Nothing) else found
+
+    def _of_class(self, node: Node, frame: Frame) -> Value:
+        """What a member of some object of a class may hold."""
+        types = self.values.types
+        name = text_of(part(node, "field")) if node.type == "field_expression" else ""
+        owner = types.class_of(frame.cpp, part(node, "argument")) if name else None
+        member = types.member(owner, name)
+        if member is None:
+            return self.values.unknown("a value that comes while it runs", node, frame)
+        found = self._in_general(member, "", frame)
+        return converted(found, types.plain(member.cpp, member.type))
+
+    def _at(self, variable: Variable, path: str, node: Node | None, frame: Frame) -> Value:
+        found, sure = self._ways(variable, path, node, frame)
+        if not sure:
+            found.append(self._entry(variable, path, node, frame))
+        return _filled(found)
+
+    def _ways(
+        self, variable: Variable, path: str, node: Node | None, frame: Frame
+    ) -> tuple[list[Value], bool]:
+        """What may be put into a variable before a place, latest first; whether surely one is."""
+        if frame.function is None:
+            return [], False
+        found = []
+        known = self._definitions(variable, path, frame)
+
+        def holds(condition: Node) -> bool | None:
+            return self.values.holds(condition, frame)
+
+        stands_in: Value = Nothing()
+        for reach in reaching(known, node, holds):
+            value = self._given(reach, variable, path, frame)
+            if reach.unset:
+                stands_in = value
+                continue
+            found.append(each(lambda v, d=stands_in: _with_default(v, d), value))
+            if reach.sure:
+                return found, True
+        return found if isinstance(stands_in, Nothing) or found else [stands_in], False
+
+    # --- definitions ----------------------------------------------------------------------------
+
+    def _key(self, variable: Variable, path: str) -> _Key:
+        return variable.name.id, variable.text, path
+
+    def _definitions(self, variable: Variable, path: str, frame: Frame) -> list[Definition]:
+        function = frame.function
+        if function is None:
+            return []
+        key = function.node.id, self._key(variable, path)
+        if key not in self._found:
+            self._found[key] = []  # while they are looked for
+            self._found[key] = [*self._own(variable, path, function)]
+            if variable.kind in ("member", "global"):
+                self._found[key] += self._by_calls(variable, path, function)
+        return self._found[key]
+
+    def _own(self, variable: Variable, path: str, function: CppFunction) -> Iterator[Definition]:
+        node = function.node
+        if variable.kind in ("local", "lambda") and variable.scope is not None:
+            node = variable.scope
+        texts = self.values.texts
+        if variable.kind in ("local", "parameter", "lambda") and variable.cpp is not function.cpp:
+            return
+        found = definitions(texts, function.cpp, variable, path, node.start_byte, node.end_byte)
+        for definition in found:
+            if definition.how == "given" and not self._may_change(definition, function.cpp):
+                continue
+            if variable.kind in ("member", "global") and self._hidden(
+                definition, variable, function
+            ):
+                continue
+            yield definition
+
+    def _hidden(self, definition: Definition, variable: Variable, function: CppFunction) -> bool:
+        """Whether a name stands for a local variable of the same name."""
+        if definition.how == "initialised":
+            return False
+        meant = self.values.types.variable(function.cpp, definition.place)
+        return meant is not None and meant.name.id != variable.name.id
+
+    def _by_calls(
+        self, variable: Variable, path: str, function: CppFunction
+    ) -> Iterator[Definition]:
+        """Calls of functions that give the variable a value."""
+        calls = self.values.calls
+        start, end = function.node.start_byte, function.node.end_byte
+        for writer in self._writing(variable, path):
+            if writer.node == function.node or writer.name == function.owner:
+                continue
+            for place in self.values.texts.within(function.cpp, writer.name, start, end):
+                call = climb(place, lambda n: n.type in ("call_expression", "compound_statement"))
+                if call is None or call.type != "call_expression":
+                    continue
+                if not text_of(part(call, "function")).endswith(writer.name):
+                    continue
+                if any(f.node == writer.node for f in calls.functions(function.cpp, call)):
+                    yield Definition("called", place, call, text=str(writer.node.id))
+
+    def _may_change(self, definition: Definition, cpp: Cpp) -> bool:
+        """Whether a call may change what it is given."""
+        function = part(definition.node, "function")
+        name, scope = _called(function)
+        if _role(name, scope, definition.index, len(named(part(definition.node, "arguments")))):
+            return True
+        if name in HANDLE and function.type == "field_expression":
+            return False
+        if name in _READERS and function.type != "field_expression":
+            return True
+        return any(
+            len(f.parameters) > definition.index
+            and _by_reference(f.parameters[definition.index].node)
+            for f in self.values.calls.functions(cpp, definition.node)
+        )
+
+    # --- one definition -------------------------------------------------------------------------
+
+    def _given(self, reach: Reach, variable: Variable, path: str, frame: Frame) -> Value:
+        definition = reach.definition
+        match definition.how:
+            case "value":
+                return self._as(variable, path, self.values.value(definition.node, frame))
+            case "made":
+                return self._made(variable, path, definition, frame)
+            case "initialised":
+                if not definition.arguments:
+                    return Nothing()
+                return self._made(variable, path, definition, frame)
+            case "declared":
+                return self._declared(variable, path, definition.place, frame)
+            case "added":
+                before = self._at(variable, path, definition.place, frame)
+                return pairs(added, before, self.values.value(definition.node, frame))
+            case "given":
+                return self._by_reference(definition, variable, path, frame)
+            case "called":
+                return self._by_call(definition, variable, path, frame)
+            case _:
+                return self.values.unknown(definition.text, definition.node, frame)
+
+    def _as(self, variable: Variable, path: str, value: Value) -> Value:
+        if path:
+            return value
+        return converted(value, self.values.types.plain(variable.cpp, variable.type))
+
+    def _made(self, variable: Variable, path: str, definition: Definition, frame: Frame) -> Value:
+        if path:
+            return Nothing()
+        types = self.values.types
+        type_ = types.plain(variable.cpp, variable.type)
+        if len(definition.arguments) == 1 and _is_pointer(variable):
+            return self.values.value(definition.arguments[0], frame)
+        if not type_ or type_ == "auto":
+            return self.values.value(definition.arguments[0], frame)
+        use = Use(frame.cpp, definition.node, definition.arguments, frame.function)
+        return constructed(self.values, type_, use, frame)
+
+    def _declared(self, variable: Variable, path: str, place: Node, frame: Frame) -> Value:
+        if variable.type is None or _is_pointer(variable):
+            return Nothing()
+        type_ = self.values.types.plain(variable.cpp, variable.type)
+        if not path:
+            return default_of(self.values, type_, place, frame)
+        owner = self.values.texts.class_near(type_.rpartition("::")[2], variable.cpp)
+        member = self.values.types.member(owner, path) if owner is not None else None
+        if member is None or member.field is None or member.field.value is None:
+            return Nothing()
+        return self.values.value(member.field.value, Frame(member.cpp))
+
+    def _by_reference(
+        self, definition: Definition, variable: Variable, path: str, frame: Frame
+    ) -> Value:
+        call = definition.node
+        function = part(call, "function")
+        given = tuple(named(part(call, "arguments")))
+        name, scope = _called(function)
+        role = _role(name, scope, definition.index, len(given))
+        if role:
+            handle: Value = Handle("")
+            if function.type == "field_expression":
+                handle = self.values.value(part(function, "argument"), frame)
+            key = self.values.value(given[0], frame)
+            if role == "found":
+                return self._found_by(handle, key, call, frame)
+            if len(given) > 2:
+                default = self._as(variable, path, self.values.value(given[2], frame))
+            else:
+                default = self._at(variable, path, call, frame)
+            return each(lambda h: from_parameter(self.values, h, key, default, call, frame), handle)
+        functions = self.values.calls.functions(frame.cpp, call)
+        if not functions or frame.depth >= 6:
+            return self.values.unknown(f"read by {name}", call, frame)
+        use = Use(frame.cpp, call, given, frame.function)
+        return choice(
+            self._at(inner, path, None, Frame(f.cpp, f, use, frame))
+            for f in functions
+            if (inner := self._parameter_variable(f, definition.index)) is not None
+        )
+
+    def _found_by(self, handle: Value, key: Value, call: Node, frame: Frame) -> Value:
+        def one(name: Value) -> Value:
+            unknown = self.values.unknown("the name that is searched for", call, frame)
+            text = resolved(name, unknown)
+            namespaces = [h.namespace for h in ways(handle) if isinstance(h, Handle)] or [""]
+            return choice(
+                Found(name_under(n, text if text is not None else unknown)) for n in namespaces
+            )
+
+        return each(one, key)
+
+    def _by_call(
+        self, definition: Definition, variable: Variable, path: str, frame: Frame
+    ) -> Value:
+        call = definition.node
+        if frame.depth >= 6:
+            return self.values.unknown("too many calls to follow", call, frame)
+        use = Use(frame.cpp, call, tuple(named(part(call, "arguments"))), frame.function)
+        return choice(
+            self._at(variable, path, None, Frame(f.cpp, f, use, frame))
+            for f in self.values.calls.functions(frame.cpp, call)
+            if str(f.node.id) == definition.text
+        )
+
+    def _parameter_variable(self, function: CppFunction, index: int) -> Variable | None:
+        if index >= len(function.parameters):
+            return None
+        parameter = function.parameters[index]
+        name = parameter.node.child_by_field_name("declarator")
+        while name is not None and name.type != "identifier":
+            name = name.named_children[-1] if name.named_children else None
+        if name is None:
+            return None
+        return Variable(
+            "parameter",
+            parameter.name,
+            function.cpp,
+            name,
+            parameter.type,
+            function.node,
+            index=index,
+        )
+
+    # --- before the function begins -------------------------------------------------------------
+
+    def _entry(self, variable: Variable, path: str, node: Node | None, frame: Frame) -> Value:
+        match variable.kind:
+            case "parameter":
+                return self._argument(variable, path, frame)
+            case "lambda":
+                place = node if node is not None else variable.name
+                return self.values.unknown("comes when it is called", place, frame)
+            case "member" if variable.owner is not None:
+                return self._member(variable, path, variable.owner, frame)
+            case "global":
+                return self._in_general(variable, path, frame)
+            case _:
+                return Nothing()
+
+    def _argument(self, variable: Variable, path: str, frame: Frame) -> Value:
+        function = frame.function
+        if frame.call is None or frame.caller is None or function is None:
+            if not frame.outside:
+                raise Open(frame)
+            return self._from_outside(variable, frame)
+        given = frame.call.arguments
+        if variable.index < len(given):
+            argument = given[variable.index]
+            if not path:
+                return self.values.value(argument, frame.caller)
+            return self._field_of(argument, path, frame.caller)
+        default = self.values.calls.default(function, variable.index)
+        if default is not None:
+            return self.values.value(default[1], Frame(default[0]))
+        return self.values.unknown("no argument is given", variable.name, frame)
+
+    def _field_of(self, argument: Node, path: str, frame: Frame) -> Value:
+        while argument.type in ("pointer_expression", "parenthesized_expression"):
+            argument = named(argument)[-1]
+        if argument.type == "identifier":
+            variable = self.values.types.variable(frame.cpp, argument)
+            if variable is not None:
+                return self._at(variable, path, argument, frame)
+        return self.values.unknown("a field of what is handed in", argument, frame)
+
+    def _from_outside(self, variable: Variable, frame: Frame) -> Value:
+        type_ = self.values.types.plain(variable.cpp, variable.type)
+        if type_.rpartition("::")[2] == HANDLE_TYPE:
+            return Handle(Under(""))
+        return self.values.unknown(_OUTSIDE, variable.name, frame)
+
+    def _member(self, variable: Variable, path: str, owner: CppClass, frame: Frame) -> Value:
+        function, texts = frame.function, self.values.texts
+        if function is not None and frame.call is not None and frame.caller is not None:
+            before = frame.caller.function
+            class_ = texts.class_of(before)
+            if class_ is not None and owner in texts.lineage(class_) and _on_this(frame.call.node):
+                return self._at(variable, path, frame.call.node, frame.caller)
+        if function is not None and function.name == owner.name == function.owner:
+            return self._initial(variable, path)
+        return self._in_general(variable, path, frame)
+
+    def _initial(self, variable: Variable, path: str) -> Value:
+        member = variable.field
+        frame = Frame(variable.cpp)
+        if member is None:
+            return Nothing()
+        if member.value is not None and not path:
+            value = member.value
+            inside = named(value) if value.type in ("argument_list", "initializer_list") else None
+            if inside is None:
+                return self.values.value(value, frame)
+            use = Use(frame.cpp, value, tuple(inside), None)
+            type_ = self.values.types.plain(variable.cpp, variable.type)
+            return constructed(self.values, type_, use, frame) if inside else Nothing()
+        return self._declared(variable, path, member.node, frame)
+
+    # --- members and globals, wherever they are used --------------------------------------------
+
+    def _in_general(self, variable: Variable, path: str, frame: Frame) -> Value:
+        """What a member or global may hold after the functions that give it a value."""
+        own = frame.function.node.id if frame.function is not None else 0
+        key = own, self._key(variable, path)
+        if key in self._active:
+            return Nothing()
+        if key not in self._entries:
+            self._active.add(key)
+            try:
+                self._entries[key] = self._after_all(variable, path, own)
+            finally:
+                self._active.discard(key)
+        return self._entries[key]
+
+    def _after_all(self, variable: Variable, path: str, own: int) -> Value:
+        """As `_in_general`; `own` is the function that asks, before it gives a value itself."""
+        writers = [w for w in self._writing(variable, path) if w.node.id != own]
+        owner = variable.owner.name if variable.owner is not None else ""
+        makers = [w for w in writers if owner and w.name == w.owner]
+        others = [w for w in writers if w not in makers]
+        called = [w for w in others if self._is_called(w)]
+        at_first = self._after(makers, variable, path)[0] if makers else Nothing()
+        if not makers:
+            at_first = self._initial(variable, path)
+        if not called and not isinstance(at_first, Nothing):
+            return at_first
+        later, sure = self._after(called or others, variable, path)
+        return choice([later]) if sure else choice([later, at_first])
+
+    def _after(
+        self, functions: list[CppFunction], variable: Variable, path: str
+    ) -> tuple[Value, bool]:
+        """What a variable holds at the ends of functions; whether one of them sets it for sure."""
+        found: list[Value] = []
+        always = False
+        for function in functions:
+            results = self.values.settle(
+                Frame(function.cpp, function),
+                lambda f: self._ways(variable, path, None, f),
+            )
+            for values, sure in results:
+                always = always or sure
+                if not sure and function.name == function.owner:
+                    values = [*values, self._initial(variable, path)]
+                found.append(_filled(values))
+        return choice(found), always
+
+    def _is_called(self, function: CppFunction) -> bool:
+        return (
+            function.name in ENTRIES
+            or not function.parameters
+            or any(not u.handed for u in self.values.calls.uses(function))
+        )
+
+    def _writing(self, variable: Variable, path: str) -> list[CppFunction]:
+        """The functions that give a member or global a value themselves."""
+        key = self._key(variable, path)
+        if key not in self._writers:
+            self._writers[key] = []
+            found: dict[int, CppFunction] = {}
+            for cpp, place in self.values.texts.everywhere(variable.text):
+                function = self.values.texts.function_around(cpp, place)
+                if function is None or function.node.id in found:
+                    continue
+                if self._may_name(variable, function) and any(
+                    True for _ in self._own(variable, path, function)
+                ):
+                    found[function.node.id] = function
+            self._writers[key] = list(found.values())
+        return self._writers[key]
+
+    def _may_name(self, variable: Variable, function: CppFunction) -> bool:
+        if variable.owner is None:
+            return True
+        class_ = self.values.texts.class_of(function)
+        return class_ is not None and variable.owner in self.values.texts.lineage(class_)
+
+
+def _filled(found: list[Value]) -> Value:
+    """The values together, latest first: what replaces an unset parameter is its default."""
+    if len(found) == 2 and isinstance(found[0], (bool, int, float, str)):
+        filled = _with_default(found[1], found[0])
+        if filled is not found[1]:
+            return filled
+    return choice(found)
+
+
+def _with_default(value: Value, default: Value) -> Value:
+    """The value of a parameter without a default, with one that is known."""
+    if not isinstance(value, FromParameter) or value.default is not None:
+        return value
+    if not isinstance(default, (bool, int, float, str)):
+        return value
+    return FromParameter(value.name, default, value.expression, value.search, value.within)
+
+
+def _called(function: Node) -> tuple[str, str]:
+    """The name of a called function and the scope before it."""
+    if function.type == "field_expression":
+        return unscoped_member(part(function, "field")), "."
+    scope = ""
+    while function.type == "qualified_identifier":
+        above = function.child_by_field_name("scope")
+        scope = text_of(above) if above is not None else ""
+        function = part(function, "name")
+    return unscoped_member(function), scope
+
+
+def _role(name: str, scope: str, index: int, count: int) -> str:
+    """The role of an argument that a call for a parameter fills, or empty."""
+    ask = HANDLE.get(name) if scope == "." else FUNCTIONS.get((scope, name))
+    if ask is None or ask.kind is not Kind.PARAMETER or index >= len(ask.arguments):
+        return ""
+    role = ask.arguments[index]
+    if role == "variable" and "default" in ask.arguments and count == 2:
+        return ""  # `param(name, default)`
+    return role if role in ("variable", "found") else ""
+
+
+def _by_reference(parameter: Node) -> bool:
+    """Whether a parameter is a reference or pointer to what is not constant."""
+    declarator = parameter.child_by_field_name("declarator")
+    if declarator is None or declarator.type not in ("reference_declarator", "pointer_declarator"):
+        return False
+    return not any(
+        c.type == "type_qualifier" and text_of(c) == "const" for c in parameter.named_children
+    )
+
+
+def _is_pointer(variable: Variable) -> bool:
+    above = variable.name.parent
+    if above is not None and above.type == "pointer_declarator":
+        return True
+    if variable.field is not None:
+        for declarator in variable.field.node.children_by_field_name("declarator"):
+            if declarator.type == "pointer_declarator" and variable.text in text_of(declarator):
+                return True
+    text = text_of(variable.type) if variable.type is not None else ""
+    return "_ptr<" in text or text.endswith("Ptr")
+
+
+def _on_this(call: Node) -> bool:
+    """Whether a call is one of a method of the same object."""
+    if call.type != "call_expression":
+        return call.type == "field_initializer"
+    function = part(call, "function")
+    return function.type != "field_expression" or part(function, "argument").type == "this"
