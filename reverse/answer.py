@@ -9,12 +9,16 @@ from pathlib import Path
 from rebsync.diagnostics import Findings
 from rebsync.printing import print_model
 from rebsync.records import dataclass
+from rebsync.reverse.cpp_index import Code
+from rebsync.reverse.cpp_tree import parse
 from rebsync.reverse.graph import Graph
 from rebsync.reverse.graph_json import graph_data
 from rebsync.reverse.manifests import read_manifest
+from rebsync.reverse.packages import CODE
 from rebsync.reverse.reading import Chosen
 from rebsync.reverse.recovery import Extracted, extract
 from rebsync.reverse.report import as_json, as_text, diagnostics, grade_of, report_data, summary
+from rebsync.reverse.ros_calls import graph_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +51,7 @@ def answer(given: Chosen, style: str | None, whole: bool) -> Answer:
         given.root,
         grade_of(extracted),
         _model(extracted),
-        bool(graph_in(extracted).facts),
+        bool(_graph(given, extracted).facts),
         () if whole or style == "json" else diagnostics(extracted.findings),
         summary(extracted) if extracted.findings else "",
         report(extracted) if style is not None else "",
@@ -62,7 +66,7 @@ def package_json(given: Chosen, extracted: Extracted) -> str:
             "package": _package(given),
             "path": given.root,
             "file": given.only,
-            **graph_data(graph_in(extracted)),
+            **graph_data(_graph(given, extracted)),
             "model": _model(extracted),
             "report": report_data(extracted),
         },
@@ -81,7 +85,10 @@ def _model(extracted: Extracted) -> str | None:
     return print_model(extracted.model) if extracted.model.classes else None
 
 
-def graph_in(extracted: Extracted) -> Graph:
+def _graph(given: Chosen, extracted: Extracted) -> Graph:
     """What the nodes ask of ROS."""
     graph = getattr(extracted, "graph", None)
-    return graph if isinstance(graph, Graph) else Graph()
+    if isinstance(graph, Graph):
+        return graph
+    code = [s for path, s in given.files.items() if Path(path).suffix in CODE]
+    return graph_of(Code.of(map(parse, code)))

@@ -190,3 +190,31 @@ def test_an_output_is_no_input(package: Path) -> None:
     done = rebsync("extract", "experiment1", source, "-o", source, cwd=package.parent)
     assert done.status == 2
     assert "RS802" in done.err
+
+
+CALLER = """\
+#include <ros/ros.h>
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "caller");
+  ros::NodeHandle node("~");
+  std::string name;
+  node.getParam(argv[1], name);
+  ros::service::waitForService("add");
+}
+"""
+
+
+def test_code_without_a_class_is_told_as_json(tmp_path: Path) -> None:
+    (tmp_path / "caller.cpp").write_text(CALLER)
+    done = rebsync("extract", "caller.cpp", "--format", "json", cwd=tmp_path)
+    found = json.loads(done.out)
+    jsonschema.Draft202012Validator(SCHEMA).validate(found)
+    assert found["model"] is None
+    (node,) = found["nodes"]
+    assert (node["name"], node["file"], node["line"]) == ("caller", "caller.cpp", 4)
+    (unknown,) = found["unknowns"]
+    assert (unknown["of"], unknown["key"], unknown["line"]) == ("parameters", "name", 7)
+    alone = rebsync("extract", "caller.cpp", cwd=tmp_path)
+    assert (alone.status, alone.out) == (2, "")
+    assert "hint: --format json tells what the code asks of ROS" in alone.err
