@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field
 
 from rebsync.model import Type
 from rebsync.records import dataclass
 from rebsync.reverse.common_messages import COMMON
+from rebsync.reverse.cpp_tree import Cpp
 from rebsync.reverse.messages import plain_type, read_message
 from rebsync.source import Source
 
@@ -21,6 +22,7 @@ _TYPES = {
 WIDER = frozenset({"uint32", "int64", "uint64"})
 _DEEPEST = 8
 _POINTERS = re.compile(r"(::)?(Const)?(Shared|Unique|Weak)?Ptr$")
+_WORD = re.compile(r"[A-Z]\w*")
 _MESSAGE = re.compile(r"/?msg/([^/]+)\.msg\Z")
 
 Fields = Mapping[str, Type | None]
@@ -64,6 +66,11 @@ class MessageTypes:
         """The fields of several types, of those that are known."""
         found = {t: self.fields(t) for t in sorted(types)}
         return {t: f for t, f in found.items() if f is not None}
+
+    def mentioned(self, files: Iterable[Cpp]) -> set[str]:
+        """The types that some code may use: of each the name stands in it."""
+        words = {w for cpp in files for w in set(_WORD.findall(cpp.source.text))}
+        return {t for t in (*self.own, *COMMON) if t.partition("/")[2] in words}
 
     def named(self, text: str) -> str | None:
         """The message type of a type of C++: `const std_msgs::Int32::ConstPtr&` is one."""

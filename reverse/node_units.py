@@ -88,7 +88,7 @@ class Units:
         starts: list[Start] = []
         own: list[Unit] = []
         for program in self.programs:
-            unit = self._of_program(program)
+            unit = self.of_program(program)
             if any(isinstance(f, _CONNECTS) for f in unit.facts):
                 own.append(unit)
                 starts.append(Start(unit, program, None))
@@ -154,7 +154,8 @@ class Units:
 
     # --- programs -------------------------------------------------------------------------------
 
-    def _of_program(self, program: Program) -> Unit:
+    def of_program(self, program: Program) -> Unit:
+        """What a program does outside of classes."""
         functions = [
             f
             for (owner, _), all_of in self.code.definitions.items()

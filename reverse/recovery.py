@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
+from dataclasses import field
 
 from tree_sitter import Node
 
@@ -18,45 +19,71 @@ from rebsync.reverse.cpp_index import Code, CppFunction
 from rebsync.reverse.cpp_tree import named, parse, part, text_of
 from rebsync.reverse.cpp_types import class_name, type_of
 from rebsync.reverse.findings import Finding, Findings
-from rebsync.reverse.launch import read_launch
-from rebsync.reverse.launch_values import Surroundings
+from rebsync.reverse.graph import Graph
 from rebsync.reverse.launched import Launch, LaunchedNode
+from rebsync.reverse.manifests import read_manifest
+from rebsync.reverse.node_launch import is_launch, system_of
+from rebsync.reverse.node_system import NodeSystem
 from rebsync.reverse.parameters import Parameter
 from rebsync.reverse.ros1_classes import Classes
 from rebsync.reverse.ros1_messages import own_messages
 from rebsync.reverse.ros1_names import variable_name
+from rebsync.reverse.ros_calls import graph_of
 from rebsync.reverse.written import annotation
 from rebsync.source import Source
 from rebsync.static.values import converted
 
 _ENV_MARKER = re.compile(r"# *rebsync: env (?P<type>[a-z]+)(?P<lengths>(?:\[\d+\])*) (?P<name>\S+)")
+_MANIFEST = "package.xml"
 _CODE = (".h", ".hh", ".hpp", ".hxx", ".c", ".cc", ".cpp", ".cxx")
 
 
 @dataclass(frozen=True, slots=True)
 class Extracted:
-    """The model of some files, what in them is not in it, and how many statements each body has."""
+    """The model of some files, what in them is not in it, and how many statements each body has.
+
+    `graph` is what the code asks of ROS.
+    """
 
     model: m.Model
     findings: tuple[Finding, ...]
     statements: tuple[tuple[str, int], ...]
+    graph: Graph = field(default_factory=Graph)
 
 
 def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
     """The model that files say together; paths are relative to the package, with slashes.
 
-    With `only` the classes that this file declares or defines, read with the help of the others.
+    With `only` the classes that this file declares or defines, read with the help of the others;
+    or, if it is a launch file, the system that this one starts.
     """
     findings = Findings()
     trees = [parse(source) for path, source in sorted(files.items()) if path.endswith(_CODE)]
     code = Code.of(trees)
+    graph = graph_of(code)
+    package = _package(files)
+    asked = only if only is not None and is_launch(only) else None
+    only = only if asked is None else None
+    system = system_of(files, package, asked) if only is None else None
+    launch = system.launch if system is not None else None
     classes = Classes(code, findings, own_messages(files))
     read = classes.read(_classes_in(code, files[only].path) if only is not None else None)
-    launches = [s for path, s in sorted(files.items()) if path.endswith(".launch")]
-    launch = _launched(launches, files) if launches and only is None else None
-    system = _System(code, classes, read, launch)
-    model = m.Model(tuple(system.heads()), read, system.main())
-    return Extracted(model, tuple(findings.all), tuple(findings.statements.items()))
+    nodes = NodeSystem(code, graph, files, launch, package, findings, only, bool(read)).read()
+    if system is not None and (read or nodes.classes):
+        system.note(findings)
+    generated = _System(code, classes, read, launch)
+    main = generated.main() if launch is not None or not nodes.starts else m.Main(())
+    if main is not None and nodes.rebecs and (launch is not None or nodes.starts):
+        main = m.Main((*main.rebecs, *nodes.rebecs))
+    if only is not None and len(files) > 1:
+        main = None
+    model = m.Model(tuple(generated.heads()), (*read, *nodes.classes), main)
+    return Extracted(model, tuple(findings.all), tuple(findings.statements.items()), graph)
+
+
+def _package(files: Mapping[str, Source]) -> str:
+    """The name of the package, empty where no manifest says it."""
+    return read_manifest(files[_MANIFEST]).name or "" if _MANIFEST in files else ""
 
 
 def _classes_in(code: Code, path: str) -> set[str]:
@@ -64,15 +91,6 @@ def _classes_in(code: Code, path: str) -> set[str]:
     found = {c.name for c in code.classes.values() if c.cpp.source.path == path}
     parts = (f for all_of in code.definitions.values() for f in all_of)
     return found | {f.owner for f in parts if f.cpp.source.path == path and f.owner}
-
-
-def _launched(launches: Sequence[Source], files: Mapping[str, Source]) -> Launch:
-    """What the first launch file starts; files of any package are looked for in this one."""
-
-    def load(path: str) -> Source | None:
-        return files.get(path.removeprefix("/"))
-
-    return read_launch(launches[0], Surroundings(load, lambda _: ""))
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,410 @@
+"""Units of hand-written code as reactive classes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import field, replace
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.cpp_expressions import CppExpressions
+from rebsync.reverse.cpp_index import Code, CppFunction
+from rebsync.reverse.cpp_statements import CppStatements
+from rebsync.reverse.cpp_tree import Cpp, text_of
+from rebsync.reverse.cpp_types import carried
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.graph import PublisherFact, SubscriptionFact, TimerFact
+from rebsync.reverse.message_types import Fields, MessageTypes
+from rebsync.reverse.node_loops import Loop, left
+from rebsync.reverse.node_servers import Server
+from rebsync.reverse.node_setup import Setup, send
+from rebsync.reverse.node_starts import Opening, Step, started_late
+from rebsync.reverse.node_state import State
+from rebsync.reverse.node_units import Unit
+from rebsync.reverse.scope import (
+    Called,
+    Function,
+    Inline,
+    Meaning,
+    Member,
+    Outside,
+    Publishes,
+    Record,
+    Scope,
+    Stores,
+    Target,
+    TimerOf,
+    Variable,
+)
+from rebsync.source import Span
+
+_ROUNDS = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Common:
+    """What all bodies of a package can name: enumerations and message types."""
+
+    enumerators: Mapping[str, int]
+    enums: frozenset[str]
+    messages: Mapping[str, Fields]
+    types: frozenset[str]
+
+
+@dataclass(slots=True)
+class NodeClass:
+    """Reads one reactive class: a unit as its rebecs of one kind are wired."""
+
+    code: Code
+    name: str
+    unit: Unit
+    servers: Sequence[Server]
+    state: State
+    setup: Setup
+    types: MessageTypes
+    common: Common
+    known: Sequence[tuple[str, str]]
+    targets: Mapping[int, tuple[Target, ...]]
+    opening: Opening
+    findings: Findings
+    functions: dict[str, Function] = field(default_factory=dict)
+    _used: dict[str, CppFunction] = field(default_factory=dict)
+
+    def read(self) -> m.ReactiveClass:
+        """The class. What it has no place for is listed."""
+        self._choose_functions()
+        self._calls_in_main()
+        body = self._constructor()
+        servers = [self._server(s) for s in self.servers]
+        servers += [s for loop, name in self.setup.loops for s in self._loop(loop, name)]
+        methods = [self._method(n, f) for n, f in self._used.items()]
+        arguments = tuple(m.Parameter(p.type, p.name) for p in self.setup.parameters)
+        constructor, late, variables = started_late(body, arguments, self.setup.names)
+        servers = [*late, *servers]
+        inner: list[m.MessageServer | m.Method] = [*servers, *methods]
+        methods = _reached(inner, constructor, methods)
+        variables = {**self.state.variables, **variables}
+        state = _mentioned(variables, [*servers, *methods, constructor])
+        members: list[m.ClassMember] = []
+        if self.known:
+            members.append(m.KnownRebecs(tuple(_declared(m.Type(t), n) for n, t in self.known)))
+        if state:
+            members.append(m.StateVars(tuple(_declared(t, n) for n, t in state.items())))
+        members.append(m.Constructor(self.name, arguments, constructor))
+        members += [*servers, *methods]
+        node = self.unit.owner
+        span = node.cpp.span(node.node) if node is not None else self._span()
+        return m.ReactiveClass(self.name, self._queue(), tuple(members), span=span)
+
+    def _span(self) -> Span:
+        program = self.unit.program
+        assert program is not None
+        return program.main.cpp.span(program.main.node)
+
+    def _queue(self) -> int:
+        """The largest depth of the subscriptions, and enough for its own timers and loops."""
+        facts = self.unit.facts
+        depths = [f.depth for f in facts if isinstance(f, SubscriptionFact)]
+        known = [d for d in depths if isinstance(d, int) and not isinstance(d, bool)]
+        own = sum(isinstance(f, TimerFact) for f in facts) + len(self.setup.loops) + 1
+        return max([*known, own + (1 if depths else 0)])
+
+    # --- scopes ---------------------------------------------------------------------------------
+
+    def _scope(self, cpp: Cpp, function: CppFunction | None) -> Scope:
+        """What a body in a file, in a function, can name."""
+        members: dict[str, Member] = dict(self.state.members_of(function))
+        for number, fact in enumerate(self.unit.facts):
+            kept = fact.site.kept.removeprefix("this->")
+            if isinstance(fact, PublisherFact) and kept:
+                type_ = fact.type if isinstance(fact.type, str) else ""
+                members[kept] = Publishes(self.targets.get(number, ()), type_)
+            elif isinstance(fact, TimerFact) and kept:
+                server = next((s for s in self.servers if s.timer is fact), None)
+                if server is not None:
+                    members[kept] = TimerOf(server.name, fact.one_shot is not True)
+            elif kept:
+                members[kept] = Outside()
+        return Scope(
+            members,
+            self.functions,
+            {},
+            self.common.types,
+            constants=self.code.constants_for(cpp),
+            enumerators=self.common.enumerators,
+            enums=self.common.enums,
+            messages=self.common.messages,
+            timers=self.setup.timers,
+            instead=self.setup.instead,
+            values=self.setup.values,
+            open=True,
+            chooses=False,
+            unit=self.setup.times.unit,
+        )
+
+    def _within(self, name: str) -> str:
+        return f"{self.setup.within}.{name}"
+
+    # --- functions ------------------------------------------------------------------------------
+
+    def _choose_functions(self) -> None:
+        """Functions become methods where a method can say what they do; others are inlined."""
+        by_name: dict[str, list[CppFunction]] = {}
+        for function in (*self.unit.functions, *self._free()):
+            by_name.setdefault(function.name, []).append(function)
+        for above in self.unit.lineage:
+            for declared in above.functions:
+                by_name.setdefault(declared.name, [])
+        served = {s.body.id for s in self.servers}
+        methods: dict[str, CppFunction] = {}
+        for name, found in by_name.items():
+            if name in self.unit.names or name.startswith("~") or name == "main":
+                continue
+            if len(found) != 1 or found[0].body is None:  # nobody knows which, or what it does
+                self.functions[name] = Called(name, server=True)
+            elif found[0].body.id in served or (method := self._signature(found[0])) is None:
+                self.functions[name] = Inline(found[0])
+            else:
+                self.functions[name] = method
+                methods[name] = found[0]
+        self._try(methods)
+
+    def _calls_in_main(self) -> None:
+        """What `main` calls of the object, in loops too, the class calls of itself."""
+        for statement, name in self.opening.calls:
+            called = self.functions.get(name)
+            if isinstance(called, Called) and not called.server and not called.takes:
+                call = m.ExpressionStatement(m.Call(None, called.name))
+                self.setup.instead.setdefault(statement.id, (call,))
+
+    def _free(self) -> Iterator[CppFunction]:
+        """The functions outside of classes that member functions can call."""
+        if self.unit.owner is None:
+            return
+        for (owner, _), all_of in self.code.definitions.items():
+            for function in all_of:
+                if not owner and function.body is not None:
+                    yield function
+
+    def _signature(self, function: CppFunction) -> Called | None:
+        """A function as a method, if its parameters and result are of the model's types."""
+        if self._sets_up(function):
+            return None
+        takes = []
+        for parameter in function.parameters:
+            type_ = carried(parameter.type, self.common.enums)
+            declarator = parameter.node.child_by_field_name("declarator")
+            plain = declarator is not None and declarator.type == "identifier"
+            if type_ is None or type_.bits or type_.why or not plain:
+                return None
+            takes.append(type_.type)
+        result = carried(function.result, self.common.enums) if function.result else None
+        void = function.result is not None and text_of(function.result) == "void"
+        if not void and (result is None or result.bits or result.why):
+            return None
+        name = self.setup.names.give(function.name)
+        return Called(name, takes=tuple(takes), returns=result.type if result else None)
+
+    def _sets_up(self, function: CppFunction) -> bool:
+        """Whether a function has calls or loops that set the node up."""
+        body = function.body
+        if body is None:
+            return False
+        calls = [f.site.call for f in self.setup.facts] + [lo.node for lo, _ in self.setup.loops]
+        return any(
+            f.cpp is function.cpp and body.start_byte <= c.start_byte < body.end_byte
+            for f in [function]
+            for c in calls
+        )
+
+    def _try(self, methods: dict[str, CppFunction]) -> None:
+        """Leaves those methods that can be read as such; a choice is none of a method."""
+        findings = self.findings
+        for _ in range(_ROUNDS):
+            failed = []
+            for name, function in methods.items():
+                self.findings = Findings()
+                self._method(name, function)
+                if self.findings.all:
+                    failed.append(name)
+            self.findings = findings
+            for name in failed:
+                self.functions[name] = Inline(methods.pop(name))
+            if not failed:
+                break
+        for name in methods:
+            self._used[name] = methods[name]
+
+    def _method(self, name: str, function: CppFunction) -> m.Method:
+        called = self.functions[name]
+        assert isinstance(called, Called)
+        scope = self._scope(function.cpp, function)
+        local: dict[str, Meaning] = {}
+        parameters = []
+        for parameter, type_ in zip(function.parameters, called.takes or (), strict=True):
+            assert isinstance(type_, m.Type)
+            given = scope.local(parameter.name)
+            local[parameter.name] = Variable(given, type_)
+            parameters.append(m.Parameter(type_, given, function.cpp.span(parameter.node)))
+        inside = scope.with_locals(local)
+        body = self._read(function.cpp, inside, function.body, self._within(function.name))
+        result = called.returns or m.Type("void")
+        span = function.cpp.span(function.node)
+        return m.Method(result, called.name, tuple(parameters), body, span=span)
+
+    def _read(self, cpp: Cpp, scope: Scope, body: Node | None, within: str) -> m.Block:
+        assert body is not None
+        return CppStatements(cpp, scope, self.findings, within).block(body)
+
+    # --- servers --------------------------------------------------------------------------------
+
+    def _server(self, server: Server) -> m.MessageServer:
+        function = server.callback.function
+        if function is None:
+            function = _around(server.body, self.unit.functions)
+        scope = self._scope(server.cpp, function)
+        local: dict[str, Meaning] = {}
+        for name, value in server.arguments:
+            try:
+                local[name] = CppExpressions(server.cpp, scope).read(value)
+            except Unread:
+                local[name] = Outside()
+        if server.message:
+            local[server.message] = self._message(server)
+        inside = replace(scope.with_locals(local), chooses=True, server=server.name)
+        body = self._read(server.cpp, inside, server.body, self._within(server.name))
+        period = self.setup.periodic.get(server.name)
+        if server.timer is not None and period is not None:
+            body = _repeated(body, send(server.name, period))
+        parameters = tuple(m.Parameter(p.type, p.name) for p in server.parameters)
+        span = server.cpp.span(function.node if function is not None else server.body)
+        return m.MessageServer(server.name, parameters, body, span=span)
+
+    def _message(self, server: Server) -> Member:
+        if server.timer is not None or server.type is None:
+            return Outside()
+        fields = {p.path: Variable(p.name, p.type) for p in server.parameters}
+        return Record(fields, server.type)
+
+    def _loop(self, loop: Loop, name: str) -> Iterator[m.MessageServer]:
+        """The server of a loop, and one for what comes after its sleep where both do something."""
+        scope = self._scope(loop.function.cpp, loop.function)
+        scope = replace(scope, chooses=True, server=name)
+        pause = self.setup.pause(loop)
+        again = send(name, pause or 0)
+        span = loop.function.cpp.span(loop.node)
+        reader = CppStatements(loop.function.cpp, scope, self.findings, self._within(name))
+        first, rest = reader.read(loop.first), reader.read(loop.rest)
+        if loop.first and loop.rest:
+            then = self.setup.names.give(f"{name}_rest")
+            body = (*left(first, send(name)), send(then, pause or 0))
+            yield m.MessageServer(then, (), m.Block((*left(rest, send(name)), send(name))))
+        else:
+            ends = () if pause is None else (again,)
+            body = (*left((*first, *rest), again), *ends)
+        for guard in reversed(loop.guard):
+            condition = CppExpressions(loop.function.cpp, scope).read(guard)
+            body = (m.If(condition, m.Block(body)),)
+        yield m.MessageServer(name, (), m.Block(body), span=span)
+
+    # --- constructor ----------------------------------------------------------------------------
+
+    def _constructor(self) -> m.Block:
+        """What runs before the node serves messages."""
+        found: list[m.Statement] = []
+        for cpp, stores in self.state.initial:
+            assert isinstance(stores.value, Node)
+            found += self._known(cpp, stores.value, stores)
+        for step in self.opening.steps:
+            scope = self._scope(step.function.cpp, step.function)
+            instead = {**scope.instead, **step.instead}
+            given = {p.name: Variable(p.name, p.type) for p in self.setup.parameters}
+            scope = replace(scope, instead=instead, chooses=True)
+            scope = scope.with_locals({**given, **self._arguments(step)})
+            reader = CppStatements(
+                step.function.cpp, scope, self.findings, self._within(step.function.name)
+            )
+            found += reader.read(step.nodes)
+        return m.Block(_without_end(tuple(found)))
+
+    def _arguments(self, step: Step) -> dict[str, Meaning]:
+        """What the parameters of a constructor are for the object that is made."""
+        found: dict[str, Meaning] = {}
+        for parameter in step.function.parameters:
+            kept = carried(parameter.type, self.common.enums)
+            found[parameter.name] = Outside(kept.type if kept is not None else None)
+            if kept is not None and parameter.name in step.arguments:
+                cpp, node = step.arguments[parameter.name]
+                try:
+                    found[parameter.name] = CppExpressions(cpp, self._scope(cpp, None)).read(node)
+                except Unread:
+                    continue
+        return found
+
+    def _known(self, cpp: Cpp, node: Node, stores: Stores) -> tuple[m.Statement, ...]:
+        scope = self._scope(cpp, None)
+        scope = replace(scope, instead={**scope.instead, node.id: (stores,)})
+        bare = {k: v for k, v in scope.instead.items() if k == node.id}
+        reader = CppStatements(cpp, replace(scope, instead=bare), Findings(), self.setup.within)
+        return reader.read([node])
+
+
+def _around(node: Node, functions: Sequence[CppFunction]) -> CppFunction | None:
+    """The function that a lambda stands in."""
+    at: Node | None = node
+    while at is not None:
+        for function in functions:
+            if function.body is not None and function.body.id == at.id:
+                return function
+        at = at.parent
+    return None
+
+
+def _declared(type_: m.Type, name: str) -> m.Declaration:
+    return m.Declaration(type_, (m.Declarator(name),))
+
+
+def _repeated(body: m.Block, again: m.Statement) -> m.Block:
+    """A timer's body with the send that makes it go on: at its end, if all ways lead there."""
+    early = any(
+        isinstance(n, m.Return) or (isinstance(n, m.Call) and n.name == "delay")
+        for n in m.walk(body)
+    )
+    statements = (again, *body.statements) if early else (*body.statements, again)
+    return replace(body, statements=statements)
+
+
+def _without_end(statements: tuple[m.Statement, ...]) -> tuple[m.Statement, ...]:
+    """Without what only ends a function, `return 0;`, and without blocks around all."""
+    while statements and isinstance(statements[-1], m.Return):
+        statements = statements[:-1]
+    return statements
+
+
+def _reached(
+    members: Sequence[m.MessageServer | m.Method], constructor: m.Block, methods: list[m.Method]
+) -> list[m.Method]:
+    """The methods that servers, the constructor, or such methods call."""
+    bodies: list[m.Node] = [constructor, *(s for s in members if isinstance(s, m.MessageServer))]
+    found: dict[str, m.Method] = {}
+    while bodies:
+        for node in m.walk(bodies.pop()):
+            if isinstance(node, m.Call) and isinstance(node.target, m.Self | None):
+                for method in methods:
+                    if method.name == node.name and method.name not in found:
+                        found[method.name] = method
+                        bodies.append(method)
+    return [method for method in methods if method.name in found]
+
+
+def _mentioned(variables: Mapping[str, m.Type], nodes: Sequence[m.Node]) -> dict[str, m.Type]:
+    """The variables that some body names."""
+    names = set()
+    for node in nodes:
+        for inner in m.walk(node):
+            match inner:
+                case m.Name(name) | m.Member(m.Self(), name):
+                    names.add(name)
+    return {n: t for n, t in variables.items() if n in names}

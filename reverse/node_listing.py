@@ -1,0 +1,167 @@
+"""What of hand-written nodes the model does not show as it is: listed, each place once."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reverse.cpp_tree import Cpp, text_of
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.graph import (
+    ClientFact,
+    Fact,
+    Place,
+    PublisherFact,
+    ServiceFact,
+    SubscriptionFact,
+)
+from rebsync.reverse.message_types import MessageTypes
+from rebsync.reverse.node_servers import Server
+from rebsync.reverse.node_units import Unit, bodies
+from rebsync.reverse.node_values import Instance
+from rebsync.reverse.node_wiring import Wiring, unfed, unheard
+from rebsync.reverse.unknowns import Open
+
+_THREADS = re.compile(
+    r"(AsyncSpinner|MultiThreadedSpinner|NodeletMultiThreaded|thread|jthread|async|pthread_create"
+    r"|getMT\w*NodeHandle|CallbackQueue|setCallbackQueue)\Z"
+)
+_ENTRIES = re.compile(
+    r"(Simple)?Action(Server|Client)|SimpleActionServer|TimeSynchronizer|Synchronizer|MessageFilter"
+)
+_SEVERAL = "its callbacks may run at the same time as others: the model has one at a time"
+
+
+@dataclass(slots=True)
+class Listing:
+    """Lists places in findings, each once with the same reason."""
+
+    findings: Findings
+    types: MessageTypes
+
+    def unit(self, unit: Unit, servers: Iterable[Server]) -> None:
+        """What a unit has that its reactive class has not."""
+        served = {id(f) for s in servers for f in (*s.subscriptions, s.timer)}
+        for fact in unit.facts:
+            self._fact(unit, fact, id(fact) in served)
+        for server in servers:
+            self._wide(unit, server)
+        for cpp, body in bodies(unit):
+            self._words(unit, cpp, body)
+        for member in (f for c in unit.lineage for f in (*c.fields, *c.others)):
+            self._words(unit, member.cpp, member.type)
+
+    def _fact(self, unit: Unit, fact: Fact, served: bool) -> None:
+        match fact:
+            case SubscriptionFact(single=True):
+                self._unread(fact.site.place, "it waits here for one message", unit.name)
+            case SubscriptionFact() if not served:
+                why = "it is not known which function gets these messages"
+                self._unread(fact.site.place, why, unit.name)
+            case PublisherFact(site) if not site.kept:
+                why = "it is not known what is published here: the publisher is in no variable"
+                self._unread(fact.site.place, why, unit.name)
+            case ServiceFact():
+                why = "the model has no services: what a call of it does is not in the model"
+                self._unread(fact.site.place, why, unit.name)
+            case ClientFact():
+                why = "the model has no services: what this one answers is open"
+                self._approximated(fact.site.place, why, unit.name)
+
+    def _wide(self, unit: Unit, server: Server) -> None:
+        wide = self.types.wide.get(server.type or "", set())
+        for parameter in server.parameters:
+            if parameter.path in wide:
+                for fact in server.subscriptions[:1]:
+                    why = f'"{parameter.path}" holds more than the model\'s int does'
+                    self._approximated(fact.site.place, why, f"{unit.name}.{server.name}")
+
+    def _words(self, unit: Unit, cpp: Cpp, body: Node) -> None:
+        for node in _words(body):
+            name = text_of(node)
+            place = Place(cpp.source, cpp.span(node))
+            if _THREADS.match(name):
+                self._unread(place, f'"{name}": {_SEVERAL}', unit.name)
+            elif _ENTRIES.fullmatch(name):
+                why = f'"{name}" calls functions of the node in ways that the model does not have'
+                self._unread(place, why, unit.name)
+
+    # --- wiring ---------------------------------------------------------------------------------
+
+    def wiring(self, wiring: Wiring) -> None:
+        """Topics that are not known, and those with nobody at their other end."""
+        for instance in wiring.instances:
+            self._topics(instance)
+        for instance, fact in unheard(wiring):
+            topic = instance.topic(fact.topic)
+            if isinstance(topic, str):
+                why = f'nobody in these files subscribes to "{topic}": it is not sent in the model'
+                self._approximated(fact.site.place, why, instance.start.unit.name, _OPEN)
+        for instance, heard in unfed(wiring):
+            topic = instance.topic(heard.topic)
+            if isinstance(topic, str):
+                why = f'nobody in these files publishes "{topic}": the model gets no such message'
+                self._approximated(heard.site.place, why, instance.start.unit.name, _CLOSE)
+        self._shared(wiring)
+
+    def _topics(self, instance: Instance) -> None:
+        for fact in instance.start.unit.facts:
+            if isinstance(fact, PublisherFact | SubscriptionFact):
+                topic = instance.topic(fact.topic)
+                if isinstance(topic, Open):
+                    why = f"the topic is not known: {topic.why}"
+                    self._unread(fact.site.place, why, instance.start.unit.name)
+
+    def _shared(self, wiring: Wiring) -> None:
+        """Objects of one program that share its thread, and nodes that may not be there."""
+        nodes: dict[tuple[int, int], list[Instance]] = {}
+        for instance in wiring.instances:
+            if instance.start.program is not None:
+                key = instance.start.program.main.node.id, id(instance.launched)
+                nodes.setdefault(key, []).append(instance)
+            if instance.start.made is not None and instance.start.made.repeated:
+                self._made(instance, "how many of these are made is not known: the model has one")
+            launched = instance.launched
+            if launched is not None and launched.only_if:
+                why = f"it is started only `{launched.only_if[-1]}`: in the model it always is"
+                self._approximated(Place(launched.source, launched.span), why)
+        for together in nodes.values():
+            if len(together) > 1:
+                why = "objects of one program take turns; in the model they act by themselves"
+                self._made(together[1], why)
+
+    def _made(self, instance: Instance, why: str) -> None:
+        program, made = instance.start.program, instance.start.made
+        if program is None:
+            return
+        node = program.main.node
+        if made is not None and made.statement is not None:
+            node = made.statement
+        place = Place(program.main.cpp.source, program.main.cpp.span(node))
+        self._approximated(place, why, program.name)
+
+    # --- once -----------------------------------------------------------------------------------
+
+    def _unread(self, place: Place, why: str, within: str) -> None:
+        if not any(f.source is place.source and f.span == place.span for f in self.findings.all):
+            self.findings.unreadable(place.source, Unread(place.span, why), within)
+
+    def _approximated(self, place: Place, why: str, within: str = "", hint: str = "") -> None:
+        if not any(f.span == place.span and f.why == why for f in self.findings.all):
+            self.findings.approximated(place.source, place.span, why, hint, within)
+
+
+_OPEN = "add the package that has the receivers, if they matter"
+_CLOSE = "add the package that publishes it, or a class to the model that sends what may come"
+
+
+def _words(node: Node) -> Iterator[Node]:
+    waiting = [node]
+    while waiting:
+        current = waiting.pop()
+        if current.type in ("identifier", "type_identifier", "field_identifier"):
+            yield current
+        waiting += current.named_children

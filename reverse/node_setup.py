@@ -1,0 +1,303 @@
+"""What sets a node up, in its constructor or in `main`, as statements of the model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import field
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.package import Value
+from rebsync.records import dataclass
+from rebsync.reverse.cpp_calls import calls_in
+from rebsync.reverse.cpp_declarations import declared_name
+from rebsync.reverse.cpp_index import Code, CppFunction
+from rebsync.reverse.cpp_tree import named, text_of
+from rebsync.reverse.cpp_types import carried
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.graph import (
+    ClientFact,
+    Fact,
+    NodeFact,
+    ParameterFact,
+    PublisherFact,
+    RateFact,
+    ServiceFact,
+    SubscriptionFact,
+    TimerFact,
+)
+from rebsync.reverse.node_loops import Loop, loops_in
+from rebsync.reverse.node_names import Names
+from rebsync.reverse.node_parameters import Given, asked
+from rebsync.reverse.node_servers import Server
+from rebsync.reverse.node_state import State
+from rebsync.reverse.node_times import Times
+from rebsync.reverse.node_values import Instance
+from rebsync.reverse.scope import Outside, Stores, TimerOf, Variable
+
+Entry = tuple["m.Statement | Stores | Node", ...]
+_WAITS = frozenset({"spin", "waitForShutdown", "spinOnce", "shutdown", "start"})
+_ENDS = frozenset({"spin", "waitForShutdown"})
+_PLAIN = (NodeFact, PublisherFact, SubscriptionFact, ServiceFact, ClientFact, RateFact)
+_NESTING = frozenset(
+    {"if_statement", "while_statement", "for_statement", "switch_statement", "else_clause"}
+)
+
+
+@dataclass(slots=True)
+class Setup:
+    """What the calls that set a node up stand for, by the ids of their statements.
+
+    `first` are the functions that run before the node serves messages. `periodic` gives for each
+    server of a timer its period, `parameters` are those of the constructor.
+    """
+
+    code: Code
+    state: State
+    servers: Sequence[Server]
+    facts: Sequence[Fact]
+    instances: Sequence[Instance]
+    first: Sequence[CppFunction]
+    times: Times
+    findings: Findings
+    within: str
+    names: Names
+    instead: dict[int, Entry] = field(default_factory=dict)
+    values: dict[int, m.Expression] = field(default_factory=dict)
+    timers: dict[int, TimerOf] = field(default_factory=dict)
+    periodic: dict[str, int] = field(default_factory=dict)
+    parameters: list[Given] = field(default_factory=list)
+    loops: list[tuple[Loop, str]] = field(default_factory=list)
+
+    def prepare(self) -> None:
+        """Finds it all out."""
+        self._loops()
+        for fact in self.facts:
+            match fact:
+                case TimerFact():
+                    self._timer(fact)
+                case ParameterFact() if self._is_first(fact):
+                    self._parameter(fact)
+                case _ if isinstance(fact, _PLAIN):
+                    self._plain(fact)
+        for function in self.first:
+            self._waits(function)
+
+    def _is_first(self, fact: Fact) -> bool:
+        return fact.site.function is not None and any(
+            f.node.id == fact.site.function.node.id for f in self.first
+        )
+
+    # --- calls ----------------------------------------------------------------------------------
+
+    def _plain(self, fact: Fact) -> None:
+        statement = statement_of(fact.site.call)
+        if statement is None or statement.type not in ("expression_statement", "declaration"):
+            if statement is not None and statement.type == "field_initializer":
+                self.instead[statement.id] = ()
+            return
+        self.instead[statement.id] = ()
+        if isinstance(fact, PublisherFact | SubscriptionFact) and not self._at_once(fact):
+            what = "published" if isinstance(fact, PublisherFact) else "subscribed to"
+            why = f"what is {what} later, or only sometimes, is so from the start in the model"
+            place = fact.site.place
+            self.findings.approximated(place.source, place.span, why, within=self.within)
+
+    def _at_once(self, fact: Fact) -> bool:
+        """Whether a call is made once, when the node starts."""
+        around = fact.site.call.parent
+        while around is not None and around.type != "function_definition":
+            if around.type in _NESTING or around.type == "lambda_expression":
+                return False
+            around = around.parent
+        return self._is_first(fact)
+
+    def _timer(self, fact: TimerFact) -> None:
+        server = next((s for s in self.servers if s.timer is fact), None)
+        call = fact.site.call
+        if server is None:
+            why = "it is not known which function the timer calls"
+            self._listed(fact, why)
+            return
+        periodic = fact.one_shot is not True
+        self.timers[call.id] = TimerOf(server.name, periodic)
+        if fact.one_shot not in (True, False):
+            self._listed(fact, "it is not known whether the timer goes on")
+        within = f"{self.within}.{server.name}"
+        period = self.times.units(fact, self.instances, self.findings, within)
+        if period is not None and periodic:
+            self.periodic[server.name] = period
+        statement = statement_of(call)
+        if statement is None or not self._is_first(fact):
+            return
+        self.instead[statement.id] = ()
+        if fact.autostart is True and period is not None:
+            self.instead[statement.id] = (send(server.name, period),)
+        elif fact.autostart not in (True, False):
+            self._listed(fact, "it is not known whether the timer starts at once")
+
+    def _listed(self, fact: Fact, why: str, hint: str = "") -> None:
+        place = fact.site.place
+        self.findings.unreadable(place.source, Unread(place.span, why, hint), self.within)
+
+    # --- parameters -----------------------------------------------------------------------------
+
+    def _parameter(self, fact: ParameterFact) -> None:
+        statement = statement_of(fact.site.call)
+        found = asked(fact, self.instances, lambda n: self._type(n, fact))
+        if found is None or statement is None:
+            if statement is not None and statement.type == "expression_statement":
+                self.instead[statement.id] = ()
+            return
+        whole = statement.type == "expression_statement" and _is_call(statement, fact.site.call)
+        before = self.instead.get(statement.id, (statement,))
+        stores = self._stores(fact, found.target, found.type, found.values)
+        if found.target is not None and (found.found or fact.default is not None):
+            before = (*stores, *before)
+        if whole:
+            before = tuple(b for b in before if b is not statement)
+        elif found.target is None and stores:
+            first = stores[0]
+            assert isinstance(first, Stores) and isinstance(first.value, m.Name)
+            self.values[fact.site.call.id] = first.value
+        elif found.found is not None:
+            self.values[fact.site.call.id] = m.BoolLiteral(found.found)
+        if whole or before != (statement,):
+            self.instead[statement.id] = before
+
+    def _stores(
+        self,
+        fact: ParameterFact,
+        target: Node | None,
+        type_: m.Type | None,
+        values: tuple[Value | None, ...],
+    ) -> tuple[Stores, ...]:
+        """The new parameter of the constructor, stored where it belongs."""
+        if type_ is None or not isinstance(fact.name, str) or (None in values and self.instances):
+            return ()
+        wish = fact.name.rpartition("/")[2].lstrip("~") or "value"
+        name = self.names.give(wish, f"{wish}_given")
+        self.parameters.append(Given(name, type_, values))
+        return (Stores(target if target is not None else fact.site.call, m.Name(name)),)
+
+    def _type(self, target: Node, fact: ParameterFact) -> m.Type | None:
+        """The type of the variable that a parameter is stored in; None for one outside."""
+        name = text_of(target).removeprefix("this->")
+        members = self.state.members_of(fact.site.function)
+        match members.get(name):
+            case Variable(_, type_):
+                return type_
+            case Outside():
+                return None
+        body = fact.site.function.body if fact.site.function is not None else None
+        waiting = [body] if body is not None else []
+        while waiting:
+            node = waiting.pop()
+            if node.type == "declaration":
+                for declarator in node.children_by_field_name("declarator"):
+                    inner = declarator.child_by_field_name("declarator")
+                    found = declared_name(inner if inner is not None else declarator)
+                    type_node = node.child_by_field_name("type")
+                    if found is not None and text_of(found) == name and type_node is not None:
+                        kept = carried(type_node, self.state.enums)
+                        return kept.type if kept is not None else None
+            waiting += node.named_children
+        return None
+
+    # --- loops and waiting ----------------------------------------------------------------------
+
+    def _loops(self) -> None:
+        rates = [f for f in self.facts if isinstance(f, RateFact)]
+        for function in self.first:
+            for loop in loops_in(function, rates):
+                self._loop(function, loop)
+
+    def _loop(self, function: CppFunction, loop: Loop) -> None:
+        parts = (*loop.first, *loop.rest)
+        self.instead[loop.node.id] = ()
+        if parts:
+            mentioned = {text_of(n) for p in parts for n in _names(p)}
+            self.instead |= self.state.outlive(function, mentioned, False)
+            self.instead[loop.node.id] = ()
+            name = self.names.give("loop" if function.name == "main" else function.name)
+            self.loops.append((loop, name))
+            period = self._pause(loop) if not loop.first else 0
+            self.instead[loop.node.id] = (send(name, period or 0),)
+        for later in _later(loop.node):
+            self.instead[later.id] = ()
+
+    def _pause(self, loop: Loop) -> int | None:
+        """The time that a loop sleeps in each round, in units."""
+        if loop.rate is None:
+            return None
+        return self.times.units(loop.rate, self.instances, self.findings, self.within)
+
+    def pause(self, loop: Loop) -> int | None:
+        """The time between two rounds of a loop, in units; None, and listed, where it is open."""
+        if loop.rate is not None:
+            return self._pause(loop)
+        if not loop.sleeps:
+            why = "this loop runs as often as the machine can: the model cannot say how often"
+            unread = Unread(loop.function.cpp.span(loop.node), why, "let it sleep by a ros::Rate")
+            self.findings.unreadable(loop.function.cpp.source, unread, self.within)
+            return None
+        return 0
+
+    def _waits(self, function: CppFunction) -> None:
+        """What waits for messages, or lets ROS serve them, is nothing in the model."""
+        for call in calls_in(function.body):
+            name = call.name.rpartition("::")[2]
+            statement = statement_of(call.node)
+            if name not in _WAITS or statement is None or not _is_call(statement, call.node):
+                continue
+            own = call.target is None and "::" not in call.name
+            if statement.type != "expression_statement" or own or statement.id in self.instead:
+                continue
+            if name == "start" and "pinner" not in call.on.lower():
+                continue
+            self.instead[statement.id] = ()
+            if name in _ENDS:
+                for later in _later(statement):
+                    self.instead[later.id] = ()
+
+
+def send(server: str, after: int = 0) -> m.Statement:
+    """`self.server() after(...)`."""
+    time = m.IntLiteral(after) if after else None
+    return m.ExpressionStatement(m.Call(m.Self(), server, (), time))
+
+
+def statement_of(node: Node) -> Node | None:
+    """The statement, or entry of an initialiser list, that a node is in."""
+    at: Node | None = node
+    while at is not None:
+        if at.type.endswith("_statement") or at.type in ("declaration", "field_initializer"):
+            return at
+        if at.type in ("function_definition", "lambda_expression"):
+            return None
+        at = at.parent
+    return None
+
+
+def _is_call(statement: Node, call: Node) -> bool:
+    """Whether a statement is nothing but a call."""
+    inner = named(statement)
+    return len(inner) == 1 and inner[0].id == call.id
+
+
+def _later(node: Node) -> Iterator[Node]:
+    """What stands behind a statement: when it is reached, the node is being shut down."""
+    after = node.next_named_sibling
+    while after is not None:
+        yield after
+        after = after.next_named_sibling
+
+
+def _names(node: Node) -> Iterable[Node]:
+    waiting = [node]
+    while waiting:
+        current = waiting.pop()
+        if current.type == "identifier":
+            yield current
+        waiting += current.named_children
