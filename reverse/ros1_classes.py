@@ -17,14 +17,20 @@ from rebsync.reverse.cpp_types import class_name, type_of
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.ros1_bodies import Bodies
 from rebsync.reverse.ros1_free import free_functions
-from rebsync.reverse.ros1_names import is_interface, plain_name, state_types, variable_name
+from rebsync.reverse.ros1_names import (
+    annotations_in,
+    is_interface,
+    plain_name,
+    state_types,
+    variable_name,
+)
 from rebsync.reverse.ros1_plumbing import check_plumbing
+from rebsync.reverse.ros1_publishing import publisher
 from rebsync.reverse.ros1_roles import Roles, roles_of, shown_of
 from rebsync.reverse.ros1_sends import add_sends
 from rebsync.reverse.ros1_timers import Timer, checked, server_of_timer, timers_of
 from rebsync.reverse.ros1_values import initial_values
-from rebsync.reverse.scope import Called, Function, Member, Runtime, Scope, Variable
-from rebsync.reverse.written import annotation
+from rebsync.reverse.scope import Called, Function, Member, Outside, Runtime, Scope, Variable
 
 _RUNTIME: dict[str, Runtime] = {
     "Mailbox": Runtime("mailbox"),
@@ -39,7 +45,8 @@ _PLUMBING = frozenset({"mailbox", "publishState"})
 class Classes:
     """Reads the classes of some code that have a mailbox, and the interfaces of these.
 
-    `messages` are the fields of the package's message types, `unit` the seconds of a unit of time.
+    `messages` are the fields of message types (`package/Type`) by their names, `unit` the seconds
+    that a unit of time takes.
     """
 
     code: Code
@@ -49,6 +56,7 @@ class Classes:
     types: frozenset[str] = frozenset()
     roles: dict[str, Roles] = field(default_factory=dict)
     timers: dict[str, tuple[Timer, ...]] = field(default_factory=dict)
+    fields: dict[str, Mapping[str, m.Type | None]] = field(default_factory=dict)
     _scopes: dict[str, Scope] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -62,6 +70,7 @@ class Classes:
         self.types = frozenset(messages | states | set(self.code.classes))
         for owner in self.code.classes.values():
             self.timers[owner.name] = tuple(self._timed(owner))
+        self.fields = {t.rpartition("/")[2]: f for t, f in self.messages.items()}
 
     def read(self, wanted: set[str] | None = None) -> tuple[m.ReactiveClass | m.Interface, ...]:
         """All of them, or those that are wanted, in the order of the code."""
@@ -97,11 +106,11 @@ class Classes:
         extends = tuple(class_name(b) for b in owner.bases)
         span = owner.cpp.span(owner.node)
         return m.Interface(
-            class_name(owner.name), servers, extends, _annotations(owner.markers, owner), span
+            class_name(owner.name), servers, extends, annotations_in(owner.markers, owner), span
         )
 
     def _reactive(self, owner: CppClass) -> m.ReactiveClass:
-        check_plumbing(self.code, owner, self.roles, self.messages, self.findings)
+        check_plumbing(self.code, owner, self.roles, self.fields, self.findings)
         for timer in self.timers[owner.name]:
             checked(timer, f"{owner.name}.{timer.function.name}", self.findings)
         functions = [f for f in self.code.functions_of(owner) if self._is_of_model(owner, f)]
@@ -137,7 +146,7 @@ class Classes:
     def _class_annotations(self, owner: CppClass) -> Iterator[m.Annotation]:
         """Those of the markers; without markers, those that the set-up shows."""
         if any(x.startswith("reactiveclass ") for x in owner.markers):
-            yield from _annotations(owner.markers, owner)
+            yield from annotations_in(owner.markers, owner)
             return
         if any(text_of(f.type) == "Drive" for f in owner.fields):
             yield m.Annotation("Robot")
@@ -149,7 +158,7 @@ class Classes:
     ) -> Iterator[m.Annotation]:
         """Those of the markers; without markers, those that the set-up shows."""
         if any(x.startswith("msgsrv ") for x in function.markers):
-            yield from _annotations(function.markers, owner)
+            yield from annotations_in(function.markers, owner)
             return
         if name in self.roles[owner.name].sensors:
             yield m.Annotation("Sensor")
@@ -281,7 +290,7 @@ class Classes:
         bodies = self._bodies(owner)
         for taken in self.roles[owner.name].taken:
             if taken.handler is None:
-                fields = self.messages.get(taken.type)
+                fields = self.fields.get(taken.type)
                 within = f"{owner.name}.{taken.server}"
                 parameters, body = bodies.taken(taken, fields, within)
                 span = taken.function.cpp.span(taken.call.node)
@@ -295,14 +304,10 @@ class Classes:
 
     def _timed_servers(self, owner: CppClass) -> Iterator[tuple[Timer, str]]:
         """The timers of a class with the servers that these send messages to."""
-        roles = self.roles[owner.name]
+        handlers = self.roles[owner.name].handlers
         for index, timer in enumerate(self.timers[owner.name], 1):
-            if timer.one_shot and timer.posts is not None:
-                yield timer, timer.posts
-            elif timer.callback:
-                yield timer, roles.handlers[timer.callback]
-            else:
-                yield timer, f"timer{index}"
+            once = timer.posts if timer.one_shot else None
+            yield timer, once or handlers.get(timer.callback, f"timer{index}")
 
     def _method(self, owner: CppClass, function: CppFunction) -> m.Method:
         bodies, name = self._bodies(owner), plain_name(function, self.types)
@@ -313,7 +318,7 @@ class Classes:
             bodies.parameters(function),
             bodies.block(function, f"{owner.name}.{name}"),
             function.pure,
-            _annotations(function.markers, owner),
+            annotations_in(function.markers, owner),
             function.cpp.span(function.node),
         )
 
@@ -335,7 +340,7 @@ class Classes:
                 name,
                 bodies.parameters(function),
                 body,
-                _annotations(function.markers, owner),
+                annotations_in(function.markers, owner),
                 function.cpp.span(function.node),
             )
         if not found and (given or started):
@@ -352,6 +357,15 @@ class Classes:
             self._scopes[owner.name] = self._scope(owner)
         return self._scopes[owner.name]
 
+    def _member(self, roles: Roles, member: CppField) -> Member:
+        if (runtime := self._runtime(member)) is not None:
+            return runtime
+        if (advertised := roles.publishers.get(member.name)) is not None:
+            return publisher(advertised, self.roles, self.messages)
+        if type_of(member.type) is None:
+            return Outside(reaches=text_of(member.type).startswith("ros::"))
+        return Variable(variable_name(roles, member))
+
     def _scope(self, owner: CppClass) -> Scope:
         members: dict[str, Member] = {}
         functions: dict[str, Function] = {}
@@ -359,8 +373,7 @@ class Classes:
         for above in reversed(self.code.lineage(owner.name)):
             roles = self.roles[above.name]
             for member in above.fields:
-                runtime = self._runtime(member)
-                members[member.name] = runtime or Variable(variable_name(roles, member))
+                members[member.name] = self._member(roles, member)
             for function in self.code.functions_of(above):
                 served = self._served(above, function)
                 if function.name in roles.sends:
@@ -386,8 +399,3 @@ class Classes:
             messages=self.messages,
             unit=self.unit,
         )
-
-
-def _annotations(markers: tuple[str, ...], owner: CppClass) -> tuple[m.Annotation, ...]:
-    span = owner.cpp.span(owner.node)
-    return tuple(a for text in markers if (a := annotation(text, span)) is not None)

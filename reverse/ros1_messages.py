@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from rebsync.model import Type
 from rebsync.reserved import RUNTIME_FIELDS
+from rebsync.reverse.manifests import read_manifest
 from rebsync.reverse.messages import MessageField, plain_type, read_message
 from rebsync.source import Source
 
@@ -20,16 +21,20 @@ _TYPES = {
 
 
 def own_messages(files: Mapping[str, Source]) -> dict[str, dict[str, Type | None]]:
-    """By the name of each message type its fields, without those of the run-time part.
+    """By message type, with its package, the fields but for those of the run-time part.
 
     None for what the model has no type for.
     """
+    manifest = files.get("package.xml")
+    package = read_manifest(manifest).name if manifest is not None else None
     found = {}
     for path, source in sorted(files.items()):
         name = path.rpartition("/")[2].removesuffix(".msg")
         if path.endswith(".msg"):
             read = read_message(source, "", name)
-            found[name] = {f.name: _type(f) for f in read.fields if f.name not in RUNTIME_FIELDS}
+            found[f"{package or ''}/{name}"] = {
+                f.name: _type(f) for f in read.fields if f.name not in RUNTIME_FIELDS
+            }
     return found
 
 

@@ -80,10 +80,14 @@ class Target:
 
 @dataclass(frozen=True, slots=True)
 class Publishes:
-    """A publisher; without targets nobody in the model receives what it sends."""
+    """A publisher; without targets nobody in the model receives what it sends.
+
+    With `timed` a message gets its times from the mailbox: without, its receiver drops it.
+    """
 
     targets: tuple[Target, ...]
     type: str = ""
+    timed: bool = False
 
 
 @dataclass(frozen=True, slots=True)

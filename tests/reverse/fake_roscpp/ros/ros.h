@@ -1,0 +1,209 @@
+// See README.md.
+#ifndef FAKE_ROS_ROS_H
+#define FAKE_ROS_ROS_H
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace boost {
+using std::bind;
+using std::function;
+using std::make_shared;
+using std::shared_ptr;
+}  // namespace boost
+using namespace std::placeholders;
+
+namespace fake {
+
+/// What callbacks have done, one line each: the seconds that had passed, then what.
+inline std::vector<std::string>& effects() {
+  static std::vector<std::string> all;
+  return all;
+}
+
+inline double& clock() {
+  static double seconds = 0;
+  return seconds;
+}
+
+inline std::string number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+inline void note(const std::string& what) { effects().push_back(number(clock()) + " " + what); }
+
+}  // namespace fake
+
+namespace ros {
+
+struct Duration {
+  explicit Duration(double seconds = 0) : seconds_(seconds) {}
+  Duration(int32_t seconds, int32_t nanoseconds) : seconds_(seconds + nanoseconds * 1e-9) {}
+  double toSec() const { return seconds_; }
+  bool sleep() const {
+    fake::clock() += seconds_;
+    return true;
+  }
+  bool operator<(const Duration& other) const { return seconds_ < other.seconds_; }
+  bool operator>(const Duration& other) const { return seconds_ > other.seconds_; }
+  double seconds_;
+};
+using WallDuration = Duration;
+
+struct Time {
+  explicit Time(double seconds = 0) : seconds_(seconds) {}
+  static Time now() { return Time(fake::clock()); }
+  double toSec() const { return seconds_; }
+  Duration operator-(const Time& other) const { return Duration(seconds_ - other.seconds_); }
+  bool operator<(const Time& other) const { return seconds_ < other.seconds_; }
+  bool operator>(const Time& other) const { return seconds_ > other.seconds_; }
+  double seconds_;
+};
+using WallTime = Time;
+
+struct Rate {
+  explicit Rate(double hz) : hz_(hz) {}
+  bool sleep() const {
+    fake::clock() += 1.0 / hz_;
+    return true;
+  }
+  double hz_;
+};
+
+struct TimerEvent {
+  Time current_real;
+};
+
+struct Timer {
+  void start() {}
+  void stop() {}
+};
+using WallTimer = Timer;
+
+struct Subscriber {
+  void shutdown() {}
+};
+
+struct Publisher {
+  std::string topic;
+
+  template <class M>
+  void publish(const M& message) const {
+    fake::note("publish " + topic + shown(message));
+  }
+  template <class M>
+  void publish(const std::shared_ptr<M>& message) const {
+    publish(*message);
+  }
+  uint32_t getNumSubscribers() const { return 1; }
+};
+
+class NodeHandle {
+ public:
+  explicit NodeHandle(const std::string& = "") {}
+
+  template <class M>
+  Publisher advertise(const std::string& topic, uint32_t, bool = false) {
+    return Publisher{topic};
+  }
+
+  template <class M, class T>
+  Subscriber subscribe(const std::string&, uint32_t, void (T::*)(const std::shared_ptr<const M>&),
+      T*) {
+    return {};
+  }
+  template <class M, class T>
+  Subscriber subscribe(const std::string&, uint32_t, void (T::*)(const M&), T*) {
+    return {};
+  }
+  template <class M>
+  Subscriber subscribe(const std::string&, uint32_t,
+      const std::function<void(const std::shared_ptr<const M>&)>&) {
+    return {};
+  }
+
+  template <class T>
+  Timer createTimer(const Duration& period, void (T::*)(const TimerEvent&), T*,
+      bool one_shot = false) {
+    return timer(period, one_shot);
+  }
+  Timer createTimer(const Duration& period, const std::function<void(const TimerEvent&)>&,
+      bool one_shot = false) {
+    return timer(period, one_shot);
+  }
+
+  template <class T>
+  bool param(const std::string&, T& value, const T& otherwise) const {
+    value = otherwise;
+    return false;
+  }
+  template <class T>
+  bool getParam(const std::string&, T&) const {
+    return false;
+  }
+
+ private:
+  static Timer timer(const Duration& period, bool one_shot) {
+    if (one_shot) fake::note("arm " + fake::number(period.toSec()));
+    return {};
+  }
+};
+
+inline void init(int&, char**, const std::string&) {}
+inline bool ok() { return true; }
+inline void spin() {}
+inline void spinOnce() {}
+inline void shutdown() {}
+
+}  // namespace ros
+
+#define ROS_DEBUG(...) ((void)0)
+#define ROS_INFO(...) ((void)0)
+#define ROS_WARN(...) ((void)0)
+#define ROS_ERROR(...) ((void)0)
+#define ROS_INFO_STREAM(args) ((void)0)
+#define ROS_WARN_STREAM(args) ((void)0)
+#define ROS_WARN_THROTTLE(period, ...) ((void)0)
+
+/// A message type: `FAKE_MESSAGE(package, Name, fields, what `shown` appends)`.
+#define FAKE_MESSAGE(package, Name, fields, values)                       \
+  namespace package {                                                     \
+  struct Name {                                                           \
+    using Ptr = std::shared_ptr<Name>;                                    \
+    using ConstPtr = std::shared_ptr<const Name>;                         \
+    fields                                                                \
+  };                                                                      \
+  using Name##Ptr = Name::Ptr;                                            \
+  using Name##ConstPtr = Name::ConstPtr;                                  \
+  inline std::string shown(const Name& m) {                               \
+    (void)m;                                                              \
+    return values;                                                        \
+  }                                                                       \
+  }
+
+namespace fake {
+
+template <class T>
+std::string value(T number_) {
+  return " " + number(static_cast<double>(number_));
+}
+
+}  // namespace fake
+
+#endif  // FAKE_ROS_ROS_H

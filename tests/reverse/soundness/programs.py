@@ -1,0 +1,169 @@
+"""Drawn nodes compiled against the fake roscpp, and what their callbacks do on random inputs."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from random import Random
+
+from tests.reverse.soundness.nodes import MESSAGES, Callback, DrawnNode
+
+FAKE = Path(__file__).parents[1] / "fake_roscpp"
+# Signed integers wrap, as those of models do; warnings are of what is drawn, not of what is tried.
+OPTIONS = ("-std=c++17", "-O0", "-fwrapv", "-w")
+_RANGES = {
+    "bool": (0, 1),
+    "int8_t": (-128, 127),
+    "uint8_t": (0, 255),
+    "int16_t": (-(1 << 15), (1 << 15) - 1),
+    "int": (-(1 << 31), (1 << 31) - 1),
+}
+
+
+@dataclass(frozen=True)
+class Input:
+    """A call of a callback with the values of the message's fields."""
+
+    callback: Callback
+    values: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Effect:
+    """What a callback has done at a time since its call: a topic and values, or a timer armed."""
+
+    time: float
+    topic: str | None
+    values: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Seen:
+    """What a callback has done: its effects, and the members' values after it."""
+
+    effects: tuple[Effect, ...]
+    state: tuple[float, ...]
+
+
+def inputs(node: DrawnNode, seed: int, count: int) -> list[Input]:
+    """Random calls of a node's callbacks."""
+    random = Random(seed)
+    found = []
+    for _ in range(count):
+        callback = random.choice(node.callbacks)
+        found.append(Input(callback, tuple(_value(random, t) for _, t in callback.fields)))
+    return found
+
+
+def _value(random: Random, type_: str) -> float:
+    if type_ == "double":
+        return random.choice((0.0, 0.5, -0.25, 1.0, 2.5, -3.0, 100.0))
+    low, high = _RANGES[type_]
+    if random.random() < 0.7:
+        low, high = max(low, -3), min(high, 8)
+    return random.randint(low, high)
+
+
+def run(
+    folder: Path, nodes: Sequence[DrawnNode], calls: Sequence[Sequence[Input]]
+) -> list[list[Seen]]:
+    """For each node what is seen after its constructor, and after each call."""
+    sources = []
+    for node in nodes:
+        path = folder / f"{node.name}.cpp"
+        path.write_text(node.source, encoding="utf-8")
+        sources.append(path)
+    driver = folder / "driver.cpp"
+    driver.write_text(_driver(nodes, calls, sources), encoding="utf-8")
+    program = folder / "driver"
+    command = ["g++", *OPTIONS, f"-I{FAKE}", str(driver), "-o", str(program)]
+    built = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert built.returncode == 0, built.stderr[:4000]
+    told = subprocess.run([str(program)], capture_output=True, text=True, check=True, timeout=60)
+    return _read(told.stderr, nodes)
+
+
+def _driver(
+    nodes: Sequence[DrawnNode], calls: Sequence[Sequence[Input]], sources: Sequence[Path]
+) -> str:
+    text = ["#include <ros/ros.h>", "#include <library.h>"]
+    text += [f"#include <{m.replace('::', '/')}.h>" for m in MESSAGES]
+    text += [_LIBRARY, "#define private public"]
+    for node, path in zip(nodes, sources, strict=True):
+        low = node.name.lower()
+        text += [f"namespace of_{low} {{", f"#define main main_of_{low}"]
+        text += [f'#include "{path}"', "#undef main", "}"]
+    for node, made in zip(nodes, calls, strict=True):
+        text += _runner(node, made)
+    text += ["int main() {", *(f"  run_{n.name}();" for n in nodes), "}"]
+    return "\n".join(text) + "\n"
+
+
+_LIBRARY = """
+static unsigned state_of_library = 7;
+static unsigned drawn() {
+  state_of_library = state_of_library * 1103515245u + 12345u;
+  return state_of_library >> 16;
+}
+namespace library {
+int level() { return drawn() % 6; }
+bool ready() { return drawn() % 2; }
+double ratio() { return (drawn() % 100) / 100.0; }
+void record(int) {}
+}
+static void tell(const std::string& text) { std::cerr << text << std::endl; }
+"""
+
+
+def _runner(node: DrawnNode, calls: Sequence[Input]) -> list[str]:
+    width = max([len(c.values) for c in calls] + [1])
+    rows = []
+    for call in calls:
+        values = [*call.values, *[0] * (width - len(call.values))]
+        number = node.callbacks.index(call.callback)
+        rows.append(f"{{{number}, {', '.join(repr(float(v)) for v in values)}}}")
+    text = [f"static void run_{node.name}() {{", f'  tell("node {node.name}");']
+    text += ["  fake::effects().clear();", f"  of_{node.name.lower()}::{node.name} node;"]
+    text += ["  auto report = [&] {", "    for (auto& e : fake::effects()) tell(e);"]
+    text += ['    std::string state = "state";']
+    for member in node.members:
+        for index in range(member.length or 1):
+            at = f"[{index}]" if member.length else ""
+            text.append(f"    state += fake::value(node.{member.name}{at});")
+    text += ["    tell(state);", "  };", "  report();"]
+    text += [f"  static const double calls[][{width + 1}] = {{{', '.join(rows)}}};"]
+    text += ["  for (auto& call : calls) {", "    fake::effects().clear(); fake::clock() = 0;"]
+    text += ["    switch (static_cast<int>(call[0])) {"]
+    for number, callback in enumerate(node.callbacks):
+        text += [f"      case {number}: {{", *_called(callback), "        break;", "      }"]
+    return [*text, "    }", "    report();", "  }", "}"]
+
+
+def _called(callback: Callback) -> list[str]:
+    if callback.message is None:
+        return [f"        node.{callback.name}(ros::TimerEvent());"]
+    text = [f"        auto msg = std::make_shared<{callback.message}>();"]
+    for index, (path, type_) in enumerate(callback.fields, 1):
+        text.append(f"        msg->{path} = static_cast<{type_}>(call[{index}]);")
+    given = "*msg" if callback.by_value else "msg"
+    return [*text, f"        node.{callback.name}({given});"]
+
+
+def _read(told: str, nodes: Sequence[DrawnNode]) -> list[list[Seen]]:
+    found: list[list[Seen]] = []
+    effects: list[Effect] = []
+    for line in told.splitlines():
+        first, *rest = line.split()
+        if first == "node":
+            found.append([])
+        elif first == "state":
+            found[-1].append(Seen(tuple(effects), tuple(map(float, rest))))
+            effects = []
+        else:
+            topic = rest[1] if rest[0] == "publish" else None
+            values = rest[2:] if topic is not None else rest[1:]
+            effects.append(Effect(float(first), topic, tuple(map(float, values))))
+    assert len(found) == len(nodes)
+    return found
