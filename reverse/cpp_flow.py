@@ -194,7 +194,7 @@ def nearness(one: Cpp, other: Cpp) -> tuple[int, int]:
 def declaration_of(name: Node) -> Node | None:
     """The declaration that a name is declared by as a variable, if it is."""
     below, above = name, name.parent
-    while above is not None and above.type in _DECLARATORS:
+    while above is not None and (above.type in _DECLARATORS or _of_pointer(above)):
         if above.type in ("init_declarator", "function_declarator") and (
             part(above, "declarator") != below
         ):
@@ -205,6 +205,18 @@ def declaration_of(name: Node) -> Node | None:
     if below.type == "function_declarator" and not _makes(above, below):
         return None
     return above
+
+
+def _of_pointer(node: Node) -> bool:
+    """Whether a node is the `C::*f` of a pointer to a method."""
+    if node.type == "pointer_type_declarator":
+        return True
+    above = node.parent
+    return (
+        node.type == "qualified_identifier"
+        and above is not None
+        and above.type == "parenthesized_declarator"
+    )
 
 
 def _declarators(declaration: Node) -> list[Node]:
@@ -223,8 +235,8 @@ def _makes(declaration: Node, declarator: Node) -> bool:
 def made_of(name: Node) -> tuple[Node, ...] | None:
     """The arguments that a declared variable is made of; None where it is given none."""
     above = name.parent
-    while above is not None and above.type in _DECLARATORS:
-        if above.type == "function_declarator":
+    while above is not None and (above.type in _DECLARATORS or _of_pointer(above)):
+        if above.type == "function_declarator" and not is_pointer(above):
             found = [
                 p.child_by_field_name("type") for p in part(above, "parameters").named_children
             ]
@@ -236,6 +248,11 @@ def made_of(name: Node) -> tuple[Node, ...] | None:
             return (value,)
         above = above.parent
     return None
+
+
+def is_pointer(declarator: Node) -> bool:
+    """Whether a function's declarator is that of a pointer to one."""
+    return part(declarator, "declarator").type == "parenthesized_declarator"
 
 
 def scope_of(declaration: Node) -> Node | None:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.cpp_flow import Texts, declaration_of, made_of
+from rebsync.reverse.cpp_flow import Texts, declaration_of, is_pointer, made_of
 from rebsync.reverse.cpp_flow_types import Variable
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
 
@@ -80,12 +80,18 @@ def _declared(place: Node, declaration: Node) -> Definition | None:
     if given is None:
         return Definition("declared", place, place)
     holder = place.parent
-    while holder is not None and holder.type not in ("init_declarator", "function_declarator"):
+    while holder is not None and not _holds_value(holder):
         holder = holder.parent
     plain = holder is not None and holder.type == "init_declarator"
     if holder is not None and plain and part(holder, "value").type not in _LISTS:
         return Definition("value", place, given[0])
     return Definition("made", place, declaration if holder is None else holder, given)
+
+
+def _holds_value(node: Node) -> bool:
+    if node.type == "function_declarator":
+        return not is_pointer(node)
+    return node.type == "init_declarator"
 
 
 _LISTS = ("argument_list", "initializer_list")

@@ -84,7 +84,11 @@ class Values:
 
         Callers outside of the files count only where there are none inside.
         """
-        waiting, inside, outside = [frame], [], []
+        return self.settle_all([frame], do)
+
+    def settle_all(self, frames: list[Frame], do: Callable[[Frame], T]) -> list[T]:
+        """As `settle`, for several frames."""
+        waiting, inside, outside = [*frames], [], []
         while waiting and len(inside) < MOST:
             current = waiting.pop(0)
             try:
@@ -94,8 +98,17 @@ class Values:
                     raise
                 waiting += self._called(current)
                 continue
-            (outside if current.root.outside else inside).append(result)
+            root = current.root
+            away = root.outside or (root is not current and self._is_unused(root))
+            (outside if away else inside).append(result)
         return inside or outside
+
+    def _is_unused(self, frame: Frame) -> bool:
+        """Whether a frame is that of a constructor by which no file makes an object."""
+        function = frame.function
+        if function is None or function.name != function.owner:
+            return False
+        return not self.calls.uses(function)
 
     def _called(self, frame: Frame) -> Iterator[Frame]:
         """The frame with each of the calls that lead into it."""

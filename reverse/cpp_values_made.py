@@ -74,6 +74,9 @@ def default_of(values: Values, type_: str, node: Node, frame: Frame) -> Value:
         return Handle("")
     if not type_ or type_ in NUMBERS or type_ in ("std::string", "string"):
         return Nothing()
+    name = type_.rpartition("::")[2]
+    if values.texts.class_near(name, frame.cpp) is None and not name.endswith("Options"):
+        return Nothing()
     return Made(type_, Use(frame.cpp, node, (), frame.function), frame)
 
 

@@ -188,6 +188,7 @@ def one_of(values: Iterable[Resolved]) -> Resolved | None:
         for way in value.values if isinstance(value, OneOf) else (value,):
             if not any(same(way, f) for f in found):
                 found.append(way)
+    found = _joined(found)
     unknown = [v for v in found if isinstance(v, Unresolved)]
     if unknown and len(found) > 1:
         texts = [v.partial or "*" if isinstance(v, Unresolved) else v for v in found]
@@ -198,6 +199,37 @@ def one_of(values: Iterable[Resolved]) -> Resolved | None:
     if any(isinstance(v, Under) for v in found) and len(found) > 1:
         return _under(found)
     return (found[0] if len(found) == 1 else OneOf(tuple(found))) if found else None
+
+
+def _joined(found: list[Resolved]) -> list[Resolved]:
+    """Values of one parameter that differ in the namespaces of their names only, as one."""
+    joined: list[Resolved] = []
+    for value in found:
+        index = next((i for i, v in enumerate(joined) if _alike(v, value)), None)
+        before = joined[index] if index is not None else None
+        if index is None or not (
+            isinstance(before, FromParameter) and isinstance(value, FromParameter)
+        ):
+            joined.append(value)
+            continue
+        within = dict.fromkeys([*(before.within or ("",)), *(value.within or ("",))])
+        joined[index] = FromParameter(
+            value.name, value.default, value.expression, value.search, tuple(within)
+        )
+    return joined
+
+
+def _alike(one: Resolved, other: Resolved) -> bool:
+    match one, other:
+        case FromParameter(), FromParameter():
+            return (one.name, one.default, one.expression, one.search) == (
+                other.name,
+                other.default,
+                other.expression,
+                other.search,
+            )
+        case _:
+            return False
 
 
 def _under(found: list[Resolved]) -> Resolved:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import field
+from functools import partial
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
@@ -368,11 +369,15 @@ class Variables:
     def _field_of(self, argument: Node, path: str, frame: Frame) -> Value:
         while argument.type in ("pointer_expression", "parenthesized_expression"):
             argument = named(argument)[-1]
+        if argument.type == "this":
+            class_ = self.values.texts.class_of(frame.function)
+            member = self.values.types.member(class_, path)
+            return self._in_general(member, "", frame) if member is not None else Nothing()
         if argument.type == "identifier":
             variable = self.values.types.variable(frame.cpp, argument)
             if variable is not None:
                 return self._at(variable, path, argument, frame)
-        return self.values.unknown("a field of what is handed in", argument, frame)
+        return Nothing()
 
     def _from_outside(self, variable: Variable, frame: Frame) -> Value:
         type_ = self.values.types.plain(variable.cpp, variable.type)
@@ -443,17 +448,21 @@ class Variables:
         """What a variable holds at the ends of functions; whether one of them sets it for sure."""
         found: list[Value] = []
         always = False
-        for function in functions:
-            results = self.values.settle(
-                Frame(function.cpp, function),
-                lambda f: self._ways(variable, path, None, f),
-            )
-            for values, sure in results:
-                always = always or sure
-                if not sure and function.name == function.owner:
-                    values = [*values, self._initial(variable, path)]
-                found.append(_filled(values))
+        frames = [Frame(f.cpp, f) for f in functions]
+        for function, values, sure in self.values.settle_all(
+            frames, partial(self._end, variable, path)
+        ):
+            always = always or sure
+            if not sure and function is not None and function.name == function.owner:
+                values = [*values, self._initial(variable, path)]
+            found.append(_filled(values))
         return choice(found), always
+
+    def _end(
+        self, variable: Variable, path: str, frame: Frame
+    ) -> tuple[CppFunction | None, list[Value], bool]:
+        values, sure = self._ways(variable, path, None, frame)
+        return frame.function, values, sure
 
     def _is_called(self, function: CppFunction) -> bool:
         return (
