@@ -111,7 +111,8 @@ class Calls:
             if call is not None:
                 if any(f.node == function.node for f in self.functions(cpp, call)):
                     given = tuple(named(part(call, "arguments")))
-                    yield self._use(cpp, call, given)
+                    home = self.texts.function_around(cpp, call)
+                    yield Use(cpp, call, given, home, _in_lambda(call))
                 continue
             if (use := self._handed(cpp, place, function, class_)) is not None:
                 yield use
@@ -238,6 +239,12 @@ class Calls:
 def found_or_pure(texts: Texts, owner: CppClass, name: str) -> bool:
     """Whether a class or one above declares a method."""
     return any(f.name == name for c in texts.lineage(owner) for f in c.functions)
+
+
+def _in_lambda(node: Node) -> bool:
+    """Whether a node is in a lambda, which runs when something else calls it."""
+    above = climb(node, lambda n: n.type in ("lambda_expression", "function_definition"))
+    return above is not None and above.type == "lambda_expression"
 
 
 def _called_by(place: Node) -> Node | None:

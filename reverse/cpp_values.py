@@ -48,7 +48,7 @@ T = TypeVar("T")
 
 _DEEPEST = 48
 _LONGEST = 6
-_STEPS = 20_000
+_STEPS = 8_000
 _KNOWN = {
     "M_PI": 3.141592653589793,
     "M_PI_2": 1.5707963267948966,
@@ -69,7 +69,10 @@ class Values:
     calls: Calls = field(init=False)
     variables: Variables = field(init=False)
     _active: set[tuple[int, int]] = field(default_factory=set)
+    _memo: dict[tuple[int, int], tuple[Value, Frame]] = field(default_factory=dict)
     _steps: int = 0
+    # How often a value was asked for while it was looked for: what comes of it is not kept.
+    cuts: int = 0
 
     def __post_init__(self) -> None:
         self.texts = Texts(self.code)
@@ -136,20 +139,28 @@ class Values:
         """Begins a question of its own: nothing of the one before counts against it."""
         self._steps = 0
         self._active.clear()
+        self._memo.clear()
 
     def value(self, node: Node, frame: Frame) -> Value:
         """The value of an expression in a frame. Open: it needs the frame's callers."""
         key = node.id, id(frame)
         self._steps += 1
         if key in self._active:
+            self.cuts += 1
             return Nothing()
+        if key in self._memo:
+            return self._memo[key][0]
         if len(self._active) > _DEEPEST or self._steps > _STEPS:
             return self.unknown("too far to follow", node, frame)
         self._active.add(key)
+        before = self.cuts
         try:
-            return self._value(node, frame)
+            value = self._value(node, frame)
         finally:
             self._active.discard(key)
+        if self.cuts == before:
+            self._memo[key] = value, frame
+        return value
 
     def _value(self, node: Node, frame: Frame) -> Value:
         match node.type:
@@ -283,7 +294,7 @@ class Values:
                 return result if result is not None else self._no(operator, node, frame)
             case ((str() | Unresolved()), (str() | Unresolved())) if operator == "+":
                 return added(a, b)
-            case FromParameter(), str() | str(), FromParameter() if operator == "+":
+            case (FromParameter(), str()) | (str(), FromParameter()) if operator == "+":
                 return added(a, b)
             case FromParameter(), (int() | float()) if operator in "+-*/":
                 text = _operand(part(node, "right"), b)
@@ -293,7 +304,7 @@ class Values:
                 text = _operand(part(node, "left"), a)
                 again = f"{text}{operator}value"
                 return used(b, again, lambda v: self._operation(operator, a, v, node, frame))
-            case Length(), (int() | float()) | (int() | float()), Length():
+            case (Length(), (int() | float())) | ((int() | float()), Length()):
                 return _scaled(operator, a, b) or self._no(operator, node, frame)
             case Unresolved(), _:
                 return Unresolved(a.why, a.place)

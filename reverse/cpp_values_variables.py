@@ -53,6 +53,7 @@ class Variables:
     _entries: dict[tuple[int, _Key], Value] = field(default_factory=dict)
     _active: set[tuple[int, _Key]] = field(default_factory=set)
     _writers: dict[_Key, list[CppFunction]] = field(default_factory=dict)
+    _changing: dict[tuple[int, int, str], bool] = field(default_factory=dict)
     _found: dict[tuple[int, _Key], list[Definition]] = field(default_factory=dict)
 
     # --- at a place -----------------------------------------------------------------------------
@@ -157,7 +158,7 @@ class Variables:
             return
         found = definitions(texts, function.cpp, variable, path, node.start_byte, node.end_byte)
         for definition in found:
-            if definition.how == "given" and not self._may_change(definition, function.cpp):
+            if definition.how == "given" and not self._may_change(definition, path, function.cpp):
                 continue
             if variable.kind in ("member", "global") and self._hidden(
                 definition, variable, function
@@ -190,8 +191,8 @@ class Variables:
                 if any(f.node == writer.node for f in calls.functions(function.cpp, call)):
                     yield Definition("called", place, call, text=str(writer.node.id))
 
-    def _may_change(self, definition: Definition, cpp: Cpp) -> bool:
-        """Whether a call may change what it is given."""
+    def _may_change(self, definition: Definition, path: str, cpp: Cpp) -> bool:
+        """Whether a call may change what it is given, or a field of it."""
         function = part(definition.node, "function")
         name, scope = _called(function)
         if _role(name, scope, definition.index, len(named(part(definition.node, "arguments")))):
@@ -201,10 +202,24 @@ class Variables:
         if name in _READERS and function.type != "field_expression":
             return True
         return any(
-            len(f.parameters) > definition.index
-            and _by_reference(f.parameters[definition.index].node)
+            self._changes(f, definition.index, path)
             for f in self.values.calls.functions(cpp, definition.node)
         )
+
+    def _changes(self, function: CppFunction, index: int, path: str) -> bool:
+        """Whether a function gives what is handed to it by reference another value."""
+        if index >= len(function.parameters):
+            return False
+        key = function.node.id, index, path
+        if key not in self._changing:
+            self._changing[key] = False  # while it is looked for
+            inner = self._parameter_variable(function, index)
+            self._changing[key] = (
+                inner is not None
+                and _by_reference(function.parameters[index].node)
+                and any(True for _ in self._own(inner, path, function))
+            )
+        return self._changing[key]
 
     # --- one definition -------------------------------------------------------------------------
 
