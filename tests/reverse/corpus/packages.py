@@ -20,6 +20,8 @@ PACKAGES = {
         *("yocs_ar_marker_tracking", "yocs_ar_pair_tracking", "yocs_diff_drive_pose_controller"),
         *("yocs_virtual_sensor", "yocs_waypoint_provider"),
     ),
+    "slam_gmapping": ("gmapping",),
+    "joystick_drivers": ("joy", "spacenav_node", "wiimote"),
     "autorally": ("autorally_core", "autorally_control"),
 }
 

@@ -62,17 +62,20 @@ def test_facts_stand_in_their_order_one_per_line(name: str) -> None:
     assert places == sorted(places)
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_the_figures_of_the_page(name: str) -> None:
-    row = re.search(rf"^\| {name} ((?:\| *\d+ *)+)\|$", README, re.MULTILINE)
+@pytest.mark.parametrize(
+    ("title", "names"),
+    [*((name, [name]) for name in NAMES), ("C\\+\\+", [*PACKAGES]), ("all", NAMES)],
+)
+def test_the_figures_of_the_page(title: str, names: list[str]) -> None:
+    row = re.search(rf"^\| {title} ((?:\| *\d+ *)+)\|$", README, re.MULTILINE)
     assert row is not None
-    facts = facts_of(name)
+    facts = [fact for name in names for fact in facts_of(name)]
     kinds = Counter(fact["kind"] for fact in facts)
     nodelets = sum("nodelet" in fact for fact in facts)
-    names = [f for f in facts if f["name"] is None and f["kind"] not in ("timer", "rate")]
+    nameless = [f for f in facts if f["name"] is None and f["kind"] not in ("timer", "rate")]
     shown = [int(cell) for cell in row[1].split("|")[1:]]
     figures = [kinds[kind] for kind in KINDS.values()]
-    assert shown == [*figures, len(facts), len(names) - nodelets, nodelets]
+    assert shown == [*figures, len(facts), len(nameless) - nodelets, nodelets]
 
 
 @pytest.mark.parametrize("name", PACKAGES)
