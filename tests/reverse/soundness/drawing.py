@@ -250,7 +250,7 @@ class Body:
         return [f"{shown} {name} = {value};"]
 
     def _publish(self) -> list[str]:
-        if self.timers and self.chance(25):
+        if self.timers and self.chance(8):
             seconds, timer = self.random.randint(1, 4), self.random.choice(self.timers)
             made = f"nh_.createTimer(ros::Duration({seconds}), &{timer}, this, true)"
             return [f"once_ = {made};"]

@@ -15,7 +15,7 @@ from rebsync.checker.values import real, stored
 from rebsync.properties import Properties
 from rebsync.reverse.findings import Grade
 from rebsync.reverse.recovery import Extracted
-from rebsync.static import analyse
+from rebsync.static import Analysis, analyse
 from tests.reverse.soundness.nodes import Callback, DrawnNode
 from tests.reverse.soundness.programs import Effect, Input, Seen
 
@@ -25,11 +25,16 @@ _FUNCTION = re.compile(r"^ {0,2}\w+ (\w+)\([^\n]*\) \{\n(.*?)^ {0,2}\}$", re.MUL
 
 @dataclass
 class Tally:
-    """How many calls were compared, by what is said of their callbacks, and what differs."""
+    """How many calls were compared, by what is said of their callbacks, and what is wrong.
+
+    `refused` are errors in models, `unsound` what the code does and the model cannot, `inexact`
+    where the model can do more and nothing says so.
+    """
 
     exact: int = 0
     approximated: int = 0
     unreadable: int = 0
+    refused: list[str] = field(default_factory=list)
     unsound: list[str] = field(default_factory=list)
     inexact: list[str] = field(default_factory=list)
 
@@ -38,6 +43,7 @@ class Tally:
             self.exact + other.exact,
             self.approximated + other.approximated,
             self.unreadable + other.unreadable,
+            self.refused + other.refused,
             self.unsound + other.unsound,
             self.inexact + other.inexact,
         )
@@ -52,8 +58,12 @@ def compare(
     was seen. After a callback that is listed as unreadable only what is seen is known.
     """
     grades = _Grades(node, extracted)
-    possible = Possible(node, extracted)
     tally = Tally()
+    analysis = analyse(extracted.model)
+    if analysis.errors:
+        tally.refused += [f"{node.name}: {d.message}" for d in analysis.errors]
+        return tally
+    possible = Possible(node, analysis)
     first = possible.started()
     possible.states = possible.agreeing(first, seen[0])
     if not possible.states:
@@ -116,10 +126,7 @@ class Done:
 class Possible:
     """The states that the model may be in."""
 
-    def __init__(self, node: DrawnNode, extracted: Extracted) -> None:
-        analysis = analyse(extracted.model)
-        errors = analysis.errors
-        assert not errors, (node.name, [d.message for d in errors])
+    def __init__(self, node: DrawnNode, analysis: Analysis) -> None:
         self.node = node
         self.program: Program = lower(analysis, Properties())[0]
         rebecs = [r for r in self.program.rebecs if r.class_name == node.name]

@@ -1,0 +1,76 @@
+"""Whatever a callback can do, the recovered model can do too, or the place is listed."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from rebsync import model as m
+from tests.reverse.soundness.comparing import CALLS, recovered, tallied
+from tests.reverse.soundness.effects import compare
+from tests.reverse.soundness.nodes import draw_node
+from tests.reverse.soundness.programs import inputs, run
+
+DRAWN = int(os.environ.get("REBSYNC_DRAWN_NODES", "24"))
+BATCH = 24
+
+pytestmark = pytest.mark.skipif(shutil.which("g++") is None, reason="g++ is not installed")
+
+
+@pytest.mark.parametrize("first", range(0, DRAWN, BATCH))
+def test_models_can_do_what_the_code_does(first: int, tmp_path: Path) -> None:
+    tally = tallied(tmp_path, range(first, min(first + BATCH, DRAWN)))
+    assert tally.unsound == []
+    assert tally.inexact == []
+    assert tally.exact + tally.approximated > tally.unreadable
+
+
+def test_a_model_that_does_something_else_is_found_out(tmp_path: Path) -> None:
+    node = draw_node(1)
+    calls = inputs(node, 1, CALLS)
+    (seen,) = run(tmp_path, [node], [calls])
+    found = recovered(node)
+    assert not compare(node, found, calls, seen).unsound
+    classes = tuple(emptied(c) for c in found.model.classes)
+    other = replace(found, model=replace(found.model, classes=classes))
+    assert compare(node, other, calls, seen).unsound
+
+
+def test_a_model_that_can_do_more_is_found_out(tmp_path: Path) -> None:
+    node = draw_node(1)
+    calls = inputs(node, 1, CALLS)
+    (seen,) = run(tmp_path, [node], [calls])
+    found = recovered(node)
+    assert not compare(node, found, calls, seen).inexact
+    classes = tuple(perhaps(c) for c in found.model.classes)
+    more = replace(found, model=replace(found.model, classes=classes))
+    assert compare(node, more, calls, seen).inexact
+
+
+def changed(
+    declaration: m.ReactiveClass | m.Interface, change: Callable[[m.Block], m.Block]
+) -> m.ReactiveClass | m.Interface:
+    """The class with other bodies of its servers."""
+    if isinstance(declaration, m.Interface):
+        return declaration
+    members = tuple(
+        replace(c, body=change(c.body)) if isinstance(c, m.MessageServer) and c.body else c
+        for c in declaration.members
+    )
+    return replace(declaration, members=members)
+
+
+def emptied(declaration: m.ReactiveClass | m.Interface) -> m.ReactiveClass | m.Interface:
+    """The class with servers that do nothing."""
+    return changed(declaration, lambda body: m.Block(()))
+
+
+def perhaps(declaration: m.ReactiveClass | m.Interface) -> m.ReactiveClass | m.Interface:
+    """The class with servers that may do nothing."""
+    may = m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)))
+    return changed(declaration, lambda body: m.Block((m.If(may, body, None),)))
