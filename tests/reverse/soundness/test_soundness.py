@@ -25,6 +25,7 @@ pytestmark = pytest.mark.skipif(shutil.which("g++") is None, reason="g++ is not 
 @pytest.mark.parametrize("first", range(0, DRAWN, BATCH))
 def test_models_can_do_what_the_code_does(first: int, tmp_path: Path) -> None:
     tally = tallied(tmp_path, range(first, min(first + BATCH, DRAWN)))
+    assert tally.refused == []
     assert tally.unsound == []
     assert tally.inexact == []
     assert tally.exact + tally.approximated > tally.unreadable
