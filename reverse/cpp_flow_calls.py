@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import field
 
 from tree_sitter import Node
@@ -12,7 +12,8 @@ from rebsync.reverse.cpp_flow import Texts, climb, declaration_of, made_of, near
 from rebsync.reverse.cpp_flow_types import Types, unscoped_member
 from rebsync.reverse.cpp_index import CppClass, CppFunction
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
-from rebsync.reverse.cpp_values_plain import Use
+from rebsync.reverse.cpp_values_plain import NUMBERS, Use
+from rebsync.reverse.roscpp_vocabulary import HANDLE_TYPE
 
 _HANDED = frozenset({"bind", "thread", "async", "createThread", "create_thread", "Thread"})
 _TYPE_PARTS = frozenset(
@@ -34,8 +35,9 @@ class Calls:
     def functions(self, cpp: Cpp, call: Node) -> list[CppFunction]:
         """The functions with a body that a call may reach; empty where none is in the files."""
         function = part(call, "function")
-        count = len(named(part(call, "arguments")))
-        return [f for f in self._named(cpp, function) if self.fits(f, count)]
+        given = named(part(call, "arguments"))
+        found = [f for f in self._named(cpp, function) if self.fits(f, len(given))]
+        return [f for f in found if self.takes(f, cpp, given)] if len(found) > 1 else found
 
     def _named(self, cpp: Cpp, function: Node) -> list[CppFunction]:
         if function.type == "field_expression":
@@ -104,7 +106,10 @@ class Calls:
     def _uses_of(self, function: CppFunction) -> Iterator[Use]:
         class_ = self.texts.class_of(function)
         if class_ is not None and function.name == class_.name:
-            yield from (u for u in self.made(class_) if self.fits(function, len(u.arguments)))
+            for use in self.made(class_):
+                fits = self.fits(function, len(use.arguments))
+                if fits and self.takes(function, use.cpp, use.arguments):
+                    yield use
             return
         for cpp, place in self.texts.everywhere(function.name):
             call = _called_by(place)
@@ -114,8 +119,8 @@ class Calls:
                     home = self.texts.function_around(cpp, call)
                     yield Use(cpp, call, given, home, _in_lambda(call))
                 continue
-            if (use := self._handed(cpp, place, function, class_)) is not None:
-                yield use
+            if (handed := self._handed(cpp, place, function, class_)) is not None:
+                yield handed
 
     def fits(self, function: CppFunction, count: int) -> bool:
         """Whether a function can be called with so many arguments."""
@@ -125,6 +130,15 @@ class Calls:
             self.default(function, index) is not None
             for index in range(count, len(function.parameters))
         )
+
+    def takes(self, function: CppFunction, cpp: Cpp, given: Sequence[Node]) -> bool:
+        """Whether the kinds of arguments are those of the parameters, as far as they are known."""
+        for argument, parameter in zip(given, function.parameters, strict=False):
+            wanted = _kind(self.types.plain(function.cpp, parameter.type))
+            kind = _literal(argument) or _kind(self.types.type_of(cpp, argument))
+            if wanted and kind and wanted != kind:
+                return False
+        return True
 
     def default(self, function: CppFunction, index: int) -> tuple[Cpp, Node] | None:
         """The default of a parameter, which the declaration in a class may give."""
@@ -174,7 +188,7 @@ class Calls:
         key = class_.node.id
         if key not in self._made:
             self._made[key] = []
-            found = []
+            found: list[Use] = []
             for cpp, place in self.texts.everywhere(class_.name):
                 if self.texts.class_near(class_.name, cpp) is class_:
                     found += self._makes(cpp, place, class_)
@@ -239,6 +253,26 @@ class Calls:
 def found_or_pure(texts: Texts, owner: CppClass, name: str) -> bool:
     """Whether a class or one above declares a method."""
     return any(f.name == name for c in texts.lineage(owner) for f in c.functions)
+
+
+def _kind(type_: str) -> str:
+    """What may stand for a type: a number, a text, or an object of a class."""
+    name = type_.rpartition("::")[2]
+    if name in NUMBERS:
+        return "number"
+    if name == HANDLE_TYPE:
+        return "handle"
+    return "text" if type_ == "std::string" else ""
+
+
+def _literal(node: Node) -> str:
+    match node.type:
+        case "string_literal" | "concatenated_string":
+            return "text"
+        case "number_literal" | "true" | "false":
+            return "number"
+        case _:
+            return ""
 
 
 def _in_lambda(node: Node) -> bool:

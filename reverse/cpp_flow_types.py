@@ -19,6 +19,9 @@ _HOLDERS = frozenset(
     }
 )
 _MAPS = frozenset({"map", "unordered_map"})
+# Methods that give what a holder has, and those that give the type they are called with.
+_HELD = frozenset({"get", "front", "back", "at", "lock", "value"})
+_TYPED = frozenset({"as", "get", "cast", "param", "value"})
 _POINTERS = frozenset({"Ptr", "ConstPtr"})
 _MAKERS = frozenset({"make_shared", "make_unique", "static_pointer_cast", "allocate_shared"})
 
@@ -193,9 +196,15 @@ class Types:
         if function.type == "field_expression":
             name = unscoped_member(part(function, "field"))
             owner = self.class_of(cpp, part(function, "argument"), depth + 1)
-            if name in ("get", "front", "back", "at", "lock", "value") and owner is None:
+            if owner is not None:
+                return self._result(owner, name)
+            method = part(function, "field")
+            if method.type == "template_method":
+                given = named(part(method, "arguments"))
+                return self.plain(cpp, given[0]) if given and name in _TYPED else ""
+            if name in _HELD:
                 return self.type_of(cpp, part(function, "argument"), depth + 1)
-            return self._result(owner, name)
+            return ""
         last = function
         while last.type == "qualified_identifier":
             last = part(last, "name")

@@ -21,6 +21,7 @@ from rebsync.reverse.cpp_index import Code
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.cpp_values_calls import called_value
 from rebsync.reverse.cpp_values_made import constructed
+from rebsync.reverse.cpp_values_numbers import added, computed, converted, used
 from rebsync.reverse.cpp_values_plain import (
     MOST,
     Frame,
@@ -30,15 +31,11 @@ from rebsync.reverse.cpp_values_plain import (
     Open,
     Use,
     Value,
-    added,
     at,
     choice,
-    computed,
-    converted,
     each,
     pairs,
     same,
-    used,
     ways,
 )
 from rebsync.reverse.cpp_values_variables import Variables
@@ -91,7 +88,9 @@ class Values:
 
     def settle_all(self, frames: list[Frame], do: Callable[[Frame], T]) -> list[T]:
         """As `settle`, for several frames."""
-        waiting, inside, outside = [*frames], [], []
+        waiting = [*frames]
+        inside: list[T] = []
+        outside: list[T] = []
         while waiting and len(inside) < MOST:
             current = waiting.pop(0)
             try:

@@ -10,8 +10,11 @@ from tree_sitter import Node
 from rebsync.reverse.cpp_flow_types import unscoped_member
 from rebsync.reverse.cpp_index import CppFunction
 from rebsync.reverse.cpp_tree import named, part, text_of
-from rebsync.reverse.cpp_values_made import NUMBERS, constructed
+from rebsync.reverse.cpp_values_made import constructed
+from rebsync.reverse.cpp_values_names import name_under, resolved, tidy
+from rebsync.reverse.cpp_values_numbers import converted
 from rebsync.reverse.cpp_values_plain import (
+    NUMBERS,
     Found,
     Frame,
     Function,
@@ -21,12 +24,8 @@ from rebsync.reverse.cpp_values_plain import (
     Use,
     Value,
     choice,
-    converted,
     each,
-    name_under,
     pairs,
-    resolved,
-    tidy,
 )
 from rebsync.reverse.graph import FromParameter, Resolved, Unresolved
 from rebsync.reverse.roscpp_vocabulary import (

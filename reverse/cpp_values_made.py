@@ -6,7 +6,10 @@ from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
+from rebsync.reverse.cpp_values_names import name_under, tidy
+from rebsync.reverse.cpp_values_numbers import converted, used
 from rebsync.reverse.cpp_values_plain import (
+    NUMBERS,
     Found,
     Frame,
     Handle,
@@ -16,12 +19,8 @@ from rebsync.reverse.cpp_values_plain import (
     Use,
     Value,
     choice,
-    converted,
     each,
-    name_under,
     pairs,
-    tidy,
-    used,
 )
 from rebsync.reverse.graph import FromParameter, Under, Unresolved
 from rebsync.reverse.roscpp_vocabulary import HANDLE_TYPE, RATES, SPANS
@@ -29,13 +28,6 @@ from rebsync.reverse.roscpp_vocabulary import HANDLE_TYPE, RATES, SPANS
 if TYPE_CHECKING:
     from rebsync.reverse.cpp_values import Values
 
-NUMBERS = frozenset(
-    {
-        *("int", "double", "float", "bool", "unsigned", "long", "short", "char", "size_t"),
-        *("uint8_t", "int8_t", "uint16_t", "int16_t", "uint32_t", "int32_t", "uint64_t"),
-        *("int64_t", "unsignedint", "unsignedlong", "longlong"),
-    }
-)
 _TEXTS = frozenset({"string", "String"})
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import field
 from functools import partial
 from typing import TYPE_CHECKING
@@ -10,13 +9,22 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.cpp_flow import climb
-from rebsync.reverse.cpp_flow_reach import Definition, Reach, definitions, reaching
-from rebsync.reverse.cpp_flow_types import Variable, unscoped_member
+from rebsync.reverse.cpp_flow_reach import Definition, Reach, reaching
+from rebsync.reverse.cpp_flow_types import Variable
+from rebsync.reverse.cpp_flow_writes import (
+    Key,
+    Writes,
+    called_name,
+    key_of,
+    parameter_variable,
+    role_of,
+)
 from rebsync.reverse.cpp_index import CppClass, CppFunction
-from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
+from rebsync.reverse.cpp_tree import named, part, text_of
 from rebsync.reverse.cpp_values_calls import from_parameter
 from rebsync.reverse.cpp_values_made import constructed, default_of
+from rebsync.reverse.cpp_values_names import name_under, resolved
+from rebsync.reverse.cpp_values_numbers import added, converted
 from rebsync.reverse.cpp_values_plain import (
     Found,
     Frame,
@@ -25,24 +33,18 @@ from rebsync.reverse.cpp_values_plain import (
     Open,
     Use,
     Value,
-    added,
     choice,
-    converted,
     each,
-    name_under,
     pairs,
-    resolved,
     ways,
 )
 from rebsync.reverse.graph import FromParameter, Under
-from rebsync.reverse.roscpp_vocabulary import ENTRIES, FUNCTIONS, HANDLE, HANDLE_TYPE, Kind
+from rebsync.reverse.roscpp_vocabulary import ENTRIES, HANDLE_TYPE
 
 if TYPE_CHECKING:
     from rebsync.reverse.cpp_values import Values
 
 _OUTSIDE = "handed in by callers outside of the files"
-_READERS = frozenset({"getline", "get", "sscanf", "scanf", "read", "fread"})
-_Key = tuple[int, str, str]
 
 
 @dataclass(slots=True)
@@ -50,11 +52,13 @@ class Variables:
     """Finds the values of variables; `values` those of the expressions that they are given."""
 
     values: Values
-    _entries: dict[tuple[int, _Key], Value] = field(default_factory=dict)
-    _active: set[tuple[int, _Key]] = field(default_factory=set)
-    _writers: dict[_Key, list[CppFunction]] = field(default_factory=dict)
-    _changing: dict[tuple[int, int, str], bool] = field(default_factory=dict)
-    _found: dict[tuple[int, _Key], list[Definition]] = field(default_factory=dict)
+    _writes: Writes = field(init=False)
+    _entries: dict[tuple[int, Key], Value] = field(default_factory=dict)
+    _active: set[tuple[int, Key]] = field(default_factory=set)
+
+    def __post_init__(self) -> None:
+        values = self.values
+        self._writes = Writes(values.texts, values.types, values.calls)
 
     # --- at a place -----------------------------------------------------------------------------
 
@@ -116,7 +120,7 @@ class Variables:
         if frame.function is None:
             return [], False
         found = []
-        known = self._definitions(variable, path, frame)
+        known = self._writes.within(variable, path, frame.function)
 
         def holds(condition: Node) -> bool | None:
             return self.values.holds(condition, frame)
@@ -127,99 +131,10 @@ class Variables:
             if reach.unset:
                 stands_in = value
                 continue
-            found.append(each(lambda v, d=stands_in: _with_default(v, d), value))
+            found.append(each(partial(_with_default, default=stands_in), value))
             if reach.sure:
                 return found, True
         return found if isinstance(stands_in, Nothing) or found else [stands_in], False
-
-    # --- definitions ----------------------------------------------------------------------------
-
-    def _key(self, variable: Variable, path: str) -> _Key:
-        return variable.name.id, variable.text, path
-
-    def _definitions(self, variable: Variable, path: str, frame: Frame) -> list[Definition]:
-        function = frame.function
-        if function is None:
-            return []
-        key = function.node.id, self._key(variable, path)
-        if key not in self._found:
-            self._found[key] = []  # while they are looked for
-            self._found[key] = [*self._own(variable, path, function)]
-            if variable.kind in ("member", "global"):
-                self._found[key] += self._by_calls(variable, path, function)
-        return self._found[key]
-
-    def _own(self, variable: Variable, path: str, function: CppFunction) -> Iterator[Definition]:
-        node = function.node
-        if variable.kind in ("local", "lambda") and variable.scope is not None:
-            node = variable.scope
-        texts = self.values.texts
-        if variable.kind in ("local", "parameter", "lambda") and variable.cpp is not function.cpp:
-            return
-        found = definitions(texts, function.cpp, variable, path, node.start_byte, node.end_byte)
-        for definition in found:
-            if definition.how == "given" and not self._may_change(definition, path, function.cpp):
-                continue
-            if variable.kind in ("member", "global") and self._hidden(
-                definition, variable, function
-            ):
-                continue
-            yield definition
-
-    def _hidden(self, definition: Definition, variable: Variable, function: CppFunction) -> bool:
-        """Whether a name stands for a local variable of the same name."""
-        if definition.how == "initialised":
-            return False
-        meant = self.values.types.variable(function.cpp, definition.place)
-        return meant is not None and meant.name.id != variable.name.id
-
-    def _by_calls(
-        self, variable: Variable, path: str, function: CppFunction
-    ) -> Iterator[Definition]:
-        """Calls of functions that give the variable a value."""
-        calls = self.values.calls
-        start, end = function.node.start_byte, function.node.end_byte
-        for writer in self._writing(variable, path):
-            if writer.node == function.node or writer.name == function.owner:
-                continue
-            for place in self.values.texts.within(function.cpp, writer.name, start, end):
-                call = climb(place, lambda n: n.type in ("call_expression", "compound_statement"))
-                if call is None or call.type != "call_expression":
-                    continue
-                if not text_of(part(call, "function")).endswith(writer.name):
-                    continue
-                if any(f.node == writer.node for f in calls.functions(function.cpp, call)):
-                    yield Definition("called", place, call, text=str(writer.node.id))
-
-    def _may_change(self, definition: Definition, path: str, cpp: Cpp) -> bool:
-        """Whether a call may change what it is given, or a field of it."""
-        function = part(definition.node, "function")
-        name, scope = _called(function)
-        if _role(name, scope, definition.index, len(named(part(definition.node, "arguments")))):
-            return True
-        if name in HANDLE and function.type == "field_expression":
-            return False
-        if name in _READERS and function.type != "field_expression":
-            return True
-        return any(
-            self._changes(f, definition.index, path)
-            for f in self.values.calls.functions(cpp, definition.node)
-        )
-
-    def _changes(self, function: CppFunction, index: int, path: str) -> bool:
-        """Whether a function gives what is handed to it by reference another value."""
-        if index >= len(function.parameters):
-            return False
-        key = function.node.id, index, path
-        if key not in self._changing:
-            self._changing[key] = False  # while it is looked for
-            inner = self._parameter_variable(function, index)
-            self._changing[key] = (
-                inner is not None
-                and _by_reference(function.parameters[index].node)
-                and any(True for _ in self._own(inner, path, function))
-            )
-        return self._changing[key]
 
     # --- one definition -------------------------------------------------------------------------
 
@@ -281,8 +196,8 @@ class Variables:
         call = definition.node
         function = part(call, "function")
         given = tuple(named(part(call, "arguments")))
-        name, scope = _called(function)
-        role = _role(name, scope, definition.index, len(given))
+        name, scope = called_name(function)
+        role = role_of(name, scope, definition.index, len(given))
         if role:
             handle: Value = Handle("")
             if function.type == "field_expression":
@@ -302,7 +217,7 @@ class Variables:
         return choice(
             self._at(inner, path, None, Frame(f.cpp, f, use, frame))
             for f in functions
-            if (inner := self._parameter_variable(f, definition.index)) is not None
+            if (inner := parameter_variable(f, definition.index)) is not None
         )
 
     def _found_by(self, handle: Value, key: Value, call: Node, frame: Frame) -> Value:
@@ -327,25 +242,6 @@ class Variables:
             self._at(variable, path, None, Frame(f.cpp, f, use, frame))
             for f in self.values.calls.functions(frame.cpp, call)
             if str(f.node.id) == definition.text
-        )
-
-    def _parameter_variable(self, function: CppFunction, index: int) -> Variable | None:
-        if index >= len(function.parameters):
-            return None
-        parameter = function.parameters[index]
-        name = parameter.node.child_by_field_name("declarator")
-        while name is not None and name.type != "identifier":
-            name = name.named_children[-1] if name.named_children else None
-        if name is None:
-            return None
-        return Variable(
-            "parameter",
-            parameter.name,
-            function.cpp,
-            name,
-            parameter.type,
-            function.node,
-            index=index,
         )
 
     # --- before the function begins -------------------------------------------------------------
@@ -431,7 +327,7 @@ class Variables:
     def _in_general(self, variable: Variable, path: str, frame: Frame) -> Value:
         """What a member or global may hold after the functions that give it a value."""
         own = frame.function.node.id if frame.function is not None else 0
-        key = own, self._key(variable, path)
+        key = own, key_of(variable, path)
         if key in self._active:
             return Nothing()
         if key not in self._entries:
@@ -444,7 +340,7 @@ class Variables:
 
     def _after_all(self, variable: Variable, path: str, own: int) -> Value:
         """As `_in_general`; `own` is the function that asks, before it gives a value itself."""
-        writers = [w for w in self._writing(variable, path) if w.node.id != own]
+        writers = [w for w in self._writes.writing(variable, path) if w.node.id != own]
         owner = variable.owner.name if variable.owner is not None else ""
         makers = [w for w in writers if owner and w.name == w.owner]
         others = [w for w in writers if w not in makers]
@@ -486,29 +382,6 @@ class Variables:
             or any(not u.handed for u in self.values.calls.uses(function))
         )
 
-    def _writing(self, variable: Variable, path: str) -> list[CppFunction]:
-        """The functions that give a member or global a value themselves."""
-        key = self._key(variable, path)
-        if key not in self._writers:
-            self._writers[key] = []
-            found: dict[int, CppFunction] = {}
-            for cpp, place in self.values.texts.everywhere(variable.text):
-                function = self.values.texts.function_around(cpp, place)
-                if function is None or function.node.id in found:
-                    continue
-                if self._may_name(variable, function) and any(
-                    True for _ in self._own(variable, path, function)
-                ):
-                    found[function.node.id] = function
-            self._writers[key] = list(found.values())
-        return self._writers[key]
-
-    def _may_name(self, variable: Variable, function: CppFunction) -> bool:
-        if variable.owner is None:
-            return True
-        class_ = self.values.texts.class_of(function)
-        return class_ is not None and variable.owner in self.values.texts.lineage(class_)
-
 
 def _filled(found: list[Value]) -> Value:
     """The values together, latest first: what replaces an unset parameter is its default."""
@@ -526,39 +399,6 @@ def _with_default(value: Value, default: Value) -> Value:
     if not isinstance(default, (bool, int, float, str)):
         return value
     return FromParameter(value.name, default, value.expression, value.search, value.within)
-
-
-def _called(function: Node) -> tuple[str, str]:
-    """The name of a called function and the scope before it."""
-    if function.type == "field_expression":
-        return unscoped_member(part(function, "field")), "."
-    scope = ""
-    while function.type == "qualified_identifier":
-        above = function.child_by_field_name("scope")
-        scope = text_of(above) if above is not None else ""
-        function = part(function, "name")
-    return unscoped_member(function), scope
-
-
-def _role(name: str, scope: str, index: int, count: int) -> str:
-    """The role of an argument that a call for a parameter fills, or empty."""
-    ask = HANDLE.get(name) if scope == "." else FUNCTIONS.get((scope, name))
-    if ask is None or ask.kind is not Kind.PARAMETER or index >= len(ask.arguments):
-        return ""
-    role = ask.arguments[index]
-    if role == "variable" and "default" in ask.arguments and count == 2:
-        return ""  # `param(name, default)`
-    return role if role in ("variable", "found") else ""
-
-
-def _by_reference(parameter: Node) -> bool:
-    """Whether a parameter is a reference or pointer to what is not constant."""
-    declarator = parameter.child_by_field_name("declarator")
-    if declarator is None or declarator.type not in ("reference_declarator", "pointer_declarator"):
-        return False
-    return not any(
-        c.type == "type_qualifier" and text_of(c) == "const" for c in parameter.named_children
-    )
 
 
 def _is_pointer(variable: Variable) -> bool:

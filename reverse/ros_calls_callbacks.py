@@ -12,8 +12,8 @@ from rebsync.reverse.cpp_flow_types import unscoped_member
 from rebsync.reverse.cpp_index import CppClass, CppFunction
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.cpp_values import Values
-from rebsync.reverse.cpp_values_plain import Frame, Function, Made, Unresolved, Value, at, ways
-from rebsync.reverse.graph import Callback
+from rebsync.reverse.cpp_values_plain import Frame, Function, Made, Value, at, ways
+from rebsync.reverse.graph import Callback, Unresolved
 
 _FUNCTOR = "operator()"
 

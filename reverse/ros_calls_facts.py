@@ -11,6 +11,8 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.cpp_tree import Cpp, text_of
 from rebsync.reverse.cpp_values import Values
+from rebsync.reverse.cpp_values_names import name_under, one_of, resolved
+from rebsync.reverse.cpp_values_numbers import converted
 from rebsync.reverse.cpp_values_plain import (
     Found,
     Frame,
@@ -20,10 +22,6 @@ from rebsync.reverse.cpp_values_plain import (
     Nothing,
     Value,
     choice,
-    converted,
-    name_under,
-    one_of,
-    resolved,
     ways,
 )
 from rebsync.reverse.graph import (
