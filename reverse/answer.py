@@ -9,8 +9,6 @@ from pathlib import Path
 from rebsync.diagnostics import Findings
 from rebsync.printing import print_model
 from rebsync.records import dataclass
-from rebsync.reverse.cpp_index import Code
-from rebsync.reverse.cpp_tree import parse
 from rebsync.reverse.graph import Graph
 from rebsync.reverse.graph_json import graph_data
 from rebsync.reverse.manifests import read_manifest
@@ -18,7 +16,6 @@ from rebsync.reverse.packages import CODE
 from rebsync.reverse.reading import Chosen
 from rebsync.reverse.recovery import Extracted, extract
 from rebsync.reverse.report import as_json, as_text, diagnostics, grade_of, report_data, summary
-from rebsync.reverse.ros_calls import graph_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,9 +83,9 @@ def _model(extracted: Extracted) -> str | None:
 
 
 def _graph(given: Chosen, extracted: Extracted) -> Graph:
-    """What the nodes ask of ROS."""
-    graph = getattr(extracted, "graph", None)
-    if isinstance(graph, Graph):
-        return graph
-    code = [s for path, s in given.files.items() if Path(path).suffix in CODE]
-    return graph_of(Code.of(map(parse, code)))
+    """What the nodes ask of ROS: in the file that is asked for, if it is code."""
+    asked = given.only if given.only is not None and Path(given.only).suffix in CODE else None
+    if asked is None:
+        return extracted.graph
+    path = given.files[asked].path
+    return Graph(tuple(f for f in extracted.graph.facts if f.site.place.source.path == path))

@@ -218,3 +218,75 @@ def test_code_without_a_class_is_told_as_json(tmp_path: Path) -> None:
     alone = rebsync("extract", "caller.cpp", cwd=tmp_path)
     assert (alone.status, alone.out) == (2, "")
     assert "hint: --format json tells what the code asks of ROS" in alone.err
+
+
+NODES = """\
+#include <ros/ros.h>
+#include <std_msgs/Int32.h>
+
+class Talker {
+ public:
+  Talker() {
+    pub_ = nh_.advertise<std_msgs::Int32>("count", 5, true);
+    sub_ = nh_.subscribe("reset", 1, &Talker::reset, this);
+    nh_.param("period", period_, 0.5);
+    timer_ = nh_.createTimer(ros::Duration(period_), &Talker::tick, this);
+  }
+
+ private:
+  void reset(const std_msgs::Int32& msg) { count_ = msg.data; }
+  void tick(const ros::TimerEvent&) {
+    std_msgs::Int32 out;
+    out.data = ++count_;
+    pub_.publish(out);
+  }
+
+  ros::NodeHandle nh_{"~"};
+  ros::Publisher pub_;
+  ros::Subscriber sub_;
+  ros::Timer timer_;
+  double period_ = 1.0;
+  int count_ = 0;
+};
+"""
+
+
+def test_what_nodes_ask_of_ros_is_told_as_json(tmp_path: Path) -> None:
+    source = tmp_path / "talker" / "src" / "talker.h"
+    source.parent.mkdir(parents=True)
+    source.write_text(NODES)
+    other = source.with_name("main.cpp")
+    other.write_text('#include "talker.h"\nint main(int c, char** v) { ros::init(c, v, "t"); }\n')
+    manifest = "<package><name>talker</name></package>\n"
+    (tmp_path / "talker" / "package.xml").write_text(manifest)
+    found = json.loads(rebsync("extract", "talker", "--format", "json", cwd=tmp_path).out)
+    jsonschema.Draft202012Validator(SCHEMA).validate(found)
+    place = {"file": "talker/src/talker.h", "within": "Talker"}
+    (publisher,) = found["publishers"]
+    assert publisher == {
+        **place,
+        "line": 7,
+        "kept": "pub_",
+        "topic": "~count",
+        "type": "std_msgs/Int32",
+        "depth": 5,
+        "latched": True,
+    }
+    (subscription,) = found["subscriptions"]
+    assert (subscription["topic"], subscription["line"]) == ("~reset", 8)
+    assert subscription["callback"]["function"] == "Talker::reset"
+    (parameter,) = found["parameters"]
+    assert (parameter["name"], parameter["access"], parameter["default"]) == ("~period", "get", 0.5)
+    (timer,) = found["timers"]
+    assert timer["period"] == {"parameter": "~period", "default": 0.5}
+    assert (timer["one_shot"], timer["callback"]["function"]) == (False, "Talker::tick")
+    assert [n["name"] for n in found["nodes"]] == ["t"]
+    assert found["unknowns"] == []
+
+
+def test_one_file_tells_what_it_asks_itself(tmp_path: Path) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>talker</name></package>\n")
+    (tmp_path / "talker.h").write_text(NODES)
+    (tmp_path / "caller.cpp").write_text(CALLER)
+    found = json.loads(rebsync("extract", "caller.cpp", "--format", "json", cwd=tmp_path).out)
+    assert (found["publishers"], len(found["nodes"])) == ([], 1)
