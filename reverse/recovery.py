@@ -24,6 +24,7 @@ from rebsync.reverse.launched import Launch, LaunchedNode
 from rebsync.reverse.manifests import read_manifest
 from rebsync.reverse.node_launch import is_launch, system_of
 from rebsync.reverse.node_system import NodeSystem
+from rebsync.reverse.packages import CODE
 from rebsync.reverse.parameters import Parameter
 from rebsync.reverse.ros1_classes import Classes
 from rebsync.reverse.ros1_messages import own_messages
@@ -35,7 +36,7 @@ from rebsync.static.values import converted
 
 _ENV_MARKER = re.compile(r"# *rebsync: env (?P<type>[a-z]+)(?P<lengths>(?:\[\d+\])*) (?P<name>\S+)")
 _MANIFEST = "package.xml"
-_CODE = (".h", ".hh", ".hpp", ".hxx", ".c", ".cc", ".cpp", ".cxx")
+_CODE = tuple(sorted(CODE))
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +78,7 @@ def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
         main = m.Main((*main.rebecs, *nodes.rebecs))
     if only is not None and len(files) > 1:
         main = None
-    model = m.Model(tuple(generated.heads()), (*read, *nodes.classes), main)
+    model = m.Model(tuple(generated.heads() if read else ()), (*read, *nodes.classes), main)
     return Extracted(model, tuple(findings.all), tuple(findings.statements.items()), graph)
 
 
