@@ -38,18 +38,28 @@ class MessageTypes:
     own: dict[str, list[tuple[str, str, int | None]]]
     package: str
     wide: dict[str, set[str]] = field(default_factory=dict)
+    _constants: dict[str, int] = field(default_factory=dict)
     _fields: dict[str, Fields] = field(default_factory=dict)
 
     @staticmethod
     def of(files: Mapping[str, Source], package: str) -> MessageTypes:
         """The types that a package declares, and those that come with ROS."""
         own = {}
+        constants: dict[str, int] = {}
         for path, source in sorted(files.items()):
             found = _MESSAGE.search(f"/{path}")
             if found is not None:
                 read = read_message(source, package, found[1])
                 own[read.full_name] = [(f.name, f.type, f.length) for f in read.fields]
-        return MessageTypes(own, package)
+                for constant in read.constants:
+                    if isinstance(constant.value, int):
+                        for scope in (read.name, f"{package}::{read.name}"):
+                            constants[f"{scope}::{constant.name}"] = int(constant.value)
+        return MessageTypes(own, package, {}, constants)
+
+    def constants(self) -> dict[str, int]:
+        """The whole numbers that messages of the package give names, as the code has them."""
+        return self._constants
 
     def fields(self, type_: str) -> Fields | None:
         """The fields of a type by their paths, inner ones too; None for a type that is not known.

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import field, replace
+from typing import TypeVar
 
 from tree_sitter import Node
 
@@ -15,11 +16,17 @@ from rebsync.reverse.cpp_statements import CppStatements
 from rebsync.reverse.cpp_tree import Cpp, text_of
 from rebsync.reverse.cpp_types import carried
 from rebsync.reverse.findings import Findings, Unread
-from rebsync.reverse.graph import PublisherFact, SubscriptionFact, TimerFact
+from rebsync.reverse.graph import (
+    ClientFact,
+    PublisherFact,
+    ServiceFact,
+    SubscriptionFact,
+    TimerFact,
+)
 from rebsync.reverse.message_types import Fields, MessageTypes
 from rebsync.reverse.node_loops import Loop, left
 from rebsync.reverse.node_servers import Server
-from rebsync.reverse.node_setup import Setup, send
+from rebsync.reverse.node_setup import Setup, around, send
 from rebsync.reverse.node_starts import Opening, Step, started_late
 from rebsync.reverse.node_state import State
 from rebsync.reverse.node_units import Unit
@@ -38,9 +45,16 @@ from rebsync.reverse.scope import (
     TimerOf,
     Variable,
 )
+from rebsync.reverse.tidying import tidy
 from rebsync.source import Span
 
+_Member = TypeVar("_Member", m.MessageServer, m.Method)
 _ROUNDS = 4
+_BEAT = (
+    "a timer that goes off while the node is busy keeps its beat;"
+    " the model's goes on from when it is served"
+)
+_HANDLES = (SubscriptionFact, TimerFact, ServiceFact, ClientFact)
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,21 +85,28 @@ class NodeClass:
     findings: Findings
     functions: dict[str, Function] = field(default_factory=dict)
     _used: dict[str, CppFunction] = field(default_factory=dict)
+    _delays: bool = False
 
     def read(self) -> m.ReactiveClass:
         """The class. What it has no place for is listed."""
         self._choose_functions()
         self._calls_in_main()
         body = self._constructor()
+        methods = [self._method(n, f) for n, f in self._used.items()]
+        self._delays = self._delays or any(_takes_time(method) for method in methods)
         servers = [self._server(s) for s in self.servers]
         servers += [s for loop, name in self.setup.loops for s in self._loop(loop, name)]
-        methods = [self._method(n, f) for n, f in self._used.items()]
         arguments = tuple(m.Parameter(p.type, p.name) for p in self.setup.parameters)
-        constructor, late, variables = started_late(body, arguments, self.setup.names)
-        servers = [*late, *servers]
+        constructor, late, variables = started_late(
+            tidy(body, self.state.variables), arguments, self.setup.names
+        )
+        variables = {**self.state.variables, **variables}
+        servers = [_tidied(s, variables) for s in [*late, *servers]]
+        methods = [_tidied(method, variables) for method in methods]
+        arguments = self._needed(arguments, constructor)
+        self._note_beats()
         inner: list[m.MessageServer | m.Method] = [*servers, *methods]
         methods = _reached(inner, constructor, methods)
-        variables = {**self.state.variables, **variables}
         state = _mentioned(variables, [*servers, *methods, constructor])
         members: list[m.ClassMember] = []
         if self.known:
@@ -97,6 +118,21 @@ class NodeClass:
         node = self.unit.owner
         span = node.cpp.span(node.node) if node is not None else self._span()
         return m.ReactiveClass(self.name, self._queue(), tuple(members), span=span)
+
+    def _note_beats(self) -> None:
+        """Lists the timers of a node that is busy at times."""
+        for fact in self.unit.facts:
+            if self._delays and isinstance(fact, TimerFact) and fact.one_shot is not True:
+                place = fact.site.place
+                self.findings.approximated(
+                    place.source, place.span, _BEAT, within=self.setup.within
+                )
+
+    def _needed(self, arguments: tuple[m.Parameter, ...], body: m.Block) -> tuple[m.Parameter, ...]:
+        """The parameters that the constructor uses: others only say when a timer goes off."""
+        used = {n.name for n in m.walk(body) if isinstance(n, m.Name)}
+        self.setup.parameters = [p for p in self.setup.parameters if p.name in used]
+        return tuple(a for a in arguments if a.name in used)
 
     def _span(self) -> Span:
         program = self.unit.program
@@ -122,10 +158,10 @@ class NodeClass:
                 type_ = fact.type if isinstance(fact.type, str) else ""
                 members[kept] = Publishes(self.targets.get(number, ()), type_)
             elif isinstance(fact, TimerFact) and kept:
-                server = next((s for s in self.servers if s.timer is fact), None)
+                server = next((s for s in self.servers if fact in s.timers), None)
                 if server is not None:
                     members[kept] = TimerOf(server.name, fact.one_shot is not True)
-            elif kept:
+            elif kept and isinstance(fact, _HANDLES):
                 members[kept] = Outside()
         return Scope(
             members,
@@ -263,7 +299,7 @@ class NodeClass:
     def _server(self, server: Server) -> m.MessageServer:
         function = server.callback.function
         if function is None:
-            function = _around(server.body, self.unit.functions)
+            function = around(server.body, self.unit.functions)
         scope = self._scope(server.cpp, function)
         local: dict[str, Meaning] = {}
         for name, value in server.arguments:
@@ -275,15 +311,16 @@ class NodeClass:
             local[server.message] = self._message(server)
         inside = replace(scope.with_locals(local), chooses=True, server=server.name)
         body = self._read(server.cpp, inside, server.body, self._within(server.name))
+        self._delays = self._delays or _takes_time(body)
         period = self.setup.periodic.get(server.name)
-        if server.timer is not None and period is not None:
-            body = _repeated(body, send(server.name, period))
+        if server.timers and period is not None:
+            body = _repeated(body, send(server.name, period), self._delays)
         parameters = tuple(m.Parameter(p.type, p.name) for p in server.parameters)
         span = server.cpp.span(function.node if function is not None else server.body)
         return m.MessageServer(server.name, parameters, body, span=span)
 
     def _message(self, server: Server) -> Member:
-        if server.timer is not None or server.type is None:
+        if server.timers or server.type is None:
             return Outside()
         fields = {p.path: Variable(p.name, p.type) for p in server.parameters}
         return Record(fields, server.type)
@@ -351,27 +388,24 @@ class NodeClass:
         return reader.read([node])
 
 
-def _around(node: Node, functions: Sequence[CppFunction]) -> CppFunction | None:
-    """The function that a lambda stands in."""
-    at: Node | None = node
-    while at is not None:
-        for function in functions:
-            if function.body is not None and function.body.id == at.id:
-                return function
-        at = at.parent
-    return None
+def _takes_time(node: m.Node) -> bool:
+    return any(isinstance(n, m.Call) and n.name == "delay" for n in m.walk(node))
+
+
+def _tidied(member: _Member, variables: Collection[str]) -> _Member:
+    return replace(member, body=tidy(member.body, variables)) if member.body is not None else member
 
 
 def _declared(type_: m.Type, name: str) -> m.Declaration:
     return m.Declaration(type_, (m.Declarator(name),))
 
 
-def _repeated(body: m.Block, again: m.Statement) -> m.Block:
-    """A timer's body with the send that makes it go on: at its end, if all ways lead there."""
-    early = any(
-        isinstance(n, m.Return) or (isinstance(n, m.Call) and n.name == "delay")
-        for n in m.walk(body)
-    )
+def _repeated(body: m.Block, again: m.Statement, early: bool) -> m.Block:
+    """A timer's body with the send that makes it go on: at its end, if all ways lead there.
+
+    Where bodies take time it stands `early`, since a timer goes on from when it went off.
+    """
+    early = early or any(isinstance(n, m.Return) for n in m.walk(body))
     statements = (again, *body.statements) if early else (*body.statements, again)
     return replace(body, statements=statements)
 

@@ -44,7 +44,7 @@ class Listing:
 
     def unit(self, unit: Unit, servers: Iterable[Server]) -> None:
         """What a unit has that its reactive class has not."""
-        served = {id(f) for s in servers for f in (*s.subscriptions, s.timer)}
+        served = {id(f) for s in servers for f in (*s.subscriptions, *s.timers)}
         for fact in unit.facts:
             self._fact(unit, fact, id(fact) in served)
         for server in servers:

@@ -113,13 +113,23 @@ def _sleep(
             if call.name != "sleep" or call.target is None:
                 continue
             for rate in rates:
-                kept = rate.site.kept.removeprefix("this->")
+                kept = (rate.site.kept or _variable(rate.site.call)).removeprefix("this->")
                 made = rate.site.call
                 inside = call.node.start_byte <= made.start_byte < call.node.end_byte
                 same = rate.site.cpp.source.path == rate.site.place.source.path and inside
                 if (kept and call.on.removeprefix("this->") == kept) or same:
                     return index, rate
     return None, None
+
+
+def _variable(call: Node) -> str:
+    """The variable that is declared with what a call makes."""
+    at: Node | None = call
+    while at is not None and at.type not in ("declaration", "compound_statement"):
+        at = at.parent
+    while at is not None and at.type not in ("identifier", "compound_statement"):
+        at = at.child_by_field_name("declarator")
+    return text_of(at) if at is not None and at.type == "identifier" else ""
 
 
 # --- leaving a loop -----------------------------------------------------------------------------
@@ -139,7 +149,10 @@ def _left(node: m.Statement, again: m.Statement, breaks: bool) -> m.Statement:
         case m.Continue() if breaks:
             return m.Block((again, m.Return(None, (), node.span)), node.annotations, node.span)
         case m.Block(statements):
-            return replace(node, statements=tuple(_left(s, again, breaks) for s in statements))
+            inner_ = [_left(s, again, breaks) for s in statements]
+            flat = [p for s in inner_ for p in (s.statements if isinstance(s, m.Block) else (s,))]
+            local = any(isinstance(p, m.Local) for p in flat)
+            return replace(node, statements=tuple(inner_ if local else flat))
         case m.If(_, then, otherwise):
             other = _left(otherwise, again, breaks) if otherwise is not None else None
             return replace(node, then=_left(then, again, breaks), otherwise=other)

@@ -20,7 +20,7 @@ _NO_LETTER = re.compile(r"\W")
 
 def model_word(text: str) -> str:
     """The text as a name that the language takes: `~cmd/vel` is `cmd_vel`."""
-    plain = _NO_LETTER.sub("_", text).strip("_") or "value"
+    plain = _NO_LETTER.sub("_", text).lstrip("_") or "value"
     if plain[0].isdigit():
         plain = f"n_{plain}"
     return f"{plain}_" if plain in _WORDS else plain

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
@@ -9,6 +10,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
+from rebsync.reverse.cpp_calls import calls_in
 from rebsync.reverse.cpp_index import CppFunction
 from rebsync.reverse.cpp_tree import Cpp, named, text_of
 from rebsync.reverse.graph import Callback, SubscriptionFact, TimerFact
@@ -17,6 +19,7 @@ from rebsync.reverse.node_names import Names
 from rebsync.reverse.node_units import Unit
 
 _HEADER = "header."
+_PLACE = re.compile(r"(^|::)_\d$")
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +48,7 @@ class Server:
     type: str | None = None
     parameters: tuple[Carried, ...] = ()
     subscriptions: tuple[SubscriptionFact, ...] = ()
-    timer: TimerFact | None = None
+    timers: tuple[TimerFact, ...] = ()
 
     @property
     def fields(self) -> tuple[str, ...]:
@@ -55,7 +58,7 @@ class Server:
 
 def servers(unit: Unit, types: MessageTypes, names: Names) -> tuple[Server, ...]:
     """The servers of a unit, in the order of its subscriptions and timers."""
-    by_callback: dict[tuple[int, object], Server] = {}
+    found: dict[tuple[object, ...], Server] = {}
     for fact in unit.facts:
         if not isinstance(fact, SubscriptionFact | TimerFact):
             continue
@@ -63,18 +66,24 @@ def servers(unit: Unit, types: MessageTypes, names: Names) -> tuple[Server, ...]
             body = _body(callback, fact.site.cpp) if isinstance(callback, Callback) else None
             if not isinstance(callback, Callback) or body is None:
                 continue
-            about = _type(fact, callback, types) if isinstance(fact, SubscriptionFact) else id(fact)
-            key = body[1].id, about
-            if key in by_callback and isinstance(fact, SubscriptionFact):
-                known = by_callback[key]
-                by_callback[key] = _with(known, fact)
-                continue
-            by_callback[key] = _server(fact, callback, body, types, names)
-    return tuple(by_callback.values())
+            _, bound = _arguments(callback, fact)
+            given = tuple(text_of(node) for _, node in bound)
+            key = body[1].id, given, _kind(fact, callback, types)
+            known = found.get(key)
+            if known is None:
+                found[key] = _server(fact, callback, body, types, names)
+            elif isinstance(fact, SubscriptionFact):
+                found[key] = replace(known, subscriptions=(*known.subscriptions, fact))
+            else:
+                found[key] = replace(known, timers=(*known.timers, fact))
+    return tuple(found.values())
 
 
-def _with(server: Server, fact: SubscriptionFact) -> Server:
-    return replace(server, subscriptions=(*server.subscriptions, fact))
+def _kind(fact: SubscriptionFact | TimerFact, callback: Callback, types: MessageTypes) -> object:
+    """What callbacks must have in common to be one server: a timer that goes on is alone."""
+    if isinstance(fact, SubscriptionFact):
+        return "message", _type(fact, callback, types)
+    return "once" if fact.one_shot is True else id(fact)
 
 
 def _body(callback: Callback, cpp: Cpp) -> tuple[Cpp, Node] | None:
@@ -94,16 +103,32 @@ def _server(
     names: Names,
 ) -> Server:
     wish = callback.name.rpartition("::")[2] or _kept(fact) or "callback"
-    given = _parameters(callback)
-    bound = tuple(zip((n for n, _ in given), callback.bound, strict=False))
-    message = given[len(bound)][0] if len(given) > len(bound) else ""
+    message, bound = _arguments(callback, fact)
     name = names.give(wish if wish != "operator()" else callback.through or "callback")
     if isinstance(fact, TimerFact):
-        return Server(name, callback, *body, message, bound, timer=fact)
+        return Server(name, callback, *body, message, bound, timers=(fact,))
     type_ = _type(fact, callback, types)
     fields = types.fields(type_) if type_ is not None else None
     carried = tuple(_carried(fields or {}, message, body[1], names.used))
     return Server(name, callback, *body, message, bound, type_, carried, (fact,))
+
+
+def _arguments(
+    callback: Callback, fact: SubscriptionFact | TimerFact
+) -> tuple[str, tuple[tuple[str, Node], ...]]:
+    """The callback's parameter for the message, and those that a bind fills with what."""
+    names = [n for n, _ in _parameters(callback)]
+    for call in calls_in(fact.site.call):
+        if call.name.rpartition("::")[2] != "bind" or not call.arguments:
+            continue
+        given = list(call.arguments[1:])
+        owner = callback.function.owner if callback.function is not None else ""
+        if owner and given:
+            given = given[1:]
+        pairs = list(zip(names, given, strict=False))
+        message = next((n for n, node in pairs if _PLACE.search(text_of(node))), "")
+        return message, tuple((n, node) for n, node in pairs if not _PLACE.search(text_of(node)))
+    return names[0] if names else "", ()
 
 
 def _kept(fact: SubscriptionFact | TimerFact) -> str:
@@ -114,8 +139,9 @@ def _type(fact: SubscriptionFact, callback: Callback, types: MessageTypes) -> st
     """The type of the messages: as the subscription or the callback's signature says."""
     if isinstance(fact.type, str):
         return fact.type
-    parameters = _parameters(callback)[len(callback.bound) :]
-    return types.named(parameters[0][1]) if parameters else None
+    message, _ = _arguments(callback, fact)
+    spelled = dict(_parameters(callback)).get(message)
+    return types.named(spelled) if spelled is not None else None
 
 
 def _parameters(callback: Callback) -> list[tuple[str, str]]:

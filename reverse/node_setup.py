@@ -38,6 +38,7 @@ from rebsync.reverse.scope import Outside, Stores, TimerOf, Variable
 
 Entry = tuple["m.Statement | Stores | Node", ...]
 _WAITS = frozenset({"spin", "waitForShutdown", "spinOnce", "shutdown", "start"})
+_AUDIENCE = frozenset({"getNumSubscribers", "getNumPublishers", "waitForService"})
 _ENDS = frozenset({"spin", "waitForShutdown"})
 _PLAIN = (NodeFact, PublisherFact, SubscriptionFact, ServiceFact, ClientFact, RateFact)
 _NESTING = frozenset(
@@ -72,6 +73,7 @@ class Setup:
 
     def prepare(self) -> None:
         """Finds it all out."""
+        self._captures()
         self._loops()
         for fact in self.facts:
             match fact:
@@ -83,6 +85,16 @@ class Setup:
                     self._plain(fact)
         for function in self.first:
             self._waits(function)
+
+    def _captures(self) -> None:
+        """What lambdas use of the function around them lives as long as they do."""
+        for server in self.servers:
+            if server.callback.lambda_ is None:
+                continue
+            function = around(server.body, self.state.unit.functions)
+            if function is not None:
+                mentioned = {text_of(n) for n in _names(server.body)}
+                self.instead |= self.state.outlive(function, mentioned, False)
 
     def _is_first(self, fact: Fact) -> bool:
         return fact.site.function is not None and any(
@@ -114,7 +126,7 @@ class Setup:
         return self._is_first(fact)
 
     def _timer(self, fact: TimerFact) -> None:
-        server = next((s for s in self.servers if s.timer is fact), None)
+        server = next((s for s in self.servers if fact in s.timers), None)
         call = fact.site.call
         if server is None:
             why = "it is not known which function the timer calls"
@@ -177,7 +189,8 @@ class Setup:
         if type_ is None or not isinstance(fact.name, str) or (None in values and self.instances):
             return ()
         wish = fact.name.rpartition("/")[2].lstrip("~") or "value"
-        name = self.names.give(wish, f"{wish}_given")
+        free = [w for w in (wish, f"{wish}_given") if w not in self.state.taken]
+        name = self.names.give(*free, f"{wish}_value")
         self.parameters.append(Given(name, type_, values))
         return (Stores(target if target is not None else fact.site.call, m.Name(name)),)
 
@@ -218,7 +231,7 @@ class Setup:
         self.instead[loop.node.id] = ()
         if parts:
             mentioned = {text_of(n) for p in parts for n in _names(p)}
-            self.instead |= self.state.outlive(function, mentioned, False)
+            self.instead |= self.state.outlive(function, mentioned, False, loop.node)
             self.instead[loop.node.id] = ()
             name = self.names.give("loop" if function.name == "main" else function.name)
             self.loops.append((loop, name))
@@ -249,6 +262,9 @@ class Setup:
         for call in calls_in(function.body):
             name = call.name.rpartition("::")[2]
             statement = statement_of(call.node)
+            if name in _AUDIENCE and (loop := _loop_around(call.node)) is not None:
+                self.instead[loop.id] = ()
+                continue
             if name not in _WAITS or statement is None or not _is_call(statement, call.node):
                 continue
             own = call.target is None and "::" not in call.name
@@ -260,6 +276,17 @@ class Setup:
             if name in _ENDS:
                 for later in _later(statement):
                     self.instead[later.id] = ()
+
+
+def around(node: Node, functions: Sequence[CppFunction]) -> CppFunction | None:
+    """The function that a lambda stands in."""
+    at: Node | None = node
+    while at is not None:
+        for function in functions:
+            if function.body is not None and function.body.id == at.id:
+                return function
+        at = at.parent
+    return None
 
 
 def send(server: str, after: int = 0) -> m.Statement:
@@ -277,6 +304,16 @@ def statement_of(node: Node) -> Node | None:
         if at.type in ("function_definition", "lambda_expression"):
             return None
         at = at.parent
+    return None
+
+
+def _loop_around(node: Node) -> Node | None:
+    """The loop that a node is in the condition of."""
+    below = node
+    while (at := below.parent) is not None and not at.type.endswith("_definition"):
+        if at.type in ("while_statement", "do_statement"):
+            return at if at.child_by_field_name("condition") == below else None
+        below = at
     return None
 
 

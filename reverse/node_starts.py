@@ -198,7 +198,8 @@ def _used(start: Start, statement: Node, entry: Sequence[CppFunction]) -> Step:
     calls = [c for c in calls_in(statement) if c.on == start.made.variable]
     inner = named(statement)
     if len(calls) == 1 and len(inner) == 1 and inner[0].id == calls[0].node.id:
-        functions = [f for f in entry if f.name == calls[0].name and f.body is not None]
+        named_so = [f for f in entry if f.name == calls[0].name and f.body is not None]
+        functions = list({f.node.id: f for f in named_so}.values())
         if len(functions) == 1 and not functions[0].parameters:
             return Step(functions[0], _statements(functions[0]))
     return Step(start.program.main, (statement,), instead)

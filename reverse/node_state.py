@@ -45,7 +45,7 @@ class State:
     initial: list[tuple[Cpp, Stores]] = field(default_factory=list)
     wide: list[tuple[Cpp, Node, str]] = field(default_factory=list)
 
-    _taken: set[str] = field(default_factory=set)
+    taken: set[str] = field(default_factory=set)
     _outlived: dict[tuple[int, frozenset[str], bool], dict[int, tuple[Stores, ...]]] = field(
         default_factory=dict
     )
@@ -53,7 +53,8 @@ class State:
     def __post_init__(self) -> None:
         taken = {n for f in self.unit.functions if f.body is not None for n in declared(f.body)}
         taken |= {p.name for f in self.unit.functions for p in f.parameters}
-        self._taken = taken
+        taken |= {f.name for f in self.unit.functions}
+        self.taken = taken
         for member in self._globals():
             self._add(member)
         for above in reversed(self.unit.lineage):
@@ -63,12 +64,13 @@ class State:
     def _globals(self) -> Iterator[CppField]:
         for variables in self.code.variables.values():
             for variable in variables:
-                if variable.cpp.source.path in self.unit.files:
+                path = variable.cpp.source.path
+                if path in self.unit.files and (path, variable.name) not in self.code.constants:
                     yield variable
 
     def _add(self, member: CppField) -> None:
         declarator = _declarator(member.node, member.name)
-        meaning = self.meaning(member.name, member.type, declarator, member.cpp, self._taken)
+        meaning = self.meaning(member.name, member.type, declarator, member.cpp, self.taken)
         self.members[member.name] = meaning
         if member.value is not None and isinstance(meaning, Variable):
             stores = Stores(m.Name(meaning.name), member.value)
@@ -149,20 +151,25 @@ class State:
     # --- variables of functions -----------------------------------------------------------------
 
     def outlive(
-        self, function: CppFunction, names: set[str], only_static: bool
+        self, function: CppFunction, names: set[str], only_static: bool, within: Node | None = None
     ) -> dict[int, tuple[Stores, ...]]:
-        """Makes variables of a function state variables; what stands for their declarations."""
+        """Makes variables of a function state variables; what stands for their declarations.
+
+        Those that are declared `within` a loop live for one round only.
+        """
         key = function.node.id, frozenset(names), only_static
         if key not in self._outlived:
-            self._outlived[key] = self._outlive(function, names, only_static)
+            self._outlived[key] = self._outlive(function, names, only_static, within)
         return self._outlived[key]
 
     def _outlive(
-        self, function: CppFunction, names: set[str], only_static: bool
+        self, function: CppFunction, names: set[str], only_static: bool, within: Node | None
     ) -> dict[int, tuple[Stores, ...]]:
         instead: dict[int, tuple[Stores, ...]] = {}
         local = self.local.setdefault(function.node.id, {})
         for node in _declarations(function.body):
+            if within is not None and within.start_byte <= node.start_byte < within.end_byte:
+                continue
             static = any(text_of(c) == "static" for c in node.named_children)
             found = [(d, n) for d in node.children_by_field_name("declarator") for n in _name(d)]
             wanted = [(d, n) for d, n in found if n in names or static]

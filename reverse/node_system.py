@@ -66,7 +66,7 @@ class NodeSystem:
         found = programs(self.code, self.graph, self.files)
         if self.generated:
             found = tuple(p for p in found if not p.name.endswith(_STAND_IN))
-        reading = Units(self.code, self.graph, found)
+        reading = Units(self.code, self.graph, found, self.generated)
         units, starts = reading.all()
         if not units:
             return Nodes((), (), False)
@@ -85,6 +85,9 @@ class NodeSystem:
         reader = _Reader(self, reading, types, common, wiring, classes, names, starts)
         read = tuple(c for u in units if self._is_wanted(u) for c in reader.classes_of(u))
         listing = Listing(self.findings, types)
+        for program in found:
+            if not any(u.program is program for u in units) and self.only is None:
+                listing.unit(reading.of_program(program), ())
         for unit in units:
             if self._is_wanted(unit):
                 listing.unit(unit, served[unit.name])
@@ -114,6 +117,7 @@ class NodeSystem:
             if isinstance(f, PublisherFact | SubscriptionFact) and isinstance(f.type, str)
         }
         messages = types.all_fields(wanted | types.mentioned(self.code.files))
+        known |= types.constants()
         return Common(known, frozenset(enums), messages, frozenset())
 
     def unit_of_time(self) -> Fraction:

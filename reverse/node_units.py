@@ -77,6 +77,7 @@ class Units:
     code: Code
     graph: Graph
     programs: tuple[Program, ...]
+    generated: bool = False
 
     def all(self) -> tuple[list[Unit], list[Start]]:
         """All units, in the order of the code, and all objects of them that programs make."""
@@ -89,7 +90,7 @@ class Units:
         own: list[Unit] = []
         for program in self.programs:
             unit = self.of_program(program)
-            if any(isinstance(f, _CONNECTS) for f in unit.facts):
+            if any(_connects(f) for f in unit.facts):
                 own.append(unit)
                 starts.append(Start(unit, program, None))
             starts += [Start(units[m.owner], program, m) for m in made[program.main.node.id]]
@@ -106,13 +107,13 @@ class Units:
 
     def _classes(self) -> list[str]:
         """The classes with callbacks, publishers or timers, inherited ones counted."""
-        with_facts = {o for f in self.graph.facts if (o := self.owner_of(f)) is not None}
+        with_facts = {o for f in self.graph.facts if _connects(f) for o in [self.owner_of(f)] if o}
         names = [
             n
             for n, c in self.code.classes.items()
             if with_facts & {a.name for a in self.code.lineage(n)}
             and not self._is_generated(c)
-            and n not in RUNTIME_CLASSES
+            and not (self.generated and n in RUNTIME_CLASSES)
         ]
         return names
 
@@ -170,6 +171,12 @@ class Units:
             and program.has(f.site.cpp)
         ]
         return Unit(program.name, None, (), tuple(functions), tuple(facts), program)
+
+
+def _connects(fact: Fact) -> bool:
+    """Whether a fact makes what it belongs to a node with servers or messages of its own."""
+    single = isinstance(fact, SubscriptionFact) and fact.single
+    return isinstance(fact, _CONNECTS) and not single
 
 
 def bodies(unit: Unit) -> Iterator[tuple[Cpp, Node]]:
