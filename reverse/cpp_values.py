@@ -206,12 +206,21 @@ class Values:
                 return converted(self.value(part(node, "value"), frame), type_)
             case "assignment_expression":
                 return self.value(part(node, "right"), frame)
-            case "initializer_list" if len(named(node)) == 1:
-                return self.value(named(node)[0], frame)
+            case "initializer_list":
+                return self._listed(node, frame)
             case "subscript_expression":
                 return self.unknown("an element picked at run time", node, frame)
             case _:
                 return self.unknown("no expression that is followed", node, frame)
+
+    def _listed(self, node: Node, frame: Frame) -> Value:
+        found = [self.value(n, frame) for n in named(node)]
+        plain = [v for v in found if isinstance(v, (bool, int, float, str, tuple))]
+        if len(found) == 1:
+            return found[0]
+        if len(plain) == len(found):
+            return tuple(plain) if plain else Nothing()
+        return self.unknown("a list that is not known", node, frame)
 
     def _pointed(self, node: Node, frame: Frame) -> Value:
         argument = part(node, "argument")

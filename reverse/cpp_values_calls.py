@@ -123,7 +123,7 @@ def _constructed_type(values: Values, node: Node, name: str, frame: Frame) -> st
     text = "".join(text_of(part(node, "function")).split()).partition("<")[0]
     if name in (HANDLE_TYPE, "string") or name in SPANS or name in RATES or name in NUMBERS:
         return text
-    if name in TRANSPORTS or name.endswith("Options"):
+    if name in TRANSPORTS or name == "vector" or name.endswith("Options"):
         return text
     return text if values.texts.class_near(name, frame.cpp) is not None else ""
 

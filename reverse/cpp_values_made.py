@@ -45,6 +45,8 @@ def constructed(values: Values, type_: str, use: Use, frame: Frame) -> Value:
         if not given:
             return ""
         return values.value(given[0], frame) if len(given) == 1 else _part(values, use, frame)
+    if name == "vector" and given:
+        return _vector(values, use, frame)
     if name == "function" and len(given) == 1:
         return values.value(given[0], frame)
     if name in NUMBERS:
@@ -54,6 +56,23 @@ def constructed(values: Values, type_: str, use: Use, frame: Frame) -> Value:
         if isinstance(copied, Made) and copied.type == type_:
             return copied
     return Made(type_, use, frame)
+
+
+def _vector(values: Values, use: Use, frame: Frame) -> Value:
+    """`std::vector<T>(count, element)`, or one of elements in braces."""
+    found = [values.value(g, frame) for g in use.arguments]
+    if use.node.type == "call_expression":
+        match found:
+            case [int() as count, (bool() | int() | float() | str()) as element] if count < 1000:
+                return (element,) * count
+            case [tuple() as copied]:
+                return copied
+            case _:
+                return values.unknown("a list that is not known", use.node, frame)
+    plain = [v for v in found if isinstance(v, (bool, int, float, str, tuple))]
+    if len(plain) == len(found):
+        return tuple(plain)
+    return values.unknown("a list that is not known", use.node, frame)
 
 
 def _part(values: Values, use: Use, frame: Frame) -> Value:

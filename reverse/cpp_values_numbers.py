@@ -23,7 +23,7 @@ def added(left: Value, right: Value) -> Value:
             )
             return Unresolved(unknown.why, unknown.place, partial.replace("**", "*"))
         case FromParameter(), str():
-            return used(left, f'value + "{right}"', lambda v: added(v, right))
+            return _behind(left, right)
         case str(), FromParameter():
             return used(right, f'"{left}" + value', lambda v: added(left, v))
         case FromParameter(), (int() | float()):
@@ -32,6 +32,19 @@ def added(left: Value, right: Value) -> Value:
             return used(right, f"{left}+value", lambda v: added(left, v))
         case _:
             return Nothing()
+
+
+def _behind(value: FromParameter, text: str) -> FromParameter:
+    """A text behind the value of a parameter; without the parameter it is behind nothing."""
+    expression = value.expression
+    if expression is not None and expression.startswith("value + ") and expression.endswith('"'):
+        expression = f'{expression[:-1]}{text}"'
+    else:
+        expression = used(value, f'value + "{text}"', lambda v: v).expression
+    before = value.default if value.default is not None else ""
+    default = added(before, text)
+    known = default if isinstance(default, str) else None
+    return FromParameter(value.name, known, expression, value.search, value.within)
 
 
 def used(value: FromParameter, expression: str, do: Callable[[Value], Value]) -> FromParameter:

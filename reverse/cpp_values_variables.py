@@ -147,7 +147,7 @@ class Variables:
                 return self._made(variable, path, definition, frame)
             case "initialised":
                 if not definition.arguments:
-                    return Nothing()
+                    return self._declared(variable, path, definition.place, frame)
                 return self._made(variable, path, definition, frame)
             case "declared":
                 return self._declared(variable, path, definition.place, frame)

@@ -7,13 +7,12 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.cpp_flow import climb, covers, declaration_of, made_of
-from rebsync.reverse.cpp_flow_types import unscoped_member
 from rebsync.reverse.cpp_index import Code
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.cpp_values import Values
-from rebsync.reverse.cpp_values_plain import at
-from rebsync.reverse.graph import Fact, Graph, Site
+from rebsync.reverse.graph import Fact, Graph
 from rebsync.reverse.ros_calls_facts import Asked, Facts
+from rebsync.reverse.ros_calls_sites import site_of
 from rebsync.reverse.roscpp_vocabulary import (
     FILTER_SCOPES,
     FILTERS,
@@ -126,7 +125,7 @@ def _made(
     if called.type in ("template_method", "template_function"):
         types = tuple(named(part(called, "arguments")))
     arguments = tuple(named(part(call, "arguments")))
-    return Asked(ask, _site(values, cpp, place, call), arguments, types, target)
+    return Asked(ask, site_of(values, cpp, place, call), arguments, types, target)
 
 
 def _nodelet(values: Values, cpp: Cpp, place: Node, name: str) -> Asked | None:
@@ -134,7 +133,7 @@ def _nodelet(values: Values, cpp: Cpp, place: Node, name: str) -> Asked | None:
     if call is None or call.type != "call_expression":
         return None
     arguments = tuple(named(part(call, "arguments")))
-    return Asked(NODELETS[name], _site(values, cpp, place, call), arguments)
+    return Asked(NODELETS[name], site_of(values, cpp, place, call), arguments)
 
 
 # --- objects that ask when they are made --------------------------------------------------------
@@ -163,7 +162,7 @@ def _object(values: Values, cpp: Cpp, place: Node, name: str) -> Asked | None:
         return None
     for call, arguments in _objects(values, cpp, node, above):
         if arguments and not (name in RATES and _handed_on(call)):
-            return Asked(ask, _site(values, cpp, place, call), arguments, types)
+            return Asked(ask, site_of(values, cpp, place, call), arguments, types)
     return None
 
 
@@ -196,52 +195,3 @@ def _handed_on(call: Node) -> bool:
     if above is None or call.type == "init_declarator" or above.type == "declaration":
         return False
     return above.type in ("argument_list", "init_declarator", "optional_parameter_declaration")
-
-
-# --- where it is asked --------------------------------------------------------------------------
-
-
-def _site(values: Values, cpp: Cpp, place: Node, call: Node) -> Site:
-    function = values.texts.function_around(cpp, place)
-    owner = (function.owner or function.name) if function is not None else None
-    return Site(owner, function, cpp, call, at(cpp, place), kept(call))
-
-
-def kept(call: Node) -> str:
-    """The expression in which the code keeps what a call gives."""
-    node, above = call, call.parent
-    while above is not None and above.type in (
-        "parenthesized_expression",
-        "conditional_expression",
-    ):
-        node, above = above, above.parent
-    if above is None:
-        return ""
-    match above.type:
-        case "assignment_expression" if part(above, "right") == node:
-            return text_of(part(above, "left"))
-        case "init_declarator":
-            return text_of(part(above, "declarator")).lstrip("*& ")
-        case "argument_list" if above.parent is not None:
-            return _kept_by(above.parent)
-        case _:
-            return ""
-
-
-def _kept_by(holder: Node) -> str:
-    if holder.type == "field_initializer":
-        return text_of(holder.named_children[0])
-    if holder.type == "init_declarator":
-        return text_of(part(holder, "declarator")).lstrip("*& ")
-    if holder.type == "new_expression":
-        return kept(holder)
-    if holder.type == "call_expression":
-        function = part(holder, "function")
-        name = text_of(function).partition("<")[0].rpartition("::")[2]
-        if function.type == "field_expression":
-            field = unscoped_member(part(function, "field"))
-            if field in ("push_back", "emplace_back", "reset"):
-                return text_of(part(function, "argument"))
-        if name in ("make_shared", "make_unique"):
-            return kept(holder)
-    return ""

@@ -44,6 +44,7 @@ from rebsync.reverse.graph import (
     Unresolved,
 )
 from rebsync.reverse.ros_calls_callbacks import Callbacks, Called
+from rebsync.reverse.ros_calls_filters import registered
 from rebsync.reverse.ros_calls_options import Given, options_of
 from rebsync.reverse.ros_calls_types import MessageTypes
 from rebsync.reverse.roscpp_vocabulary import ANONYMOUS, OPTIONS, TRANSPORTS, Ask, Kind
@@ -94,6 +95,8 @@ class Facts:
             known = [v for a in answers if (v := a.values.get(key)) is not None]
             merged[key] = one_of(known)
         called = [c for a in answers for c in a.called]
+        if not called and "callback" not in ask.arguments and ask.kind is Kind.SUBSCRIPTION:
+            called = registered(self.values, self.callbacks, site)
         searched = any(a.searched for a in answers)
         return [self._fact(asked, merged, _distinct(called), called, searched)]
 

@@ -15,6 +15,7 @@ from rebsync.reverse.cpp_values_plain import at
 from rebsync.reverse.graph import Unresolved
 
 _INCLUDE = re.compile(rb'^[ \t]*#[ \t]*include[ \t]*[<"](\w+)/(\w+)\.h[>"]', re.MULTILINE)
+_SPACE = re.compile(rb"\bnamespace\s+(\w+)\s*=\s*([\w:]+)\s*;")
 _WRAPPERS = frozenset({"shared_ptr", "MessageEvent", "ServiceEvent", "unique_ptr"})
 _INNER = frozenset({"ConstPtr", "Ptr", "Request", "Response", "SharedPtr"})
 _ENDINGS = ("ConstPtr", "Ptr", "Request", "Response")
@@ -58,13 +59,20 @@ class MessageTypes:
                 break
         if len(parts) > 1:
             known = self._package(cpp, name) == parts[-2]
-            return f"{parts[-2]}/{name if known else plain}"
+            return f"{self._space(cpp, parts[-2])}/{name if known else plain}"
         if self._is_parameter(type_, name):
             return Unresolved(f"the parameter {name} of a template", at(cpp, type_))
         for candidate in (name, plain):
             if package := self._package(cpp, candidate):
                 return f"{package}/{candidate}"
         return Unresolved(f"no message type {name} is included", at(cpp, type_))
+
+    def _space(self, cpp: Cpp, name: str) -> str:
+        """The namespace that another name for one stands for."""
+        for known, full in _SPACE.findall(self.values.texts.data(cpp)):
+            if known.decode() == name:
+                return str(full.decode()).rpartition("::")[2]
+        return name
 
     def _package(self, cpp: Cpp, name: str) -> str | None:
         """The package whose header of a message a file includes, or one near to it."""
