@@ -178,12 +178,23 @@ def whole_number(node: Node) -> int | None:
 
 def other_fields(cpp: Cpp, node: Node) -> Iterator[CppField]:
     """The pointers, references and arrays of a declaration of members."""
-    declarators = node.children_by_field_name("declarator")
-    value = node.child_by_field_name("default_value")
-    for declarator in declarators:
+    for declarator, value in _with_values(node):
         if declarator.type in _DECLARATORS and (name := declared_name(declarator)) is not None:
-            only = value if len(declarators) == 1 else None
-            yield CppField(text_of(name), part(node, "type"), only, (), cpp, node)
+            yield CppField(text_of(name), part(node, "type"), value, (), cpp, node)
+
+
+def _with_values(node: Node) -> list[tuple[Node, Node | None]]:
+    """The declarators of a member declaration, each with the value that follows it."""
+    declarators = node.children_by_field_name("declarator")
+    values = node.children_by_field_name("default_value")
+    if not values or len(declarators) == 1:
+        return [(d, values[0] if values else None) for d in declarators]
+    found: list[tuple[Node, Node | None]] = []
+    for declarator, after in zip(declarators, [*declarators[1:], None], strict=True):
+        end = after.start_byte if after is not None else node.end_byte
+        own = [v for v in values if declarator.end_byte <= v.start_byte < end]
+        found.append((declarator, own[0] if own else None))
+    return found
 
 
 def only_braces(node: Node) -> bool:
@@ -221,13 +232,10 @@ def valued(node: Node) -> Iterator[tuple[Node, Node]]:
 
 
 def plain_fields(cpp: Cpp, node: Node) -> Iterator[CppField]:
-    declarators = node.children_by_field_name("declarator")
-    value = node.child_by_field_name("default_value")
-    for declarator in declarators:
+    for declarator, value in _with_values(node):
         if declarator.type == "field_identifier":
-            only = value if len(declarators) == 1 else None
             markers = (*markers_above(node), *markers_beside(node))
-            yield CppField(text_of(declarator), part(node, "type"), only, markers, cpp, node)
+            yield CppField(text_of(declarator), part(node, "type"), value, markers, cpp, node)
 
 
 def bases_of(node: Node) -> Iterator[str]:

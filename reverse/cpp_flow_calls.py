@@ -258,7 +258,7 @@ def found_or_pure(texts: Texts, owner: CppClass, name: str) -> bool:
 def _kind(type_: str) -> str:
     """What may stand for a type: a number, a text, or an object of a class."""
     name = type_.rpartition("::")[2]
-    if name in NUMBERS:
+    if name in NUMBERS and name != "char":
         return "number"
     if name == HANDLE_TYPE:
         return "handle"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 
 from tree_sitter import Node
@@ -171,7 +172,7 @@ def _by_method(place: Node, access: Node) -> Definition | None:
 class Reach:
     """A definition that may reach a place; `sure` if it does on all ways.
 
-    `unset` says that it is made only where the value before is no number.
+    `unset` says that it is made only where the definition before gave none.
     """
 
     definition: Definition
@@ -287,9 +288,25 @@ def holds_not(branch: Branch, holds: Callable[[Node], bool | None]) -> bool:
 
 
 def _if_unset(branch: Branch, definition: Definition) -> bool:
+    """Whether a branch is that of `isnan(x)`, or of a parameter that was not read to `x`."""
     condition = branch.statement.child_by_field_name("condition")
-    text = text_of(condition) if condition is not None and branch.side == "then" else ""
-    return f"isnan({text_of(definition.place)})" in text and "!" not in text
+    text = text_of(condition) if condition is not None else ""
+    if condition is None or branch.side not in ("then", "else"):
+        return False
+    negated = (branch.side == "then") == text.lstrip("( ").startswith("!")
+    name = re.escape(text_of(definition.place))
+    if re.search(rf"\bisnan\s*\(\s*{name}\s*\)", text):
+        return not negated
+    read = re.search(rf"\b(?:getParam\w*|get|getCached)\s*\([^&|]*\b{name}\s*\)", text)
+    return negated and read is not None
+
+
+def taken(place: Node, holds: Callable[[Node], bool | None]) -> bool | None:
+    """Whether a statement of a function is reached, if that is known."""
+    open_ = [b for b in _branches(place, None) if not _met(b, holds)]
+    if any(holds_not(b, holds) for b in open_):
+        return False
+    return None if open_ else True
 
 
 def _jumps(branches: list[Branch]) -> bool:

@@ -11,6 +11,7 @@ from rebsync.reverse.cpp_declarations import unscoped
 from rebsync.reverse.cpp_flow import Texts, declaration_of, made_of, nearness, scope_of
 from rebsync.reverse.cpp_index import CppClass, CppField, CppFunction
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
+from rebsync.reverse.roscpp_vocabulary import HANDLE_TYPE, OWN_HANDLES
 
 _HOLDERS = frozenset(
     {
@@ -193,6 +194,8 @@ class Types:
 
     def _type_of_call(self, cpp: Cpp, node: Node, depth: int) -> str:
         function = part(node, "function")
+        if text_of(function).rpartition(">")[2] in OWN_HANDLES:
+            return HANDLE_TYPE
         if function.type == "field_expression":
             name = unscoped_member(part(function, "field"))
             owner = self.class_of(cpp, part(function, "argument"), depth + 1)

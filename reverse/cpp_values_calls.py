@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
+from rebsync.reverse.cpp_flow_reach import taken
 from rebsync.reverse.cpp_flow_types import unscoped_member
 from rebsync.reverse.cpp_index import CppFunction
 from rebsync.reverse.cpp_tree import named, part, text_of
@@ -180,16 +181,19 @@ def returned(
     found: list[Value] = []
     for function in functions[:8]:
         inner = Frame(function.cpp, function, use, frame)
-        results = list(_returns(function.body))
-        for result in results:
-            value = values.value(result, inner)
-            if isinstance(value, Unresolved):
-                text = function.name
-                value = Unresolved(value.why or f"what {text} gives", value.place, value.partial)
-            found.append(value)
-        if not results:
-            found.append(values.unknown(f"what {function.name} gives", node, frame))
+        results = [values.value(r, inner) for r in _reached(values, function, inner)]
+        found += results or [values.unknown(f"what {function.name} gives", node, frame)]
     return choice(found)
+
+
+def _reached(values: Values, function: CppFunction, frame: Frame) -> Iterator[Node]:
+    """What a function returns, up to a return that is surely reached."""
+    for result in sorted(_returns(function.body), key=lambda n: n.start_byte):
+        sure = taken(result, lambda c: values.holds(c, frame))
+        if sure is not False:
+            yield result
+        if sure:
+            return
 
 
 def _returns(body: Node | None) -> Iterator[Node]:

@@ -146,7 +146,10 @@ def _seconds(value: Value) -> Value:
             return value
         case bool() | int() | float():
             return Length(float(value))
-        case FromParameter() | Unresolved():
+        case FromParameter():
+            seconds = converted(value, "double")
+            return Length(seconds if isinstance(seconds, FromParameter) else value)
+        case Unresolved():
             return Length(value)
         case _:
             return Nothing()

@@ -111,7 +111,7 @@ class Variables:
         found, sure = self._ways(variable, path, node, frame)
         if not sure:
             found.append(self._entry(variable, path, node, frame))
-        return _filled(found)
+        return choice(found)
 
     def _ways(
         self, variable: Variable, path: str, node: Node | None, frame: Frame
@@ -132,9 +132,10 @@ class Variables:
                 stands_in = value
                 continue
             found.append(each(partial(_with_default, default=stands_in), value))
+            stands_in = Nothing()
             if reach.sure:
                 return found, True
-        return found if isinstance(stands_in, Nothing) or found else [stands_in], False
+        return found if isinstance(stands_in, Nothing) else [*found, stands_in], False
 
     # --- one definition -------------------------------------------------------------------------
 
@@ -298,13 +299,13 @@ class Variables:
 
     def _member(self, variable: Variable, path: str, owner: CppClass, frame: Frame) -> Value:
         function, texts = frame.function, self.values.texts
+        if function is not None and function.name == owner.name == function.owner:
+            return self._initial(variable, path)
         if function is not None and frame.call is not None and frame.caller is not None:
             before = frame.caller.function
             class_ = texts.class_of(before)
             if class_ is not None and owner in texts.lineage(class_) and _on_this(frame.call.node):
                 return self._at(variable, path, frame.call.node, frame.caller)
-        if function is not None and function.name == owner.name == function.owner:
-            return self._initial(variable, path)
         return self._in_general(variable, path, frame)
 
     def _initial(self, variable: Variable, path: str) -> Value:
@@ -366,7 +367,7 @@ class Variables:
             always = always or sure
             if not sure and function is not None and function.name == function.owner:
                 values = [*values, self._initial(variable, path)]
-            found.append(_filled(values))
+            found.append(choice(values))
         return choice(found), always
 
     def _end(
@@ -383,22 +384,15 @@ class Variables:
         )
 
 
-def _filled(found: list[Value]) -> Value:
-    """The values together, latest first: what replaces an unset parameter is its default."""
-    if len(found) == 2 and isinstance(found[0], (bool, int, float, str)):
-        filled = _with_default(found[1], found[0])
-        if filled is not found[1]:
-            return filled
-    return choice(found)
-
-
 def _with_default(value: Value, default: Value) -> Value:
-    """The value of a parameter without a default, with one that is known."""
-    if not isinstance(value, FromParameter) or value.default is not None:
-        return value
-    if not isinstance(default, (bool, int, float, str)):
-        return value
-    return FromParameter(value.name, default, value.expression, value.search, value.within)
+    """The value of a parameter with what the code puts in its place where it is not set."""
+    match default:
+        case Nothing():
+            return value
+        case bool() | int() | float() | str() | FromParameter() if isinstance(value, FromParameter):
+            return FromParameter(value.name, default, value.expression, value.search, value.within)
+        case _:
+            return choice([default, value])
 
 
 def _is_pointer(variable: Variable) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from tree_sitter import Node
 
@@ -26,6 +27,7 @@ from rebsync.reverse.roscpp_vocabulary import (
     Ask,
 )
 
+_TEMPLATES = ("template_type", "template_function", "template_method")
 _CALLED = frozenset({"template_method", "template_function", "dependent_name"})
 
 
@@ -39,10 +41,14 @@ def graph_of(code: Code) -> Graph:
             place = cpp.root.descendant_for_byte_range(match.start(), match.end())
             if place is None or place.start_byte != match.start() or place.named_child_count:
                 continue
-            asked = _asked(facts.values, cpp, place, match.group().decode())
-            if asked is not None and not _left_out(place):
-                found += facts.of(asked)
-    return Graph(tuple(found))
+            for asked in _asked(facts.values, cpp, place, match.group().decode()):
+                if not _left_out(place):
+                    found += facts.of(asked)
+    return Graph(tuple(sorted(found, key=_order)))
+
+
+def _order(fact: Fact) -> tuple[str, int]:
+    return fact.site.place.source.path, fact.site.place.span.start
 
 
 def _left_out(place: Node) -> bool:
@@ -57,29 +63,33 @@ def _left_out(place: Node) -> bool:
     return False
 
 
-def _asked(values: Values, cpp: Cpp, place: Node, name: str) -> Asked | None:
+def _asked(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
     """What a word of the vocabulary asks for where it stands, if anything."""
     if name in NODELETS:
-        return _nodelet(values, cpp, place, name)
-    if (name in RATES or name in FILTERS) and (found := _object(values, cpp, place, name)):
-        return found
+        yield from _nodelet(values, cpp, place, name)
+        return
+    if name in RATES or name in FILTERS:
+        found = list(_object(values, cpp, place, name))
+        yield from found
+        if found:
+            return
     node, above = place, place.parent
     while above is not None and above.type in _CALLED:
         node, above = above, above.parent
     if above is None:
-        return None
+        return
     if above.type == "field_expression" and part(above, "field") == node:
         call = above.parent
         if call is None or call.type != "call_expression" or part(call, "function") != above:
-            return None
-        ask = _of_method(values, cpp, part(above, "argument"), name)
-        return _made(values, cpp, place, call, ask, part(above, "argument"), node)
-    return _of_function(values, cpp, place, node, above, name)
+            return
+        yield from _of_method(values, cpp, place, call, node, part(above, "argument"), name)
+    else:
+        yield from _of_function(values, cpp, place, node, above, name)
 
 
 def _of_function(
     values: Values, cpp: Cpp, place: Node, node: Node, above: Node, name: str
-) -> Asked | None:
+) -> Iterator[Asked]:
     scope = ""
     last = node
     while above.type == "qualified_identifier" and part(above, "name") == node:
@@ -87,88 +97,104 @@ def _of_function(
             written = above.child_by_field_name("scope")
             scope = text_of(written) if written is not None else ""
         if above.parent is None:
-            return None
+            return
         node, above = above, above.parent
     if above.type != "call_expression" or part(above, "function") != node:
-        return None
+        return
     ask = FUNCTIONS.get((scope, name))
-    return _made(values, cpp, place, above, ask, None, last)
+    if ask is not None:
+        given = tuple(named(part(above, "arguments")))
+        yield Asked(ask, site_of(values, cpp, place, above), given, _types(last))
 
 
-def _of_method(values: Values, cpp: Cpp, target: Node, name: str) -> Ask | None:
+def _of_method(
+    values: Values, cpp: Cpp, place: Node, call: Node, called: Node, target: Node, name: str
+) -> Iterator[Asked]:
     """What a method asks for, by the class of the object that it is called on."""
+    given = tuple(named(part(call, "arguments")))
     type_ = values.types.type_of(cpp, target).rpartition("::")[2]
-    if type_ == HANDLE_TYPE:
-        return HANDLE.get(name)
-    if type_ in TRANSPORTS:
-        return TRANSPORTS[type_].get(name)
+    site = site_of(values, cpp, place, call)
     if type_ in FILTERS and name == "subscribe":
-        return FILTERS[type_]
-    if type_ and values.texts.class_near(type_, cpp) is not None:
-        names = {c.name for c in values.texts.lineage(values.texts.class_near(type_, cpp))}
-        return HANDLE.get(name) if HANDLE_TYPE in names else None
-    return None
+        variable = values.types.variable(cpp, target)
+        types = _types(variable.type) if variable is not None else ()
+        site = replace(site, kept=text_of(target))
+        yield Asked(FILTERS[type_], site, given, types)
+        return
+    ask = None
+    if type_ == HANDLE_TYPE:
+        ask = HANDLE.get(name)
+    elif type_ in TRANSPORTS:
+        ask = TRANSPORTS[type_].get(name)
+    elif type_ and (class_ := values.texts.class_near(type_, cpp)) is not None:
+        descends = any(HANDLE_TYPE in c.bases for c in values.texts.lineage(class_))
+        ask = HANDLE.get(name) if descends else None
+    if ask is not None:
+        yield Asked(ask, site, given, _types(called), target)
 
 
-def _made(
-    values: Values,
-    cpp: Cpp,
-    place: Node,
-    call: Node,
-    ask: Ask | None,
-    target: Node | None,
-    called: Node,
-) -> Asked | None:
-    if ask is None:
-        return None
-    types: tuple[Node, ...] = ()
-    if called.type in ("template_method", "template_function"):
-        types = tuple(named(part(called, "arguments")))
-    arguments = tuple(named(part(call, "arguments")))
-    return Asked(ask, site_of(values, cpp, place, call), arguments, types, target)
+def _types(node: Node | None) -> tuple[Node, ...]:
+    """The arguments of the template that a name, or the last of several, is one of."""
+    while node is not None and node.type == "qualified_identifier":
+        node = part(node, "name")
+    if node is None or node.type not in _TEMPLATES:
+        return ()
+    return tuple(named(part(node, "arguments")))
 
 
-def _nodelet(values: Values, cpp: Cpp, place: Node, name: str) -> Asked | None:
+def _nodelet(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
     call = place.parent
-    if call is None or call.type != "call_expression":
-        return None
-    arguments = tuple(named(part(call, "arguments")))
-    return Asked(NODELETS[name], site_of(values, cpp, place, call), arguments)
+    if call is not None and call.type == "call_expression":
+        given = tuple(named(part(call, "arguments")))
+        yield Asked(NODELETS[name], site_of(values, cpp, place, call), given)
 
 
 # --- objects that ask when they are made --------------------------------------------------------
 
 
-def _object(values: Values, cpp: Cpp, place: Node, name: str) -> Asked | None:
+def _object(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
     """`ros::Rate r(10)`, `new message_filters::Subscriber<T>(nh, "x", 1)`."""
     node, above = place, place.parent
     types: tuple[Node, ...] = ()
     scope = ""
-    while above is not None and above.type in (
-        "template_type",
-        "qualified_identifier",
-        "template_function",
-    ):
+    while above is not None and above.type in (*_TEMPLATES, "qualified_identifier"):
         if above.type != "qualified_identifier":
-            types = tuple(named(part(above, "arguments")))
+            types = _types(above)
         elif not scope:
             written = above.child_by_field_name("scope")
             scope = text_of(written) if written is not None else ""
         node, above = above, above.parent
-    if above is None or (name in FILTERS and scope != FILTER_SCOPES[name]):
-        return None
+    wanted = FILTER_SCOPES.get(name, "ros")
+    if above is None or scope not in ("", wanted) or (name in FILTERS and not scope):
+        return
+    if above.type == "field_declaration" and name in FILTERS:
+        yield from _initialised(values, above, FILTERS[name], types)
+        return
     ask = RATES.get(name) or FILTERS[name]
-    if name in RATES and scope not in ("ros", ""):
-        return None
-    for call, arguments in _objects(values, cpp, node, above):
-        if arguments and not (name in RATES and _handed_on(call)):
-            return Asked(ask, site_of(values, cpp, place, call), arguments, types)
-    return None
+    for call, given in _objects(node, above):
+        if given and not (name in RATES and _handed_on(call)):
+            yield Asked(ask, site_of(values, cpp, place, call), given, types)
 
 
-def _objects(
-    values: Values, cpp: Cpp, node: Node, above: Node
-) -> Iterator[tuple[Node, tuple[Node, ...]]]:
+def _initialised(
+    values: Values, declaration: Node, ask: Ask, types: tuple[Node, ...]
+) -> Iterator[Asked]:
+    """Members that constructors make with arguments."""
+    for declarator in declaration.children_by_field_name("declarator"):
+        for other, place in values.texts.everywhere(text_of(declarator)):
+            above = place.parent
+            if above is None or above.type != "field_initializer":
+                continue
+            variable = values.types.variable(other, place)
+            lists = [n for n in above.named_children if n.type.endswith("_list")]
+            if variable is None or variable.name != declaration or not lists:
+                continue
+            if given := tuple(named(lists[-1])):
+                site = replace(site_of(values, other, place, above), kept=text_of(place))
+                yield Asked(ask, site, given, types)
+
+
+def _objects(node: Node, above: Node) -> Iterator[tuple[Node, tuple[Node, ...]]]:
+    """The objects that are made where a type is named, with their arguments."""
     match above.type:
         case "declaration":
             for declarator in above.children_by_field_name("declarator"):
@@ -183,8 +209,8 @@ def _objects(
         case "call_expression" if part(above, "function") == node:
             yield above, tuple(named(part(above, "arguments")))
         case "new_expression":
-            given_ = above.child_by_field_name("arguments")
-            yield above, tuple(named(given_)) if given_ is not None else ()
+            arguments = above.child_by_field_name("arguments")
+            yield above, tuple(named(arguments)) if arguments is not None else ()
         case _:
             return
 
