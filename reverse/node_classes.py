@@ -303,10 +303,7 @@ class NodeClass:
         scope = self._scope(server.cpp, function)
         local: dict[str, Meaning] = {}
         for name, value in server.arguments:
-            try:
-                local[name] = CppExpressions(server.cpp, scope).read(value)
-            except Unread:
-                local[name] = Outside()
+            local[name] = self._argument(server.cpp, scope, value)
         if server.message:
             local[server.message] = self._message(server)
         inside = replace(scope.with_locals(local), chooses=True, server=server.name)
@@ -318,6 +315,16 @@ class NodeClass:
         parameters = tuple(m.Parameter(p.type, p.name) for p in server.parameters)
         span = server.cpp.span(function.node if function is not None else server.body)
         return m.MessageServer(server.name, parameters, body, span=span)
+
+    def _argument(self, cpp: Cpp, scope: Scope, value: Node) -> Meaning:
+        """What a bind puts in for a parameter: a member, or a value."""
+        meaning = scope.meaning(text_of(value).removeprefix("this->").strip("&"))
+        if meaning is not None:
+            return meaning
+        try:
+            return CppExpressions(cpp, scope).read(value)
+        except Unread:
+            return Outside()
 
     def _message(self, server: Server) -> Member:
         if server.timers or server.type is None:
@@ -336,15 +343,24 @@ class NodeClass:
         first, rest = reader.read(loop.first), reader.read(loop.rest)
         if loop.first and loop.rest:
             then = self.setup.names.give(f"{name}_rest")
-            body = (*left(first, send(name)), send(then, pause or 0))
+            body = left(first, send(name))
+            body = body if pause is None else (*body, send(then, pause))
             yield m.MessageServer(then, (), m.Block((*left(rest, send(name)), send(name))))
         else:
             ends = () if pause is None else (again,)
             body = (*left((*first, *rest), again), *ends)
         for guard in reversed(loop.guard):
-            condition = CppExpressions(loop.function.cpp, scope).read(guard)
+            condition = self._guard(reader, guard)
             body = (m.If(condition, m.Block(body)),)
         yield m.MessageServer(name, (), m.Block(body), span=span)
+
+    def _guard(self, reader: CppStatements, node: Node) -> m.Expression:
+        """A condition besides that the node runs; it may go either way where it is not known."""
+        try:
+            return reader.expressions.condition(node)
+        except Unread as unread:
+            self.findings.unreadable(reader.cpp.source, unread, reader.within)
+            return m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)), reader.cpp.span(node))
 
     # --- constructor ----------------------------------------------------------------------------
 

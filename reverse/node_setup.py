@@ -19,6 +19,7 @@ from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import (
     ClientFact,
     Fact,
+    Graph,
     NodeFact,
     ParameterFact,
     PublisherFact,
@@ -55,6 +56,7 @@ class Setup:
     """
 
     code: Code
+    graph: Graph
     state: State
     servers: Sequence[Server]
     facts: Sequence[Fact]
@@ -75,14 +77,17 @@ class Setup:
         """Finds it all out."""
         self._captures()
         self._loops()
+        for fact in self.graph.facts:
+            if isinstance(fact, (*_PLAIN, TimerFact)) and self._is_near(fact):
+                self._plain(fact)
         for fact in self.facts:
             match fact:
                 case TimerFact():
                     self._timer(fact)
                 case ParameterFact() if self._is_first(fact):
                     self._parameter(fact)
-                case _ if isinstance(fact, _PLAIN):
-                    self._plain(fact)
+                case PublisherFact() | SubscriptionFact() if not self._at_once(fact):
+                    self._later(fact)
         for function in self.first:
             self._waits(function)
 
@@ -103,18 +108,23 @@ class Setup:
 
     # --- calls ----------------------------------------------------------------------------------
 
+    def _is_near(self, fact: Fact) -> bool:
+        """Whether a call stands in the files of this unit or of the programs that run it."""
+        path = fact.site.cpp.source.path
+        return path in self.state.unit.files or any(f.cpp.source.path == path for f in self.first)
+
     def _plain(self, fact: Fact) -> None:
+        """A call that asks for something is no statement of the model."""
         statement = statement_of(fact.site.call)
-        if statement is None or statement.type not in ("expression_statement", "declaration"):
-            if statement is not None and statement.type == "field_initializer":
-                self.instead[statement.id] = ()
-            return
-        self.instead[statement.id] = ()
-        if isinstance(fact, PublisherFact | SubscriptionFact) and not self._at_once(fact):
-            what = "published" if isinstance(fact, PublisherFact) else "subscribed to"
-            why = f"what is {what} later, or only sometimes, is so from the start in the model"
-            place = fact.site.place
-            self.findings.approximated(place.source, place.span, why, within=self.within)
+        kinds = ("expression_statement", "declaration", "field_initializer")
+        if statement is not None and statement.type in kinds:
+            self.instead[statement.id] = ()
+
+    def _later(self, fact: PublisherFact | SubscriptionFact) -> None:
+        what = "published" if isinstance(fact, PublisherFact) else "subscribed to"
+        why = f"what is {what} later, or only sometimes, is so from the start in the model"
+        place = fact.site.place
+        self.findings.approximated(place.source, place.span, why, within=self.within)
 
     def _at_once(self, fact: Fact) -> bool:
         """Whether a call is made once, when the node starts."""
@@ -123,7 +133,8 @@ class Setup:
             if around.type in _NESTING or around.type == "lambda_expression":
                 return False
             around = around.parent
-        return self._is_first(fact)
+        function = fact.site.function
+        return self._is_first(fact) or (function is not None and function.name == "main")
 
     def _timer(self, fact: TimerFact) -> None:
         server = next((s for s in self.servers if fact in s.timers), None)
@@ -141,7 +152,9 @@ class Setup:
         if period is not None and periodic:
             self.periodic[server.name] = period
         statement = statement_of(call)
-        if statement is None or not self._is_first(fact):
+        if statement is None or not (self._is_first(fact) or self._at_once(fact)):
+            if statement is not None:
+                self.instead.pop(statement.id, None)
             return
         self.instead[statement.id] = ()
         if fact.autostart is True and period is not None:

@@ -12,6 +12,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.cpp_calls import calls_in
 from rebsync.reverse.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.cpp_tree import Cpp, named, text_of
+from rebsync.reverse.graph import TimerFact
 from rebsync.reverse.node_names import Names
 from rebsync.reverse.node_programs import Made
 from rebsync.reverse.node_state import State
@@ -86,7 +87,17 @@ def used_in_main(start: Start) -> list[Node]:
         return []
     parent = made.statement.parent
     after = [n for n in named(parent) if n.start_byte >= made.statement.end_byte] if parent else []
-    return [n for n in after if n.type.endswith("_statement") and _uses(n, made.variable)]
+    timers = [f.site.call for f in start.unit.facts if isinstance(f, TimerFact)]
+    asks = [n for n in after for call in timers if n.start_byte <= call.start_byte < n.end_byte]
+    asks = [
+        n
+        for n in asks
+        if program.main.cpp.source.path
+        in {f.site.cpp.source.path for f in start.unit.facts if isinstance(f, TimerFact)}
+    ]
+    return [
+        n for n in after if n in asks or (n.type.endswith("_statement") and _uses(n, made.variable))
+    ]
 
 
 def _uses(node: Node, variable: str) -> bool:

@@ -178,6 +178,7 @@ class _Reader:
         state.names = names
         setup = Setup(
             self.system.code,
+            self.system.graph,
             state,
             served,
             facts,
