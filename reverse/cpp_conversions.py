@@ -1,7 +1,7 @@
 """What C++ converts unasked: numbers to truth values, wide numbers to narrow ones.
 
 The model wants such conversions written. Where the type of something is not known nothing is
-converted: so it is in generated code, which writes what the model means.
+converted; nor are numbers narrowed in generated code, which writes what the model means.
 """
 
 from __future__ import annotations
@@ -20,7 +20,6 @@ from rebsync.static.types import (
     converts,
     integer_type,
     is_boolean,
-    is_floating,
     is_integer,
     is_numeric,
     wider,
@@ -147,6 +146,8 @@ def converted_to(scope: Scope, expression: m.Expression, target: Variable) -> m.
     of = type_in(scope, value)
     if of is None or not is_numeric(of):
         return value
+    if not scope.open:
+        return value
     value = _literal(value, type_) or (value if converts(of, type_, {}) else cast(type_, value))
     return _wrapped(scope, value, target.bits) if target.bits else value
 
@@ -195,7 +196,7 @@ def operands(
         return operator, as_number(scope, left), as_number(scope, right)
     if any(truths):
         left, right = as_number(scope, left), as_number(scope, right)
-    if operator in ("==", "!=", "<", ">", "<=", ">="):
+    if scope.open and operator in ("==", "!=", "<", ">", "<=", ">="):
         left, right = _of_seconds(scope, left, right), _of_seconds(scope, right, left)
         left, right = _whole(scope, left, right), _whole(scope, right, left)
     return operator, left, right
@@ -220,10 +221,3 @@ def _whole(scope: Scope, expression: m.Expression, other: m.Expression) -> m.Exp
     if fits and value is not None and of is not None and is_integer(of):
         return m.IntLiteral(int(value), expression.span)
     return expression
-
-
-def same_type(left: m.Type | None, right: m.Type | None) -> bool:
-    """Whether both are known to be one type, or both integers of a kind."""
-    if left is None or right is None:
-        return False
-    return left == right or (is_floating(left) and is_floating(right))

@@ -43,13 +43,15 @@ class Touches(Unread):
 class Effects:
     """Looks through pieces of one body.
 
-    `own` are the locals of the body whose change is only noted, in `written`.
+    `own` are the locals of the body whose change is only noted, in `written`; with `everything`
+    that of any variable is.
     """
 
     cpp: Cpp
     scope: Scope
     own: frozenset[str] = frozenset()
     written: set[str] = field(default_factory=set)
+    everything: bool = False
     _inner: set[str] = field(default_factory=set)
     _loops: int = 0
 
@@ -143,6 +145,9 @@ class Effects:
         own = text_of(node.children_by_field_name("field")[0])
         return f"{before}.{own}" if before else own
 
+    def _is_noted(self, name: str) -> bool:
+        return self.everything or (name in self.own and name in self.scope.locals)
+
     # --- writing --------------------------------------------------------------------------------
 
     def _write(self, node: Node) -> None:
@@ -152,7 +157,7 @@ class Effects:
             if not name and node.type not in ("identifier", "call_expression"):
                 self.check(node)
             return
-        if name in self.own:
+        if self._is_noted(name):
             path = self.path_in(node) if isinstance(meaning, Record) else ""
             self.written.add(f"{name}.{path}" if path else name)
             return
@@ -169,7 +174,7 @@ class Effects:
     def _address(self, node: Node) -> None:
         name, meaning = self._root(node)
         if self._is_modelled(node, meaning):
-            if name in self.own:
+            if self._is_noted(name):
                 self.written.add(name)
                 return
             raise self._touches(node, f'the address of "{text_of(node)}" is taken')
@@ -265,7 +270,7 @@ class Effects:
                     raise self._touches(call.node, "this changes a timer")
             case Record() | Variable():
                 if name not in LOOKS and self._is_modelled(target, meaning):
-                    if of in self.own:
+                    if self._is_noted(of):
                         self.written.add(of)
                     else:
                         raise self._touches(call.node, f'this may change "{of}"')
@@ -287,7 +292,7 @@ class Effects:
                 self.check(argument)
             elif isinstance(meaning, Record) and meaning.constant:
                 continue
-            elif name in self.own:
+            elif self._is_noted(name):
                 self.written.add(name)
             else:
                 hint = "hand over a copy: +x, or a const local"

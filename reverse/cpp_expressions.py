@@ -2,22 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Callable, Sequence
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync import precedence
-from rebsync.names import original
 from rebsync.records import dataclass
+from rebsync.reverse import cpp_idioms, cpp_mailbox
+from rebsync.reverse.building import binary, is_calm, tight
+from rebsync.reverse.cpp_conversions import (
+    as_boolean,
+    as_number,
+    converted_to,
+    operands,
+    type_in,
+    variable_of,
+)
+from rebsync.reverse.cpp_effects import Effects
 from rebsync.reverse.cpp_literals import literal
+from rebsync.reverse.cpp_places import is_this, resolve
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
-from rebsync.reverse.cpp_types import class_name, type_of
-from rebsync.reverse.findings import Unread
+from rebsync.reverse.cpp_types import carried, class_name, type_of
+from rebsync.reverse.cpp_unknowns import HINT, Unknown, choice, domain_near
+from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.scope import (
     Called,
+    Ignored,
+    Inline,
     Lambda,
+    Meaning,
     Outside,
     Publishes,
     Record,
@@ -27,6 +41,7 @@ from rebsync.reverse.scope import (
     TimerOf,
     Variable,
 )
+from rebsync.static.types import BOOLEAN, converts, is_boolean, is_integer
 
 _OPERATIONS = {
     "divide": "/",
@@ -35,26 +50,29 @@ _OPERATIONS = {
     "shiftRight": ">>",
 }
 _ASSIGNMENTS = {f"{name}By": f"{operator}=" for name, operator in _OPERATIONS.items()}
-_CLOCK = {
-    "now": "now",
-    "arrival": "currentMessageArrival",
-    "expiry": "currentMessageDeadline",
-    "waitingTime": "currentMessageWaitingTime",
-    "sender": "sender",
-}
 _MATHEMATICS = frozenset({"pow", "sqrt"})
 _WIDTHS = frozenset({"narrow", "widen"})
-# The function under which a statement of `@Move` is read, until it is one.
-MOVE = "@Move"
 _PREFIX = frozenset({"+", "-", "!", "~"})
+_WORDS = {"and": "&&", "or": "||", "not": "!", "not_eq": "!=", "bitand": "&", "bitor": "|"}
+MOVE = cpp_mailbox.MOVE
+
+# Reads the call of a function whose body stands in its place: what the call gives, if anything.
+Inlines = Callable[[Node, Inline | Lambda, Sequence[Node]], Meaning | None]
 
 
 @dataclass(frozen=True, slots=True)
 class CppExpressions:
-    """Reads the expressions of one body. What has no meaning in the model raises `Unread`."""
+    """Reads the expressions of one body. What has no meaning in the model raises `Unread`.
+
+    A value that the model cannot know raises `Unknown`, unless its place allows for a choice:
+    that is listed in `findings`. Without `inlines` no function's body can stand for its call.
+    """
 
     cpp: Cpp
     scope: Scope
+    findings: Findings | None = None
+    within: str = ""
+    inlines: Inlines | None = None
 
     def read(self, node: Node) -> m.Expression:
         """The expression, with parentheses where the code has them or the model needs them."""
@@ -62,13 +80,13 @@ class CppExpressions:
         if node.id in self.scope.values:
             return self.scope.values[node.id]
         match node.type:
-            case "identifier":
+            case "identifier" | "qualified_identifier":
                 return self._name(node)
             case "this":
                 return m.Self(span)
             case "parenthesized_expression":
-                return m.Paren(self.read(self._only(node)), span)
-            case "field_expression":
+                return m.Paren(self.read(self.only(node)), span)
+            case "field_expression" | "pointer_expression":
                 return self._field(node)
             case "subscript_expression":
                 return self._index(node, named(part(node, "indices")))
@@ -77,19 +95,65 @@ class CppExpressions:
             case "update_expression":
                 return self._update(node)
             case "binary_expression":
-                return self._binary(node, self._operator(node), named(node))
+                return self._computed(node)
             case "assignment_expression":
                 return self._assign(node, self._operator(node), named(node))
             case "conditional_expression":
                 condition, then, otherwise = named(node)
-                tested = self.operand(condition, precedence.CHAIN)
+                tested = tight(self.condition(condition), precedence.CHAIN)
                 return m.Conditional(tested, self.read(then), self.read(otherwise), span)
             case "cast_expression":
-                return self._cast(part(node, "type"), part(node, "value"), node)
+                return self.cast(part(node, "type"), part(node, "value"), node)
+            case "compound_literal_expression" if len(named(part(node, "value"))) == 1:
+                return self.cast(part(node, "type"), named(part(node, "value"))[0], node)
             case "call_expression":
                 return self._call(node)
             case _:
-                return literal(self.cpp, node)
+                return self._literal(node)
+
+    def condition(self, node: Node) -> m.Expression:
+        """An expression as a truth value; a choice of both where the model cannot know it."""
+        span = self.cpp.span(node)
+        match node.type:
+            case "parenthesized_expression":
+                return m.Paren(self.condition(self.only(node)), span)
+            case "unary_expression" if self._sign(node) == "!":
+                inner = tight(self.condition(part(node, "argument")), precedence.PREFIX)
+                return inner if isinstance(inner, m.Choice) else m.Unary("!", inner, span)
+            case "binary_expression" if self._sign(node) in ("&&", "||"):
+                return self._binary(node, self._sign(node), named(node))
+        try:
+            return as_boolean(self.scope, self.read(node))
+        except Unread as unread:
+            if not isinstance(unread, Unknown) and not self.scope.open:
+                raise
+            self.approximate(node, unread)
+            return m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)), span)
+
+    def stored(self, node: Node, place: Variable) -> m.Expression:
+        """A value as `place` holds it; where a hint says what it can be, a choice of that."""
+        try:
+            if place.type is not None and is_boolean(place.type):
+                return self.condition(node)
+            return converted_to(self.scope, self.read(node), place)
+        except Unread as unread:
+            values = domain_near(node) or place.domain
+            if not values or not (self.scope.open or isinstance(unread, Unknown)):
+                raise
+            self.approximate(node, unread)
+            pinned = tuple(converted_to(self.scope, v, place) for v in values)
+            return choice(tuple(dict.fromkeys(pinned)))
+
+    def approximate(self, node: Node, unread: Unread) -> None:
+        """Lists that a choice stands for an expression, which must touch nothing of the model."""
+        if self.findings is None:
+            raise Unread(unread.span, f"how often this is done again is not known: {unread.why}")
+        if not self.scope.chooses:
+            why = f"{unread.why}, and only a message server can choose"
+            raise Unread(unread.span, why, unread.hint)
+        Effects(self.cpp, self.scope).check(node)
+        hint = unread.hint or (HINT if isinstance(unread, Unknown) else "")
+        self.findings.approximated(self.cpp.source, unread.span, unread.why, hint, self.within)
 
     def operand(self, node: Node, binding: int) -> m.Expression:
         """An operand that binds at least so tightly, in parentheses if it does not."""
@@ -102,44 +166,85 @@ class CppExpressions:
         """What to raise where a node has no meaning in the model."""
         return Unread(self.cpp.span(node), why, hint)
 
-    # --- names ----------------------------------------------------------------------------------
+    def unknown(self, node: Node, why: str) -> Unread:
+        """What to raise for a value that the model cannot know, where there can be such values."""
+        kind = Unknown if self.scope.open else Unread
+        return kind(self.cpp.span(node), why)
 
-    def _name(self, node: Node) -> m.Expression:
-        name, span = text_of(node), self.cpp.span(node)
-        match self.scope.meaning(name):
-            case Variable(of_model):
-                return m.Name(of_model, span)
-            case Runtime():
-                raise self.unread(node, f'"{name}" belongs to the run-time part')
-            case None if name in self.scope.constants:
-                cpp, value = self.scope.constants[name]
-                return CppExpressions(cpp, self.scope.without_constant(name)).read(value)
-            case None:
-                return literal(self.cpp, node)
-            case Outside() | Record() | Publishes() | TimerOf() | Lambda():
-                raise self.unread(node, f'the model cannot know "{name}"')
-            case expression:
-                return expression
-
-    def _field(self, node: Node) -> m.Expression:
-        target, name = part(node, "argument"), part(node, "field")
-        if target.type == "this":
-            match self.scope.members.get(text_of(name)):
-                case Variable(of_model):
-                    self_ = m.Self(self.cpp.span(target))
-                    return m.Member(self_, of_model, self.cpp.span(node), self.cpp.span(name))
-        raise self.unread(node, f'"{text_of(node)}" is no variable of the model')
-
-    def _only(self, node: Node) -> Node:
+    def only(self, node: Node) -> Node:
+        """The one expression in a node."""
         children = named(node)
         if len(children) != 1:
             raise self.unread(node, "this is not one expression")
         return children[0]
 
+    # --- names ----------------------------------------------------------------------------------
+
+    def _literal(self, node: Node) -> m.Expression:
+        try:
+            return literal(self.cpp, node)
+        except Unread as unread:
+            if node.type in ("string_literal", "raw_string_literal", "null", "sizeof_expression"):
+                raise self.unknown(node, unread.why) from None
+            raise
+
+    def _name(self, node: Node) -> m.Expression:
+        name, span = text_of(node), self.cpp.span(node)
+        last = name.rpartition("::")[2]
+        match resolve(self.scope, node):
+            case Variable(of_model):
+                return m.Name(of_model, span)
+            case Runtime():
+                raise self.unread(node, f'"{name}" belongs to the run-time part')
+            case Outside():
+                raise Unknown(span, f'the model cannot know "{name}"')
+            case Record() | Publishes() | TimerOf() | Lambda():
+                raise self.unread(node, f'"{name}" is no value of the model')
+            case None:
+                pass
+            case expression:
+                return expression
+        for spelled in (name, *(n for n in (last,) if n != name)):
+            if spelled in self.scope.enumerators:
+                return cpp_idioms.whole(self.scope.enumerators[spelled], span)
+            if spelled in self.scope.constants:
+                cpp, value = self.scope.constants[spelled]
+                scope = self.scope.without_constant(spelled)
+                return CppExpressions(cpp, scope, self.findings, self.within).read(value)
+        if (known := cpp_idioms.constant_named(name, span)) is not None:
+            return known
+        if self.scope.open:
+            raise Unknown(span, f'the model cannot know "{name}"')
+        return literal(self.cpp, node)
+
+    def _field(self, node: Node) -> m.Expression:
+        span, meaning = self.cpp.span(node), resolve(self.scope, node)
+        if text_of(node).startswith("&"):
+            raise self.unread(node, "the model has no pointers and references")
+        match meaning:
+            case Variable(of_model):
+                target = node.child_by_field_name("argument")
+                if node.type == "field_expression" and target is not None and is_this(target):
+                    self_ = m.Self(self.cpp.span(target))
+                    return m.Member(self_, of_model, span, self.cpp.span(part(node, "field")))
+                return m.Name(of_model, span)
+            case Outside():
+                raise Unknown(span, f'the model cannot know "{text_of(node)}"')
+            case Runtime() | Record() | Publishes() | TimerOf() | Lambda():
+                raise self.unread(node, f'"{text_of(node)}" is no value of the model')
+            case None:
+                raise self.unknown(node, f'"{text_of(node)}" is no variable of the model')
+            case expression:
+                return expression
+
     # --- operators ------------------------------------------------------------------------------
 
-    def _operator(self, node: Node) -> str:
+    def _sign(self, node: Node) -> str:
         operator = text_of(part(node, "operator"))
+        return _WORDS.get(operator, operator)
+
+    def _operator(self, node: Node) -> str:
+        operator = self._sign(node)
         if operator not in precedence.BINARY and not operator.endswith("="):
             raise self.unread(node, f'the model has no operator "{operator}"')
         return operator
@@ -148,42 +253,97 @@ class CppExpressions:
         array = self.operand(part(node, "argument"), precedence.PRIMARY)
         if len(indices) != 1:
             raise self.unread(node, "an array of the model has one index at a time")
-        return m.Index(array, self.read(indices[0]), self.cpp.span(node))
+        index = as_number(self.scope, self.read(indices[0]))
+        return m.Index(array, index, self.cpp.span(node))
 
     def _unary(self, node: Node) -> m.Expression:
-        operator = text_of(part(node, "operator"))
+        operator = self._sign(node)
         if operator not in _PREFIX:
             raise self.unread(node, f'the model has no operator "{operator}"')
+        if operator == "!":
+            return self.condition(node)
         operand = self.operand(part(node, "argument"), precedence.PREFIX)
+        operand = tight(as_number(self.scope, operand), precedence.PREFIX)
         return m.Unary(operator, operand, self.cpp.span(node))
 
     def _update(self, node: Node) -> m.Expression:
         operator, span = text_of(part(node, "operator")), self.cpp.span(node)
         argument = part(node, "argument")
-        if argument.start_byte == node.start_byte:
-            return m.Postfix(operator, self.operand(argument, precedence.POSTFIX), span)
-        return m.Unary(operator, self.operand(argument, precedence.PREFIX), span)
+        before = argument.start_byte != node.start_byte
+        place = self.place(self.read(argument))
+        if place.bits:
+            if not before and node.parent is not None and node.parent.type.endswith("expression"):
+                raise self.unread(node, f'"{text_of(argument)}" is unsigned: this wraps sooner')
+            target = self.read(argument)
+            value = binary(operator[0], target, m.IntLiteral(1))
+            return m.Assign("=", target, converted_to(self.scope, value, place), span)
+        if before:
+            return m.Unary(operator, self.operand(argument, precedence.PREFIX), span)
+        return m.Postfix(operator, self.operand(argument, precedence.POSTFIX), span)
 
-    def _binary(self, node: Node, operator: str, operands: Sequence[Node]) -> m.Expression:
-        left, right = operands
-        level = precedence.BINARY[operator]
-        return m.Binary(
-            operator,
-            self.operand(left, level),
-            self.operand(right, level + 1),
-            self.cpp.span(node),
-        )
+    def _computed(self, node: Node) -> m.Expression:
+        operator = self._operator(node)
+        if operator == "%" and (drawn := cpp_idioms.drawn(self, node, named(node))) is not None:
+            return drawn
+        return self._binary(node, operator, named(node))
 
-    def _assign(self, node: Node, operator: str, operands: Sequence[Node]) -> m.Expression:
-        target, value = operands
+    def _binary(self, node: Node, operator: str, sides: Sequence[Node]) -> m.Expression:
+        reads = self.condition if operator in ("&&", "||") else self.read
+        left, right = (reads(side) for side in sides)
+        operator, left, right = operands(self.scope, operator, left, right)
+        return binary(operator, left, right, self.cpp.span(node))
+
+    def _assign(self, node: Node, operator: str, sides: Sequence[Node]) -> m.Expression:
+        target, value = sides
         written = self.operand(target, precedence.CHAIN)
-        return m.Assign(operator, written, self.read(value), self.cpp.span(node))
+        place, span = self.place(written), self.cpp.span(node)
+        if operator == "=":
+            return m.Assign("=", written, self.stored(value, place), span)
+        right = self.read(value)
+        done, left, right = operands(self.scope, operator[:-1], written, right)
+        result = type_in(self.scope, binary(done, left, right))
+        if place.type is None or result is None or not is_calm(written):
+            return m.Assign(operator, written, right, span)
+        if place.bits or left is not written or not converts(result, place.type, {}):
+            whole = converted_to(self.scope, binary(done, left, right), place)
+            return m.Assign("=", written, whole, span)
+        return m.Assign(operator, written, right, span)
 
-    def _cast(self, to: Node, operand: Node, node: Node) -> m.Expression:
-        type_ = type_of(to)
-        if type_ is None or type_.dimensions:
+    def place(self, target: m.Expression) -> Variable:
+        """What is known of a place that is written."""
+        match target:
+            case m.Name(name) | m.Member(m.Self(), name):
+                return variable_of(self.scope, name) or Variable(name)
+            case m.Paren(inner):
+                return self.place(inner)
+            case m.Index(array):
+                whole = self.place(array)
+                if whole.type is None or not whole.type.dimensions:
+                    return Variable(whole.name)
+                of = m.Type(whole.type.name, whole.type.dimensions[1:])
+                return Variable(whole.name, of, whole.bits, whole.domain)
+            case _:
+                return Variable("")
+
+    def cast(self, to: Node, operand: Node, node: Node) -> m.Expression:
+        """A value that is converted by a cast of whatever kind."""
+        plain = type_of(to)
+        if plain is not None and not plain.dimensions and not self.scope.open:
+            return m.Cast(plain, self.operand(operand, precedence.CAST), self.cpp.span(node))
+        kept = carried(to, self.scope.enums)
+        if kept is None or kept.type.dimensions:
             raise self.unread(node, f'the model has no type "{text_of(to)}"')
-        return m.Cast(type_, self.operand(operand, precedence.CAST), self.cpp.span(node))
+        if kept.type == BOOLEAN:
+            return self.condition(operand)
+        value = self.read(operand)
+        of = type_in(self.scope, value)
+        if of is not None and is_boolean(of):
+            return as_number(self.scope, value)
+        if of is not None and kept.bits:
+            return converted_to(self.scope, value, Variable("", kept.type, kept.bits))
+        if of is not None and is_integer(of) and (of == kept.type or kept.why):
+            return value
+        return m.Cast(kept.type, tight(value, precedence.CAST), self.cpp.span(node))
 
     # --- calls ----------------------------------------------------------------------------------
 
@@ -198,154 +358,114 @@ class CppExpressions:
                 return self._qualified(node, function, arguments)
             case "field_expression":
                 return self._of_object(node, function, arguments)
-            case "lambda_expression" if not arguments:
-                return self._in_order(function)
+            case "primitive_type" if len(arguments) == 1:
+                return self.cast(function, arguments[0], node)
+            case "lambda_expression" if not self.scope.open and not arguments:
+                return cpp_mailbox.in_order(self, function)
+            case "lambda_expression":
+                return self.inlined(node, Lambda(function, self.scope), arguments)
             case _:
-                raise self.unread(node, "the model cannot call this")
+                raise self.unknown(node, "the model cannot call this")
 
     def _call_by_name(
         self, node: Node, name: str, arguments: Sequence[Node], own: type[m.Self] | None
     ) -> m.Expression:
         """A call of a function of the class; `own` is None where it is written as `this->f()`."""
+        if own is not None and isinstance(held := self.scope.locals.get(name), Lambda):
+            return self.inlined(node, held, arguments)
         match self.scope.functions.get(name):
             case Sends() as sends:
-                return self._send(node, sends, arguments, implicit=own is None)
+                return cpp_mailbox.send(self, node, sends, arguments, implicit=own is None)
             case Called(_, server=True):
                 why = f'"{name}" is a message server: a call runs it at once, a send does not'
                 raise self.unread(node, why, "send the message instead")
-            case Called(called):
+            case Called() as called:
                 target = None if own is not None else m.Self(self.cpp.span(node))
-                return self._calls(node, target, called, arguments)
+                return self._local_method(node, target, called, arguments)
+            case Inline() as inline:
+                return self.inlined(node, inline, arguments)
+            case Ignored():
+                raise Unknown(self.cpp.span(node), f'the model cannot know what "{name}" gives')
         if own is not None and name in _OPERATIONS and len(arguments) == 2:
             return self._binary(node, _OPERATIONS[name], arguments)
         if own is not None and name in _ASSIGNMENTS and len(arguments) == 2:
             return self._assign(node, _ASSIGNMENTS[name], arguments)
-        raise self.unread(node, f'"{name}" is no function of this class')
+        return self._other(node, name, arguments, f'"{name}" is no function of this class')
 
-    def _calls(
+    def _other(self, node: Node, name: str, arguments: Sequence[Node], why: str) -> m.Expression:
+        """A function that the code does not have: one of a library."""
+        read = cpp_idioms.call(self, node, name.removeprefix("::"), arguments)
+        if read is not None:
+            return read
+        if self.scope.open:
+            raise Unknown(self.cpp.span(node), f'the model cannot know what "{name}" gives')
+        raise self.unread(node, why)
+
+    def inlined(
+        self, node: Node, function: Inline | Lambda, arguments: Sequence[Node]
+    ) -> m.Expression:
+        """What a call gives for which the function's body stands."""
+        if self.inlines is None:
+            raise self.unread(node, "the model cannot run this function inside an expression")
+        match self.inlines(node, function, arguments):
+            case Variable(name):
+                return m.Name(name, self.cpp.span(node))
+            case Outside():
+                raise Unknown(self.cpp.span(node), "the model cannot know what this gives")
+            case None | Record() | Runtime() | Publishes() | TimerOf() | Lambda():
+                raise self.unread(node, "what this gives is no value of the model")
+            case expression:
+                return expression
+
+    def calls(
         self, node: Node, target: m.Expression | None, name: str, arguments: Sequence[Node]
     ) -> m.Call:
+        """A call with all arguments as they are."""
         values = tuple(self.read(a) for a in arguments)
         return m.Call(target, name, values, span=self.cpp.span(node))
 
+    def _local_method(
+        self, node: Node, target: m.Expression | None, called: Called, arguments: Sequence[Node]
+    ) -> m.Expression:
+        if called.takes is None:
+            return self.calls(node, target, called.name, arguments)
+        values = cpp_idioms.passed(self, node, called.takes, arguments)
+        return m.Call(target, called.name, values, span=self.cpp.span(node))
+
     def _template(self, node: Node, function: Node, arguments: Sequence[Node]) -> m.Expression:
         name, types = text_of(part(function, "name")), named(part(function, "arguments"))
-        if len(types) != 1 or len(arguments) != 1:
-            raise self.unread(node, f'the model has no function "{name}"')
-        if name in _WIDTHS:  # what the model does unasked
-            return self.read(arguments[0])
-        if name == "static_cast":
-            return self._cast(types[0], arguments[0], node)
-        if name == "as":
-            operand = self.operand(arguments[0], precedence.CAST)
-            return m.Cast(m.Type(class_name(text_of(types[0]))), operand, self.cpp.span(node))
-        raise self.unread(node, f'the model has no function "{name}"')
+        if len(types) == 1 and len(arguments) == 1:
+            if name in _WIDTHS:  # what the model does unasked
+                return self.read(arguments[0])
+            if name == "static_cast":
+                return self.cast(types[0], arguments[0], node)
+            if name == "as":
+                operand = self.operand(arguments[0], precedence.CAST)
+                return m.Cast(m.Type(class_name(text_of(types[0]))), operand, self.cpp.span(node))
+        why = f'the model has no function "{name}"'
+        return self._other(node, text_of(function), arguments, why)
 
     def _qualified(self, node: Node, function: Node, arguments: Sequence[Node]) -> m.Expression:
-        owner, name = text_of(part(function, "scope")), text_of(part(function, "name"))
+        owner, _, name = text_of(function).rpartition("::")
         if owner == "std" and name in _MATHEMATICS:
-            return self._calls(node, None, name, arguments)
+            return self.calls(node, None, name, arguments)
         called = self.scope.functions.get(name)
         if owner in self.scope.bases and isinstance(called, Called) and not called.server:
-            return self._calls(node, m.Super(self.cpp.span(function)), called.name, arguments)
-        raise self.unread(node, f'the model has no function "{owner}::{name}"')
+            return self.calls(node, m.Super(self.cpp.span(function)), called.name, arguments)
+        if called is not None and owner not in ("std", "ros", "boost"):
+            return self._call_by_name(node, name, arguments, m.Self)
+        why = f'the model has no function "{owner}::{name}"'
+        return self._other(node, text_of(function), arguments, why)
 
     def _of_object(self, node: Node, function: Node, arguments: Sequence[Node]) -> m.Expression:
         target, name = part(function, "argument"), part(function, "field")
-        if target.type == "this":
+        if is_this(target):
             return self._call_by_name(node, text_of(name), arguments, None)
-        if text_of(name) == "at" and not self._is_runtime(target):
+        if cpp_mailbox.is_runtime(self, target):
+            return cpp_mailbox.built_in(self, node, target, name, arguments)
+        if text_of(name) == "at":
             return self._index(function, arguments)
-        if self._is_runtime(target):
-            return self._built_in(node, target, name, arguments)
-        raise self.unread(node, f'the model cannot call "{text_of(function)}"')
-
-    def _is_runtime(self, node: Node) -> bool:
-        name = text_of(node)
-        member = self.scope.members.get(name)
-        return name not in self.scope.locals and isinstance(member, Runtime)
-
-    def _built_in(
-        self, node: Node, target: Node, name: Node, arguments: Sequence[Node]
-    ) -> m.Expression:
-        member, span = self.scope.members[text_of(target)], self.cpp.span(node)
-        function = text_of(part(name, "name") if name.type == "template_method" else name)
-        if isinstance(member, Runtime) and member.kind == "drive" and function == "move":
-            return self._calls(node, None, MOVE, arguments)
-        if not isinstance(member, Runtime) or member.kind != "mailbox":
-            raise self.unread(node, f'the model cannot call "{text_of(target)}.{function}"')
-        match function, len(arguments):
-            case "self", 0:
-                return m.Self(span)
-            case "choose", 1 | 2:
-                return m.Choice(tuple(self.read(o) for o in named(arguments[0])), span)
-            case "isA", 2:
-                operand = self.operand(arguments[0], precedence.BINARY["instanceof"])
-                return m.InstanceOf(operand, m.Type(self._class_named(arguments[1])), span)
-            case _, 0 if function in _CLOCK:
-                return m.Name(_CLOCK[function], span)
-            case "delay" | "assertion", _:
-                return self._calls(node, None, function, arguments)
-            case _:
-                raise self.unread(node, f'the model has no function "{function}"')
-
-    def _class_named(self, node: Node) -> str:
-        """The class whose name a literal holds."""
-        if node.type != "string_literal":
-            raise self.unread(node, "this class is not known before the node runs")
-        return original(text_of(node)[1:-1])
-
-    def _in_order(self, function: Node) -> m.Expression:
-        """`[&] { const auto op1_ = a; return f(op1_); }()`: operands in the order of the model."""
-        reader, values = self, []
-        *stores, result = named(part(function, "body"))
-        for store in stores:
-            declarator = part(store, "declarator") if store.type == "declaration" else store
-            if declarator.type != "init_declarator" or result.type != "return_statement":
-                raise self.unread(function, "the model has no functions inside expressions")
-            values.append(reader.read(part(declarator, "value")))
-            name = text_of(part(declarator, "declarator")).lstrip("& ")
-            reader = replace(reader, scope=reader.scope.with_locals({name: values[-1]}))
-        read = reader.read(reader._only(result))
-        match values, read:
-            case [target, read_first, value], m.Assign("=", written, m.Cast(_, computed)) if (
-                target == read_first == written
-            ):
-                inner = computed.inner if isinstance(computed, m.Paren) else computed
-                if isinstance(inner, m.Binary):
-                    return m.Assign(f"{inner.operator}=", target, value, self.cpp.span(function))
-        return read
-
-    # --- sends ----------------------------------------------------------------------------------
-
-    def _send(
-        self, node: Node, sends: Sends, arguments: Sequence[Node], implicit: bool
-    ) -> m.Expression:
-        expected = sends.arguments + (sends.known is None)
-        if not expected <= len(arguments) <= expected + 1:
-            raise self.unread(node, f"this sends with {expected} arguments")
-        target: m.Expression | None
-        if sends.known is None:
-            target = self.operand(arguments[0], precedence.PRIMARY)
-        elif sends.known == "self":
-            target = None if implicit else m.Self(self.cpp.span(node))
-        else:
-            target = m.Name(sends.known, self.cpp.span(node))
-        values = tuple(self.read(a) for a in arguments[expected - sends.arguments : expected])
-        times = self._times(arguments[expected]) if len(arguments) > expected else {}
-        after, deadline = times.get("after"), times.get("deadline")
-        return m.Call(target, sends.server, values, after, deadline, self.cpp.span(node))
-
-    def _times(self, node: Node) -> dict[str, m.Expression]:
-        """`after(a).deadline(d)`."""
-        if node.type != "call_expression":
-            raise self.unread(node, "this is no time of a send")
-        function, arguments = part(node, "function"), named(part(node, "arguments"))
-        found: dict[str, m.Expression] = {}
-        name = function
-        if function.type == "field_expression":
-            found = self._times(part(function, "argument"))
-            name = part(function, "field")
-        if text_of(name) not in ("after", "deadline") or len(arguments) != 1:
-            raise self.unread(node, "this is no time of a send")
-        return found | {text_of(name): self.read(arguments[0])}
+        read = cpp_idioms.member_call(self, node, target, text_of(name), arguments)
+        if read is not None:
+            return read
+        raise self.unknown(node, f'the model cannot call "{text_of(function)}"')

@@ -3,20 +3,40 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import field
+from dataclasses import field, replace
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
+from rebsync.reverse import cpp_inline, cpp_locals, cpp_loops, cpp_special
+from rebsync.reverse.building import is_effect
+from rebsync.reverse.cpp_effects import Effects, Touches, is_outside
 from rebsync.reverse.cpp_expressions import MOVE, CppExpressions
 from rebsync.reverse.cpp_tree import Cpp, markers_in, named, part, text_of
 from rebsync.reverse.cpp_types import type_of
+from rebsync.reverse.cpp_unknowns import Demote
 from rebsync.reverse.findings import Findings, Unread
-from rebsync.reverse.scope import Scope, Stores
+from rebsync.reverse.known_functions import LOGGING
+from rebsync.reverse.scope import Inline, Lambda, Meaning, Outside, Record, Scope, Stores, Variable
 from rebsync.reverse.written import annotation
 
-_LOGGING = ("ROS_DEBUG", "ROS_INFO", "ROS_WARN", "ROS_ERROR", "ROS_FATAL")
+_NOTHING = frozenset(
+    {"using_declaration", "alias_declaration", "type_definition", "static_assert_declaration"}
+)
+
+
+@dataclass(slots=True)
+class Shared:
+    """What the readers of a body share with those of the bodies that stand in it.
+
+    `demoted` are locals, or fields of local messages, whose values the model cannot know;
+    `names` are names of the model that are taken; `running` are the functions that are read.
+    """
+
+    demoted: set[str] = field(default_factory=set)
+    names: set[str] = field(default_factory=set)
+    running: list[tuple[int, str]] = field(default_factory=list)
 
 
 @dataclass(slots=True)
@@ -24,6 +44,8 @@ class CppStatements:
     """Reads one body. A statement without a meaning in the model is listed in `findings`.
 
     `hoisted` are locals that C++ declares before a switch and the model in one of its cases.
+    `own` are the locals that the body declares, by their names in C++; `before` is what must run
+    before the statement that is read; `returns` is where the value of a `return` goes.
     """
 
     cpp: Cpp
@@ -31,17 +53,44 @@ class CppStatements:
     findings: Findings
     within: str
     hoisted: dict[str, m.Type] = field(default_factory=dict)
+    own: set[str] = field(default_factory=set)
+    shared: Shared = field(default_factory=Shared)
+    before: list[m.Statement] = field(default_factory=list)
+    returns: Meaning | None = None
+    _depth: int = 0
+    _root: Node | None = None
 
     def block(self, node: Node) -> m.Block:
         """A body in braces; its locals end with it."""
         outside = self.scope
-        statements = tuple(self._statements(node.named_children))
+        statements = self.read(node.named_children)
         self.scope = outside
         return m.Block(statements, span=self.cpp.span(node))
 
     def read(self, nodes: Sequence[Node]) -> tuple[m.Statement, ...]:
         """Statements that follow each other; their locals stay in `scope`."""
-        return tuple(self._statements(nodes))
+        if self._depth or self.shared.running or not self.scope.open:
+            return tuple(self._statements(nodes))
+        self._root = nodes[0].parent if nodes else None
+        self._depth += 1
+        try:
+            return self._read_again(nodes)
+        finally:
+            self._depth -= 1
+
+    def _read_again(self, nodes: Sequence[Node]) -> tuple[m.Statement, ...]:
+        """Reads until it is known which locals get values that the model cannot know."""
+        scope, listed = self.scope, len(self.findings.all)
+        counted = self.findings.statements[self.within]
+        while True:
+            try:
+                return tuple(self._statements(nodes))
+            except Demote as demote:
+                self.shared.demoted |= demote.names
+                self.scope, self.before = scope, []
+                self.own.clear()
+                del self.findings.all[listed:]
+                self.findings.statements[self.within] = counted
 
     def _known(
         self, node: Node, known: Sequence[m.Statement | Stores | Node]
@@ -49,16 +98,8 @@ class CppStatements:
         """What stands for a statement whose meaning is known from elsewhere."""
         for each in known:
             match each:
-                case Stores(target, value):
-                    span = self.cpp.span(node)
-                    try:
-                        written = (
-                            self._expressions.read(target) if isinstance(target, Node) else target
-                        )
-                    except Unread:
-                        continue  # it is stored outside
-                    read = self._expressions.read(value) if isinstance(value, Node) else value
-                    yield m.ExpressionStatement(m.Assign("=", written, read, span), (), span)
+                case Stores():
+                    yield from cpp_special.stores(self, node, each)
                 case Node():
                     yield from self._statement(each, (), False)
                 case _:
@@ -77,20 +118,60 @@ class CppStatements:
             local = any(text.startswith("local ") for text in markers)
             comments = []
             self.findings.statements[self.within] += 1
-            try:
-                if (known := self.scope.instead.get(node.id)) is not None:
-                    yield from self._known(node, known)
-                else:
-                    yield from self._statement(node, annotations, local)
-            except Unread as unread:
-                yield self._unreadable(node, unread)
-            except ValueError:
-                yield self._unreadable(node, self._unread(node, "this does not parse as C++"))
+            if node.id in self.scope.instead or not self._is_outside(node):
+                yield from self._one(node, annotations, local)
 
-    def _unreadable(self, node: Node, unread: Unread) -> m.Statement:
-        """What stands in the model for a statement that it lacks."""
+    def _is_outside(self, node: Node) -> bool:
+        """Whether a statement that people wrote touches nothing of the model."""
+        if not self.scope.open or node.type == "declaration":
+            return node.type in _NOTHING
+        return is_outside(self.cpp, self.scope, node)
+
+    def _one(
+        self, node: Node, annotations: tuple[m.Annotation, ...], local: bool
+    ) -> Iterator[m.Statement]:
+        """What stands for a statement: before it what its expressions need."""
+        around, self.before = self.before, []
+        try:
+            known = self.scope.instead.get(node.id)
+            if known is None:
+                read = list(self._statement(node, annotations, local))
+            else:
+                read = list(self._known(node, known))
+            yield from self.before
+            yield from read
+        except Unread as unread:
+            yield from self._unreadable(node, unread)
+        except ValueError:
+            yield from self._unreadable(node, self.unread(node, "this does not parse as C++"))
+        finally:
+            self.before = around
+
+    def _unreadable(self, node: Node, unread: Unread) -> Iterator[m.Statement]:
+        """What stands in the model for a statement that it lacks; nothing for what is outside.
+
+        One that only gives locals values that the model cannot know makes these outside as well.
+        """
+        if self.scope.open:
+            effects = Effects(self.cpp, self.scope, frozenset(self.own))
+            try:
+                effects.check(node)
+                self.demote(effects.written, unread)
+                return
+            except Touches as touches:
+                self.findings.open_members |= cpp_special.opened(self, node, unread)
+                unread = touches if cpp_special.says_more(node, unread) else unread
+            except Unread:
+                pass
         self.findings.unreadable(self.cpp.source, unread, self.within)
-        return m.Empty((m.Annotation("Unreadable"),), self.cpp.span(node))
+        yield m.Empty((m.Annotation("Unreadable"),), self.cpp.span(node))
+
+    def demote(self, names: set[str], unread: Unread) -> None:
+        """Has the body read again without these locals, if there are any."""
+        if names - self.shared.demoted:
+            raise Demote(names)
+        if names:
+            raise unread
 
     def _statement(
         self, node: Node, annotations: tuple[m.Annotation, ...], local: bool
@@ -102,20 +183,26 @@ class CppStatements:
             case "declaration":
                 yield from self._declaration(node, annotations, local)
             case "compound_statement" | "initializer_list":
-                block = self.block(node)
+                block = self._inner(node)
                 if self._is_hoisting(node):
                     yield from block.statements
                 else:
                     yield m.Block(block.statements, annotations, span)
             case "if_statement":
-                yield self._if(node, annotations)
+                yield from self._if(node, annotations)
             case "while_statement":
-                condition, body = self._condition(node), part(node, "body")
-                yield m.While(condition, self._branch(body), annotations, span)
+                condition = self.loop_condition(part(node, "condition"))
+                yield m.While(condition, self.branch(part(node, "body")), annotations, span)
             case "for_statement":
                 yield self._for(node, annotations)
+            case "for_range_loop":
+                yield from cpp_loops.range_loop(self, node, annotations)
+            case "do_statement":
+                yield from cpp_loops.do_loop(self, node, annotations)
             case "switch_statement":
                 yield self._switch(node, annotations)
+            case "try_statement":
+                yield from cpp_special.tried(self, node)
             case "return_statement":
                 yield from self._return(node, annotations)
             case "break_statement":
@@ -123,14 +210,57 @@ class CppStatements:
             case "continue_statement":
                 yield m.Continue(annotations, span)
             case _:
-                raise self._unread(node, f"the model has no {node.type.replace('_', ' ')}")
+                raise self.unread(node, f"the model has no {node.type.replace('_', ' ')}")
 
-    def _unread(self, node: Node, why: str) -> Unread:
-        return Unread(self.cpp.span(node), why)
+    # --- what others read with ------------------------------------------------------------------
+
+    def unread(self, node: Node, why: str, hint: str = "") -> Unread:
+        """What to raise where a node has no meaning in the model."""
+        return Unread(self.cpp.span(node), why, hint)
 
     @property
-    def _expressions(self) -> CppExpressions:
-        return CppExpressions(self.cpp, self.scope)
+    def expressions(self) -> CppExpressions:
+        """The reader of expressions with the names of this place."""
+        return CppExpressions(self.cpp, self.scope, self.findings, self.within, self.inlined)
+
+    def inlined(
+        self, node: Node, function: Inline | Lambda, arguments: Sequence[Node]
+    ) -> Meaning | None:
+        """What a call gives for which the function's body stands, now in `before`."""
+        return cpp_inline.inlined(self, node, function, arguments)
+
+    def inside(self, cpp: Cpp, scope: Scope, own: set[str] | frozenset[str]) -> CppStatements:
+        """A reader for a body that stands in this one."""
+        within, shared = self.within, self.shared
+        return CppStatements(cpp, scope, self.findings, within, own=set(own), shared=shared)
+
+    def text(self) -> str:
+        """The text of the whole body."""
+        return text_of(self._root) if self._root is not None else self.cpp.source.text
+
+    def meaning(self, name: str, meaning: Meaning, own: bool = False) -> None:
+        """Says what a name stands for from here on; `own` for a variable of the body."""
+        self.scope = self.scope.with_locals({name: meaning})
+        if own:
+            self.own.add(name)
+
+    def fresh(self, name: str) -> str:
+        """A name of the model for a local of that name: another one where it is taken."""
+        taken = cpp_special.taken(self.scope)
+        if self.shared.running:
+            taken |= self.shared.names
+        plain = self.scope.local(name)
+        free, number = plain, 2
+        while free in taken:
+            free, number = f"{plain}_{number}", number + 1
+        self.shared.names.add(free)
+        return free
+
+    def local(self, node: Node, variable: Variable, initial: m.Initializer | None) -> m.Local:
+        """The declaration of a local."""
+        span = self.cpp.span(node)
+        declarator = m.Declarator(variable.name, initial, span)
+        return m.Local(m.Declaration(variable.type or m.Type("int"), (declarator,), span=span))
 
     # --- expressions and declarations -----------------------------------------------------------
 
@@ -143,9 +273,14 @@ class CppStatements:
             return
         expression = children[0]
         if _calls(expression, "unused") or _logs(expression):
+            if self.scope.open:  # then it is not outside
+                raise self.unread(node, "what is logged here changes what the model has")
             return
         if declared := self._late_declaration(expression):
             yield m.Local(declared, annotations, span)
+            return
+        if (special := cpp_special.read(self, expression)) is not None:
+            yield from special
             return
         read = self._effect(expression)
         if isinstance(read, m.Call) and read.name == MOVE:
@@ -153,15 +288,16 @@ class CppStatements:
             move = m.Annotation("Move", tuple(_cell(axis, offset) for axis, offset in cells))
             yield m.Empty((*annotations, move), span)
             return
-        yield m.ExpressionStatement(read, annotations, span)
+        if is_effect(read) or not self.scope.open:
+            yield m.ExpressionStatement(read, annotations, span)
 
     def _effect(self, node: Node) -> m.Expression:
         """An expression for what it does; generated code says of one without effect that it is."""
         if node.type == "call_expression":
             function = part(node, "function")
             if text_of(function) == "static_cast<void>":
-                return self._expressions.read(named(part(node, "arguments"))[0])
-        return self._expressions.read(node)
+                return self.expressions.read(named(part(node, "arguments"))[0])
+        return self.expressions.read(node)
 
     def _late_declaration(self, node: Node) -> m.Declaration | None:
         """The assignment that is the declaration of a local which C++ declares before a switch."""
@@ -174,15 +310,18 @@ class CppStatements:
         del self.hoisted[name]
         initial: m.Initializer | None
         if value.type == "compound_literal_expression":
-            initial = self._braces(part(value, "value"), type_)
+            initial = self.braces(part(value, "value"), type_)
         else:
-            initial = self._expressions.read(value)
+            initial = self.expressions.read(value)
         declarator = m.Declarator(self.scope.local(name), initial, self.cpp.span(node))
         return m.Declaration(type_, (declarator,), span=self.cpp.span(node))
 
     def _declaration(
         self, node: Node, annotations: tuple[m.Annotation, ...], hoisted: bool
     ) -> Iterator[m.Statement]:
+        if self.scope.open or not _is_generated(node):
+            yield from cpp_locals.declarations(self, node)
+            return
         declaration = self._declared(node)
         if hoisted:
             for name in _declared_names(node):
@@ -192,10 +331,8 @@ class CppStatements:
 
     def _declared(self, node: Node) -> m.Declaration:
         """The declaration; its names are locals from here on."""
-        written = part(node, "type")
-        type_ = type_of(written)
-        if type_ is None:
-            raise self._unread(node, f'the model has no type "{text_of(written)}"')
+        type_ = type_of(part(node, "type"))
+        assert type_ is not None
         declarators = []
         for declarator in node.children_by_field_name("declarator"):
             declarators.append(self._declarator(declarator, type_))
@@ -206,73 +343,111 @@ class CppStatements:
         if node.type == "init_declarator":
             name, value = part(node, "declarator"), part(node, "value")
             if value.type == "initializer_list":
-                initial = self._braces(value, type_)
+                initial = self.braces(value, type_)
             else:
-                initial = self._expressions.read(value)
-        if name.type != "identifier":
-            raise self._unread(node, "the model has no pointers and references")
+                initial = self.expressions.read(value)
         self.scope = self.scope.declare(text_of(name))
         local = self.scope.local(text_of(name))
         return m.Declarator(local, initial, self.cpp.span(node), self.cpp.span(name))
 
-    def _braces(self, node: Node, type_: m.Type) -> m.Initializer | None:
+    def braces(self, node: Node, type_: m.Type) -> m.Initializer | None:
         """`{}` is no initial value; arrays have a pair of braces around the elements, or two."""
         values = named(node)
         if not values:
             return None
         if not type_.dimensions:
-            return self._expressions.read(values[0])
+            return self.expressions.read(values[0])
         inner = m.Type(type_.name, type_.dimensions[1:])
         if len(values) == 1 and values[0].type == "initializer_list":
             values = named(values[0])
         read: list[m.Initializer] = []
         for value in values:
-            element = self._braces(value, inner) if value.type == "initializer_list" else None
-            read.append(element if element is not None else self._expressions.read(value))
+            element = self.braces(value, inner) if value.type == "initializer_list" else None
+            read.append(element if element is not None else self.expressions.read(value))
         return m.ArrayInitializer(tuple(read), self.cpp.span(node))
 
     # --- control --------------------------------------------------------------------------------
 
-    def _condition(self, node: Node) -> m.Expression:
-        condition = part(node, "condition")
-        if condition.type == "condition_clause":
-            condition = part(condition, "value")
-        return self._expressions.read(condition)
+    def loop_condition(self, node: Node) -> m.Expression:
+        """The condition of a loop, which the model must know."""
+        value = part(node, "value") if node.type == "condition_clause" else node
+        while self.scope.open and value.type == "parenthesized_expression":
+            value = self.expressions.only(value)
+        if value.type == "declaration":
+            raise self.unread(node, "the model has no declarations in conditions")
+        read = replace(self.expressions, findings=None, inlines=None).condition(value)
+        return cpp_special.without_ok(read)
 
-    def _branch(self, node: Node) -> m.Block:
+    def branch(self, node: Node) -> m.Block:
         """The body of a branch or loop, in braces or not."""
         if node.type == "compound_statement":
-            return self.block(node)
+            return self._inner(node)
         outside = self.scope
         statements = tuple(self._statements([node]))
         self.scope = outside
         return m.Block(statements, span=self.cpp.span(node))
 
-    def _if(self, node: Node, annotations: tuple[m.Annotation, ...]) -> m.If:
-        condition = self._condition(node)
-        then = self._branch(part(node, "consequence"))
+    def _inner(self, node: Node) -> m.Block:
+        outside = self.scope
+        statements = tuple(self._statements(node.named_children))
+        self.scope = outside
+        return m.Block(statements, span=self.cpp.span(node))
+
+    def _if(self, node: Node, annotations: tuple[m.Annotation, ...]) -> Iterator[m.Statement]:
+        outside, clause = self.scope, part(node, "condition")
+        initial = clause.child_by_field_name("initializer")
+        inner = named(initial) if initial is not None else []
+        declared = [s for n in inner for s in self._declaration(n, (), False)]
+        condition = self.expressions.condition(part(clause, "value"))
+        then = self.branch(part(node, "consequence"))
         otherwise: m.Statement | None = None
         alternative = node.child_by_field_name("alternative")
         if alternative is not None:
             (body,) = named(alternative)
-            otherwise = self._if(body, ()) if body.type == "if_statement" else self._branch(body)
-        return m.If(condition, then, otherwise, annotations, self.cpp.span(node))
+            otherwise = self._else(body)
+        self.scope = outside
+        read = m.If(condition, then, otherwise, annotations, self.cpp.span(node))
+        if declared:
+            yield m.Block((*declared, read))
+        else:
+            yield read
+
+    def _else(self, body: Node) -> m.Statement:
+        """The other branch; `else if` goes on without braces where nothing stands before it."""
+        if body.type != "if_statement":
+            return self.branch(body)
+        around, self.before = self.before, []
+        read = list(self._if(body, ()))
+        needed, self.before = self.before, around
+        if needed or len(read) != 1:
+            return m.Block((*needed, *read), span=self.cpp.span(body))
+        return read[0]
 
     def _for(self, node: Node, annotations: tuple[m.Annotation, ...]) -> m.For:
         outside = self.scope
         first = node.child_by_field_name("initializer")
         initial: m.Declaration | tuple[m.Expression, ...] = ()
         if first is not None and first.type == "declaration":
-            initial = self._declared(first)
+            initial = self._counter(first)
         elif first is not None:
             initial = tuple(self._listed(first))
         tested = node.child_by_field_name("condition")
-        condition = self._expressions.read(tested) if tested is not None else None
+        condition = self.loop_condition(tested) if tested is not None else None
         update = node.child_by_field_name("update")
         updates = tuple(self._listed(update)) if update is not None else ()
-        body = self._branch(part(node, "body"))
+        body = self.branch(part(node, "body"))
         self.scope = outside
         return m.For(initial, condition, updates, body, annotations, self.cpp.span(node))
+
+    def _counter(self, node: Node) -> m.Declaration:
+        """The declaration at the head of a loop."""
+        if not self.scope.open and _is_generated(node):
+            return self._declared(node)
+        read = [s.declaration for s in self._declaration(node, (), False) if isinstance(s, m.Local)]
+        if not read or any(d.type != read[0].type for d in read):
+            raise self.unread(node, "the model has no such loop")
+        declarators = tuple(d for each in read for d in each.declarators)
+        return m.Declaration(read[0].type, declarators, span=self.cpp.span(node))
 
     def _listed(self, node: Node) -> Iterator[m.Expression]:
         if node.type == "comma_expression":
@@ -282,7 +457,8 @@ class CppStatements:
             yield self._effect(node)
 
     def _switch(self, node: Node, annotations: tuple[m.Annotation, ...]) -> m.Switch:
-        subject = self._condition(node)
+        clause = part(node, "condition")
+        subject = cpp_special.subject(self, part(clause, "value"), part(node, "body"))
         outside = self.scope
         cases = [self._case(c) for c in named(part(node, "body"))]
         self.scope = outside
@@ -290,13 +466,13 @@ class CppStatements:
 
     def _case(self, node: Node) -> m.Case:
         if node.type != "case_statement":
-            raise self._unread(node, "this stands before the first case")
+            raise self.unread(node, "this stands before the first case")
         value = node.child_by_field_name("value")
-        read = self._expressions.read(value) if value is not None else None
+        read = self.expressions.read(value) if value is not None else None
         body = [c for c in node.named_children if value is None or c.start_byte >= value.end_byte]
         inside = [c for c in body if c.type != "comment"]
         if len(inside) == 1 and inside[0].type == "compound_statement":
-            statements = self.block(inside[0]).statements
+            statements = self._inner(inside[0]).statements
         else:
             statements = tuple(self._statements(body))
         return m.Case(read, statements, span=self.cpp.span(node))
@@ -310,8 +486,40 @@ class CppStatements:
         values = named(node)
         if values and values[0].type == "initializer_list" and not named(values[0]):
             return  # what C++ wants behind the last statement of a method
-        read = self._expressions.read(values[0]) if values else None
-        yield m.Return(read, annotations, self.cpp.span(node))
+        span = self.cpp.span(node)
+        if not values:
+            yield m.Return(None, annotations, span)
+            return
+        match self.returns:
+            case Record() as record:
+                yield from cpp_special.returned(self, values[0], record)
+                yield m.Return(None, annotations, span)
+            case Variable() as place:
+                yield m.Return(self.expressions.stored(values[0], place), annotations, span)
+            case Outside():
+                Effects(self.cpp, self.scope).check(values[0])
+                yield m.Return(None, annotations, span)
+            case _ if self.scope.server is not None and self.scope.open:
+                Effects(self.cpp, self.scope).check(values[0])
+                yield m.Return(None, annotations, span)
+            case _:
+                yield m.Return(self.expressions.read(values[0]), annotations, span)
+
+
+def _is_generated(node: Node) -> bool:
+    """Whether a declaration is one that generated code has: of a type of the model, by value."""
+    if type_of(part(node, "type")) is None:
+        return False
+    if any(c.type == "storage_class_specifier" for c in node.named_children):
+        return False
+    for declarator in node.children_by_field_name("declarator"):
+        initial = declarator.type == "init_declarator"
+        name = part(declarator, "declarator") if initial else declarator
+        if name.type != "identifier":
+            return False
+        if initial and part(declarator, "value").type == "argument_list":
+            return False
+    return True
 
 
 def _calls(node: Node, function: str) -> bool:
@@ -320,7 +528,7 @@ def _calls(node: Node, function: str) -> bool:
 
 def _logs(node: Node) -> bool:
     called = node.type == "call_expression" and part(node, "function").type == "identifier"
-    return called and text_of(part(node, "function")).startswith(_LOGGING)
+    return called and text_of(part(node, "function")).startswith(LOGGING)
 
 
 def _declared_names(node: Node) -> Iterator[str]:

@@ -110,7 +110,7 @@ def carried(node: Node, enums: Collection[str] = ()) -> Carried | None:
         return Carried(Type("byte"))
     if name in _UNSIGNED:
         return Carried(Type(_UNSIGNED[name][0]), _UNSIGNED[name][1])
-    if name in _WIDE or words and words <= {"long", "int", "unsigned", "signed"}:
+    if name in _WIDE or (words and words <= {"long", "int", "unsigned", "signed"}):
         return Carried(Type("int"), why=f'"{text}" holds more than the model\'s int does')
     if last in _TIMES and scope.strip(":") == "ros":
         return Carried(Type("int"))

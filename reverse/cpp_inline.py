@@ -1,0 +1,281 @@
+"""Functions whose bodies stand in the place of their calls."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.building import is_plain
+from rebsync.reverse.cpp_declarations import CppParameter
+from rebsync.reverse.cpp_effects import Effects
+from rebsync.reverse.cpp_messages import declare, is_pointer, message_type, zero_of
+from rebsync.reverse.cpp_places import resolve
+from rebsync.reverse.cpp_tree import named, part, text_of
+from rebsync.reverse.cpp_types import carried
+from rebsync.reverse.cpp_unknowns import Unknown
+from rebsync.reverse.scope import Inline, Lambda, Meaning, Outside, Record, Variable
+
+if TYPE_CHECKING:
+    from rebsync.reverse.cpp_statements import CppStatements
+
+_DEEPEST = 8
+_GUARDED = frozenset({"conditional_expression", "while_statement", "for_statement", "do_statement"})
+
+
+def inlined(
+    reader: CppStatements, node: Node, function: Inline | Lambda, arguments: Sequence[Node]
+) -> Meaning | None:
+    """Puts the statements of a function before the one that is read; what the call gives."""
+    _check_place(reader, node)
+    inside, body, parameters, result = _entered(reader, function)
+    key = body.start_byte, inside.cpp.source.path
+    if key in reader.shared.running or len(reader.shared.running) >= _DEEPEST:
+        raise reader.unread(node, "a function that calls itself has no end here")
+    if len(arguments) != len(parameters):
+        raise reader.unread(node, "default arguments are not read")
+    for parameter, argument in zip(parameters, arguments, strict=True):
+        reader.before += _bound(reader, inside, parameter, argument)
+    reader.shared.running.append(key)
+    try:
+        return _body(reader, inside, body, result)
+    finally:
+        reader.shared.running.pop()
+
+
+def _entered(
+    reader: CppStatements, function: Inline | Lambda
+) -> tuple[CppStatements, Node, Sequence[CppParameter], Node | None]:
+    """A reader for the body of a function, the body, its parameters and the type of its result."""
+    match function:
+        case Inline(called, constants):
+            if called.body is None:
+                raise reader.unread(called.node, "this function has no body here")
+            known = reader.scope.constants if constants is None else constants
+            scope = replace(reader.scope, locals={}, constants=known)
+            inside = reader.inside(called.cpp, scope, frozenset())
+            return inside, called.body, called.parameters, called.result
+        case Lambda(node, scope):
+            captures = text_of(part(node, "captures")).strip("[] ")
+            if captures not in ("", "&", "this", "&, this", "=, this", "this, &"):
+                raise reader.unread(node, f"what [{captures}] keeps may change before the call")
+            around = {n: x for n, x in scope.locals.items() if n in reader.scope.locals}
+            inside = reader.inside(reader.cpp, replace(scope, locals=around), reader.own)
+            declarator = node.child_by_field_name("declarator")
+            return inside, part(node, "body"), _parameters(declarator), _trailing(declarator)
+
+
+def _parameters(declarator: Node | None) -> tuple[CppParameter, ...]:
+    if declarator is None:
+        return ()
+    found = []
+    for parameter in named(part(declarator, "parameters")):
+        name = parameter.child_by_field_name("declarator")
+        while name is not None and name.type in ("reference_declarator", "pointer_declarator"):
+            name = name.named_children[-1] if name.named_children else None
+        text = text_of(name) if name is not None else ""
+        found.append(CppParameter(text, part(parameter, "type"), parameter))
+    return tuple(found)
+
+
+def _trailing(declarator: Node | None) -> Node | None:
+    for child in named(declarator) if declarator is not None else ():
+        if child.type == "trailing_return_type":
+            return named(child)[0]
+    return None
+
+
+def _check_place(reader: CppStatements, node: Node) -> None:
+    """Raises `Unread` where the call is not run once, and first of all in its statement."""
+    below, above = node, node.parent
+    while above is not None and not below.type.endswith(("_statement", "declaration")):
+        if above.type == "binary_expression" and text_of(part(above, "operator")) in ("&&", "||"):
+            guarded = part(above, "right").id == below.id
+        elif above.type == "conditional_expression":
+            guarded = part(above, "condition").id != below.id
+        else:
+            guarded = above.type in _GUARDED and below.type != "compound_statement"
+        if guarded:
+            why = "the body of this function cannot stand here"
+            raise reader.unread(node, why, "call it in a statement of its own")
+        below, above = above, above.parent
+
+
+# --- parameters ---------------------------------------------------------------------------------
+
+
+def _bound(
+    reader: CppStatements, inside: CppStatements, parameter: CppParameter, argument: Node
+) -> Iterator[m.Statement]:
+    """What a parameter stands for in the body."""
+    name, text = parameter.name, text_of(parameter.node)
+    if not name:
+        Effects(reader.cpp, reader.scope).check(argument)
+        return
+    constant = any(text_of(c) == "const" for c in parameter.node.named_children)
+    refers = "&" in text or "*" in text or is_pointer(text_of(parameter.type))
+    type_ = message_type(reader.scope, text_of(parameter.type))
+    meaning = resolve(reader.scope, argument)
+    if isinstance(meaning, Record) and (refers or constant or meaning.constant):
+        inside.meaning(name, replace(meaning, constant=constant or meaning.constant))
+        return
+    if type_ is not None:
+        yield from _copied(reader, inside, name, type_, argument)
+        return
+    if refers and not constant and isinstance(meaning, Variable):
+        inside.meaning(name, meaning)
+        return
+    kept = carried(parameter.type, reader.scope.enums)
+    if (refers and not constant) or kept is None:
+        Effects(reader.cpp, reader.scope).check(argument)
+        inside.meaning(name, Outside())
+        return
+    yield from _valued(reader, inside, name, Variable("", kept.type, kept.bits), argument)
+
+
+def _copied(
+    reader: CppStatements, inside: CppStatements, name: str, type_: str, argument: Node
+) -> Iterator[m.Statement]:
+    before = reader.scope
+    yield from declare(reader, argument, name, type_, argument, pointer=False)
+    inside.meaning(name, reader.scope.locals[name], own=True)
+    reader.scope = before
+
+
+def _valued(
+    reader: CppStatements, inside: CppStatements, name: str, place: Variable, argument: Node
+) -> Iterator[m.Statement]:
+    try:
+        value = reader.expressions.stored(argument, place)
+    except Unknown:
+        Effects(reader.cpp, reader.scope).check(argument)
+        inside.meaning(name, Outside(place.type))
+        return
+    if name in reader.shared.demoted or place.type is None:
+        inside.meaning(name, Outside(place.type))
+        return
+    local = replace(place, name=reader.fresh(name))
+    inside.meaning(name, local, own=True)
+    yield reader.local(argument, local, value)
+
+
+# --- the body -----------------------------------------------------------------------------------
+
+
+def _body(
+    reader: CppStatements, inside: CppStatements, body: Node, result: Node | None
+) -> Meaning | None:
+    place = _result(reader, inside, body, result)
+    statements = inside.read(named_with_comments(body))
+    match statements, place:
+        case (m.Return(value),), Variable() if value is not None:
+            return value if is_plain(value) else _kept(reader, place, value, body)
+    if isinstance(place, Variable) and place.type is not None:
+        reader.before.append(reader.local(body, place, zero_of(place.type)))
+    target = m.Name(place.name) if isinstance(place, Variable) else None
+    reader.before += without_returns(inside, body, statements, target)
+    return place
+
+
+def _kept(
+    reader: CppStatements, place: Variable, value: m.Expression, body: Node
+) -> m.Expression | Variable:
+    """The value of a function that only computes one."""
+    if not any(isinstance(n, m.Assign | m.Call | m.Choice | m.Postfix) for n in m.walk(value)):
+        return m.Paren(value) if isinstance(value, m.Binary | m.Conditional) else value
+    reader.before.append(reader.local(body, place, value))
+    return place
+
+
+def named_with_comments(body: Node) -> list[Node]:
+    """The statements of a body, comments among them."""
+    return list(body.named_children)
+
+
+def _result(
+    reader: CppStatements, inside: CppStatements, body: Node, result: Node | None
+) -> Meaning | None:
+    """Where the value that a function returns is kept; sets what `return` does in it."""
+    if result is None or text_of(result) in ("auto", ""):
+        values = [n for n in _returned(body) if named(n)]
+        if not values:
+            return None
+        if len(values) > 1:
+            raise reader.unread(body, "the type of what this gives is not written")
+        inside.returns = Variable("")
+        return Variable(reader.fresh("result"))
+    if text_of(result) == "void":
+        return None
+    type_ = message_type(reader.scope, text_of(result))
+    if type_ is not None:
+        before, name = reader.scope, reader.fresh("result")
+        reader.before += declare(reader, body, name, type_, None, pointer=False)
+        record = reader.scope.locals[name]
+        reader.scope = before
+        inside.returns = record if isinstance(record, Record) else None
+        return record
+    kept = carried(result, reader.scope.enums)
+    if kept is None:
+        inside.returns = Outside()
+        return Outside()
+    inside.returns = Variable("", kept.type, kept.bits)
+    return Variable(reader.fresh("result"), kept.type, kept.bits)
+
+
+def _returned(body: Node) -> Iterator[Node]:
+    waiting = [body]
+    while waiting:
+        current = waiting.pop()
+        if current.type == "return_statement":
+            yield current
+        elif current.type != "lambda_expression":
+            waiting += current.named_children
+
+
+def without_returns(
+    reader: CppStatements,
+    node: Node,
+    statements: Sequence[m.Statement],
+    result: m.Expression | None,
+) -> tuple[m.Statement, ...]:
+    """The same without leaving: what follows a return stands in the other branch."""
+    done: list[m.Statement] = []
+    for index, statement in enumerate(statements):
+        rest = statements[index + 1 :]
+        if not _leaves(statement):
+            done.append(statement)
+            continue
+        match statement:
+            case m.Return(value):
+                if value is not None and result is not None:
+                    done.append(m.ExpressionStatement(m.Assign("=", result, value)))
+            case m.Block(inner):
+                done += without_returns(reader, node, (*inner, *rest), result)
+            case m.If(condition, then, otherwise, annotations, span):
+                ways = [
+                    m.Block(without_returns(reader, node, (*_inner(way), *rest), result))
+                    for way in (then, otherwise)
+                ]
+                last = ways[1] if ways[1].statements else None
+                done.append(m.If(condition, ways[0], last, annotations, span))
+            case _:
+                raise reader.unread(node, "a return in a loop has no place in another body")
+        break
+    return tuple(done)
+
+
+def _inner(statement: m.Statement | None) -> tuple[m.Statement, ...]:
+    match statement:
+        case None:
+            return ()
+        case m.Block(statements):
+            return statements
+        case _:
+            return (statement,)
+
+
+def _leaves(statement: m.Statement) -> bool:
+    return any(isinstance(n, m.Return) for n in m.walk(statement))
