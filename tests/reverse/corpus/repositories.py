@@ -20,7 +20,7 @@ from tests.reverse.corpus.packages import PACKAGES, facts_of
 from tests.reverse.corpus.values import Json
 
 # What a reason says of one place only.
-_PARTICULAR = re.compile(r"`[^`]*`|\"[^\"]*\"|(?<!\w)'[^']*'|\b\d+\b")
+_PARTICULAR = re.compile(r"`[^`]*`|\"[^\"]*\"|(?<!\w)'[^']*'|/\S+(?<!,)|-?\b\d+(?:\.\d+)?\b")
 
 
 @dataclass(frozen=True, slots=True)
