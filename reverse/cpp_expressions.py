@@ -30,6 +30,7 @@ from rebsync.reverse.scope import (
     Called,
     Ignored,
     Inline,
+    Itself,
     Lambda,
     Meaning,
     Outside,
@@ -198,7 +199,7 @@ class CppExpressions:
                 raise self.unread(node, f'"{name}" belongs to the run-time part')
             case Outside():
                 raise Unknown(span, f'the model cannot know "{name}"')
-            case Record() | Publishes() | TimerOf() | Lambda():
+            case Record() | Publishes() | TimerOf() | Lambda() | Itself():
                 raise self.unread(node, f'"{name}" is no value of the model')
             case None:
                 pass
@@ -230,7 +231,7 @@ class CppExpressions:
                 return m.Name(of_model, span)
             case Outside():
                 raise Unknown(span, f'the model cannot know "{text_of(node)}"')
-            case Runtime() | Record() | Publishes() | TimerOf() | Lambda():
+            case Runtime() | Record() | Publishes() | TimerOf() | Lambda() | Itself():
                 raise self.unread(node, f'"{text_of(node)}" is no value of the model')
             case None:
                 raise self.unknown(node, f'"{text_of(node)}" is no variable of the model')
@@ -412,7 +413,7 @@ class CppExpressions:
                 return m.Name(name, self.cpp.span(node))
             case Outside():
                 raise Unknown(self.cpp.span(node), "the model cannot know what this gives")
-            case None | Record() | Runtime() | Publishes() | TimerOf() | Lambda():
+            case None | Record() | Runtime() | Publishes() | TimerOf() | Lambda() | Itself():
                 raise self.unread(node, "what this gives is no value of the model")
             case expression:
                 return expression
@@ -461,6 +462,8 @@ class CppExpressions:
         target, name = part(function, "argument"), part(function, "field")
         if is_this(target):
             return self._call_by_name(node, text_of(name), arguments, None)
+        if isinstance(self.scope.meaning(text_of(target)), Itself):
+            return self._call_by_name(node, text_of(name), arguments, m.Self)
         if cpp_mailbox.is_runtime(self, target):
             return cpp_mailbox.built_in(self, node, target, name, arguments)
         if text_of(name) == "at":

@@ -19,7 +19,17 @@ from rebsync.reverse.cpp_tree import named, part, text_of
 from rebsync.reverse.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.known_functions import STREAMS
-from rebsync.reverse.scope import Publishes, Record, Scope, Stores, TimerOf, Variable
+from rebsync.reverse.scope import (
+    Inline,
+    Itself,
+    Lambda,
+    Publishes,
+    Record,
+    Scope,
+    Stores,
+    TimerOf,
+    Variable,
+)
 from rebsync.static.constants import constant
 
 if TYPE_CHECKING:
@@ -128,11 +138,28 @@ def _called(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
         return _statement(reader, node, checked)
     if name == "ROS_BREAK":
         return _statement(reader, node, m.Call(None, "assertion", (m.BoolLiteral(False),)))
+    if (inline := _inline(reader, function)) is not None:
+        reader.inlined(node, inline, named(part(node, "arguments")))
+        return iter(())
     if (timer := _timer(reader, node)) is not None:
         return _starts(reader, node, timer)
     if function.type == "field_expression" and not is_this(part(function, "argument")):
         _check_timer(reader, node, function)
     return None
+
+
+def _inline(reader: CppStatements, function: Node) -> Inline | None:
+    """The function of the class that is called for what it does, if its body stands in here."""
+    name = text_of(function)
+    if function.type == "field_expression":
+        target = part(function, "argument")
+        if not is_this(target) and not isinstance(resolve(reader.scope, target), Itself):
+            return None
+        name = text_of(part(function, "field"))
+    elif isinstance(reader.scope.locals.get(name), Lambda):
+        return None
+    found = reader.scope.functions.get(name)
+    return found if isinstance(found, Inline) else None
 
 
 def _statement(

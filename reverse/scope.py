@@ -106,7 +106,12 @@ class Lambda:
     scope: Scope
 
 
-Member: TypeAlias = Variable | Runtime | Outside | Record | Publishes | TimerOf | Lambda
+@dataclass(frozen=True, slots=True)
+class Itself:
+    """The object whose class is read, under the name that `main` has for it."""
+
+
+Member: TypeAlias = Itself | Variable | Runtime | Outside | Record | Publishes | TimerOf | Lambda
 Meaning: TypeAlias = Member | Expression
 
 # --- functions ----------------------------------------------------------------------------------
