@@ -14,8 +14,10 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.cpp_declarations import unscoped
 from rebsync.reverse.cpp_index import Code, CppClass, CppFunction, function_of
-from rebsync.reverse.cpp_tree import Cpp, part
+from rebsync.reverse.cpp_tree import Cpp, part, text_of
 
+# Macros of tests that make a member function of the class they name first.
+_FIXTURES = frozenset({"TEST_F", "TEST_P", "TYPED_TEST"})
 _NAMES = frozenset(
     {"identifier", "field_identifier", "type_identifier", "namespace_identifier", "this"}
 )
@@ -150,6 +152,8 @@ class Texts:
 
     def class_of(self, function: CppFunction | None) -> CppClass | None:
         """The class that a function is a member of."""
+        if function is not None and function.name in _FIXTURES and function.parameters:
+            return self.class_near(text_of(function.parameters[0].type), function.cpp)
         if function is None or not function.owner:
             return None
         around = self.class_node_around(function.node)

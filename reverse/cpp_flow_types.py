@@ -13,7 +13,7 @@ from rebsync.reverse.cpp_index import CppClass, CppField, CppFunction
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.roscpp_vocabulary import HANDLE_TYPE, OWN_HANDLES
 
-_HOLDERS = frozenset(
+HOLDERS = frozenset(
     {
         *("shared_ptr", "unique_ptr", "scoped_ptr", "weak_ptr", "intrusive_ptr", "optional"),
         *("vector", "array", "deque", "list", "set", "atomic", "reference_wrapper"),
@@ -130,7 +130,7 @@ class Types:
         if last.type == "template_type":
             own = text_of(part(last, "name"))
             given = named(part(last, "arguments"))
-            if own in _HOLDERS and given:
+            if own in HOLDERS and given:
                 return self.plain(cpp, given[0], depth + 1)
             if own in _MAPS and len(given) > 1:
                 return self.plain(cpp, given[1], depth + 1)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync.reverse.cpp_flow_reach import taken
-from rebsync.reverse.cpp_flow_types import unscoped_member
+from rebsync.reverse.cpp_flow_types import HOLDERS, unscoped_member
 from rebsync.reverse.cpp_index import CppFunction
 from rebsync.reverse.cpp_tree import named, part, text_of
 from rebsync.reverse.cpp_values_made import constructed
@@ -16,6 +16,7 @@ from rebsync.reverse.cpp_values_names import name_under, resolved, tidy
 from rebsync.reverse.cpp_values_numbers import converted
 from rebsync.reverse.cpp_values_plain import (
     NUMBERS,
+    OWN_NAME,
     Found,
     Frame,
     Function,
@@ -84,19 +85,23 @@ def _of_function(
     scope = scopes[-1] if scopes else ""
     if scope == "this_node":
         return (
-            "~" if name == "getName" else values.unknown("the node's namespace", node, frame, "*")
+            OWN_NAME
+            if name == "getName"
+            else values.unknown("the node's namespace", node, frame, "*")
         )
     if scope in ("param", "names") and given:
         return _of_ros(values, node, scope, name, given, frame)
     if name in OWN_HANDLES and not given:
         return Handle(OWN_HANDLES[name])
     if name in OWN_NAMES and not given and not values.calls.functions(frame.cpp, node):
-        return "~"
+        return OWN_NAME
     if name in _SAME and len(given) == 1:
         return values.value(given[0], frame)
     if name in _CASTS and types and given:
         type_ = values.types.plain(frame.cpp, types[0])
         return converted(values.value(given[0], frame), type_)
+    if name in HOLDERS and len(given) == 1:
+        return values.value(given[0], frame)
     if name in _MAKERS and types:
         use = Use(frame.cpp, node, given, frame.function)
         return constructed(values, values.types.plain(frame.cpp, types[0]), use, frame)
@@ -217,7 +222,7 @@ def _of_method(
     if name in OWN_HANDLES and not given:
         return Handle(OWN_HANDLES[name])
     if name in OWN_NAMES and target.type == "this":
-        return "~"
+        return OWN_NAME
     if name in _SAME_OF and not given:
         return _inside(values, values.value(target, frame), node, name, frame)
     if name in ("empty", "size", "length", "toSec", "expectedCycleTime", "isEmpty"):
@@ -247,7 +252,10 @@ def _measure(values: Values, name: str, node: Node, frame: Frame) -> Callable[[V
     def measure(value: Value) -> Value:
         match value:
             case str():
-                return not value if name in ("empty", "isEmpty") else len(value)
+                if name in ("empty", "isEmpty"):
+                    return not value
+                known = OWN_NAME not in value
+                return len(value) if known else values.unknown("a length", node, frame)
             case Length(seconds, each_):
                 return seconds if name == "toSec" else Length(seconds, each_)
             case Unresolved(why, place):

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
-from rebsync.reverse.cpp_values_names import name_under, tidy
+from rebsync.reverse.cpp_values_names import name_under, spoken, tidy
 from rebsync.reverse.cpp_values_numbers import converted, used
 from rebsync.reverse.cpp_values_plain import (
     NUMBERS,
@@ -109,7 +109,7 @@ def _handle_of(value: Value) -> Value:
         case Handle() | Nothing():
             return value
         case str():
-            return Handle(tidy(value))
+            return Handle(tidy(spoken(value)))
         case Found(name):
             return Handle(name)
         case FromParameter() | Unresolved() | Under():

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from rebsync.reverse.cpp_values_plain import (
+    OWN_NAME,
     Choice,
     Found,
     Function,
@@ -28,6 +29,10 @@ def resolved(value: Value, unknown: Unresolved) -> Resolved | None:
                 continue
             case Length(seconds):
                 found.append(seconds)
+            case str() if OWN_NAME in way:
+                found.append(_own(way, unknown))
+            case Unresolved(why, place, partial) if partial is not None and OWN_NAME in partial:
+                found.append(Unresolved(why, place, spoken(partial)))
             case Found(name):
                 found.append(FromParameter(name, search=True))
             case Handle() | Made() | Function() | Choice():
@@ -35,6 +40,21 @@ def resolved(value: Value, unknown: Unresolved) -> Resolved | None:
             case _:
                 found.append(way)
     return one_of(found)
+
+
+def _own(text: str, unknown: Unresolved) -> Resolved:
+    """A text with the name of the node: known if that is all of it, or a name below it."""
+    said = spoken(text)
+    if "*" not in said or "*" in text:
+        return said
+    return Unresolved("made of the name of the node", unknown.place, said)
+
+
+def spoken(text: str) -> str:
+    """A text with `~` for the name of the node, or `*` where that does not go."""
+    if text == OWN_NAME or text.startswith(f"{OWN_NAME}/"):
+        text = "~" + text[1:]
+    return text.replace(OWN_NAME, "*")
 
 
 def one_of(values: Iterable[Resolved]) -> Resolved | None:

@@ -25,6 +25,9 @@ WHOLE = frozenset(
 FLOATING = frozenset({"double", "float"})
 NUMBERS = WHOLE | FLOATING | {"bool"}
 
+# Stands for the name of the node in a text; `~` is what a private name begins with.
+OWN_NAME = "\ue000"
+
 # More ways than these to go are not followed one by one.
 MOST = 64
 

@@ -20,6 +20,7 @@ from rebsync.reverse.roscpp_vocabulary import (
     FUNCTIONS,
     HANDLE,
     HANDLE_TYPE,
+    LEAST,
     NODELETS,
     RATES,
     TRANSPORTS,
@@ -102,8 +103,10 @@ def _of_function(
     if above.type != "call_expression" or part(above, "function") != node:
         return
     ask = FUNCTIONS.get((scope, name))
-    if ask is not None:
-        given = tuple(named(part(above, "arguments")))
+    if ask is None:
+        return
+    given = tuple(named(part(above, "arguments")))
+    if scope or (len(given) >= len(ask.arguments) - 1 and not values.calls.functions(cpp, above)):
         yield Asked(ask, site_of(values, cpp, place, above), given, _types(last))
 
 
@@ -128,8 +131,19 @@ def _of_method(
     elif type_ and (class_ := values.texts.class_near(type_, cpp)) is not None:
         descends = any(HANDLE_TYPE in c.bases for c in values.texts.lineage(class_))
         ask = HANDLE.get(name) if descends else None
+    elif not type_ and _is_undeclared(values, cpp, target) and len(given) >= LEAST.get(name, 9):
+        ask = HANDLE[name]
     if ask is not None:
         yield Asked(ask, site, given, _types(called), target)
+
+
+def _is_undeclared(values: Values, cpp: Cpp, target: Node) -> bool:
+    """Whether a name comes from outside of the files, as members of other packages' classes do."""
+    if target.type == "pointer_expression":
+        target = part(target, "argument")
+    if target.type == "parenthesized_expression":
+        return _is_undeclared(values, cpp, named(target)[-1])
+    return target.type == "identifier" and values.types.variable(cpp, target) is None
 
 
 def _types(node: Node | None) -> tuple[Node, ...]:

@@ -8,6 +8,7 @@ from dataclasses import field
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.common_messages import COMMON
 from rebsync.reverse.cpp_flow import climb, nearness
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.cpp_values import Values
@@ -16,6 +17,7 @@ from rebsync.reverse.graph import Unresolved
 
 _INCLUDE = re.compile(rb'^[ \t]*#[ \t]*include[ \t]*[<"](\w+)/(\w+)\.h[>"]', re.MULTILINE)
 _SPACE = re.compile(rb"\bnamespace\s+(\w+)\s*=\s*([\w:]+)\s*;")
+_USED = re.compile(rb"\busing\s+namespace\s+(\w+_msgs|std_srvs)\s*;")
 _WRAPPERS = frozenset({"shared_ptr", "MessageEvent", "ServiceEvent", "unique_ptr"})
 _INNER = frozenset({"ConstPtr", "Ptr", "Request", "Response", "SharedPtr"})
 _ENDINGS = ("ConstPtr", "Ptr", "Request", "Response")
@@ -65,6 +67,10 @@ class MessageTypes:
         for candidate in (name, plain):
             if package := self._package(cpp, candidate):
                 return f"{package}/{candidate}"
+        used = {p.decode() for p in _USED.findall(self.values.texts.data(cpp))}
+        used = {p for p in used if f"{p}/{plain}" in COMMON} or used
+        if len(used) == 1:
+            return f"{used.pop()}/{plain}"
         return Unresolved(f"no message type {name} is included", at(cpp, type_))
 
     def _space(self, cpp: Cpp, name: str) -> str:

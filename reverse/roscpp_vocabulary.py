@@ -100,6 +100,8 @@ FUNCTIONS: dict[tuple[str, str], Ask] = {
     ("topic", "waitForMessage"): Ask(Kind.SINGLE, ("name", "handle", "")),
     ("service", "createClient"): Ask(Kind.CLIENT, ("name",)),
     ("service", "call"): Ask(Kind.CLIENT, ("name", "call")),
+    # A method of nodelets that publish only while somebody listens.
+    ("", "advertise"): Ask(Kind.PUBLISHER, ("handle", *_ADVERTISE[:3])),
     **{("param", name): ask for name, ask in _PARAMETERS.items()},
 }
 
@@ -170,6 +172,18 @@ OWN_HANDLES = {
 # Functions of a nodelet that give its name, with which private names begin.
 OWN_NAMES = frozenset({"getName"})
 HANDLE_TYPE = "NodeHandle"
+
+# How many arguments methods have at least that are taken for those of a node handle though no file
+# declares what they are called on: members of classes of other packages.
+LEAST = {
+    "advertise": 2,
+    "advertiseService": 2,
+    "createTimer": 2,
+    "createWallTimer": 2,
+    "getParam": 2,
+    "param": 3,
+    "subscribe": 3,
+}
 ANONYMOUS = "AnonymousName"
 
 # Functions of classes that programs outside of the files call.
