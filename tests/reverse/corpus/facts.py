@@ -113,7 +113,10 @@ def _default(fact: Json, given: Json) -> Verdict:
     if "fallback" in fact and not isinstance(given, dict) and same(fact["fallback"], given):
         return RIGHT
     if wanted is None:
-        return RIGHT if given in (None, []) else OPEN if "unknown" in _keys_of(given) else WRONG
+        unknowable = "why" in fact and judge_null(given) is RIGHT
+        if given in (None, []) or unknowable:
+            return RIGHT
+        return OPEN if "unknown" in _keys_of(given) else WRONG
     return WRONG if given is None else judge(wanted, given)
 
 

@@ -22,6 +22,9 @@ PACKAGES = {
     ),
     "slam_gmapping": ("gmapping",),
     "joystick_drivers": ("joy", "spacenav_node", "wiimote"),
+    "pointcloud_to_laserscan": (".",),
+    "urg_node": (".",),
+    "usb_cam": (".",),
     "autorally": ("autorally_core", "autorally_control"),
 }
 

@@ -228,6 +228,13 @@ def test_what_a_variable_holds_before_is_a_default() -> None:
         assert found.details()["default"] == {verdict: 1}
 
 
+def test_defaults_that_nobody_can_know() -> None:
+    unknowable = fact("parameter", default=None, why="read from the device")
+    for given, verdict in ((UNKNOWN, RIGHT), (None, RIGHT), (3.0, WRONG)):
+        found = compare([unknowable], [answer("parameter", default=given)])
+        assert found.details()["default"] == {verdict: 1}
+
+
 # --- values -------------------------------------------------------------------------------------
 
 TOPIC = {"parameter": "~topic", "in": "~", "default": "~scan"}
@@ -265,6 +272,7 @@ PERIOD = {"parameter": "~rate", "default": 0.2, "expression": "1/value"}
         ({"parameter": "~t"}, {"parameter": "~t", "default": "x"}, WRONG),
         ({"parameter": "~t"}, {"parameter": "~t", "default": UNKNOWN}, OPEN),
         (PERIOD, {**PERIOD, "default": 5.0, "expression": "1.0 / value"}, RIGHT),
+        (PERIOD, {**PERIOD, "expression": "1.f/value"}, RIGHT),
         (PERIOD, {**PERIOD, "default": 4.0}, WRONG),
         (PERIOD, {**PERIOD, "expression": "2 / value"}, WRONG),
         (PERIOD, {"parameter": "~rate", "default": 0.2}, WRONG),

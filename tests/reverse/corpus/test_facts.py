@@ -32,7 +32,7 @@ OF_KIND = {
 def answer_to(fact: Json) -> Json:
     """The answer that says what a fact says."""
     said = dict(fact)
-    for key in ("name", "period"):
+    for key in ("name", "period", "depth"):
         if said.get(key, "") is None and "nodelet" not in fact:
             said[key] = {"unknown": fact.get("why"), "partial": fact.get("partial")}
     called = fact.get("callback")

@@ -208,6 +208,9 @@ _OPERATORS: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
 }
 
 
+_SUFFIX = re.compile(r"(\b\d+\.?\d*)[fFlLuU]+\b")
+
+
 def evaluated(expression: str, value: float | str) -> float | str | None:
     """What an expression over `value` makes of it; None where it has none."""
 
@@ -226,7 +229,8 @@ def evaluated(expression: str, value: float | str) -> float | str | None:
         raise ValueError(ast.dump(node))
 
     try:
-        found = of(ast.parse(expression, mode="eval"))
+        plain = _SUFFIX.sub(r"\1", expression)
+        found = of(ast.parse(plain, mode="eval"))
     except (SyntaxError, TypeError, ValueError, ZeroDivisionError):
         return None
     return found if isinstance(found, int | float | str) else None
