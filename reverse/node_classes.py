@@ -45,7 +45,7 @@ from rebsync.reverse.scope import (
     TimerOf,
     Variable,
 )
-from rebsync.reverse.tidying import tidy
+from rebsync.reverse.tidying import tidy, without_values
 from rebsync.source import Span
 
 _Member = TypeVar("_Member", m.MessageServer, m.Method)
@@ -90,7 +90,6 @@ class NodeClass:
     def read(self) -> m.ReactiveClass:
         """The class. What it has no place for is listed."""
         self._choose_functions()
-        self._calls_in_main()
         body = self._constructor()
         methods = [self._method(n, f) for n, f in self._used.items()]
         self._delays = self._delays or any(_takes_time(method) for method in methods)
@@ -163,6 +162,9 @@ class NodeClass:
                     members[kept] = TimerOf(server.name, fact.one_shot is not True)
             elif kept and isinstance(fact, _HANDLES):
                 members[kept] = Outside()
+        entry = self.opening.entry
+        if entry is not None and function is not None and function.node.id == entry.node.id:
+            members |= self.opening.objects
         return Scope(
             members,
             self.functions,
@@ -206,14 +208,6 @@ class NodeClass:
                 self.functions[name] = method
                 methods[name] = found[0]
         self._try(methods)
-
-    def _calls_in_main(self) -> None:
-        """What `main` calls of the object, in loops too, the class calls of itself."""
-        for statement, name in self.opening.calls:
-            called = self.functions.get(name)
-            if isinstance(called, Called) and not called.server and not called.takes:
-                call = m.ExpressionStatement(m.Call(None, called.name))
-                self.setup.instead.setdefault(statement.id, (call,))
 
     def _free(self) -> Iterator[CppFunction]:
         """The functions outside of classes that member functions can call."""
@@ -308,6 +302,7 @@ class NodeClass:
             local[server.message] = self._message(server)
         inside = replace(scope.with_locals(local), chooses=True, server=server.name)
         body = self._read(server.cpp, inside, server.body, self._within(server.name))
+        body = without_values(body)
         self._delays = self._delays or _takes_time(body)
         period = self.setup.periodic.get(server.name)
         if server.timers and period is not None:
@@ -380,7 +375,7 @@ class NodeClass:
                 step.function.cpp, scope, self.findings, self._within(step.function.name)
             )
             found += reader.read(step.nodes)
-        return m.Block(_without_end(tuple(found)))
+        return without_values(m.Block(_without_end(tuple(found))))
 
     def _arguments(self, step: Step) -> dict[str, Meaning]:
         """What the parameters of a constructor are for the object that is made."""

@@ -11,6 +11,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.build_files import BuildFiles
 from rebsync.reverse.cmake import read_build
 from rebsync.reverse.cmake_targets import Folder
+from rebsync.reverse.cpp_calls import call_of
 from rebsync.reverse.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.cpp_tree import Cpp, named, text_of
 from rebsync.reverse.graph import Graph, NodeFact
@@ -116,6 +117,12 @@ class Objects:
                     ]
         return found
 
+    def made_by_class(self, owner: CppClass, entry: CppFunction | None) -> list[Made]:
+        """The objects that a class makes, a nodelet's; `entry` is the function that starts it."""
+        self._seen = {owner.name}
+        first = list(self._in(entry.body, True)) if entry is not None else []
+        return first + list(self._members(owner, entry))
+
     def _in(self, body: Node | None, in_main: bool) -> Iterator[Made]:
         for node in _walk(body):
             name = text_of(node) if node.type == "type_identifier" else ""
@@ -125,7 +132,7 @@ class Objects:
                 self._seen.add(name)
                 yield from self._members(self.code.classes[name])
 
-    def _members(self, owner: CppClass) -> Iterator[Made]:
+    def _members(self, owner: CppClass, entry: CppFunction | None = None) -> Iterator[Made]:
         """The objects that are members of another, or made by its functions."""
         for above in self.code.lineage(owner.name):
             for member in (*above.fields, *above.others):
@@ -133,7 +140,8 @@ class Objects:
                     if name in self.wanted and "*" not in text_of(member.node):
                         yield Made(name, None, member.name, ())
             for function in self.code.functions_of(above):
-                yield from self._in(function.body, False)
+                if entry is None or function.node.id != entry.node.id:
+                    yield from self._in(function.body, False)
 
 
 def _walk(node: Node | None) -> Iterator[Node]:
@@ -216,13 +224,17 @@ def _object(node: Node, name: str, arguments: list[Node], in_main: bool) -> Made
 
 
 def _variable(statement: Node) -> str:
-    """The variable that a statement declares or assigns."""
+    """The variable that a statement declares, assigns or resets."""
     at: Node | None = statement
     if statement.type == "expression_statement" and statement.named_children:
-        at = statement.named_children[0].child_by_field_name("left")
-        return text_of(at) if at is not None else ""
+        inner = statement.named_children[0]
+        call = call_of(inner)
+        if call is not None:
+            return call.on.removeprefix("this->") if call.name == "reset" else ""
+        at = inner.child_by_field_name("left")
+        return text_of(at).removeprefix("this->") if at is not None else ""
     while at is not None and at.type != "identifier":
-        at = at.child_by_field_name("declarator") or (
-            at.named_children[-1] if at.type in ("reference_declarator",) else None
-        )
+        inner_ = at.child_by_field_name("declarator")
+        last = at.named_children[-1] if at.type == "reference_declarator" else None
+        at = inner_ if inner_ is not None else last
     return text_of(at) if at is not None else ""

@@ -18,7 +18,7 @@ from rebsync.reverse.node_programs import Made
 from rebsync.reverse.node_state import State
 from rebsync.reverse.node_units import Start, Unit
 from rebsync.reverse.rewriting import renamed
-from rebsync.reverse.scope import Stores, Variable
+from rebsync.reverse.scope import Itself, Member, Outside, Stores, Variable
 
 _ENTRY = "onInit"
 
@@ -40,11 +40,12 @@ class Step:
 class Opening:
     """All that runs before a node serves messages, in its order.
 
-    `calls` are the statements of `main` that call a function of the object, with its name.
+    `objects` are the names that `entry` has for the object itself, and for others.
     """
 
     steps: tuple[Step, ...]
-    calls: tuple[tuple[Node, str], ...] = ()
+    entry: CppFunction | None = None
+    objects: Mapping[str, Member] = field(default_factory=dict)
 
 
 def first_functions(code: Code, unit: Unit, starts: Sequence[Start]) -> list[CppFunction]:
@@ -74,63 +75,62 @@ def _roots(unit: Unit, starts: Sequence[Start]) -> Iterator[CppFunction]:
         yield from unit.constructors(owner)
     yield from (f for f in unit.functions if f.name == _ENTRY)
     for start in starts:
-        if start.unit is unit and start.made is not None and start.program is not None:
+        if start.unit is unit and start.made is not None:
             for statement in used_in_main(start):
                 called = {c.name for c in calls_in(statement)}
                 yield from (f for f in unit.functions if f.name in called)
 
 
 def used_in_main(start: Start) -> list[Node]:
-    """The statements of `main` that do something with an object once it is made."""
-    made, program = start.made, start.program
-    if made is None or program is None or made.statement is None or not made.variable:
+    """The statements after an object is made that do something with it, or ask for its timers."""
+    made, entry = start.made, start.entry
+    if made is None or entry is None or made.statement is None or not made.variable:
         return []
     parent = made.statement.parent
     after = [n for n in named(parent) if n.start_byte >= made.statement.end_byte] if parent else []
-    timers = [f.site.call for f in start.unit.facts if isinstance(f, TimerFact)]
-    asks = [n for n in after for call in timers if n.start_byte <= call.start_byte < n.end_byte]
-    asks = [
-        n
-        for n in asks
-        if program.main.cpp.source.path
-        in {f.site.cpp.source.path for f in start.unit.facts if isinstance(f, TimerFact)}
-    ]
+    path = entry.cpp.source.path
+    timers = [f.site for f in start.unit.facts if isinstance(f, TimerFact)]
+    asked = [s.call.start_byte for s in timers if s.cpp.source.path == path]
     return [
-        n for n in after if n in asks or (n.type.endswith("_statement") and _uses(n, made.variable))
+        n
+        for n in after
+        if any(n.start_byte <= at < n.end_byte for at in asked)
+        or (n.type.endswith("_statement") and _uses(n, made.variable))
     ]
 
 
 def _uses(node: Node, variable: str) -> bool:
-    return any(c.on == variable for c in calls_in(node))
+    return any(c.on.removeprefix("this->") == variable for c in calls_in(node))
 
 
-def opening(unit: Unit, state: State, start: Start | None, entry: Sequence[CppFunction]) -> Opening:
-    """What runs when a rebec of a unit starts."""
+def opening(unit: Unit, state: State, start: Start | None, starts: Sequence[Start]) -> Opening:
+    """What runs when a rebec of a unit starts; `starts` are all that there are."""
     if unit.program is not None:
         main = unit.program.main
-        return Opening((Step(main, _statements(main), _arguments(main)),))
+        together = [s for s in starts if s.process == main.node.id]
+        return Opening((Step(main, _statements(main), _arguments(main)),), main, _objects(together))
     steps = []
     for owner in reversed(unit.lineage):
         constructor = _constructor(unit, owner, start.made if start is not None else None)
         if constructor is not None:
             steps += list(_constructed(constructor, state, _passed(constructor, start)))
     steps += [Step(f, _statements(f)) for f in unit.functions if f.name == _ENTRY]
-    if start is not None and start.program is not None:
-        for statement in used_in_main(start):
-            steps.append(_used(start, statement, entry))
-        return Opening(tuple(steps), tuple(_calls(start)))
-    return Opening(tuple(steps))
+    if start is None or start.entry is None or start.made is None:
+        return Opening(tuple(steps))
+    steps += [Step(start.entry, (statement,)) for statement in used_in_main(start)]
+    objects = _objects([s for s in starts if s.process == start.process])
+    if start.made.variable:
+        objects[start.made.variable] = Itself()
+    return Opening(tuple(steps), start.entry, objects)
 
 
-def _calls(start: Start) -> Iterator[tuple[Node, str]]:
-    """The statements of `main`, in loops too, that are a call of a function of the object."""
-    for statement in used_in_main(start):
-        for call in calls_in(statement):
-            around = call.node.parent
-            if start.made is None or call.on != start.made.variable or call.arguments:
-                continue
-            if around is not None and around.type == "expression_statement":
-                yield around, call.name
+def _objects(starts: Sequence[Start]) -> dict[str, Member]:
+    """The objects of a program, each of which is another rebec."""
+    return {
+        s.made.variable: Outside(reaches=True)
+        for s in starts
+        if s.made is not None and s.made.variable
+    }
 
 
 def _arguments(main: CppFunction) -> dict[int, tuple[m.Statement, ...]]:
@@ -177,9 +177,10 @@ def _passed(function: CppFunction, start: Start | None) -> dict[str, tuple[Cpp, 
         if default is not None:
             found[parameter.name] = function.cpp, default
     made = start.made if start is not None else None
-    if start is not None and start.program is not None and made and made.owner == function.owner:
+    entry = start.entry if start is not None else None
+    if made is not None and entry is not None and made.owner == function.owner:
         pairs = zip(function.parameters, made.arguments, strict=False)
-        found |= {p.name: (start.program.main.cpp, node) for p, node in pairs}
+        found |= {p.name: (entry.cpp, node) for p, node in pairs}
     return found
 
 
@@ -200,20 +201,6 @@ def _constructed(
             instead[entry.id] = (Stores(m.Name(meaning.name), values[0]),)
     yield Step(function, tuple(nodes), instead, arguments)
     yield Step(function, _statements(function), {}, arguments)
-
-
-def _used(start: Start, statement: Node, entry: Sequence[CppFunction]) -> Step:
-    """A statement of `main` that calls a function of the object: as if it called its own."""
-    assert start.program is not None and start.made is not None
-    instead: dict[int, tuple[m.Statement | Stores | Node, ...]] = {}
-    calls = [c for c in calls_in(statement) if c.on == start.made.variable]
-    inner = named(statement)
-    if len(calls) == 1 and len(inner) == 1 and inner[0].id == calls[0].node.id:
-        named_so = [f for f in entry if f.name == calls[0].name and f.body is not None]
-        functions = list({f.node.id: f for f in named_so}.values())
-        if len(functions) == 1 and not functions[0].parameters:
-            return Step(functions[0], _statements(functions[0]))
-    return Step(start.program.main, (statement,), instead)
 
 
 # --- starting late ------------------------------------------------------------------------------

@@ -13,7 +13,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.cpp_index import Code
 from rebsync.reverse.cpp_types import class_name
 from rebsync.reverse.findings import Findings
-from rebsync.reverse.graph import Graph, PublisherFact, SubscriptionFact
+from rebsync.reverse.graph import Fact, Graph, PublisherFact, SubscriptionFact
 from rebsync.reverse.launched import Launch
 from rebsync.reverse.message_types import MessageTypes
 from rebsync.reverse.node_classes import Common, NodeClass
@@ -169,9 +169,9 @@ class _Reader:
         start = alike[0].start if alike else None
         first = first_functions(self.system.code, unit, self.starts)
         facts = unit.facts
-        if start is not None and start.program is not None and self._is_alone(start):
-            first = [*first, start.program.main]
-            facts = (*facts, *self.reading.of_program(start.program).facts)
+        if start is not None and start.entry is not None and self._is_alone(start):
+            first = [*first, start.entry]
+            facts = (*facts, *self._facts_at(start))
         names = Names(set(state.names.used))
         assert self._times is not None
         state_names = state.names
@@ -193,7 +193,7 @@ class _Reader:
         static = [state.outlive(f, set(), True) for f in unit.functions]
         for instead in static:
             setup.instead |= instead
-        opens = opening(unit, state, start, [*first, *unit.functions])
+        opens = opening(unit, state, start, self.starts)
         name = self.kinds[self.wiring.kinds[alike[0].name]] if alike else self.classes[unit.name]
         known = self._known(unit, alike, names)
         reader = NodeClass(
@@ -218,8 +218,15 @@ class _Reader:
         return read
 
     def _is_alone(self, start: Start) -> bool:
-        """Whether an object is all that its program has to do with ROS."""
-        return start.made is not None and sum(s.program is start.program for s in self.starts) == 1
+        """Whether an object is all that its program or nodelet has to do with ROS."""
+        together = [s for s in self.starts if s.process == start.process]
+        return start.made is not None and len(together) == 1
+
+    def _facts_at(self, start: Start) -> tuple[Fact, ...]:
+        """What the program or nodelet that has an object asks for besides."""
+        if start.program is not None:
+            return self.reading.of_program(start.program).facts
+        return tuple(f for f in self.system.graph.facts if f.site.owner == start.nodelet)
 
     # --- known rebecs ---------------------------------------------------------------------------
 

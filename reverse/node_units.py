@@ -62,12 +62,20 @@ class Unit:
 class Start:
     """A rebec to be: a unit, the program that runs it and the object that it is.
 
-    A nodelet has no program, nor has a class that no program of the package makes.
+    A nodelet has no program, nor has a class that no program of the package makes. `entry` is the
+    function that starts the object: `main`, or that of the nodelet that has it.
     """
 
     unit: Unit
     program: Program | None
     made: Made | None
+    entry: CppFunction | None = None
+    nodelet: str | None = None
+
+    @property
+    def process(self) -> object:
+        """What objects have in common that run together."""
+        return self.program.main.node.id if self.program is not None else self.nodelet or self
 
 
 @dataclass(slots=True)
@@ -82,10 +90,20 @@ class Units:
     def all(self) -> tuple[list[Unit], list[Start]]:
         """All units, in the order of the code, and all objects of them that programs make."""
         classes = self._classes()
-        made = {p.main.node.id: Objects(self.code, classes).made_by(p) for p in self.programs}
-        concrete = {m.owner for all_of in made.values() for m in all_of} | self.nodelets()
+        objects = Objects(self.code, classes)
+        made = {p.main.node.id: objects.made_by(p) for p in self.programs}
+        nodelets = {n: self._entry(n) for n in sorted(self.nodelets())}
+        inner = {
+            n: [m for m in objects.made_by_class(self.code.classes[n], entry) if m.owner != n]
+            for n, entry in nodelets.items()
+        }
+        concrete = {m.owner for all_of in (*made.values(), *inner.values()) for m in all_of}
         bases = {b.name for c in classes for b in self.code.lineage(c)[1:]}
-        units = {n: self._of_class(n) for n in classes if n in concrete or n not in bases}
+        units = {
+            n: self._of_class(n)
+            for n in classes
+            if n in concrete or n in nodelets or n not in bases
+        }
         starts: list[Start] = []
         own: list[Unit] = []
         for program in self.programs:
@@ -93,9 +111,21 @@ class Units:
             if any(_connects(f) for f in unit.facts):
                 own.append(unit)
                 starts.append(Start(unit, program, None))
-            starts += [Start(units[m.owner], program, m) for m in made[program.main.node.id]]
-        starts += [Start(units[n], None, None) for n in sorted(self.nodelets()) if n in units]
+            for m in made[program.main.node.id]:
+                starts.append(Start(units[m.owner], program, m, program.main))
+        for name, entry in nodelets.items():
+            if name in units:
+                starts.append(Start(units[name], None, None, None, name))
+            starts += [Start(units[m.owner], None, m, entry, name) for m in inner[name]]
         return [*units.values(), *own], starts
+
+    def _entry(self, nodelet: str) -> CppFunction | None:
+        """The function that starts a nodelet."""
+        for above in self.code.lineage(nodelet):
+            for function in self.code.functions_of(above):
+                if function.name == "onInit" and function.body is not None:
+                    return function
+        return None
 
     def nodelets(self) -> set[str]:
         """The classes that are exported as nodelets."""

@@ -40,7 +40,7 @@ def instances(
 def _alone(starts: Sequence[Start], names: Names) -> Iterator[Instance]:
     for start in starts:
         program = start.program
-        others = [s for s in starts if s.program is program and program is not None]
+        others = [s for s in starts if s.process == start.process]
         named = program.node.name if program is not None and program.node is not None else None
         node = named if isinstance(named, str) and named else _program(program) or start.unit.name
         wish = node if len(others) == 1 else _own(start)
@@ -63,7 +63,7 @@ def _runs(node: LaunchedNode, start: Start, package: str) -> bool:
     if node.nodelet is not None:
         name = node.nodelet.class_name
         plain = name.replace("::", "/").rpartition("/")[2] if name is not None else None
-        return start.program is None and plain == start.unit.name
+        return start.program is None and plain == start.nodelet
     if start.program is None or (package and node.package not in (package, "")):
         return False
     main = start.program.main.cpp.source.path

@@ -78,7 +78,7 @@ def _one(statement: m.Statement, unread: set[str]) -> tuple[m.Statement, ...]:
                 return _spread(then)
             if known is False:
                 return _spread(otherwise) if otherwise is not None else ()
-            if then == m.Block(()) and otherwise is None and is_calm(condition):
+            if then == m.Block(()) and otherwise is None and _is_idle(condition):
                 return ()
         case m.ExpressionStatement(m.Assign("=", m.Name(name), value), ()) if name in unread:
             return () if is_calm(value) else (statement,)
@@ -88,6 +88,31 @@ def _one(statement: m.Statement, unread: set[str]) -> tuple[m.Statement, ...]:
             if plain and (initial is None or is_calm(_expression(initial))):
                 return ()
     return (statement,)
+
+
+def _is_idle(expression: m.Expression) -> bool:
+    """Whether evaluating it changes nothing, whatever it gives."""
+    for node in m.walk(expression):
+        match node:
+            case m.Assign() | m.Postfix() | m.Unary(operator="++" | "--") | m.Call():
+                return False
+    return True
+
+
+def without_values(body: m.Block) -> m.Block:
+    """The body of a function that returns something as that of one that returns nothing."""
+
+    def change(node: object) -> object:
+        match node:
+            case m.Return(value, annotations, span) if value is not None:
+                ends = m.Return(None, annotations, span)
+                if _is_idle(value):
+                    return ends
+                return m.Block((m.ExpressionStatement(value, (), span), ends), (), span)
+            case _:
+                return node
+
+    return rewritten(body, change)
 
 
 def _expression(initial: m.Initializer) -> m.Expression:
