@@ -34,6 +34,13 @@ _DECLARATIONS = frozenset(
         "for_range_loop",
     }
 )
+# What stands around a name that is used: most of them.
+_USES = frozenset(
+    {
+        *("field_expression", "call_expression", "argument_list", "assignment_expression"),
+        *("binary_expression", "pointer_expression", "subscript_expression", "field_initializer"),
+    }
+)
 _SCOPES = frozenset(
     {
         *("compound_statement", "for_statement", "for_range_loop", "if_statement"),
@@ -97,7 +104,9 @@ class Texts:
     def everywhere(self, name: str) -> list[tuple[Cpp, Node]]:
         """All places of all files where a name stands."""
         if name not in self._everywhere:
-            self._everywhere[name] = [(c, n) for c in self.code.files for n in self.named(c, name)]
+            word = name.encode()
+            holders = [c for c in self.code.files if word in self.data(c)]
+            self._everywhere[name] = [(c, n) for c in holders for n in self.named(c, name)]
         return self._everywhere[name]
 
     def _search(self, cpp: Cpp, name: bytes) -> Iterator[Node]:
@@ -198,6 +207,8 @@ def nearness(one: Cpp, other: Cpp) -> tuple[int, int]:
 def declaration_of(name: Node) -> Node | None:
     """The declaration that a name is declared by as a variable, if it is."""
     below, above = name, name.parent
+    if above is None or above.type in _USES:
+        return None
     while above is not None and (above.type in _DECLARATORS or _of_pointer(above)):
         if above.type in ("init_declarator", "function_declarator") and (
             part(above, "declarator") != below

@@ -144,12 +144,14 @@ def ways(value: Value) -> Iterator[Value]:
 
 def choice(values: Iterable[Value]) -> Value:
     """One of these values; of several that are equal, one. Nothing gives way to anything."""
-    found: list[Value] = []
-    for value in values:
+    given = list(values)
+    if len(given) == 1:
+        return given[0]
+    some: list[Value] = []
+    for value in given:
         for way in ways(value):
-            if not any(same(way, f) for f in found):
-                found.append(way)
-    some = [v for v in found if not isinstance(v, Nothing)]
+            if not isinstance(way, Nothing) and not any(same(way, f) for f in some):
+                some.append(way)
     if len(some) > MOST:
         some = some[:MOST]
     match some:
@@ -168,11 +170,15 @@ def same(left: Value, right: Value) -> bool:
 
 def each(do: Callable[[Value], Value], value: Value) -> Value:
     """What is made of each value that it may be."""
+    if not isinstance(value, (Choice, OneOf)):
+        return do(value)
     return choice(do(way) for way in ways(value))
 
 
 def pairs(do: Callable[[Value, Value], Value], left: Value, right: Value) -> Value:
     """What is made of each pair of values that they may be."""
+    if not isinstance(left, (Choice, OneOf)) and not isinstance(right, (Choice, OneOf)):
+        return do(left, right)
     return choice(do(a, b) for a in ways(left) for b in ways(right))
 
 

@@ -15,7 +15,7 @@ from rebsync.reverse.cpp_values import Values
 from rebsync.reverse.cpp_values_plain import at
 from rebsync.reverse.graph import Unresolved
 
-_INCLUDE = re.compile(rb'^[ \t]*#[ \t]*include[ \t]*[<"](\w+)/(\w+)\.h[>"]', re.MULTILINE)
+_INCLUDE = re.compile(rb'#[ \t]*include[ \t]*[<"](\w+)/(\w+)\.h[>"]')
 _SPACE = re.compile(rb"\bnamespace\s+(\w+)\s*=\s*([\w:]+)\s*;")
 _USED = re.compile(rb"\busing\s+namespace\s+(\w+_msgs|std_srvs)\s*;")
 _WRAPPERS = frozenset({"shared_ptr", "MessageEvent", "ServiceEvent", "unique_ptr"})
@@ -29,6 +29,7 @@ class MessageTypes:
 
     values: Values
     _includes: dict[int, dict[str, str]] = field(default_factory=dict)
+    _spaces: dict[int, dict[str, str]] = field(default_factory=dict)
 
     def of(self, cpp: Cpp, type_: Node, depth: int = 0) -> str | Unresolved:
         """The message type that a type of C++ stands for, or is a pointer or event of."""
@@ -75,10 +76,10 @@ class MessageTypes:
 
     def _space(self, cpp: Cpp, name: str) -> str:
         """The namespace that another name for one stands for."""
-        for known, full in _SPACE.findall(self.values.texts.data(cpp)):
-            if known.decode() == name:
-                return str(full.decode()).rpartition("::")[2]
-        return name
+        if id(cpp) not in self._spaces:
+            found = _SPACE.findall(self.values.texts.data(cpp))
+            self._spaces[id(cpp)] = {k.decode(): f.decode().rpartition("::")[2] for k, f in found}
+        return self._spaces[id(cpp)].get(name, name)
 
     def _package(self, cpp: Cpp, name: str) -> str | None:
         """The package whose header of a message a file includes, or one near to it."""
