@@ -27,7 +27,10 @@ _DIRECTIVE = re.compile(
     r"(?P<rest>[^\n\\]*(?:\\(?:\r?\n|.)[^\n\\]*)*)",
     re.MULTILINE,
 )
-_HIDDEN = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:[^"\\\n]|\\.)*"', re.DOTALL)
+# What is not closed ends with the text, as otherwise it would be looked for again and again.
+_HIDDEN = re.compile(
+    r"""//[^\n]*|/\*.*?(?:\*/|\Z)|"(?:[^"\\\n]|\\.)*"?|'(?:[^'\\\n]|\\.)'""", re.DOTALL
+)
 _TOKEN = re.compile(r"\s*(\d[\w']*|\w+|&&|\|\||[=!<>]=|[-+!<>(),*/%])")
 
 
@@ -170,8 +173,9 @@ class _Condition:
     """The value of a condition; None if it is not known, or if it is none that can be read."""
 
     def __init__(self, text: str, reader: _Reader) -> None:
-        self.tokens: list[str] = _TOKEN.findall(text.replace("\\\n", " "))
-        self.whole = "".join(self.tokens) == "".join(text.replace("\\", " ").split())
+        text = " ".join(text.replace("\\", " ").split())
+        self.tokens: list[str] = _TOKEN.findall(text)
+        self.whole = "".join(self.tokens) == text.replace(" ", "")
         self.reader = reader
         self.at = 0
 

@@ -44,7 +44,7 @@ def _public(match: re.Match[str]) -> str:
 # What to look for before a search is worth while, the search, and what stands for what it finds.
 _MENDS: tuple[tuple[str, re.Pattern[str], Callable[[re.Match[str]], str]], ...] = (
     ("__", re.compile(r"__(?:device|host|global|shared|constant|forceinline)__"), _blank),
-    ("<<<", re.compile(r"<<<[^;{}]*?>>>"), _blank),
+    ("<<<", re.compile(r"<<<[^;{}<]{1,300}?>>>"), _blank),
     ("Q_", re.compile(r"Q_(?:OBJECT|GADGET|INVOKABLE|EMIT)\b"), _blank),
     ("slots", re.compile(r"(\b(?:public|protected|private)\s+)slots(?=\s*:)"), _keep_first),
     ("Q_SLOTS", re.compile(r"(\b(?:public|protected|private)\s+)Q_SLOTS(?=\s*:)"), _keep_first),

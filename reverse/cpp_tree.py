@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from bisect import bisect_right
+from collections.abc import Iterable
 from dataclasses import field
 from functools import cache
 
@@ -11,25 +12,43 @@ import tree_sitter_cpp
 from tree_sitter import Language, Node, Parser
 
 from rebsync.records import dataclass
+from rebsync.reverse.cpp_depth import deep_parts, may_be_deep, without
 from rebsync.reverse.cpp_text import readable
 from rebsync.source import Source, Span
 
+_MOST_COMMENTS = 60  # each is looked for from the start of what is around it
+_NOT_ASCII = re.compile(r"[^\x00-\x7f]")
 _COMMENT = re.compile(r"^\s*//[/!]?|^\s*/\*+|\*+/\s*\Z")
 
 
 @dataclass(frozen=True)
 class Cpp:
-    """One file of C++ and its tree; `offsets` is None where bytes and characters are the same."""
+    """One file of C++ and its tree, whose places are bytes.
+
+    `wide` are the bytes behind each character that takes more than one, and by how many bytes more
+    than characters the text up to there has. `deep` are the bytes of places that nest deeper than
+    is read: they are not in the tree.
+    """
 
     source: Source
     root: Node = field(repr=False)
-    offsets: tuple[int, ...] | None = field(repr=False)
+    wide: tuple[list[int], list[int]] | None = field(repr=False)
+    deep: tuple[tuple[int, int], ...] = ()
 
     def span(self, node: Node) -> Span:
         """The characters that a node covers."""
-        if self.offsets is None:
-            return Span(node.start_byte, node.end_byte)
-        return Span(self.offsets[node.start_byte], self.offsets[node.end_byte])
+        return self.characters(node.start_byte, node.end_byte)
+
+    def characters(self, start: int, end: int) -> Span:
+        """The characters that some bytes are."""
+        if self.wide is None:
+            return Span(start, end)
+        return Span(self._character(start), self._character(end))
+
+    def _character(self, byte: int) -> int:
+        ends, surplus = self.wide or ([], [])
+        before = bisect_right(ends, byte)
+        return byte - (surplus[before - 1] if before else 0)
 
 
 @cache
@@ -41,16 +60,26 @@ def parse(source: Source) -> Cpp:
     """The tree of a file; where the text is no C++ it has error nodes."""
     text = readable(source.text)
     data = text.encode("utf-8", "surrogatepass")
-    offsets = None if len(data) == len(text) else tuple(_characters(text))
-    return Cpp(source, _parser().parse(data).root_node, offsets)
+    wide = None if len(data) == len(text) else _wide(text)
+    root = _parser().parse(data).root_node
+    deep: list[tuple[int, int]] = []
+    while may_be_deep(data) and (parts := list(deep_parts(root))):
+        deep += parts
+        data = without(data, parts)
+        root = _parser().parse(data).root_node
+    return Cpp(source, root, wide, tuple(deep))
 
 
-def _characters(text: str) -> Iterator[int]:
-    """For each byte the character it belongs to, then the length of the text."""
-    for index, character in enumerate(text):
-        for _ in character.encode("utf-8", "surrogatepass"):
-            yield index
-    yield len(text)
+def _wide(text: str) -> tuple[list[int], list[int]]:
+    """The byte behind each character that is not ASCII, and how many bytes too many come before."""
+    ends: list[int] = []
+    surplus: list[int] = []
+    more = 0
+    for match in _NOT_ASCII.finditer(text):
+        more += len(match[0].encode("utf-8", "surrogatepass")) - 1
+        ends.append(match.end() + more)
+        surplus.append(more)
+    return ends, surplus
 
 
 def text_of(node: Node) -> str:
@@ -77,6 +106,8 @@ def markers_above(node: Node) -> tuple[str, ...]:
     before = node.prev_sibling
     while before is not None and before.type == "comment" and not _trails(before):
         found.append(text_of(before))
+        if len(found) > _MOST_COMMENTS:
+            break
         before = before.prev_sibling
     return markers_in(reversed(found))
 

@@ -20,7 +20,10 @@ _WORDS = (
 _MUCH = 200_000  # bytes, from which on comparing names is quicker than reading it all
 _INCLUDE = re.compile(rb'#[ \t]*include[ \t]*["<](?:[^">\n]*/)?([^">\n/]+)[">]')
 _NAME = re.compile(rb"(?<![\w.])(?<!->)[A-Za-z_]\w*")
-_NOISE = re.compile(rb'//[^\n]*|/\*.*?\*/|"(?:[^"\\\n]|\\.)*"', re.DOTALL)
+# Gaps have bounds, and what is not closed ends with the text: so every search takes linear time.
+_NOISE = re.compile(
+    rb"""//[^\n]*|/\*.*?(?:\*/|\Z)|"(?:[^"\\\n]|\\.)*"?|'(?:[^'\\\n]|\\.)'""", re.DOTALL
+)
 _TYPES = re.compile(
     rb"\b(?:class|struct|union|enum)\s+(?:class\s+|struct\s+)?(?:[A-Z][A-Z0-9_]*\s+)?([A-Za-z_]\w*)"
 )
@@ -28,13 +31,13 @@ _OFFERS = (
     _TYPES,
     re.compile(rb"#[ \t]*define[ \t]+(\w+)"),
     re.compile(rb"\busing\s+(\w+)\s*="),
-    re.compile(rb"\btypedef\b[^;]*?(\w+)\s*(?:\[[^]]*\]\s*)?;"),
+    re.compile(rb"\btypedef\b[^;]{0,400}?\b(\w+)\s*(?:\[[^]]{0,40}\]\s*)?;"),
     re.compile(rb"[\w>&*]\s+[&*]*([A-Za-z_]\w*)\s*\("),
-    re.compile(rb"^[A-Za-z_][\w:<>, \t]*?[ \t&*](\w+)\s*(?:=|;|\[|\{)", re.MULTILINE),
-    re.compile(rb"\b(?:const|constexpr|extern|static)\b[^;({=]*?(\w+)\s*(?:=|;|\[|\{)"),
+    re.compile(rb"^[A-Za-z_][\w:<>, \t]{0,200}?[ \t&*](\w+)\s*(?:=|;|\[|\{)", re.MULTILINE),
+    re.compile(rb"\b(?:const|constexpr|extern|static)\b[^;({=]{0,200}?\b(\w+)\s*(?:=|;|\[|\{)"),
 )
-_ENUMERATION = re.compile(rb"\benum\b[^{;]*\{([^}]*)\}")
-_OF_CLASS = re.compile(rb"(\w+)\s*(?:<[^;{}()]*>\s*)?::\s*[~\w]")
+_ENUMERATION = re.compile(rb"\benum\b[^{;]{0,200}\{([^}]{0,20000})")
+_OF_CLASS = re.compile(rb"\b(\w+)\s*(?:<[^;{}()]{0,200}>\s*)?::\s*[~\w]")
 # Before the `(` of what is no function.
 _WORDS_OF_CPP = frozenset(
     b"if for while switch return sizeof catch delete new throw else case operator".split()

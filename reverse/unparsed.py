@@ -28,6 +28,12 @@ _HINT = "where only one is ever compiled, take the others out"
 
 def unparsed(cpp: Cpp) -> Iterator[Finding]:
     """The places of a file that are not read as they will be compiled, in no order."""
+    for start, end in cpp.deep:
+        why = "this nests deeper than rebsync reads"
+        span = _first_line(cpp, cpp.characters(start, end))
+        yield Finding(
+            Grade.UNREADABLE, cpp.source, span, why, "give parts of it names of their own"
+        )
     if cpp.root.has_error:
         yield from (_error(cpp, node) for node in _errors(cpp.root))
     if has_alternatives(cpp.source.text):
@@ -64,48 +70,55 @@ def _harmless(node: Node) -> bool:
 
 
 def _error(cpp: Cpp, node: Node) -> Finding:
-    span = cpp.span(node)
-    text = cpp.source.text
-    line_end = text.find("\n", span.start)
-    end = min(span.end, span.start + _LONGEST, line_end if line_end >= 0 else len(text))
-    end = max(end, min(span.start + 1, len(text)))
     why = "this is no C++ that can be read: a macro may hide it"
     if node.is_missing:
         why = f"this is no C++ that can be read: `{node.type}` is missing"
-    return Finding(Grade.UNREADABLE, cpp.source, Span(span.start, end), why)
+    return Finding(Grade.UNREADABLE, cpp.source, _first_line(cpp, cpp.span(node)), why)
+
+
+def _first_line(cpp: Cpp, span: Span) -> Span:
+    """The start of a place, at least one character."""
+    text = cpp.source.text
+    line_end = text.find("\n", span.start)
+    end = min(span.end, span.start + _LONGEST, line_end if line_end >= 0 else len(text))
+    return Span(span.start, max(end, min(span.start + 1, len(text))))
 
 
 # --- alternatives -------------------------------------------------------------------------------
 
 
 def _alternatives(cpp: Cpp) -> Iterator[Finding]:
-    """Those of which it is not known what is compiled, and that hold code."""
+    """Those of which it is not known what is compiled, and that hold code; not those within."""
     plain = blank(cpp.source.text)
-    dead: list[tuple[int, int]] = []
+    done: list[tuple[int, int]] = []
     for each in reversed(conditionals(plain)):
         start, end = each.directives[0][0], each.directives[-1][1]
-        if any(s <= start and end <= e for s, e in dead):
+        while done and done[-1][0] > start:
+            done.pop()
+        if done and end <= done[-1][1]:
             continue
         if each.decided:
-            dead += [(b.start, b.end) for b in each.branches if not b.taken]
-        elif (finding := _undecided(cpp, plain, each)) is not None:
-            yield finding
+            done += [(b.start, b.end) for b in each.branches if not b.taken]
+        else:
+            done.append((start, end))
+            yield from _undecided(cpp, plain, each)
 
 
-def _undecided(cpp: Cpp, plain: str, each: Conditional) -> Finding | None:
+def _undecided(cpp: Cpp, plain: str, each: Conditional) -> Iterator[Finding]:
     code = [_DIRECTIVES.sub("", plain[b.start : b.end]) for b in each.branches]
     if not any(text.strip() for text in code):
-        return None
+        return
     start, end = each.directives[0]
     span = Span(start, start + len(plain[start:end].rstrip()))
     if is_split(plain, each):
         which = "none" if read_branch(each) is None else "one"
         why = f"of the alternatives of `{each.condition}` {which} is read: they overlap other code"
-        return Finding(Grade.UNREADABLE, cpp.source, span, why, _HINT)
+        yield Finding(Grade.UNREADABLE, cpp.source, span, why, _HINT)
+        return
     if _in_body(cpp, each) and not any(_ROS.search(text) for text in code):
-        return None  # the reader of the body lists it
+        return  # the reader of the body lists it
     why = f"whether `{each.condition}` holds is not known: all alternatives are read"
-    return Finding(Grade.APPROXIMATED, cpp.source, span, why, _HINT)
+    yield Finding(Grade.APPROXIMATED, cpp.source, span, why, _HINT)
 
 
 def _in_body(cpp: Cpp, each: Conditional) -> bool:
