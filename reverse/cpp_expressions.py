@@ -24,7 +24,7 @@ from rebsync.reverse.cpp_literals import literal
 from rebsync.reverse.cpp_places import is_this, resolve
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.cpp_types import carried, class_name, type_of
-from rebsync.reverse.cpp_unknowns import HINT, Unknown, choice, domain_near
+from rebsync.reverse.cpp_unknowns import Unknown, choice, domain_near
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.scope import (
     Called,
@@ -153,8 +153,8 @@ class CppExpressions:
             why = f"{unread.why}, and only a message server can choose"
             raise Unread(unread.span, why, unread.hint)
         Effects(self.cpp, self.scope).check(node)
-        hint = unread.hint or (HINT if isinstance(unread, Unknown) else "")
-        self.findings.approximated(self.cpp.source, unread.span, unread.why, hint, self.within)
+        source = self.cpp.source
+        self.findings.approximated(source, unread.span, unread.why, unread.hint, self.within)
 
     def operand(self, node: Node, binding: int) -> m.Expression:
         """An operand that binds at least so tightly, in parentheses if it does not."""

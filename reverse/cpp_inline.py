@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.building import is_plain
+from rebsync.reverse.building import is_calm
 from rebsync.reverse.cpp_declarations import CppParameter
 from rebsync.reverse.cpp_effects import Effects
-from rebsync.reverse.cpp_messages import declare, is_pointer, message_type, zero_of
+from rebsync.reverse.cpp_messages import declare, given, is_pointer, message_type, zero_of
 from rebsync.reverse.cpp_places import resolve
 from rebsync.reverse.cpp_tree import named, part, text_of
 from rebsync.reverse.cpp_types import carried
@@ -30,20 +30,49 @@ def inlined(
     reader: CppStatements, node: Node, function: Inline | Lambda, arguments: Sequence[Node]
 ) -> Meaning | None:
     """Puts the statements of a function before the one that is read; what the call gives."""
-    _check_place(reader, node)
     inside, body, parameters, result = _entered(reader, function)
     key = body.start_byte, inside.cpp.source.path
     if key in reader.shared.running or len(reader.shared.running) >= _DEEPEST:
         raise reader.unread(node, "a function that calls itself has no end here")
     if len(arguments) != len(parameters):
         raise reader.unread(node, "default arguments are not read")
+    needed, single = len(reader.before), _single(body)
     for parameter, argument in zip(parameters, arguments, strict=True):
-        reader.before += _bound(reader, inside, parameter, argument)
+        reader.before += _bound(reader, inside, parameter, argument, single is not None)
     reader.shared.running.append(key)
     try:
-        return _body(reader, inside, body, result)
+        if single is not None:
+            found: Meaning | None = _value(inside, single, result)
+            reader.before += inside.before
+        else:
+            found = _body(reader, inside, body, result)
     finally:
         reader.shared.running.pop()
+    if len(reader.before) > needed:
+        _check_place(reader, node)
+    return found
+
+
+def _single(body: Node) -> Node | None:
+    """The value of a function that does nothing but give it."""
+    statements = named(body)
+    if len(statements) == 1 and statements[0].type == "return_statement":
+        values = named(statements[0])
+        return values[0] if values and values[0].type != "initializer_list" else None
+    return None
+
+
+def _value(inside: CppStatements, node: Node, result: Node | None) -> Meaning:
+    """What such a function gives: the value itself, where it is called."""
+    text = text_of(result) if result is not None else "auto"
+    if message_type(inside.scope, text) is not None:
+        return given(inside, node)[0]
+    kept = carried(result, inside.scope.enums) if result is not None else None
+    if kept is None and text not in ("auto", "const auto"):
+        raise Unknown(inside.cpp.span(node), "the model cannot know what this gives")
+    place = Variable("", kept.type if kept is not None else None, kept.bits if kept else 0)
+    inside.findings.statements[inside.within] += 1
+    return inside.expressions.stored(node, place)
 
 
 def _entered(
@@ -108,7 +137,11 @@ def _check_place(reader: CppStatements, node: Node) -> None:
 
 
 def _bound(
-    reader: CppStatements, inside: CppStatements, parameter: CppParameter, argument: Node
+    reader: CppStatements,
+    inside: CppStatements,
+    parameter: CppParameter,
+    argument: Node,
+    once: bool,
 ) -> Iterator[m.Statement]:
     """What a parameter stands for in the body."""
     name, text = parameter.name, text_of(parameter.node)
@@ -133,20 +166,25 @@ def _bound(
         Effects(reader.cpp, reader.scope).check(argument)
         inside.meaning(name, Outside())
         return
-    yield from _valued(reader, inside, name, Variable("", kept.type, kept.bits), argument)
+    yield from _valued(reader, inside, name, Variable("", kept.type, kept.bits), argument, once)
 
 
 def _copied(
     reader: CppStatements, inside: CppStatements, name: str, type_: str, argument: Node
 ) -> Iterator[m.Statement]:
     before = reader.scope
-    yield from declare(reader, argument, name, type_, argument, pointer=False)
+    yield from declare(reader, argument, name, type_, argument, pointer=False, inlining=True)
     inside.meaning(name, reader.scope.locals[name], own=True)
     reader.scope = before
 
 
 def _valued(
-    reader: CppStatements, inside: CppStatements, name: str, place: Variable, argument: Node
+    reader: CppStatements,
+    inside: CppStatements,
+    name: str,
+    place: Variable,
+    argument: Node,
+    once: bool,
 ) -> Iterator[m.Statement]:
     try:
         value = reader.expressions.stored(argument, place)
@@ -154,10 +192,14 @@ def _valued(
         Effects(reader.cpp, reader.scope).check(argument)
         inside.meaning(name, Outside(place.type))
         return
+    if once and is_calm(value):
+        inside.meaning(name, value)
+        return
     if name in reader.shared.demoted or place.type is None:
         inside.meaning(name, Outside(place.type))
         return
-    local = replace(place, name=reader.fresh(name))
+    local = replace(place, name=reader.fresh(name, inlining=True))
+    reader.shared.made.add(local.name)
     inside.meaning(name, local, own=True)
     yield reader.local(argument, local, value)
 
@@ -169,30 +211,14 @@ def _body(
     reader: CppStatements, inside: CppStatements, body: Node, result: Node | None
 ) -> Meaning | None:
     place = _result(reader, inside, body, result)
-    statements = inside.read(named_with_comments(body))
-    match statements, place:
-        case (m.Return(value),), Variable() if value is not None:
-            return value if is_plain(value) else _kept(reader, place, value, body)
+    statements = inside.read(body.named_children)
     if isinstance(place, Variable) and place.type is not None:
+        reader.shared.made.add(place.name)
         reader.before.append(reader.local(body, place, zero_of(place.type)))
+        reader.meaning(f"result {place.name}", place)
     target = m.Name(place.name) if isinstance(place, Variable) else None
     reader.before += without_returns(inside, body, statements, target)
     return place
-
-
-def _kept(
-    reader: CppStatements, place: Variable, value: m.Expression, body: Node
-) -> m.Expression | Variable:
-    """The value of a function that only computes one."""
-    if not any(isinstance(n, m.Assign | m.Call | m.Choice | m.Postfix) for n in m.walk(value)):
-        return m.Paren(value) if isinstance(value, m.Binary | m.Conditional) else value
-    reader.before.append(reader.local(body, place, value))
-    return place
-
-
-def named_with_comments(body: Node) -> list[Node]:
-    """The statements of a body, comments among them."""
-    return list(body.named_children)
 
 
 def _result(
@@ -200,19 +226,15 @@ def _result(
 ) -> Meaning | None:
     """Where the value that a function returns is kept; sets what `return` does in it."""
     if result is None or text_of(result) in ("auto", ""):
-        values = [n for n in _returned(body) if named(n)]
-        if not values:
-            return None
-        if len(values) > 1:
+        if any(named(n) for n in _returned(body)):
             raise reader.unread(body, "the type of what this gives is not written")
-        inside.returns = Variable("")
-        return Variable(reader.fresh("result"))
+        return None
     if text_of(result) == "void":
         return None
     type_ = message_type(reader.scope, text_of(result))
     if type_ is not None:
-        before, name = reader.scope, reader.fresh("result")
-        reader.before += declare(reader, body, name, type_, None, pointer=False)
+        before, name = reader.scope, reader.fresh("result", inlining=True)
+        reader.before += declare(reader, body, name, type_, None, pointer=False, inlining=True)
         record = reader.scope.locals[name]
         reader.scope = before
         inside.returns = record if isinstance(record, Record) else None
@@ -222,7 +244,7 @@ def _result(
         inside.returns = Outside()
         return Outside()
     inside.returns = Variable("", kept.type, kept.bits)
-    return Variable(reader.fresh("result"), kept.type, kept.bits)
+    return Variable(reader.fresh("result", inlining=True), kept.type, kept.bits)
 
 
 def _returned(body: Node) -> Iterator[Node]:

@@ -14,6 +14,8 @@ from rebsync.reverse.findings import Unread
 _INTEGER = re.compile(r"(0[xX][0-9a-fA-F]+|0[bB][01]+|[0-9]+)(?:[uU]?[lL]{0,2}|[lL]{1,2}[uU])\Z")
 _FLOAT = re.compile(r"((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)([fFlL]?)\Z")
 
+_ESCAPES = {"\\n": 10, "\\t": 9, "\\r": 13, "\\0": 0, "\\\\": 92, "\\'": 39, "\\e": 27}
+
 
 def literal(cpp: Cpp, node: Node) -> m.Expression:
     """The literal; `Unread` where a node is none, or one that the model cannot say."""
@@ -23,6 +25,8 @@ def literal(cpp: Cpp, node: Node) -> m.Expression:
             return _number(text.replace("'", ""), cpp, node)
         case "true" | "false":
             return m.BoolLiteral(text == "true", span)
+        case "char_literal" if (code := _character(text)) is not None:
+            return m.IntLiteral(code, span)
         case "string_literal" if text.startswith('"'):
             return m.StringLiteral(text.replace("?\\?", "??"), span)
         case "concatenated_string":
@@ -38,6 +42,14 @@ def literal(cpp: Cpp, node: Node) -> m.Expression:
             raise Unread(span, f'"{text}" is no variable of the model')
         case _:
             raise Unread(span, f"the model cannot say this: {node.type.replace('_', ' ')}")
+
+
+def _character(text: str) -> int | None:
+    """The number that a character stands for."""
+    inner = text[1:-1]
+    if len(inner) == 1 and inner.isascii():
+        return ord(inner)
+    return _ESCAPES.get(inner)
 
 
 def _number(text: str, cpp: Cpp, node: Node) -> m.Expression:

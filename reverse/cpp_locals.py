@@ -64,6 +64,19 @@ def declarations(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
             _outside(reader, declared, unread)
 
 
+def tested(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
+    """`if (int x = f())`: the local that the condition declares."""
+    declarator, value = part(node, "declarator"), part(node, "value")
+    if declarator.type != "identifier":
+        raise reader.unread(node, "the model has no pointers and references")
+    type_ = part(node, "type")
+    declared = _Declared(node, type_, text_of(declarator), "identifier", value, None, False)
+    try:
+        yield from _declared(reader, declared)
+    except Unread as unread:
+        _outside(reader, declared, unread)
+
+
 def _taken_apart(node: Node, declarator: Node) -> _Declared:
     value, target = None, declarator
     if declarator.type == "init_declarator":

@@ -133,7 +133,13 @@ def _is_read(path: str, text: str) -> bool:
 
 
 def declare(
-    reader: CppStatements, node: Node, name: str, type_: str, value: Node | None, pointer: bool
+    reader: CppStatements,
+    node: Node,
+    name: str,
+    type_: str,
+    value: Node | None,
+    pointer: bool,
+    inlining: bool = False,
 ) -> Iterator[m.Statement]:
     """A local message: a local for each of its fields that matters."""
     source, fresh = given(reader, value) if value is not None else (Record({}, type_), True)
@@ -148,7 +154,8 @@ def declare(
             initial = m.Name(held.name) if held is not None else None
         if f"{name}.{path}" in reader.shared.demoted or (not fresh and initial is None):
             continue
-        variable = Variable(reader.fresh(f"{name}_{path.replace('.', '_')}"), of)
+        variable = Variable(reader.fresh(f"{name}_{path.replace('.', '_')}", inlining), of)
+        reader.shared.made.add(variable.name)
         fields[path] = variable
         span = reader.cpp.span(node)
         declarator = m.Declarator(variable.name, initial, span)

@@ -7,7 +7,7 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync.reverse.cpp_tree import named, part, text_of
-from rebsync.reverse.scope import Meaning, Outside, Record, Scope
+from rebsync.reverse.scope import Itself, Meaning, Outside, Record, Scope
 
 _SAME = frozenset({"std::move", "std::ref", "std::cref", "boost::ref", "boost::cref"})
 
@@ -36,6 +36,8 @@ def _field(scope: Scope, node: Node) -> Meaning | None:
     if is_this(target):
         return scope.members.get(name)
     match resolve(scope, target):
+        case Itself():
+            return scope.members.get(name)
         case Record() as record:
             return field_of(record, name)
         case Outside():

@@ -18,7 +18,7 @@ from rebsync.reverse.cpp_time import pause
 from rebsync.reverse.cpp_tree import named, part, text_of
 from rebsync.reverse.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.known_functions import STREAMS
+from rebsync.reverse.known_functions import ASSERTS, STREAMS
 from rebsync.reverse.scope import (
     Inline,
     Itself,
@@ -35,7 +35,6 @@ from rebsync.static.constants import constant
 if TYPE_CHECKING:
     from rebsync.reverse.cpp_statements import CppStatements
 
-_ASSERTS = frozenset({"ROS_ASSERT", "ROS_ASSERT_MSG", "assert", "BOOST_ASSERT", "ROS_VERIFY"})
 _TRUTH = m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)))
 # Words of the model that are none of C++.
 _WORDS = frozenset(
@@ -132,12 +131,12 @@ def _called(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
         return sends
     if (length := pause(reader.expressions, node)) is not None:
         return _statement(reader, node, m.Call(None, "delay", (length,)))
-    if name.rpartition("::")[2] in _ASSERTS and name not in reader.scope.functions:
+    if name == "ROS_BREAK":
+        return _statement(reader, node, m.Call(None, "assertion", (m.BoolLiteral(False),)))
+    if name in ASSERTS and name not in reader.scope.functions:
         condition = reader.expressions.read(named(part(node, "arguments"))[0])
         checked = m.Call(None, "assertion", (as_boolean(reader.scope, condition),))
         return _statement(reader, node, checked)
-    if name == "ROS_BREAK":
-        return _statement(reader, node, m.Call(None, "assertion", (m.BoolLiteral(False),)))
     if (inline := _inline(reader, function)) is not None:
         reader.inlined(node, inline, named(part(node, "arguments")))
         return iter(())
@@ -148,17 +147,21 @@ def _called(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
     return None
 
 
-def _inline(reader: CppStatements, function: Node) -> Inline | None:
-    """The function of the class that is called for what it does, if its body stands in here."""
+def _inline(reader: CppStatements, function: Node) -> Inline | Lambda | None:
+    """The function that is called for what it does, if its body stands in here."""
+    if function.type == "lambda_expression":
+        return Lambda(function, reader.scope) if reader.scope.open else None
     name = text_of(function)
     if function.type == "field_expression":
         target = part(function, "argument")
         if not is_this(target) and not isinstance(resolve(reader.scope, target), Itself):
             return None
         name = text_of(part(function, "field"))
-    elif isinstance(reader.scope.locals.get(name), Lambda):
+    elif isinstance(held := reader.scope.locals.get(name), Lambda):
+        return held
+    elif function.type not in ("identifier", "qualified_identifier"):
         return None
-    found = reader.scope.functions.get(name)
+    found = reader.scope.functions.get(name.rpartition("::")[2])
     return found if isinstance(found, Inline) else None
 
 
@@ -330,12 +333,12 @@ def opened(reader: CppStatements, node: Node, unread: Unread) -> set[str]:
         except Touches:
             return set()
         found |= effects.written
-    return found
+    return {name for name in found if name.partition(".")[0] in reader.scope.members}
 
 
 def says_more(node: Node, unread: Unread) -> bool:
     """Whether what a statement touches is a better reason than that its value is not known."""
     if not isinstance(unread, Unknown):
         return False
-    inner = named(node)
+    inner = named(node) if node.type == "expression_statement" else []
     return bool(inner) and inner[0].type == "call_expression"

@@ -19,6 +19,7 @@ from rebsync.reverse.cpp_unknowns import Demote
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.known_functions import LOGGING
 from rebsync.reverse.scope import Inline, Lambda, Meaning, Outside, Record, Scope, Stores, Variable
+from rebsync.reverse.tidying import tidied
 from rebsync.reverse.written import annotation
 
 _NOTHING = frozenset(
@@ -31,11 +32,14 @@ class Shared:
     """What the readers of a body share with those of the bodies that stand in it.
 
     `demoted` are locals, or fields of local messages, whose values the model cannot know;
-    `names` are names of the model that are taken; `running` are the functions that are read.
+    `names` are the names of the model that all locals got, `kept` those that no other may have,
+    `made` those of locals that the code does not have; `running` are the functions that are read.
     """
 
     demoted: set[str] = field(default_factory=set)
     names: set[str] = field(default_factory=set)
+    kept: set[str] = field(default_factory=set)
+    made: set[str] = field(default_factory=set)
     running: list[tuple[int, str]] = field(default_factory=list)
 
 
@@ -84,11 +88,12 @@ class CppStatements:
         counted = self.findings.statements[self.within]
         while True:
             try:
-                return tuple(self._statements(nodes))
+                return tidied(tuple(self._statements(nodes)), self.shared.made)
             except Demote as demote:
                 self.shared.demoted |= demote.names
                 self.scope, self.before = scope, []
-                self.own.clear()
+                for names in (self.own, self.shared.names, self.shared.kept, self.shared.made):
+                    names.clear()
                 del self.findings.all[listed:]
                 self.findings.statements[self.within] = counted
 
@@ -205,6 +210,8 @@ class CppStatements:
                 yield from cpp_special.tried(self, node)
             case "return_statement":
                 yield from self._return(node, annotations)
+            case "throw_statement":
+                raise self.unread(node, "an exception leaves the function")
             case "break_statement":
                 yield m.Break(annotations, span)
             case "continue_statement":
@@ -244,16 +251,22 @@ class CppStatements:
         if own:
             self.own.add(name)
 
-    def fresh(self, name: str) -> str:
-        """A name of the model for a local of that name: another one where it is taken."""
-        taken = cpp_special.taken(self.scope)
-        if self.shared.running:
+    def fresh(self, name: str, inlining: bool = False) -> str:
+        """A name of the model for a local of that name: another one where it is taken.
+
+        One of a body that stands in another is taken from there to the end of that.
+        """
+        inlining = inlining or bool(self.shared.running)
+        taken = cpp_special.taken(self.scope) | self.shared.kept
+        if inlining:
             taken |= self.shared.names
         plain = self.scope.local(name)
         free, number = plain, 2
         while free in taken:
             free, number = f"{plain}_{number}", number + 1
         self.shared.names.add(free)
+        if inlining:
+            self.shared.kept.add(free)
         return free
 
     def local(self, node: Node, variable: Variable, initial: m.Initializer | None) -> m.Local:
@@ -376,7 +389,7 @@ class CppStatements:
         if value.type == "declaration":
             raise self.unread(node, "the model has no declarations in conditions")
         read = replace(self.expressions, findings=None, inlines=None).condition(value)
-        return cpp_special.without_ok(read)
+        return cpp_special.without_ok(read) if self.scope.open else read
 
     def branch(self, node: Node) -> m.Block:
         """The body of a branch or loop, in braces or not."""
@@ -398,7 +411,11 @@ class CppStatements:
         initial = clause.child_by_field_name("initializer")
         inner = named(initial) if initial is not None else []
         declared = [s for n in inner for s in self._declaration(n, (), False)]
-        condition = self.expressions.condition(part(clause, "value"))
+        tested = part(clause, "value")
+        if tested.type == "declaration":
+            declared += cpp_locals.tested(self, tested)
+            tested = part(tested, "declarator")
+        condition = self.expressions.condition(tested)
         then = self.branch(part(node, "consequence"))
         otherwise: m.Statement | None = None
         alternative = node.child_by_field_name("alternative")

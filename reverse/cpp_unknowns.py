@@ -10,6 +10,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.cpp_tree import markers_above, markers_beside, markers_in, text_of
 from rebsync.reverse.findings import Unread
+from rebsync.source import Span
 
 HINT = "say which values it can have, beside it: // rebsync: domain 0..5 (or {1, 2, 7})"
 _RANGE = re.compile(r"(-?\d+)\s*\.\.\s*(-?\d+)")
@@ -18,6 +19,9 @@ _MOST = 256
 
 class Unknown(Unread):
     """A value that the model cannot know, of which reading it changes nothing."""
+
+    def __init__(self, span: Span, why: str, hint: str = HINT) -> None:
+        super().__init__(span, why, hint)
 
 
 class Demote(Exception):

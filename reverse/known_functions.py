@@ -25,6 +25,8 @@ ACTS = {
     **dict.fromkeys(("subscribe", "createTimer", "createWallTimer"), "asks for callbacks"),
     **dict.fromkeys(("advertiseService", "createSteadyTimer"), "asks for callbacks"),
 }
+ASSERTS = frozenset({"ROS_ASSERT", "ROS_ASSERT_MSG", "assert", "BOOST_ASSERT", "ROS_BREAK"})
+ACTS |= dict.fromkeys(ASSERTS, "checks")
 # Member functions that only look at an array, a number, a publisher or a timer.
 LOOKS = frozenset(
     {
@@ -40,7 +42,7 @@ _VALUES = frozenset(
         *("fmod", "fprintf", "hypot", "isfinite", "isinf", "isnan", "isnormal", "labs", "log"),
         *("log10", "log1p", "log2", "lround", "max", "min", "mod", "pow", "printf", "puts"),
         *("rand", "remainder", "rint", "round", "roundf", "signbit", "sin", "sinh", "sqrt"),
-        *("sqrtf", "tan", "tanh", "to_string", "trunc", "assert", "toSec", "fromSec"),
+        *("sqrtf", "tan", "tanh", "to_string", "trunc", "toSec", "fromSec"),
         *("static_cast", "narrow_cast", "numeric_cast", "normalize_angle", "from_degrees"),
         *("shortest_angular_distance", "to_degrees", "createQuaternionMsgFromYaw"),
         *("createQuaternionFromYaw", "createQuaternionFromRPY", "getYaw", "quatToRPY"),

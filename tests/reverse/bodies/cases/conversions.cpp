@@ -1,0 +1,34 @@
+// What C++ converts unasked.
+void Node::onNumbersAsTruth() {
+  if (count_) limit_ = 1;
+  if (!count_ && level_) limit_ = 2;
+  on_ = count_;
+  on_ = 3;
+  count_ = on_;
+  count_ += on_ == (limit_ > 2);
+  while (count_ - 3) count_--;
+}
+void Node::onWidths() {
+  small_ = 300;
+  small_ = count_ + 1;
+  small_ += 200;
+  small_++;
+  tiny_ = count_;
+  tiny_ += 1;
+  count_ = level_;
+  count_ += 0.5;
+  count_ = 2.0;
+  half_ = 0.5;
+  half_ = level_ * 2;
+  level_ = count_ / 2;
+  level_ = count_ * 0.5;
+  count_ = (int)level_ % 5;
+  count_ = int(level_) + static_cast<int8_t>(count_) + (uint8_t)count_;
+}
+void Node::onWideTypes() {
+  size_t n = count_;
+  uint32_t big{5};
+  for (size_t i = 0; i < 3; ++i) count_ += grid_[i];
+  unsigned int more = n + big;
+  limit_ = (long)more;
+}
