@@ -18,12 +18,18 @@ _CODES = {Grade.UNREADABLE: "RS941", Grade.APPROXIMATED: "RS942"}
 def diagnostics(found: Iterable[Finding]) -> tuple[Findings, ...]:
     """The findings of each file, in the order of the text."""
     by_source: dict[str, tuple[Source, list[Finding]]] = {}
-    for finding in found:
+    for finding in different(found):
         by_source.setdefault(finding.source.path, (finding.source, []))[1].append(finding)
     return tuple(
         Findings(source, tuple(map(_diagnostic, sorted(each, key=lambda f: f.span.start))))
         for source, each in by_source.values()
     )
+
+
+def different(found: Iterable[Finding]) -> Iterable[Finding]:
+    """Each finding once: code that is read for each call of it may be listed several times."""
+    places = {(f.source.path, f.span, f.grade, f.why, f.within): f for f in found}
+    return places.values()
 
 
 def _diagnostic(finding: Finding) -> Diagnostic:
@@ -92,7 +98,7 @@ def report_data(extracted: Extracted) -> Item:
         {"name": name, "statements": count, "over_approximated": approximated, "unreadable": unread}
         for name, count, approximated, unread in shares(extracted)
     ]
-    findings: list[Data] = [_finding(f) for f in extracted.findings]
+    findings: list[Data] = [_finding(f) for f in different(extracted.findings)]
     return {"grade": grade_of(extracted), "bodies": bodies, "findings": findings}
 
 

@@ -79,3 +79,10 @@ def test_findings_stand_in_the_order_of_the_text() -> None:
     first, second = diagnostics(MIXED.findings)
     assert [d.code for d in first.diagnostics] == ["RS942", "RS941"]
     assert second.source.path == "b.cpp"
+
+
+def test_what_is_found_twice_is_listed_once() -> None:
+    twice = extracted(*MIXED.findings, *MIXED.findings[:1])
+    assert diagnostics(twice.findings) == diagnostics(MIXED.findings)
+    assert json.loads(as_json(twice))["findings"] == json.loads(as_json(MIXED))["findings"]
+    assert "Talker.heard  2 of 5 statements exact" in as_text(twice)
