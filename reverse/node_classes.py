@@ -10,6 +10,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
+from rebsync.reverse.cpp_effects import is_outside
 from rebsync.reverse.cpp_expressions import CppExpressions
 from rebsync.reverse.cpp_index import Code, CppFunction
 from rebsync.reverse.cpp_statements import CppStatements
@@ -25,10 +26,12 @@ from rebsync.reverse.graph import (
 )
 from rebsync.reverse.message_types import Fields, MessageTypes
 from rebsync.reverse.node_loops import Loop, left
+from rebsync.reverse.node_reach import unreached
 from rebsync.reverse.node_servers import Server
 from rebsync.reverse.node_setup import Setup, around, send
 from rebsync.reverse.node_starts import Opening, Step, started_late
 from rebsync.reverse.node_state import State
+from rebsync.reverse.node_tidying import tidy, without_values
 from rebsync.reverse.node_units import Unit
 from rebsync.reverse.scope import (
     Called,
@@ -45,7 +48,6 @@ from rebsync.reverse.scope import (
     TimerOf,
     Variable,
 )
-from rebsync.reverse.tidying import tidy, without_values
 from rebsync.source import Span
 
 _Member = TypeVar("_Member", m.MessageServer, m.Method)
@@ -104,6 +106,7 @@ class NodeClass:
         methods = [_tidied(method, variables) for method in methods]
         arguments = self._needed(arguments, constructor)
         self._note_beats()
+        self._note_unreached()
         inner: list[m.MessageServer | m.Method] = [*servers, *methods]
         methods = _reached(inner, constructor, methods)
         state = _mentioned(variables, [*servers, *methods, constructor])
@@ -126,6 +129,17 @@ class NodeClass:
                 self.findings.approximated(
                     place.source, place.span, _BEAT, within=self.setup.within
                 )
+
+    def _note_unreached(self) -> None:
+        """Lists functions that act on what the model has, and that something not read calls."""
+        for function in unreached(self.code, self.unit, self.setup.first, self.servers):
+            assert function.body is not None
+            if not is_outside(function.cpp, self._scope(function.cpp, function), function.body):
+                why = "something calls this that is not read: what it does is not in the model"
+                name = function.node.child_by_field_name("declarator")
+                span = function.cpp.span(name if name is not None else function.node)
+                within = self._within(function.name)
+                self.findings.unreadable(function.cpp.source, Unread(span, why), within)
 
     def _needed(self, arguments: tuple[m.Parameter, ...], body: m.Block) -> tuple[m.Parameter, ...]:
         """The parameters that the constructor uses: others only say when a timer goes off."""

@@ -111,7 +111,8 @@ class Objects:
         for name, variables in self.code.variables.items():
             for variable in variables:
                 plain = variable.node.child_by_field_name("declarator")
-                if program.has(variable.cpp) and plain is not None and "*" not in text_of(plain):
+                pointer = plain is None or "*" in text_of(plain) or not _is_plain(variable.type)
+                if program.has(variable.cpp) and not pointer:
                     found += [
                         Made(n, None, name, ()) for n in _types(variable.type) if n in self.wanted
                     ]
@@ -136,7 +137,7 @@ class Objects:
         """The objects that are members of another, or made by its functions."""
         for above in self.code.lineage(owner.name):
             for member in (*above.fields, *above.others):
-                for name in _types(member.type):
+                for name in _types(member.type) if _is_plain(member.type) else ():
                     if name in self.wanted and "*" not in text_of(member.node):
                         yield Made(name, None, member.name, ())
             for function in self.code.functions_of(above):
@@ -154,6 +155,11 @@ def _walk(node: Node | None) -> Iterator[Node]:
 
 def _types(node: Node) -> list[str]:
     return [text_of(n) for n in _walk(node) if n.type == "type_identifier"]
+
+
+def _is_plain(node: Node) -> bool:
+    """Whether a type is that of an object itself, not of a pointer or container."""
+    return node.type in ("type_identifier", "qualified_identifier") and "<" not in text_of(node)
 
 
 def _makes(node: Node) -> bool:
