@@ -1,150 +1,156 @@
-"""Locals that the code does not have, made for the fields of messages, taken out again."""
+"""Bodies of a model without what reading hand-written code leaves in them.
+
+Nothing that a body does changes: conditions that are known, locals that nobody reads, and values
+that a local has only until it gets its own, go.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections import Counter
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from rebsync import model as m
-from rebsync.reverse.building import is_calm
+from rebsync.reverse.building import bare, is_calm
+from rebsync.reverse.rewriting import rewritten
+
+_MOST_ROUNDS = 6
 
 
-def tidied(statements: tuple[m.Statement, ...], made: Collection[str]) -> tuple[m.Statement, ...]:
-    """The same with less: what is set once and used once, in the next statement, stands there.
+def tidy(body: m.Block, variables: Collection[str] = ()) -> m.Block:
+    """The same body, shorter; `variables` are those of the class, which stay."""
+    for _ in range(_MOST_ROUNDS):
+        read = _read(body)
+        locals_ = {
+            d.name
+            for n in m.walk(body)
+            if isinstance(n, m.Local)
+            for d in n.declaration.declarators
+        }
+        unread = locals_ - set(read) - set(variables)
 
-    `made` are the locals that may go.
-    """
-    if not made:
-        return statements
-    inner = [_inside(s, made) for s in statements]
-    return tuple(_used(list(_declared_late(inner, made)), made))
+        def change(node: object, unread: set[str] = unread) -> object:
+            match node:
+                case m.Block(statements):
+                    return replace(node, statements=_tidied(statements, unread))
+                case m.Case(_, statements):
+                    return replace(node, statements=_tidied(statements, unread))
+                case _:
+                    return node
+
+        after = rewritten(body, change)
+        if after == body:
+            break
+        body = after
+    return body
 
 
-def _inside(statement: m.Statement, made: Collection[str]) -> m.Statement:
+def _read(body: m.Block) -> Counter[str]:
+    """How often each name is read: what is only assigned is not."""
+    names: Counter[str] = Counter()
+    for node in m.walk(body):
+        match node:
+            case m.Name(name):
+                names[name] += 1
+            case m.ExpressionStatement(m.Assign("=", m.Name(name))):
+                names[name] -= 1
+            case m.Annotation(_, arguments) if arguments:
+                names.update(n.name for a in arguments for n in m.walk(a) if isinstance(n, m.Name))
+    return +names
+
+
+def _tidied(statements: Sequence[m.Statement], unread: set[str]) -> tuple[m.Statement, ...]:
+    done: list[m.Statement] = []
+    for statement in statements:
+        for each in _one(statement, unread):
+            if done and (merged := _merged(done[-1], each)) is not None:
+                done[-1] = merged
+            else:
+                done.append(each)
+    return tuple(done)
+
+
+def _one(statement: m.Statement, unread: set[str]) -> tuple[m.Statement, ...]:
     match statement:
-        case m.Block(inner):
-            return replace(statement, statements=tidied(inner, made))
-        case m.If(_, then, otherwise):
-            other = _inside(otherwise, made) if otherwise is not None else None
-            return replace(statement, then=_inside(then, made), otherwise=other)
-        case m.While() | m.For():
-            return replace(statement, body=_inside(statement.body, made))
-        case m.Switch(_, cases):
-            read = tuple(replace(c, statements=tidied(c.statements, made)) for c in cases)
-            return replace(statement, cases=read)
-        case _:
-            return statement
+        case m.If(condition, then, otherwise, ()):
+            known = _known(condition)
+            if known is True:
+                return _spread(then)
+            if known is False:
+                return _spread(otherwise) if otherwise is not None else ()
+            if then == m.Block(()) and otherwise is None and _is_idle(condition):
+                return ()
+        case m.ExpressionStatement(m.Assign("=", m.Name(name), value), ()) if name in unread:
+            return () if is_calm(value) else (statement,)
+        case m.Local(m.Declaration(_, (declarator,)), ()) if declarator.name in unread:
+            initial = declarator.initial
+            plain = initial is None or not isinstance(initial, m.ArrayInitializer)
+            if plain and (initial is None or is_calm(_expression(initial))):
+                return ()
+    return (statement,)
 
 
-def _mentions(node: m.Node, name: str) -> int:
-    return sum(isinstance(n, m.Name) and n.name == name for n in m.walk(node))
+def _is_idle(expression: m.Expression) -> bool:
+    """Whether evaluating it changes nothing, whatever it gives."""
+    for node in m.walk(expression):
+        match node:
+            case m.Assign() | m.Postfix() | m.Unary(operator="++" | "--") | m.Call():
+                return False
+    return True
 
 
-def _local(statement: m.Statement, made: Collection[str]) -> m.Declarator | None:
-    match statement:
-        case m.Local(m.Declaration(type_, (declarator,)), ()) if declarator.name in made:
-            return None if type_.dimensions else declarator
-        case _:
-            return None
+def without_values(body: m.Block) -> m.Block:
+    """The body of a function that returns something as that of one that returns nothing."""
+
+    def change(node: object) -> object:
+        match node:
+            case m.Return(value, annotations, span) if value is not None:
+                ends = m.Return(None, annotations, span)
+                if _is_idle(value):
+                    return ends
+                return m.Block((m.ExpressionStatement(value, (), span), ends), (), span)
+            case _:
+                return node
+
+    return rewritten(body, change)
 
 
-# --- where a local is declared ------------------------------------------------------------------
+def _expression(initial: m.Initializer) -> m.Expression:
+    assert not isinstance(initial, m.ArrayInitializer)
+    return initial
 
 
-def _declared_late(statements: list[m.Statement], made: Collection[str]) -> Iterator[m.Statement]:
-    """Declares a local where it gets its first value, if that is in the same block."""
-    changed: dict[int, m.Statement | None] = {}
-    for index, statement in enumerate(statements):
-        declarator = _local(statement, made)
-        if declarator is None or not isinstance(statement, m.Local):
-            continue
-        if not _is_calm_initial(declarator.initial):
-            continue
-        later = _next_mention(statements, index, declarator.name)
-        value = _first_value(statements[later], declarator.name) if later else None
-        if value is not None:
-            known = replace(declarator, initial=value)
-            declaration = replace(statement.declaration, declarators=(known,))
-            changed |= {index: None, later: replace(statement, declaration=declaration)}
-    for index, statement in enumerate(statements):
-        kept = changed.get(index, statement)
-        if kept is not None:
-            yield kept
-
-
-def _is_calm_initial(initial: m.Initializer | None) -> bool:
-    return initial is None or (not isinstance(initial, m.ArrayInitializer) and is_calm(initial))
-
-
-def _next_mention(statements: list[m.Statement], index: int, name: str) -> int:
-    """The next statement that names a variable; 0 if there is none."""
-    for later in range(index + 1, len(statements)):
-        if _mentions(statements[later], name):
-            return later
-    return 0
-
-
-def _first_value(statement: m.Statement, name: str) -> m.Expression | None:
-    match statement:
-        case m.ExpressionStatement(m.Assign("=", m.Name(written), value), ()):
-            return value if written == name and not _mentions(value, name) else None
-        case _:
-            return None
-
-
-# --- where its value is used --------------------------------------------------------------------
-
-
-def _used(statements: list[m.Statement], made: Collection[str]) -> Iterator[m.Statement]:
-    """Puts the value of a local where it is used: once, with nothing done in between."""
-    for index, statement in enumerate(statements):
-        declarator = _local(statement, made)
-        if declarator is None or not _may_wait(declarator.initial):
-            yield statement
-            continue
-        name, initial = declarator.name, declarator.initial
-        uses = sum(_mentions(s, name) for s in statements[index + 1 :])
-        if uses == 0 and _is_calm_initial(initial):
-            continue
-        later = _next_mention(statements, index, name)
-        between = statements[index + 1 : later]
-        replaced = None
-        if uses == 1 and later and all(_is_calm_local(s, made) for s in between):
-            assert initial is not None and not isinstance(initial, m.ArrayInitializer)
-            replaced = _replaced(statements[later], name, initial)
-        if replaced is None:
-            yield statement
-        else:
-            statements[later] = replaced
-
-
-def _may_wait(initial: m.Initializer | None) -> bool:
-    """Whether a value is the same behind declarations of other locals."""
-    if initial is None or isinstance(initial, m.ArrayInitializer):
-        return False
-    return is_calm(initial) or isinstance(initial, m.Choice)
-
-
-def _is_calm_local(statement: m.Statement, made: Collection[str]) -> bool:
-    declarator = _local(statement, made)
-    return declarator is not None and _may_wait(declarator.initial)
-
-
-def _replaced(statement: m.Statement, name: str, value: m.Expression) -> m.Statement | None:
-    """A send, or what gives a variable its value, with a value in the place of a name."""
-    used = m.Name(name)
-    match statement:
-        case m.ExpressionStatement(m.Call(_, _, arguments) as call) if used in arguments:
-            if not all(is_calm(a) or isinstance(a, m.Choice) for a in arguments):
-                return None
-            known = tuple(value if a == used else a for a in arguments)
-            return replace(statement, expression=replace(call, arguments=known))
-        case m.ExpressionStatement(m.Assign("=", m.Name(), right) as assigned) if right == used:
-            return replace(statement, expression=replace(assigned, value=value))
-        case m.Local(m.Declaration(_, (declarator,)) as declaration):
-            if declarator.initial != used:
-                return None
-            known_ = replace(declarator, initial=value)
-            return replace(statement, declaration=replace(declaration, declarators=(known_,)))
+def _known(condition: m.Expression) -> bool | None:
+    match bare(condition):
+        case m.BoolLiteral(value):
+            return value
+        case m.Unary("!", operand):
+            inner = _known(operand)
+            return None if inner is None else not inner
         case _:
             return None
+
+
+def _spread(statement: m.Statement) -> tuple[m.Statement, ...]:
+    """The statements of a branch in its place, if none declares what ends with the branch."""
+    if not isinstance(statement, m.Block) or statement.annotations:
+        return (statement,)
+    if any(isinstance(s, m.Local) for s in statement.statements):
+        return (statement,)
+    return statement.statements
+
+
+def _merged(before: m.Statement, after: m.Statement) -> m.Statement | None:
+    """`int x = 0; x = e;` as `int x = e;`."""
+    match before, after:
+        case (
+            m.Local(m.Declaration(type_, (declarator,)) as declaration, ()) as local,
+            m.ExpressionStatement(m.Assign("=", m.Name(name), value), ()),
+        ) if declarator.name == name and not type_.dimensions:
+            initial = declarator.initial
+            plain = initial is None or not isinstance(initial, m.ArrayInitializer)
+            names = {n.name for n in m.walk(value) if isinstance(n, m.Name)}
+            if plain and name not in names and (initial is None or is_calm(_expression(initial))):
+                new = replace(declarator, initial=value)
+                return replace(local, declaration=replace(declaration, declarators=(new,)))
+    return None
