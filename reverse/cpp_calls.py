@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cache
 
-from tree_sitter import Node
+import tree_sitter_cpp
+from tree_sitter import Language, Node, Query, QueryCursor
 
 from rebsync.records import dataclass
 from rebsync.reverse.cpp_tree import named, part, text_of
+
+
+@cache
+def _calls() -> Query:
+    return Query(Language(tree_sitter_cpp.language()), "(call_expression) @call")
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,13 +51,10 @@ def call_of(node: Node) -> CppCall | None:
 
 def calls_in(node: Node | None) -> Iterator[CppCall]:
     """All calls in a node, outer ones first, in the order of the text."""
-    waiting = [node] if node is not None else []
-    while waiting:
-        current = waiting.pop()
-        if current.type == "call_expression" and (call := call_of(current)) is not None:
+    found = QueryCursor(_calls()).captures(node).get("call", []) if node is not None else []
+    for current in sorted(found, key=lambda n: (n.start_byte, -n.end_byte)):
+        if (call := call_of(current)) is not None:
             yield call
-        if current.named_child_count:
-            waiting += reversed(current.named_children)
 
 
 def string_of(node: Node) -> str | None:

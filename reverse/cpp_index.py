@@ -73,6 +73,7 @@ class Code:
     definitions: dict[tuple[str, str], list[CppFunction]] = field(default_factory=dict)
     constants: dict[tuple[str, str], tuple[Cpp, Node]] = field(default_factory=dict)
     _calls: dict[int, tuple[CppCall, ...]] = field(default_factory=dict)
+    _types: dict[int, tuple[str, ...]] = field(default_factory=dict)
     _visible: dict[str, dict[str, tuple[Cpp, Node]]] = field(default_factory=dict)
 
     @staticmethod
@@ -133,7 +134,15 @@ class Code:
         if declared.body is not None:
             return None
         found = self.definitions.get((declared.owner, declared.name), [])
-        return next((f for f in found if f.types == declared.types), None)
+        count = len(declared.parameters)
+        found = [f for f in found if len(f.parameters) == count]
+        return next((f for f in found if self._types_of(f) == self._types_of(declared)), None)
+
+    def _types_of(self, function: CppFunction) -> tuple[str, ...]:
+        key = function.node.id
+        if key not in self._types:
+            self._types[key] = function.types
+        return self._types[key]
 
     # --- collecting -----------------------------------------------------------------------------
 
