@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from tests.reverse.corpus.packages import PACKAGES
@@ -15,14 +16,14 @@ from tests.reverse.corpus.printing import as_data, as_text
 from tests.reverse.corpus.repositories import results
 
 
-def main() -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Prints the comparison; 1 where nothing can be compared."""
     parser = argparse.ArgumentParser(prog="python -m tests.reverse.corpus", description=__doc__)
     parser.add_argument("folder", type=Path, metavar="DIR")
     parser.add_argument("--json", action="store_true", help="one object instead of text")
     parser.add_argument("--short", action="store_true", help="no list of what differs")
     parser.add_argument("--bodies", action="store_true", help="how bodies are read as well")
-    given = parser.parse_args()
+    given = parser.parse_args(arguments)
     found = list(results(given.folder, given.bodies))
     if not found:
         print(f"{given.folder}: no checkout of {', '.join(PACKAGES)}", file=sys.stderr)
