@@ -29,7 +29,8 @@ class Definition:
     """A place that gives a variable a value.
 
     `how` is `value` (then `node` is it), `made` (of `arguments`), `declared` (with none), `added`
-    (`node` is appended), `given` (a call, `node`, gets it as the argument `index` and may change
+    (`node` is appended), `element` (a loop takes it from
+    `node`), `given` (a call, `node`, gets it as the argument `index` and may change
     it), `initialised` (by a constructor's list), `unknown` (why: `text`).
     """
 
@@ -73,8 +74,7 @@ def _definition(place: Node, variable: Variable, path: str) -> Definition | None
 
 def _declared(place: Node, declaration: Node) -> Definition | None:
     if declaration.type == "for_range_loop":
-        right = text_of(part(declaration, "right"))
-        return Definition("unknown", place, place, text=f"a loop over {right}")
+        return Definition("element", place, part(declaration, "right"))
     if declaration.type != "declaration":
         return None  # a parameter
     given = made_of(place)

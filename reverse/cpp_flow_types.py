@@ -19,6 +19,7 @@ HOLDERS = frozenset(
         *("vector", "array", "deque", "list", "set", "atomic", "reference_wrapper"),
     }
 )
+_LISTS = frozenset({"vector", "array", "initializer_list"})
 _MAPS = frozenset({"map", "unordered_map"})
 # Methods that give what a holder has, and those that give the type they are called with.
 _HELD = frozenset({"get", "front", "back", "at", "lock", "value"})
@@ -242,6 +243,19 @@ def unscoped_member(name: Node) -> str:
     while name.type in ("template_method", "template_function", "dependent_name"):
         name = name.child_by_field_name("name") or name.named_children[-1]
     return text_of(name)
+
+
+def is_list(variable: Variable) -> bool:
+    """Whether a variable is an array, or a vector of the standard library."""
+    above = variable.name.parent
+    if above is not None and above.type == "array_declarator":
+        return True
+    type_ = variable.type
+    while type_ is not None and type_.type == "qualified_identifier":
+        type_ = part(type_, "name")
+    if type_ is None or type_.type != "template_type":
+        return False
+    return text_of(part(type_, "name")) in _LISTS
 
 
 def _parameter(function: CppFunction, declaration: Node, scope: Node) -> tuple[str, int]:

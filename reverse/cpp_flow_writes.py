@@ -16,6 +16,7 @@ from rebsync.reverse.cpp_index import CppFunction
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.roscpp_vocabulary import FUNCTIONS, HANDLE, Kind
 
+FORMATS = frozenset({"sprintf", "snprintf"})
 _READERS = frozenset({"getline", "get", "sscanf", "scanf", "read", "fread"})
 Key = tuple[int, str, str]
 
@@ -176,8 +177,10 @@ def called_name(function: Node) -> tuple[str, str]:
 
 
 def role_of(name: str, scope: str, index: int, count: int) -> str:
-    """The role of an argument that a call for a parameter fills, or empty."""
+    """The role of an argument that a call fills: `format`, or for a parameter; or empty."""
     ask = HANDLE.get(name) if scope == "." else FUNCTIONS.get((scope, name))
+    if name in FORMATS and scope in ("", "std") and index == 0:
+        return "format"
     if ask is None or ask.kind is not Kind.PARAMETER or index >= len(ask.arguments):
         return ""
     role = ask.arguments[index]

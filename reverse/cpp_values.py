@@ -209,7 +209,7 @@ class Values:
             case "initializer_list":
                 return self._listed(node, frame)
             case "subscript_expression":
-                return self.unknown("an element picked at run time", node, frame)
+                return self._picked(node, frame)
             case _:
                 return self.unknown("no expression that is followed", node, frame)
 
@@ -221,6 +221,16 @@ class Values:
         if len(plain) == len(found):
             return tuple(plain) if plain else Nothing()
         return self.unknown("a list that is not known", node, frame)
+
+    def _picked(self, node: Node, frame: Frame) -> Value:
+        listed = self.value(part(node, "argument"), frame)
+        indices = named(part(node, "indices"))
+        index = self.value(indices[0], frame) if len(indices) == 1 else None
+        if isinstance(listed, tuple) and listed:
+            if isinstance(index, int) and 0 <= index < len(listed):
+                return listed[index]
+            return choice(listed)
+        return self.unknown("an element picked at run time", node, frame)
 
     def _pointed(self, node: Node, frame: Frame) -> Value:
         argument = part(node, "argument")

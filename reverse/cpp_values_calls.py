@@ -29,6 +29,7 @@ from rebsync.reverse.cpp_values_plain import (
     each,
     pairs,
 )
+from rebsync.reverse.cpp_values_texts import is_stream, streamed
 from rebsync.reverse.graph import FromParameter, Resolved, Unresolved
 from rebsync.reverse.roscpp_vocabulary import (
     HANDLE,
@@ -223,6 +224,10 @@ def _of_method(
         return Handle(OWN_HANDLES[name])
     if name in OWN_NAMES and target.type == "this":
         return OWN_NAME
+    if name == "str" and not given and is_stream(values.types.type_of(frame.cpp, target)):
+        variable = values.types.variable(frame.cpp, target)
+        if variable is not None:
+            return streamed(values, variable, node, frame)
     if name in _SAME_OF and not given:
         return _inside(values, values.value(target, frame), node, name, frame)
     if name in ("empty", "size", "length", "toSec", "expectedCycleTime", "isEmpty"):

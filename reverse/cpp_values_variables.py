@@ -10,7 +10,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.cpp_flow_reach import Definition, Reach, reaching
-from rebsync.reverse.cpp_flow_types import Variable
+from rebsync.reverse.cpp_flow_types import Variable, is_list
 from rebsync.reverse.cpp_flow_writes import (
     Key,
     Writes,
@@ -26,6 +26,7 @@ from rebsync.reverse.cpp_values_made import constructed, default_of
 from rebsync.reverse.cpp_values_names import name_under, resolved
 from rebsync.reverse.cpp_values_numbers import added, converted
 from rebsync.reverse.cpp_values_plain import (
+    MOST,
     Found,
     Frame,
     Handle,
@@ -38,6 +39,7 @@ from rebsync.reverse.cpp_values_plain import (
     pairs,
     ways,
 )
+from rebsync.reverse.cpp_values_texts import formatted
 from rebsync.reverse.graph import FromParameter, Under
 from rebsync.reverse.roscpp_vocabulary import ENTRIES, HANDLE_TYPE
 
@@ -159,8 +161,18 @@ class Variables:
                 return self._by_reference(definition, variable, path, frame)
             case "called":
                 return self._by_call(definition, variable, path, frame)
+            case "element":
+                return self._element(definition, frame)
             case _:
                 return self.values.unknown(definition.text, definition.node, frame)
+
+    def _element(self, definition: Definition, frame: Frame) -> Value:
+        """What a loop over a list that is known takes from it."""
+        listed = self.values.value(definition.node, frame)
+        if isinstance(listed, tuple):
+            return choice(listed)
+        why = f"a loop over {text_of(definition.node)}"
+        return self.values.unknown(why, definition.place, frame)
 
     def _as(self, variable: Variable, path: str, value: Value) -> Value:
         if path:
@@ -174,10 +186,32 @@ class Variables:
         type_ = types.plain(variable.cpp, variable.type)
         if len(definition.arguments) == 1 and _is_pointer(variable):
             return self.values.value(definition.arguments[0], frame)
+        if is_list(variable):
+            return self._listed(variable, type_, definition, frame)
         if not type_ or type_ == "auto":
             return self.values.value(definition.arguments[0], frame)
         use = Use(frame.cpp, definition.node, definition.arguments, frame.function)
         return constructed(self.values, type_, use, frame)
+
+    def _listed(
+        self, variable: Variable, type_: str, definition: Definition, frame: Frame
+    ) -> Value:
+        """The elements of an array or vector that is made of them."""
+        given = definition.arguments
+        found = [converted(self.values.value(g, frame), type_) for g in given]
+        holder = (
+            part(definition.node, "value") if definition.node.type == "init_declarator" else None
+        )
+        braces = holder is not None and holder.type == "initializer_list"
+        match found:
+            case [tuple() as copied]:
+                return copied
+            case [int() as count, (bool() | int() | float() | str()) as element] if not braces:
+                return (element,) * count if 0 <= count < MOST else Nothing()
+            case _ if braces and all(isinstance(v, (bool, int, float, str)) for v in found):
+                return tuple(v for v in found if isinstance(v, (bool, int, float, str)))
+            case _:
+                return self.values.unknown("a list that is not known", definition.place, frame)
 
     def _declared(self, variable: Variable, path: str, place: Node, frame: Frame) -> Value:
         if variable.type is None or _is_pointer(variable):
@@ -199,6 +233,8 @@ class Variables:
         given = tuple(named(part(call, "arguments")))
         name, scope = called_name(function)
         role = role_of(name, scope, definition.index, len(given))
+        if role == "format":
+            return formatted(self.values, call, frame)
         if role:
             handle: Value = Handle("")
             if function.type == "field_expression":
@@ -316,7 +352,7 @@ class Variables:
         if member.value is not None and not path:
             value = member.value
             inside = named(value) if value.type in ("argument_list", "initializer_list") else None
-            if inside is None:
+            if inside is None or (len(inside) > 1 and value.type == "initializer_list"):
                 return self.values.value(value, frame)
             use = Use(frame.cpp, value, tuple(inside), None)
             type_ = self.values.types.plain(variable.cpp, variable.type)
