@@ -314,9 +314,11 @@ class NodeClass:
             local[name] = self._argument(server.cpp, scope, value)
         if server.message:
             local[server.message] = self._message(server)
+        if server.service is not None and function is not None:
+            local |= {p.name: Outside() for p in function.parameters if p.name}
         inside = replace(scope.with_locals(local), chooses=True, server=server.name)
         body = self._read(server.cpp, inside, server.body, self._within(server.name))
-        body = without_values(body)
+        body = replace(body, statements=_without_end(without_values(body).statements))
         self._delays = self._delays or _takes_time(body)
         period = self.setup.periodic.get(server.name)
         if server.timers and period is not None:

@@ -44,7 +44,7 @@ class Listing:
 
     def unit(self, unit: Unit, servers: Iterable[Server]) -> None:
         """What a unit has that its reactive class has not."""
-        served = {id(f) for s in servers for f in (*s.subscriptions, *s.timers)}
+        served = {id(f) for s in servers for f in (*s.subscriptions, *s.timers, s.service)}
         for fact in unit.facts:
             self._fact(unit, fact, id(fact) in served)
         for server in servers:
@@ -64,8 +64,11 @@ class Listing:
             case PublisherFact(site) if not site.kept:
                 why = "it is not known what is published here: the publisher is in no variable"
                 self._unread(fact.site.place, why, unit.name)
+            case ServiceFact() if served:
+                why = "a service is a message server to which nobody in the model sends"
+                self._approximated(fact.site.place, why, unit.name, _CALLS)
             case ServiceFact():
-                why = "the model has no services: what a call of it does is not in the model"
+                why = "it is not known which function this service calls"
                 self._unread(fact.site.place, why, unit.name)
             case ClientFact():
                 why = "the model has no services: what this one answers is open"
@@ -105,7 +108,22 @@ class Listing:
             if isinstance(topic, str):
                 why = f'nobody in these files publishes "{topic}": the model gets no such message'
                 self._approximated(heard.site.place, why, instance.start.unit.name, _CLOSE)
+        self._services(wiring)
         self._shared(wiring)
+
+    def _services(self, wiring: Wiring) -> None:
+        """Calls of services of the model's own nodes: these are no messages."""
+        offered = {
+            i.topic(f.name)
+            for i in wiring.instances
+            for f in i.start.unit.facts
+            if isinstance(f, ServiceFact)
+        }
+        for instance in wiring.instances:
+            for fact in instance.start.unit.facts:
+                if isinstance(fact, ClientFact) and instance.topic(fact.name) in offered:
+                    why = "the model does not send what this asks of another of its nodes"
+                    self._unread(fact.site.place, why, instance.start.unit.name)
 
     def _topics(self, instance: Instance) -> None:
         for fact in instance.start.unit.facts:
@@ -155,6 +173,7 @@ class Listing:
 
 
 _OPEN = "add the package that has the receivers, if they matter"
+_CALLS = "add a class to the model that calls it, or message servers that send to it"
 _CLOSE = "add the package that publishes it, or a class to the model that sends what may come"
 
 

@@ -1,10 +1,11 @@
-"""The message servers of a unit: one for each callback of subscriptions, and for each timer."""
+"""The message servers of a unit: one for each callback of subscriptions, timers and services."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import TypeAlias
 
 from tree_sitter import Node
 
@@ -13,11 +14,12 @@ from rebsync.records import dataclass
 from rebsync.reverse.cpp_calls import calls_in
 from rebsync.reverse.cpp_index import CppFunction
 from rebsync.reverse.cpp_tree import Cpp, named, text_of
-from rebsync.reverse.graph import Callback, SubscriptionFact, TimerFact
+from rebsync.reverse.graph import Callback, ServiceFact, SubscriptionFact, TimerFact
 from rebsync.reverse.message_types import Fields, MessageTypes
 from rebsync.reverse.node_names import Names
 from rebsync.reverse.node_units import Unit
 
+Asking: TypeAlias = SubscriptionFact | TimerFact | ServiceFact
 _HEADER = "header."
 _PLACE = re.compile(r"(^|::)_\d$")
 
@@ -49,6 +51,7 @@ class Server:
     parameters: tuple[Carried, ...] = ()
     subscriptions: tuple[SubscriptionFact, ...] = ()
     timers: tuple[TimerFact, ...] = ()
+    service: ServiceFact | None = None
 
     @property
     def fields(self) -> tuple[str, ...]:
@@ -60,7 +63,7 @@ def servers(unit: Unit, types: MessageTypes, names: Names) -> tuple[Server, ...]
     """The servers of a unit, in the order of its subscriptions and timers."""
     found: dict[tuple[object, ...], Server] = {}
     for fact in unit.facts:
-        if not isinstance(fact, SubscriptionFact | TimerFact):
+        if not isinstance(fact, SubscriptionFact | TimerFact | ServiceFact):
             continue
         for callback in fact.callbacks:
             body = _body(callback, fact.site.cpp) if isinstance(callback, Callback) else None
@@ -74,15 +77,17 @@ def servers(unit: Unit, types: MessageTypes, names: Names) -> tuple[Server, ...]
                 found[key] = _server(fact, callback, body, types, names)
             elif isinstance(fact, SubscriptionFact):
                 found[key] = replace(known, subscriptions=(*known.subscriptions, fact))
-            else:
+            elif isinstance(fact, TimerFact):
                 found[key] = replace(known, timers=(*known.timers, fact))
     return tuple(found.values())
 
 
-def _kind(fact: SubscriptionFact | TimerFact, callback: Callback, types: MessageTypes) -> object:
+def _kind(fact: Asking, callback: Callback, types: MessageTypes) -> object:
     """What callbacks must have in common to be one server: a timer that goes on is alone."""
     if isinstance(fact, SubscriptionFact):
         return "message", _type(fact, callback, types)
+    if isinstance(fact, ServiceFact):
+        return "service"
     return "once" if fact.one_shot is True else id(fact)
 
 
@@ -96,7 +101,7 @@ def _body(callback: Callback, cpp: Cpp) -> tuple[Cpp, Node] | None:
 
 
 def _server(
-    fact: SubscriptionFact | TimerFact,
+    fact: Asking,
     callback: Callback,
     body: tuple[Cpp, Node],
     types: MessageTypes,
@@ -105,6 +110,8 @@ def _server(
     wish = callback.name.rpartition("::")[2] or _kept(fact) or "callback"
     message, bound = _arguments(callback, fact)
     name = names.give(wish if wish != "operator()" else callback.through or "callback")
+    if isinstance(fact, ServiceFact):
+        return Server(name, callback, *body, "", (), service=fact)
     if isinstance(fact, TimerFact):
         return Server(name, callback, *body, message, bound, timers=(fact,))
     type_ = _type(fact, callback, types)
@@ -113,9 +120,7 @@ def _server(
     return Server(name, callback, *body, message, bound, type_, carried, (fact,))
 
 
-def _arguments(
-    callback: Callback, fact: SubscriptionFact | TimerFact
-) -> tuple[str, tuple[tuple[str, Node], ...]]:
+def _arguments(callback: Callback, fact: Asking) -> tuple[str, tuple[tuple[str, Node], ...]]:
     """The callback's parameter for the message, and those that a bind fills with what."""
     names = [n for n, _ in _parameters(callback)]
     for call in calls_in(fact.site.call):
@@ -131,7 +136,7 @@ def _arguments(
     return names[0] if names else "", ()
 
 
-def _kept(fact: SubscriptionFact | TimerFact) -> str:
+def _kept(fact: Asking) -> str:
     return fact.site.kept.removeprefix("this->").rstrip("_")
 
 

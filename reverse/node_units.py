@@ -157,7 +157,7 @@ class Units:
         if not isinstance(fact, _CONNECTS):
             return None
         by = fact.site.owner if fact.site.owner in self.code.classes else None
-        if isinstance(fact, SubscriptionFact | TimerFact):
+        if isinstance(fact, SubscriptionFact | TimerFact | ServiceFact):
             for callback in fact.callbacks:
                 if isinstance(callback, Callback) and callback.function is not None:
                     to = callback.function.owner
