@@ -6,6 +6,7 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
+from rebsync import model as m
 from rebsync.diagnostics import Findings
 from rebsync.printing import print_model
 from rebsync.records import dataclass
@@ -16,6 +17,8 @@ from rebsync.reverse.packages import CODE
 from rebsync.reverse.reading import Chosen
 from rebsync.reverse.recovery import Extracted, extract
 from rebsync.reverse.report import as_json, as_text, diagnostics, grade_of, report_data, summary
+
+_NOTHING = Extracted(m.Model((), (), None), (), ())
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +43,8 @@ class Answer:
 
 def answer(given: Chosen, style: str | None, whole: bool) -> Answer:
     """Reads a package; `style` is that of the report, `whole` asks for the object."""
-    read = extract(given.files, given.only)
+    readable = given.only is None or given.only in given.files
+    read = extract(given.files, given.only) if readable else _NOTHING
     extracted = replace(read, findings=given.findings + read.findings)
     report = as_text if style == "text" else as_json
     return Answer(
@@ -84,8 +88,8 @@ def _model(extracted: Extracted) -> str | None:
 
 def _graph(given: Chosen, extracted: Extracted) -> Graph:
     """What the nodes ask of ROS: in the file that is asked for, if it is code."""
-    asked = given.only if given.only is not None and Path(given.only).suffix in CODE else None
-    if asked is None:
+    asked = given.files.get(given.only or "")
+    if asked is None or Path(asked.path).suffix not in CODE:
         return extracted.graph
-    path = given.files[asked].path
+    path = asked.path
     return Graph(tuple(f for f in extracted.graph.facts if f.site.place.source.path == path))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sys
+from collections import Counter
+from dataclasses import field
 from functools import partial
 from itertools import chain, islice
 from pathlib import Path
@@ -69,11 +71,15 @@ def command(paths: tuple[str, ...], form: str, style: str | None, output: str) -
 
 @dataclass(slots=True)
 class _Told:
-    """Where the answers go; `asks` says that there was one without a model but with nodes."""
+    """Where the answers go; `asks` says that there was one without a model but with nodes.
+
+    `names` counts the packages of each name, so that none is written over another.
+    """
 
     output: str
     several: bool
     asks: bool = False
+    names: Counter[str] = field(default_factory=Counter)
 
     def check(self) -> None:
         """A RebsyncError when several packages would be written to one file."""
@@ -84,11 +90,11 @@ class _Told:
 
     def tell(self, given: Answer) -> Status | None:
         """Prints what is known of a package; None where that is nothing."""
+        is_read = given.model is not None or given.asks
         if given.whole:
-            if given.model is None and not given.asks:
-                return None
-            write_output(self._target(given, ".json"), given.whole + "\n")
-            return _STATUS[given.grade]
+            if is_read or given.grade != "exact":
+                write_output(self._target(given, ".json"), given.whole + "\n")
+            return _STATUS[given.grade] if is_read else None
         if given.model is not None:
             self._tell_model(given, given.model)
         print_report(given.findings, sys.stderr)
@@ -116,7 +122,9 @@ class _Told:
         """The file for a package: the one that was named, or one in the directory."""
         if self.output == "-" or not Path(self.output).is_dir():
             return self.output
-        return str(Path(self.output) / f"{given.name}{suffix}")
+        self.names[given.name] += 1
+        again = f"_{self.names[given.name]}" if self.names[given.name] > 1 else ""
+        return str(Path(self.output) / f"{given.name}{again}{suffix}")
 
 
 def _nothing(path: str, asks: bool) -> RebsyncError:

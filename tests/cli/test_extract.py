@@ -290,3 +290,23 @@ def test_one_file_tells_what_it_asks_itself(tmp_path: Path) -> None:
     (tmp_path / "caller.cpp").write_text(CALLER)
     found = json.loads(rebsync("extract", "caller.cpp", "--format", "json", cwd=tmp_path).out)
     assert (found["publishers"], len(found["nodes"])) == ([], 1)
+
+
+def test_a_file_that_is_no_text(tmp_path: Path) -> None:
+    (tmp_path / "node.cpp").write_bytes("int main() {}\n".encode("utf-16"))
+    done = rebsync("extract", "node.cpp", cwd=tmp_path)
+    assert (done.status, done.out) == (2, "")
+    assert "RS941" in done.err
+    assert "node.cpp: RS943" in done.err
+    told = rebsync("extract", "node.cpp", "--format", "json", cwd=tmp_path)
+    assert told.status == 2
+    assert [f["file"] for f in json.loads(told.out)["report"]["findings"]] == ["node.cpp"]
+
+
+def test_packages_of_one_name_do_not_overwrite_each_other(tmp_path: Path) -> None:
+    for place in ("first", "second"):
+        shutil.copytree(EXAMPLE, tmp_path / place / "experiment1")
+    (tmp_path / "models").mkdir()
+    assert rebsync("extract", "first", "second", "-o", "models", cwd=tmp_path).status == 0
+    written = {p.name: p.read_text() for p in (tmp_path / "models").iterdir()}
+    assert set(written) == {"experiment1.rebeca", "experiment1_2.rebeca"}
