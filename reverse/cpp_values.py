@@ -21,12 +21,12 @@ from rebsync.reverse.cpp_index import Code
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.cpp_values_calls import called_value
 from rebsync.reverse.cpp_values_made import constructed
-from rebsync.reverse.cpp_values_numbers import added, computed, converted, used
+from rebsync.reverse.cpp_values_numbers import converted
+from rebsync.reverse.cpp_values_operators import binary, unary
 from rebsync.reverse.cpp_values_plain import (
     MOST,
     Frame,
     Function,
-    Length,
     Nothing,
     Open,
     Use,
@@ -34,8 +34,6 @@ from rebsync.reverse.cpp_values_plain import (
     at,
     choice,
     each,
-    pairs,
-    same,
     ways,
 )
 from rebsync.reverse.cpp_values_variables import Variables
@@ -196,9 +194,9 @@ class Values:
             case "pointer_expression":
                 return self._pointed(node, frame)
             case "unary_expression":
-                return self._unary(node, frame)
+                return unary(self, node, frame)
             case "binary_expression":
-                return self._binary(node, frame)
+                return binary(self, node, frame)
             case "conditional_expression":
                 return self._conditional(node, frame)
             case "cast_expression":
@@ -276,64 +274,6 @@ class Values:
         found = [e for e in found if not scope or scope in (e.enum, e.scope)] or found
         return max(found, key=lambda e: nearness(e.cpp, cpp)).value if found else None
 
-    # --- operators ------------------------------------------------------------------------------
-
-    def _unary(self, node: Node, frame: Frame) -> Value:
-        operator = text_of(node.children[0])
-
-        def one(value: Value) -> Value:
-            match value:
-                case bool() | int() | float():
-                    results = {"-": -value, "+": value, "!": not value}
-                    return results.get(operator, self.unknown(f"{operator}", node, frame))
-                case FromParameter():
-                    return used(value, f"{operator}value", one)
-                case Unresolved():
-                    return value
-                case _:
-                    return self.unknown(f"the operator {operator}", node, frame)
-
-        return each(one, self.value(part(node, "argument"), frame))
-
-    def _binary(self, node: Node, frame: Frame) -> Value:
-        left, right = part(node, "left"), part(node, "right")
-        operator = text_of(part(node, "operator"))
-        a = self.value(left, frame)
-        if operator in ("&&", "||") and same(a, operator == "||"):
-            return operator == "||"
-        return pairs(
-            lambda x, y: self._operation(operator, x, y, node, frame), a, self.value(right, frame)
-        )
-
-    def _operation(self, operator: str, a: Value, b: Value, node: Node, frame: Frame) -> Value:
-        match a, b:
-            case ((bool() | int() | float() | str()), (bool() | int() | float() | str())):
-                result = computed(operator, a, b)
-                return result if result is not None else self._no(operator, node, frame)
-            case ((str() | Unresolved()), (str() | Unresolved())) if operator == "+":
-                return added(a, b)
-            case (FromParameter(), str()) | (str(), FromParameter()) if operator == "+":
-                return added(a, b)
-            case FromParameter(), (int() | float()) if operator in "+-*/":
-                text = _operand(part(node, "right"), b)
-                again = f"value{operator}{text}"
-                return used(a, again, lambda v: self._operation(operator, v, b, node, frame))
-            case ((int() | float()), FromParameter()) if operator in "+-*/":
-                text = _operand(part(node, "left"), a)
-                again = f"{text}{operator}value"
-                return used(b, again, lambda v: self._operation(operator, a, v, node, frame))
-            case (Length(), (int() | float())) | ((int() | float()), Length()):
-                return _scaled(operator, a, b) or self._no(operator, node, frame)
-            case Unresolved(), _:
-                return Unresolved(a.why, a.place)
-            case _, Unresolved():
-                return Unresolved(b.why, b.place)
-            case _:
-                return self._no(operator, node, frame)
-
-    def _no(self, operator: str, node: Node, frame: Frame) -> Unresolved:
-        return self.unknown(f"the operator {operator} on what is not known", node, frame)
-
     def _conditional(self, node: Node, frame: Frame) -> Value:
         known = self.holds(part(node, "condition"), frame)
         yes, no = part(node, "consequence"), part(node, "alternative")
@@ -387,19 +327,3 @@ def _in_parentheses(value: Value) -> Value:
         return value
     expression = f"({value.expression})"
     return FromParameter(value.name, value.default, expression, value.search, value.within)
-
-
-def _operand(node: Node, value: Value) -> str:
-    return text_of(node) if node.type == "number_literal" else str(value)
-
-
-def _scaled(operator: str, a: Value, b: Value) -> Value | None:
-    """A span of time times or by a number."""
-    match a, b:
-        case Length(seconds), (int() | float()) if isinstance(seconds, (int, float)):
-            result = computed(operator, float(seconds), b) if operator in "*/" else None
-            return Length(result) if result is not None else None
-        case ((int() | float()), Length(seconds)) if isinstance(seconds, (int, float)):
-            return Length(float(seconds) * a) if operator == "*" else None
-        case _:
-            return None

@@ -12,15 +12,14 @@ from rebsync.records import dataclass
 from rebsync.reverse.cpp_flow_reach import Definition, Reach, reaching
 from rebsync.reverse.cpp_flow_types import Variable, is_list
 from rebsync.reverse.cpp_flow_writes import (
-    Key,
     Writes,
     called_name,
-    key_of,
     parameter_variable,
     role_of,
 )
-from rebsync.reverse.cpp_index import CppClass, CppFunction
+from rebsync.reverse.cpp_index import CppClass
 from rebsync.reverse.cpp_tree import named, part, text_of
+from rebsync.reverse.cpp_values_afterwards import Afterwards
 from rebsync.reverse.cpp_values_calls import from_parameter
 from rebsync.reverse.cpp_values_made import constructed, default_of
 from rebsync.reverse.cpp_values_names import name_under, resolved
@@ -41,7 +40,7 @@ from rebsync.reverse.cpp_values_plain import (
 )
 from rebsync.reverse.cpp_values_texts import formatted
 from rebsync.reverse.graph import FromParameter, Under
-from rebsync.reverse.roscpp_vocabulary import ENTRIES, HANDLE_TYPE
+from rebsync.reverse.roscpp_vocabulary import HANDLE_TYPE
 
 if TYPE_CHECKING:
     from rebsync.reverse.cpp_values import Values
@@ -54,13 +53,13 @@ class Variables:
     """Finds the values of variables; `values` those of the expressions that they are given."""
 
     values: Values
-    _writes: Writes = field(init=False)
-    _entries: dict[tuple[int, Key], Value] = field(default_factory=dict)
-    _active: set[tuple[int, Key]] = field(default_factory=set)
+    writes: Writes = field(init=False)
+    _later: Afterwards = field(init=False)
 
     def __post_init__(self) -> None:
         values = self.values
-        self._writes = Writes(values.texts, values.types, values.calls)
+        self.writes = Writes(values.texts, values.types, values.calls)
+        self._later = Afterwards(self)
 
     # --- at a place -----------------------------------------------------------------------------
 
@@ -106,23 +105,23 @@ class Variables:
         member = types.member(owner, name)
         if member is None:
             return self.values.unknown("a value that comes while it runs", node, frame)
-        found = self._in_general(member, "", frame)
+        found = self._later.value(member, "", frame)
         return converted(found, types.plain(member.cpp, member.type))
 
     def _at(self, variable: Variable, path: str, node: Node | None, frame: Frame) -> Value:
-        found, sure = self._ways(variable, path, node, frame)
+        found, sure = self.ways_to(variable, path, node, frame)
         if not sure:
             found.append(self._entry(variable, path, node, frame))
         return choice(found)
 
-    def _ways(
+    def ways_to(
         self, variable: Variable, path: str, node: Node | None, frame: Frame
     ) -> tuple[list[Value], bool]:
         """What may be put into a variable before a place, latest first; whether surely one is."""
         if frame.function is None:
             return [], False
         found = []
-        known = self._writes.within(variable, path, frame.function)
+        known = self.writes.within(variable, path, frame.function)
 
         def holds(condition: Node) -> bool | None:
             return self.values.holds(condition, frame)
@@ -293,7 +292,7 @@ class Variables:
             case "member" if variable.owner is not None:
                 return self._member(variable, path, variable.owner, frame)
             case "global":
-                return self._in_general(variable, path, frame)
+                return self._later.value(variable, path, frame)
             case _:
                 return Nothing()
 
@@ -320,7 +319,7 @@ class Variables:
         if argument.type == "this":
             class_ = self.values.texts.class_of(frame.function)
             member = self.values.types.member(class_, path)
-            return self._in_general(member, "", frame) if member is not None else Nothing()
+            return self._later.value(member, "", frame) if member is not None else Nothing()
         if argument.type == "identifier":
             variable = self.values.types.variable(frame.cpp, argument)
             if variable is not None:
@@ -336,15 +335,16 @@ class Variables:
     def _member(self, variable: Variable, path: str, owner: CppClass, frame: Frame) -> Value:
         function, texts = frame.function, self.values.texts
         if function is not None and function.name == owner.name == function.owner:
-            return self._initial(variable, path)
+            return self.initial(variable, path)
         if function is not None and frame.call is not None and frame.caller is not None:
             before = frame.caller.function
             class_ = texts.class_of(before)
             if class_ is not None and owner in texts.lineage(class_) and _on_this(frame.call.node):
                 return self._at(variable, path, frame.call.node, frame.caller)
-        return self._in_general(variable, path, frame)
+        return self._later.value(variable, path, frame)
 
-    def _initial(self, variable: Variable, path: str) -> Value:
+    def initial(self, variable: Variable, path: str) -> Value:
+        """What a member or global holds by its declaration."""
         member = variable.field
         frame = Frame(variable.cpp)
         if member is None:
@@ -358,66 +358,6 @@ class Variables:
             type_ = self.values.types.plain(variable.cpp, variable.type)
             return constructed(self.values, type_, use, frame) if inside else Nothing()
         return self._declared(variable, path, member.node, frame)
-
-    # --- members and globals, wherever they are used --------------------------------------------
-
-    def _in_general(self, variable: Variable, path: str, frame: Frame) -> Value:
-        """What a member or global may hold after the functions that give it a value."""
-        own = frame.function.node.id if frame.function is not None else 0
-        key = own, key_of(variable, path)
-        if key in self._active:
-            return Nothing()
-        if key not in self._entries:
-            self._active.add(key)
-            try:
-                self._entries[key] = self._after_all(variable, path, own)
-            finally:
-                self._active.discard(key)
-        return self._entries[key]
-
-    def _after_all(self, variable: Variable, path: str, own: int) -> Value:
-        """As `_in_general`; `own` is the function that asks, before it gives a value itself."""
-        writers = [w for w in self._writes.writing(variable, path) if w.node.id != own]
-        owner = variable.owner.name if variable.owner is not None else ""
-        makers = [w for w in writers if owner and w.name == w.owner]
-        others = [w for w in writers if w not in makers]
-        called = [w for w in others if self._is_called(w)]
-        at_first = self._after(makers, variable, path)[0] if makers else Nothing()
-        if not makers:
-            at_first = self._initial(variable, path)
-        if not called and not isinstance(at_first, Nothing):
-            return at_first
-        later, sure = self._after(called or others, variable, path)
-        return choice([later]) if sure else choice([later, at_first])
-
-    def _after(
-        self, functions: list[CppFunction], variable: Variable, path: str
-    ) -> tuple[Value, bool]:
-        """What a variable holds at the ends of functions; whether one of them sets it for sure."""
-        found: list[Value] = []
-        always = False
-        frames = [Frame(f.cpp, f) for f in functions]
-        for function, values, sure in self.values.settle_all(
-            frames, partial(self._end, variable, path)
-        ):
-            always = always or sure
-            if not sure and function is not None and function.name == function.owner:
-                values = [*values, self._initial(variable, path)]
-            found.append(choice(values))
-        return choice(found), always
-
-    def _end(
-        self, variable: Variable, path: str, frame: Frame
-    ) -> tuple[CppFunction | None, list[Value], bool]:
-        values, sure = self._ways(variable, path, None, frame)
-        return frame.function, values, sure
-
-    def _is_called(self, function: CppFunction) -> bool:
-        return (
-            function.name in ENTRIES
-            or not function.parameters
-            or any(not u.handed for u in self.values.calls.uses(function))
-        )
 
 
 def _with_default(value: Value, default: Value) -> Value:
