@@ -182,6 +182,16 @@ def _wrapped(scope: Scope, expression: m.Expression, bits: int) -> m.Expression:
     return binary("&", expression, m.IntLiteral(mask))
 
 
+def alternatives(
+    scope: Scope, then: m.Expression, otherwise: m.Expression
+) -> tuple[m.Expression, m.Expression]:
+    """The alternatives of a conditional expression: both numbers, or both truth values."""
+    types = type_in(scope, then), type_in(scope, otherwise)
+    if types[0] is None or types[1] is None or is_boolean(types[0]) == is_boolean(types[1]):
+        return then, otherwise
+    return as_number(scope, then), as_number(scope, otherwise)
+
+
 def operands(
     scope: Scope, operator: str, left: m.Expression, right: m.Expression
 ) -> tuple[str, m.Expression, m.Expression]:

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import field, replace
 
 from tree_sitter import Node
 
+from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.cpp_calls import CppCall, call_of
+from rebsync.reverse.cpp_declarations import CppFunction, CppParameter
 from rebsync.reverse.cpp_tree import Cpp, named, text_of
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.known_functions import ACTS, LOOKS, takes_values, type_takes_values
 from rebsync.reverse.scope import (
+    Called,
     Ignored,
+    Inline,
+    Itself,
     Lambda,
     Meaning,
     Outside,
@@ -52,6 +57,7 @@ class Effects:
     own: frozenset[str] = frozenset()
     written: set[str] = field(default_factory=set)
     everything: bool = False
+    returning: bool = False
     _inner: set[str] = field(default_factory=set)
     _loops: int = 0
 
@@ -73,6 +79,9 @@ class Effects:
                 self._range(node)
             case "break_statement" | "continue_statement" if not self._loops:
                 raise self._touches(node, "this leaves the loop")
+            case "return_statement" if self.returning:
+                for child in node.named_children:
+                    self.check(child)
             case kind if kind in _LEAVES:
                 raise self._touches(node, _LEAVES[kind])
             case "new_expression" | "argument_list" | "initializer_list":
@@ -100,10 +109,11 @@ class Effects:
                 return name, None if name in self._inner else self.scope.meaning(name)
             case "field_expression":
                 target = node.children_by_field_name("argument")[0]
-                if target.type == "this":
+                of = self._root(target)
+                if isinstance(of[1], Itself):
                     name = text_of(node.children_by_field_name("field")[0])
                     return name, self.scope.members.get(name)
-                return self._root(target)
+                return of
             case "subscript_expression" | "pointer_expression":
                 return self._root(node.children_by_field_name("argument")[0])
             case "parenthesized_expression" if len(named(node)) == 1:
@@ -112,7 +122,7 @@ class Effects:
                 name = text_of(node).rpartition("::")[2]
                 return name, self.scope.members.get(name)
             case "this":
-                return "this", Outside(reaches=True)
+                return "this", Itself()
             case "call_expression":
                 target = node.children_by_field_name("function")[0]
                 if target.type == "field_expression":
@@ -122,7 +132,9 @@ class Effects:
     def _is_modelled(self, node: Node, meaning: Meaning | None) -> bool:
         """Whether a change of the variable is one of the model."""
         match meaning:
-            case None | Outside(reaches=False):
+            case None | Outside(reaches=False) | m.StringLiteral() | m.IntLiteral():
+                return False
+            case m.BoolLiteral() | m.FloatLiteral():
                 return False
             case Record(fields):
                 path = self.path_in(node)
@@ -227,20 +239,46 @@ class Effects:
             self._lambda(node, function)
             return
         name = call.name.rpartition("::")[2]
-        if call.target is None or call.target.type == "this":
-            if name in self.scope.functions and not isinstance(self.scope.functions[name], Ignored):
-                raise self._touches(node, f'"{name}" may change what the model has')
+        known = False
+        own = call.target is not None and isinstance(self._root(call.target)[1], Itself)
+        if call.target is None or own:
+            known = self._function(node, name)
             if isinstance(self.scope.meaning(name), Lambda):
                 raise self._touches(node, f'"{name}" may change what the model has')
         else:
             self._method(call, name)
         if name in ACTS:
             raise self._touches(node, f'"{text_of(function)}" {ACTS[name]}')
-        if takes_values(call):
+        if known or takes_values(call):
             for argument in call.arguments:
                 self.check(argument)
         else:
             self._arguments(call.arguments)
+
+    def _function(self, node: Node, name: str) -> bool:
+        """Whether a function of the code is known to do nothing; `Touches` if it is not."""
+        match self.scope.functions.get(name):
+            case None | Ignored():
+                return False
+            case Inline(function) | Called(function=function):
+                if function is not None and self._is_calm(function):
+                    return True
+        raise self._touches(node, f'"{name}" may change what the model has')
+
+    def _is_calm(self, function: CppFunction) -> bool:
+        """Whether a body touches nothing but what it declares, or gets."""
+        if function.body is None or any(_changes(p) for p in function.parameters):
+            return False
+        key = function.body.id
+        if key not in self.scope.calm:
+            self.scope.calm[key] = True  # as far as a call of itself goes
+            inside = Effects(function.cpp, replace(self.scope, locals={}), returning=True)
+            inside._inner = {p.name for p in function.parameters}
+            try:
+                inside.check(function.body)
+            except Touches:
+                self.scope.calm[key] = False
+        return self.scope.calm[key]
 
     def _lambda(self, node: Node, function: Node) -> None:
         if function.type != "lambda_expression":
@@ -274,10 +312,10 @@ class Effects:
                         self.written.add(of)
                     else:
                         raise self._touches(call.node, f'this may change "{of}"')
-            case Runtime() | Lambda():
+            case Runtime() | Lambda() | Itself():
                 raise self._touches(call.node, f'"{of}" acts on the node')
             case _:
-                if name not in LOOKS:
+                if name not in LOOKS and self._is_modelled(target, meaning):
                     raise self._touches(call.node, f'this may change "{of}"')
         self.check(target)
 
@@ -288,7 +326,9 @@ class Effects:
                 self._handed(argument)
                 continue
             name, meaning = self._root(argument)
-            if argument.type == "call_expression" or not self._is_modelled(argument, meaning):
+            if (
+                argument.type == "call_expression" and not _is_element(argument)
+            ) or not self._is_modelled(argument, meaning):
                 self.check(argument)
             elif isinstance(meaning, Record) and meaning.constant:
                 continue
@@ -314,6 +354,18 @@ class Effects:
             else:
                 self.check(child)
         self._inner, self._loops = outer, loops
+
+
+def _is_element(node: Node) -> bool:
+    """Whether a call gives a part of an array, which may be changed there."""
+    call = call_of(node)
+    return call is not None and call.name in ("at", "front", "back", "get", "move", "ref")
+
+
+def _changes(parameter: CppParameter) -> bool:
+    """Whether a function may change what it gets for a parameter."""
+    text = text_of(parameter.node)
+    return ("&" in text or "*" in text) and "const" not in text
 
 
 def is_outside(cpp: Cpp, scope: Scope, node: Node) -> bool:

@@ -12,6 +12,7 @@ from rebsync.records import dataclass
 from rebsync.reverse import cpp_idioms, cpp_mailbox
 from rebsync.reverse.building import binary, is_calm, tight
 from rebsync.reverse.cpp_conversions import (
+    alternatives,
     as_boolean,
     as_number,
     converted_to,
@@ -102,7 +103,8 @@ class CppExpressions:
             case "conditional_expression":
                 condition, then, otherwise = named(node)
                 tested = tight(self.condition(condition), precedence.CHAIN)
-                return m.Conditional(tested, self.read(then), self.read(otherwise), span)
+                ways = alternatives(self.scope, self.read(then), self.read(otherwise))
+                return m.Conditional(tested, *ways, span)
             case "cast_expression":
                 return self.cast(part(node, "type"), part(node, "value"), node)
             case "compound_literal_expression" if len(named(part(node, "value"))) == 1:
@@ -377,6 +379,8 @@ class CppExpressions:
         match self.scope.functions.get(name):
             case Sends() as sends:
                 return cpp_mailbox.send(self, node, sends, arguments, implicit=own is None)
+            case Called(_, server=True) if self.scope.open:
+                raise self.unread(node, f'what "{name}" does is not known here')
             case Called(_, server=True):
                 why = f'"{name}" is a message server: a call runs it at once, a send does not'
                 raise self.unread(node, why, "send the message instead")

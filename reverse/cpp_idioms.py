@@ -79,9 +79,9 @@ def call(
     if (limit := _LIMIT.match(name)) is not None and count == 0:
         least = limit[1] in ("min", "lowest")
         return whole(_LEAST if least else 2**31 - 1, span) if least or limit[1] == "max" else None
-    if count == 1 and not name.startswith("ros::"):
-        if carried(_function(node), reader.scope.enums) is not None:
-            return reader.cast(_function(node), arguments[0], node)
+    kept = carried(_function(node), reader.scope.enums) if count == 1 else None
+    if kept is not None and not name.startswith("ros::"):
+        return reader.cast(_function(node), arguments[0], node)
     return time_called(reader, node, name, list(arguments))
 
 

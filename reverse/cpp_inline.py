@@ -17,7 +17,16 @@ from rebsync.reverse.cpp_places import resolve
 from rebsync.reverse.cpp_tree import named, part, text_of
 from rebsync.reverse.cpp_types import carried
 from rebsync.reverse.cpp_unknowns import Unknown
-from rebsync.reverse.scope import Inline, Lambda, Meaning, Outside, Record, Variable
+from rebsync.reverse.scope import (
+    Inline,
+    Lambda,
+    Meaning,
+    Outside,
+    Publishes,
+    Record,
+    TimerOf,
+    Variable,
+)
 
 if TYPE_CHECKING:
     from rebsync.reverse.cpp_statements import CppStatements
@@ -154,6 +163,9 @@ def _bound(
     meaning = resolve(reader.scope, argument)
     if isinstance(meaning, Record) and (refers or constant or meaning.constant):
         inside.meaning(name, replace(meaning, constant=constant or meaning.constant))
+        return
+    if isinstance(meaning, Publishes | TimerOf):
+        inside.meaning(name, meaning)
         return
     if type_ is not None:
         yield from _copied(reader, inside, name, type_, argument)

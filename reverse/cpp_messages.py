@@ -233,16 +233,13 @@ def published(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None
     through = cpp_mailbox.is_runtime(reader.expressions, target) and len(arguments) == 3
     if through:
         times = cpp_mailbox.times(reader.expressions, arguments[2])
-        target, arguments, plain = arguments[0], arguments[1:2], False
+        target, arguments = arguments[0], arguments[1:2]
     publishes = resolve(reader.scope, target)
     if not isinstance(publishes, Publishes) or len(arguments) != 1:
         return None
-    if publishes.timed and plain:
+    if publishes.timed and not through:
         why = "a message gets its times from the mailbox: without, its receiver drops it"
         raise reader.unread(node, why, "mailbox_.publish(publisher, message, When())")
-    if publishes.timed and not through:
-        why = "this message gets no times: whoever receives it takes it for expired"
-        raise Unread(reader.cpp.span(node), why, "publish it through the mailbox")
     return _sends(reader, node, publishes, arguments[0], times)
 
 

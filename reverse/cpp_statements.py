@@ -18,8 +18,8 @@ from rebsync.reverse.cpp_types import type_of
 from rebsync.reverse.cpp_unknowns import Demote
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.known_functions import LOGGING
-from rebsync.reverse.scope import Inline, Lambda, Meaning, Outside, Record, Scope, Stores, Variable
 from rebsync.reverse.made_locals import tidied
+from rebsync.reverse.scope import Inline, Lambda, Meaning, Outside, Record, Scope, Stores, Variable
 from rebsync.reverse.written import annotation
 
 _NOTHING = frozenset(

@@ -32,7 +32,7 @@ LOOKS = frozenset(
     {
         *("at", "back", "count", "empty", "front", "getNumSubscribers", "getTopic", "hasPending"),
         *("hasStarted", "isLatched", "isValid", "isZero", "length", "max_size", "size", "toNSec"),
-        *("toSec",),
+        *("toSec", "c_str", "str", "cbegin", "cend"),
     }
 )
 _VALUES = frozenset(
@@ -49,6 +49,13 @@ _VALUES = frozenset(
         *("setRPY", "setOrigin", "setRotation", "setX", "setY", "setZ", "setValue"),
     }
 )
+# Member functions of containers, which copy what they get.
+_COPIES = frozenset(
+    {
+        *("push_back", "push", "push_front", "reserve", "resize", "insert", "assign", "at"),
+        *("count", "find", "erase", "substr", "append"),
+    }
+)
 _CONVERSION = re.compile(
     r"(?:::)?(?:u?int(?:8|16|32|64)?(?:_t)?|float|double|bool|char|long|short|unsigned|size_t)\Z"
 )
@@ -59,6 +66,8 @@ def takes_values(call: CppCall) -> bool:
     """Whether a function is known to change none of its arguments."""
     plain = call.name.rpartition("::")[2].partition("<")[0]
     if call.name.startswith(LOGGING) or plain in _VALUES or _CONVERSION.match(call.name):
+        return True
+    if call.target is not None and plain in _COPIES:
         return True
     return call.target is None and plain[:1].isupper() and type_takes_values(call.name)
 

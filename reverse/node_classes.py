@@ -33,6 +33,7 @@ from rebsync.reverse.node_starts import Opening, Step, started_late
 from rebsync.reverse.node_state import State
 from rebsync.reverse.node_tidying import tidy, without_values
 from rebsync.reverse.node_units import Unit
+from rebsync.reverse.node_views import is_header
 from rebsync.reverse.scope import (
     Called,
     Function,
@@ -227,9 +228,12 @@ class NodeClass:
         """The functions outside of classes that member functions can call."""
         if self.unit.owner is None:
             return
+        near = self.unit.files | {f.cpp.source.path for f in self.setup.first}
         for (owner, _), all_of in self.code.definitions.items():
             for function in all_of:
-                if not owner and function.body is not None:
+                here = function.cpp.source.path in near or is_header(function.cpp)
+                others = [f for f in all_of if f.cpp.source.path in near]
+                if not owner and function.body is not None and (here or not others):
                     yield function
 
     def _signature(self, function: CppFunction) -> Called | None:
@@ -249,7 +253,8 @@ class NodeClass:
         if not void and (result is None or result.bits or result.why):
             return None
         name = self.setup.names.give(function.name)
-        return Called(name, takes=tuple(takes), returns=result.type if result else None)
+        returned = result.type if result else None
+        return Called(name, takes=tuple(takes), returns=returned, function=function)
 
     def _sets_up(self, function: CppFunction) -> bool:
         """Whether a function has calls or loops that set the node up."""

@@ -125,6 +125,7 @@ class Called:
     """A local method, or a message server, by its name in the model.
 
     `takes` says what the method gets for each parameter of the function (None: each as it is).
+    `function` is the one in the code, if it is known.
     A callback that other bodies call is `Called` with the method that the model has for its body.
     """
 
@@ -132,6 +133,7 @@ class Called:
     server: bool = False
     takes: tuple[Takes, ...] | None = None
     returns: Type | None = None
+    function: CppFunction | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,6 +222,8 @@ class Scope:
     server: str | None = None
     # Seconds that a unit of the model's time takes.
     unit: Fraction = Fraction(1)
+    # Whether functions, by the ids of their bodies, touch nothing: what has been found out.
+    calm: dict[int, bool] = field(default_factory=dict, compare=False, repr=False)
 
     def meaning(self, name: str) -> Meaning | None:
         """What a name stands for: a local hides a member."""

@@ -47,3 +47,11 @@ void Node::onLocalsHandedOut() {
   sensor_.fill(+m);
   count_ = m;
 }
+void Node::onElements() {
+  sensor_.change(grid_.at(1));
+  std::fill(grid_.begin(), grid_.end(), 0);
+  std::swap(count_, limit_);
+  memset(grid_.data(), 0, 3);
+  names_.push_back(count_);
+  sensor_.change(std::move(kept_));
+}
