@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import sys
 from collections import Counter
 from dataclasses import field
@@ -115,8 +116,16 @@ class _Told:
             head = f"// {given.root}\n" if self.several else ""
             write_output(target, head + model)
         if given.report:
-            named = self.several and not given.report.startswith("{")
-            click.echo((f"{given.root}:\n" if named else "") + given.report, nl=False)
+            click.echo(self._report(given), nl=False)
+
+    def _report(self, given: Answer) -> str:
+        """The report; of several each says of which package it is."""
+        if not self.several:
+            return given.report
+        if not given.report.startswith("{"):
+            return f"{given.root}:\n{given.report}"
+        told = {"path": given.root, **json.loads(given.report)}
+        return json.dumps(told, ensure_ascii=False) + "\n"
 
     def _target(self, given: Answer, suffix: str) -> str:
         """The file for a package: the one that was named, or one in the directory."""

@@ -149,6 +149,12 @@ def test_several_packages_give_a_model_each(workspace: Path) -> None:
         "src/experiment1:",
         "src/experiment2:",
     ]
+    lines = rebsync("extract", "src", "--report", "json", cwd=workspace).out.splitlines()
+    reports = [json.loads(line) for line in lines]
+    assert [(r["path"], r["grade"]) for r in reports] == [
+        ("src/experiment1", "exact"),
+        ("src/experiment2", "exact"),
+    ]
 
 
 def test_several_packages_give_an_object_each(workspace: Path) -> None:
