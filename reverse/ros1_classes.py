@@ -19,6 +19,7 @@ from rebsync.reverse.ros1_bodies import Bodies
 from rebsync.reverse.ros1_free import free_functions
 from rebsync.reverse.ros1_names import (
     annotations_in,
+    enumerators,
     is_interface,
     plain_name,
     state_types,
@@ -28,7 +29,7 @@ from rebsync.reverse.ros1_plumbing import check_plumbing
 from rebsync.reverse.ros1_publishing import publisher
 from rebsync.reverse.ros1_roles import Roles, roles_of, shown_of
 from rebsync.reverse.ros1_sends import add_sends
-from rebsync.reverse.ros1_timers import Timer, checked, server_of_timer, timers_of
+from rebsync.reverse.ros1_timers import Timer, checked, server_of_timer, ticking, timers_of
 from rebsync.reverse.ros1_values import initial_values
 from rebsync.reverse.scope import Called, Function, Member, Outside, Runtime, Scope, Variable
 
@@ -60,17 +61,17 @@ class Classes:
     _scopes: dict[str, Scope] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        self.fields = {t.rpartition("/")[2]: f for t, f in self.messages.items()}
         for owner in self.code.classes.values():
             self.roles[owner.name] = roles_of(self.code, owner)
         for owner in self.code.classes.values():
-            add_sends(self.code, owner, self.roles)
+            add_sends(self.code, owner, self.roles, self.fields)
         messages = {n for roles in self.roles.values() for n in roles.messages}
         messages |= {p.message for roles in self.roles.values() for p in roles.publishers.values()}
         states = {s for c in self.code.classes.values() for s in state_types(self.code, c)}
         self.types = frozenset(messages | states | set(self.code.classes))
         for owner in self.code.classes.values():
             self.timers[owner.name] = tuple(self._timed(owner))
-        self.fields = {t.rpartition("/")[2]: f for t, f in self.messages.items()}
 
     def read(self, wanted: set[str] | None = None) -> tuple[m.ReactiveClass | m.Interface, ...]:
         """All of them, or those that are wanted, in the order of the code."""
@@ -130,7 +131,7 @@ class Classes:
         extends = [b for b in owner.bases if self._is_reactive(b)]
         return m.ReactiveClass(
             class_name(owner.name),
-            (self.roles[owner.name].queue_length or 1) + self._ticking(owner),
+            (self.roles[owner.name].queue_length or 1) + ticking(self.timers[owner.name]),
             tuple(members),
             self._is_abstract(owner),
             class_name(extends[0]) if extends else None,
@@ -138,10 +139,6 @@ class Classes:
             tuple(self._class_annotations(owner)),
             owner.cpp.span(owner.node),
         )
-
-    def _ticking(self, owner: CppClass) -> int:
-        """The places in the queue that timers' own messages need beside those of the code."""
-        return sum(not t.one_shot for t in self.timers[owner.name])
 
     def _class_annotations(self, owner: CppClass) -> Iterator[m.Annotation]:
         """Those of the markers; without markers, those that the set-up shows."""
@@ -212,7 +209,7 @@ class Classes:
         roles = self.roles[owner.name]
         if function.name in (owner.name, f"~{owner.name}", "construct"):
             return False
-        plain = roles.shims | roles.passing | set(roles.sends)
+        plain = roles.shims | roles.passing | set(roles.sends) | set(roles.odd_sends)
         if function.name in _PLUMBING or function.name in plain:
             return False
         if function.pure and not self._declares(owner, function):
@@ -364,7 +361,7 @@ class Classes:
             return publisher(advertised, self.roles, self.messages)
         if type_of(member.type) is None:
             return Outside(reaches=text_of(member.type).startswith("ros::"))
-        return Variable(variable_name(roles, member))
+        return Variable(variable_name(roles, member), type_of(member.type))
 
     def _scope(self, owner: CppClass) -> Scope:
         members: dict[str, Member] = {}
@@ -396,6 +393,8 @@ class Classes:
             self.types,
             frozenset(callable_),
             timers=timers,
+            enumerators=enumerators(self.code),
+            enums=frozenset(e.enum for all_ in self.code.enumerators.values() for e in all_),
             messages=self.messages,
             unit=self.unit,
         )

@@ -67,3 +67,16 @@ def annotations_in(markers: Collection[str], owner: CppClass) -> tuple[m.Annotat
     """The annotations that markers in a class hold."""
     span = owner.cpp.span(owner.node)
     return tuple(a for text in markers if (a := annotation(text, span)) is not None)
+
+
+def enumerators(code: Code) -> dict[str, int]:
+    """The constants of enumerations by their names, alone and after the enumeration's.
+
+    Not where there are several of a name with different values.
+    """
+    values: dict[str, set[int | None]] = {}
+    for name, all_of in code.enumerators.items():
+        for each in all_of:
+            for prefix in {"", f"{each.enum}::", f"{each.scope}::"} - {"::"}:
+                values.setdefault(f"{prefix}{name}", set()).add(each.value)
+    return {n: v for n, vs in values.items() for v in vs if len(vs) == 1 and v is not None}

@@ -15,7 +15,6 @@ from rebsync.reverse.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.cpp_tree import named, part, text_of
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.ros1_roles import Roles, Taken, call_in
-from rebsync.reverse.ros1_sends import odd_in_send
 from rebsync.reverse.ros1_timers import timers_of
 
 _SETS_UP = frozenset({"param", "advertise", "advertiseAll", "readArray", "unused"})
@@ -49,8 +48,8 @@ def check_plumbing(
         elif function.name in roles.shims:
             odd = _odd_in_shim(function, roles, fields)
             why = "this does more than to hand a message to its handler"
-        elif function.name in roles.sends:
-            odd = _odd_send(function, lineage, fields)
+        elif function.name in roles.odd_sends:
+            odd = iter(roles.odd_sends[function.name])
             why = "this does more than to send its arguments"
         elif function.name == "publishState":
             odd = (s for s in _statements(function) if not _tells(s))
@@ -130,16 +129,6 @@ def _tells(statement: Node) -> bool:
         return text_of(target).startswith("msg.") and next(calls_in(value), None) is None
     call = call_of(expression)
     return call is not None and call.name in _TELLS
-
-
-def _odd_send(
-    function: CppFunction, lineage: Sequence[Roles], fields: Mapping[str, Collection[str]]
-) -> Iterator[Node]:
-    handlers = {f: s for roles in reversed(lineage) for f, s in roles.handlers.items()}
-    made = next((s for s in _statements(function) if s.type == "declaration"), None)
-    type_ = text_of(part(made, "type")).rpartition("::")[2] if made is not None else ""
-    order = list(fields[type_]) if type_ in fields else None
-    return odd_in_send(function, lineage[0].sends[function.name], handlers, order)
 
 
 def _odd_in_shim(

@@ -71,13 +71,14 @@ class Roles:
     parameter server and the default, `annotations` those that the set-up of a server shows; of
     overloads that take equally many arguments the first one's first. `topics` are those of shims
     by their names, `wired` the calls that make them and publishers of the rebec; `passing` are
-    callbacks of timers that only post a message.
+    callbacks of timers that only post a message; `odd_sends` what functions that send do besides.
     """
 
     handlers: dict[str, str] = field(default_factory=dict)
     messages: dict[str, str] = field(default_factory=dict)
     shims: set[str] = field(default_factory=set)
     sends: dict[str, Sends] = field(default_factory=dict)
+    odd_sends: dict[str, list[Node]] = field(default_factory=dict)
     publishers: dict[str, Advertised] = field(default_factory=dict)
     known: dict[str, str] = field(default_factory=dict)
     globals: dict[str, tuple[str, Node]] = field(default_factory=dict)

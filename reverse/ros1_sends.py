@@ -5,7 +5,7 @@ Whatever else a function does makes it a function of the model, whose body shows
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from tree_sitter import Node
 
@@ -18,8 +18,16 @@ from rebsync.reverse.ros1_roles import Advertised, Roles, call_in, server_of
 from rebsync.reverse.scope import Sends
 
 
-def add_sends(code: Code, owner: CppClass, all_roles: dict[str, Roles]) -> None:
-    """Reads which functions of a class send what to whom."""
+def add_sends(
+    code: Code,
+    owner: CppClass,
+    all_roles: dict[str, Roles],
+    fields: Mapping[str, Collection[str]],
+) -> None:
+    """Reads which functions of a class send what to whom, and which do more than that.
+
+    `fields` are those of each message type, in their order.
+    """
     lineage = [all_roles[c.name] for c in code.lineage(owner.name)]
     publishers = {n: p for roles in reversed(lineage) for n, p in roles.publishers.items()}
     servers = {m: s for roles in all_roles.values() for m, s in roles.messages.items()}
@@ -29,7 +37,12 @@ def add_sends(code: Code, owner: CppClass, all_roles: dict[str, Roles]) -> None:
             continue
         for call in code.calls_of(function):
             sends = _sent(code, function, call, publishers, servers)
-            if sends is not None:
+            if sends is None:
+                continue
+            odd = list(_odd_send(function, sends, lineage, fields))
+            if odd:
+                roles.odd_sends[function.name] = odd
+            else:
                 roles.sends[function.name] = sends
 
 
@@ -61,7 +74,21 @@ def _sent(
     return Sends(publisher.known, server, len(function.parameters) - others)
 
 
-def odd_in_send(
+def _odd_send(
+    function: CppFunction,
+    sends: Sends,
+    lineage: Sequence[Roles],
+    fields: Mapping[str, Collection[str]],
+) -> Iterator[Node]:
+    handlers = {f: s for roles in reversed(lineage) for f, s in roles.handlers.items()}
+    statements = named(function.body) if function.body is not None else []
+    made = next((s for s in statements if s.type == "declaration"), None)
+    type_ = text_of(part(made, "type")).rpartition("::")[2] if made is not None else ""
+    order = list(fields[type_]) if type_ in fields else None
+    return _odd_in_send(function, sends, handlers, order)
+
+
+def _odd_in_send(
     function: CppFunction, sends: Sends, handlers: Mapping[str, str], fields: Sequence[str] | None
 ) -> Iterator[Node]:
     """Statements that do not put one parameter after the other into the message, or send it.

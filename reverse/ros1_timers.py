@@ -6,7 +6,7 @@ does. Anything else that a callback does, it does while a body may run: that is 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 
 from tree_sitter import Node
@@ -101,6 +101,11 @@ def checked(timer: Timer, within: str, findings: Findings) -> None:
         hint = "let it post a message to the mailbox, and do nothing else"
         unread = Unread(timer.function.cpp.span(timer.call.node), why, hint)
         findings.unreadable(timer.function.cpp.source, unread, within)
+
+
+def ticking(timers: Iterable[Timer]) -> int:
+    """The places in the queue that timers' own messages need beside those of the code."""
+    return sum(not t.one_shot for t in timers)
 
 
 def server_of_timer(timer: Timer, name: str) -> TimerOf:
