@@ -16,7 +16,8 @@ from rebsync.reverse.findings import Findings
 from rebsync.reverse.graph import Fact, Graph, PublisherFact, SubscriptionFact
 from rebsync.reverse.launched import Launch
 from rebsync.reverse.message_types import MessageTypes
-from rebsync.reverse.node_classes import Common, NodeClass
+from rebsync.reverse.node_bodies import Bodies, Common
+from rebsync.reverse.node_classes import NodeClass
 from rebsync.reverse.node_listing import Listing
 from rebsync.reverse.node_names import Names, class_word
 from rebsync.reverse.node_parameters import Given
@@ -28,6 +29,7 @@ from rebsync.reverse.node_state import State
 from rebsync.reverse.node_times import Times
 from rebsync.reverse.node_units import Start, Unit, Units
 from rebsync.reverse.node_values import Instance
+from rebsync.reverse.node_views import all_units
 from rebsync.reverse.node_wiring import Wiring, instances
 from rebsync.reverse.scope import Target
 from rebsync.source import Source
@@ -67,16 +69,15 @@ class NodeSystem:
         if self.generated:
             found = tuple(p for p in found if not p.name.endswith(_STAND_IN))
         reading = Units(self.code, self.graph, found, self.generated)
-        units, starts = reading.all()
+        units, starts = all_units(self.code, self.graph, found, self.generated)
         if not units:
             return Nodes((), (), False)
         types = MessageTypes.of(self.files, self.package)
         common = self._common(types, units)
+        owners = frozenset(u.owner.name for u in units if u.owner is not None)
         for unit in units:
             names = Names.beside(())
-            self._states[unit.name] = State(
-                self.code, unit, types, names, frozenset(u.name for u in units), common.enums
-            )
+            self._states[unit.name] = State(unit.code, unit, types, names, owners, common.enums)
         served = {u.name: servers(u, types, self._states[u.name].names) for u in units}
         names = Names.beside(())
         classes = {u.name: names.give(_class(u)) for u in units}
@@ -167,7 +168,7 @@ class _Reader:
         state = self.system._states[unit.name]
         served = self.wiring.servers[unit.name]
         start = alike[0].start if alike else None
-        first = first_functions(self.system.code, unit, self.starts)
+        first = first_functions(unit.code, unit, self.starts)
         facts = unit.facts
         if start is not None and start.entry is not None and self._is_alone(start):
             first = [*first, start.entry]
@@ -177,7 +178,7 @@ class _Reader:
         state_names = state.names
         state.names = names
         setup = Setup(
-            self.system.code,
+            unit.code,
             self.system.graph,
             state,
             served,
@@ -196,20 +197,18 @@ class _Reader:
         opens = opening(unit, state, start, self.starts)
         name = self.kinds[self.wiring.kinds[alike[0].name]] if alike else self.classes[unit.name]
         known = self._known(unit, alike, names)
-        reader = NodeClass(
-            self.system.code,
-            name,
+        bodies = Bodies(
+            unit.code,
             unit,
             served,
             state,
             setup,
-            self.types,
             self.common,
-            [(n, c) for n, c, _ in known],
             self._targets(alike, known),
             opens,
             findings,
         )
+        reader = NodeClass(name, bodies, [(n, c) for n, c, _ in known])
         read = reader.read()
         state.note(findings, unit.name)
         state.names = state_names
@@ -281,7 +280,7 @@ def _value(parameter: Given, index: int) -> bool | int | float | str:
 
 
 def _class(unit: Unit) -> str:
-    return class_name(unit.name) if unit.owner is not None else class_word(unit.name)
+    return class_name(unit.owner.name) if unit.owner is not None else class_word(unit.name)
 
 
 def _each(units: Sequence[Unit]) -> list[Start]:

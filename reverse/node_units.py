@@ -33,7 +33,7 @@ class Unit:
     """What becomes a reactive class.
 
     `functions` are its functions with bodies, of overridden ones the last; `owner` is None for
-    what a program does outside of classes.
+    what a program does outside of classes. `code` is what its functions can name.
     """
 
     name: str
@@ -41,12 +41,13 @@ class Unit:
     lineage: tuple[CppClass, ...]
     functions: tuple[CppFunction, ...]
     facts: tuple[Fact, ...]
+    code: Code
     program: Program | None = None
 
     @property
     def names(self) -> frozenset[str]:
         """The classes that its functions belong to."""
-        return frozenset({c.name for c in self.lineage} | ({self.name} if self.lineage else set()))
+        return frozenset(c.name for c in self.lineage)
 
     def constructors(self, of: CppClass) -> list[CppFunction]:
         """The constructors, with bodies, of one of its classes."""
@@ -137,7 +138,7 @@ class Units:
 
     def _classes(self) -> list[str]:
         """The classes with callbacks, publishers or timers, inherited ones counted."""
-        with_facts = {o for f in self.graph.facts if _connects(f) for o in [self.owner_of(f)] if o}
+        with_facts = {o for f in self._facts() if _connects(f) for o in [self.owner_of(f)] if o}
         names = [
             n
             for n, c in self.code.classes.items()
@@ -178,10 +179,15 @@ class Units:
                     functions.setdefault(key, function)
         facts = [
             f
-            for f in self.graph.facts
+            for f in self._facts()
             if self.owner_of(f) in names or (not isinstance(f, _CONNECTS) and f.site.owner in names)
         ]
-        return Unit(name, lineage[0], lineage, tuple(functions.values()), tuple(facts))
+        return Unit(name, lineage[0], lineage, tuple(functions.values()), tuple(facts), self.code)
+
+    def _facts(self) -> Iterator[Fact]:
+        """The facts that calls in these files give; there may be more files in the package."""
+        paths = {cpp.source.path for cpp in self.code.files}
+        return (f for f in self.graph.facts if f.site.cpp.source.path in paths)
 
     # --- programs -------------------------------------------------------------------------------
 
@@ -200,7 +206,7 @@ class Units:
             and f.site.owner not in self.code.classes
             and program.has(f.site.cpp)
         ]
-        return Unit(program.name, None, (), tuple(functions), tuple(facts), program)
+        return Unit(program.name, None, (), tuple(functions), tuple(facts), self.code, program)
 
 
 def _connects(fact: Fact) -> bool:

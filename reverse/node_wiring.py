@@ -55,7 +55,11 @@ def _own(start: Start) -> str:
     """What tells an object from the others of its program."""
     if start.made is not None and start.made.variable:
         return start.made.variable.removeprefix("this->").rstrip("_")
-    return start.unit.name
+    return _class(start)
+
+
+def _class(start: Start) -> str:
+    return start.unit.owner.name if start.unit.owner is not None else start.unit.name
 
 
 def _runs(node: LaunchedNode, start: Start, package: str) -> bool:
