@@ -39,7 +39,7 @@ def may_be_deep(data: bytes) -> bool:
                 return True
         elif depth:
             depth -= 1
-    if data.count(b"else") > _MANY or data.count(b"for") > _LONG:
+    if data.count(b"else") > _MANY or data.count(b"for") > _LONG or data.count(b"#") > _LONG:
         return True
     pieces = data.translate(_STATEMENTS).split(b";")
     long = (p for p in pieces if len(p) > _LONG)
