@@ -147,9 +147,24 @@ class Listing:
                 why = f"it is started only `{launched.only_if[-1]}`: in the model it always is"
                 self._approximated(Place(launched.source, launched.span), why)
         for together in nodes.values():
+            self._common_variables(
+                list({i.start.unit.name: i.start.unit for i in together}.values())
+            )
             if len(together) > 1:
                 why = "objects of one program take turns; in the model they act by themselves"
                 self._made(together[1], why)
+
+    def _common_variables(self, units: list[Unit]) -> None:
+        """Variables outside of classes that several rebecs of one program use."""
+        if len(units) < 2:
+            return
+        uses = [{text_of(n) for _, body in bodies(u) for n in _words(body)} for u in units]
+        for name, variables in units[0].code.variables.items():
+            constant = any((v.cpp.source.path, name) in units[0].code.constants for v in variables)
+            if sum(name in words for words in uses) > 1 and not constant:
+                place = Place(variables[0].cpp.source, variables[0].cpp.span(variables[0].node))
+                why = f'several rebecs of one program share "{name}": in the model each has its own'
+                self._unread(place, why, units[0].name)
 
     def _made(self, instance: Instance, why: str) -> None:
         program, made = instance.start.program, instance.start.made
