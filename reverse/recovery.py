@@ -30,6 +30,7 @@ from rebsync.reverse.ros1_classes import Classes
 from rebsync.reverse.ros1_messages import own_messages
 from rebsync.reverse.ros1_names import variable_name
 from rebsync.reverse.ros_calls import graph_of
+from rebsync.reverse.unparsed import unparsed
 from rebsync.reverse.written import annotation
 from rebsync.source import Source
 from rebsync.static.values import converted
@@ -60,6 +61,7 @@ def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
     """
     findings = Findings()
     trees = [parse(source) for path, source in sorted(files.items()) if path.endswith(_CODE)]
+    findings.all += [f for cpp in trees for f in unparsed(cpp)]
     code = Code.of(trees)
     graph = graph_of(code)
     package = _package(files)

@@ -190,9 +190,10 @@ def _queue_length(constructor: CppFunction) -> int | None:
     """The number given to the mailbox, or as default to the parameter that is passed on to it."""
     if constructor.initialisers is not None:
         for initialiser in named(constructor.initialisers):
-            for argument in named(initialiser.named_children[-1]):
-                if text_of(argument).isdecimal():
-                    return int(text_of(argument))
+            for argument in named(initialiser)[-1:]:
+                for value in named(argument):
+                    if text_of(value).isdecimal():
+                        return int(text_of(value))
     for parameter in constructor.parameters:
         default = parameter.node.child_by_field_name("default_value")
         if default is not None and text_of(default).isdecimal():
