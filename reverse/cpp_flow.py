@@ -78,6 +78,8 @@ class Texts:
     _everywhere: dict[str, list[tuple[Cpp, Node]]] = field(default_factory=dict)
     _functions: dict[int, CppFunction] | None = None
     _starts: dict[tuple[int, str], list[int]] = field(default_factory=dict)
+    _lineages: dict[int, list[CppClass]] = field(default_factory=dict)
+    _descendants: dict[int, list[CppClass]] = field(default_factory=dict)
     _homes: dict[int, CppFunction | None] = field(default_factory=dict)
 
     def data(self, cpp: Cpp) -> bytes:
@@ -174,20 +176,31 @@ class Texts:
 
     def lineage(self, class_: CppClass | None) -> list[CppClass]:
         """A class and those it descends from, nearest first."""
-        found: list[CppClass] = []
-        waiting = [class_] if class_ is not None else []
-        while waiting:
-            current = waiting.pop(0)
-            if current not in found:
-                found.append(current)
-                above = [self.class_near(b, current.cpp) for b in current.bases]
-                waiting += [c for c in above if c is not None]
-        return found
+        if class_ is None:
+            return []
+        key = class_.node.id
+        if key not in self._lineages:
+            found: dict[int, CppClass] = {}
+            waiting = [class_]
+            while waiting:
+                current = waiting.pop(0)
+                if current.node.id not in found:
+                    found[current.node.id] = current
+                    above = [self.class_near(b, current.cpp) for b in current.bases]
+                    waiting += [c for c in above if c is not None]
+            self._lineages[key] = list(found.values())
+        return self._lineages[key]
 
     def descendants(self, class_: CppClass) -> list[CppClass]:
         """The classes that descend from a class."""
-        every = [c for classes in self.code.all_classes.values() for c in classes]
-        return [c for c in every if c.bases and c is not class_ and class_ in self.lineage(c)]
+        key = class_.node.id
+        if key not in self._descendants:
+            every = [c for classes in self.code.all_classes.values() for c in classes if c.bases]
+            below = [c for c in every if c is not class_]
+            self._descendants[key] = [
+                c for c in below if any(above is class_ for above in self.lineage(c))
+            ]
+        return self._descendants[key]
 
 
 def nearness(one: Cpp, other: Cpp) -> tuple[int, int]:

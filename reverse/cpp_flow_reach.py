@@ -197,7 +197,8 @@ def reaching(
         open_ = [b for b in branches if not _met(b, holds)]
         if any(holds_not(b, holds) for b in open_):
             continue
-        if not open_:
+        again = use is not None and definition.at > use.start_byte  # in the round before
+        if not open_ and not again:
             yield Reach(definition, True)
             return
         yield Reach(definition, False, any(_if_unset(b, definition) for b in open_))
@@ -299,6 +300,16 @@ def _if_unset(branch: Branch, definition: Definition) -> bool:
         return not negated
     read = re.search(rf"\b(?:getParam\w*|get|getCached)\s*\([^&|]*\b{name}\s*\)", text)
     return negated and read is not None
+
+
+def in_loop(definition: Definition, scope: Node | None) -> bool:
+    """Whether a definition may be made more than once while a variable of a scope lives."""
+    above = definition.place.parent
+    while above is not None and above != scope and above.type != "function_definition":
+        if above.type in _LOOPS:
+            return True
+        above = above.parent
+    return False
 
 
 def taken(place: Node, holds: Callable[[Node], bool | None]) -> bool | None:

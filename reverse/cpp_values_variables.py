@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.cpp_flow_reach import Definition, Reach, reaching
+from rebsync.reverse.cpp_flow_reach import Definition, Reach, in_loop, reaching
 from rebsync.reverse.cpp_flow_types import Variable, is_list
 from rebsync.reverse.cpp_flow_writes import (
+    Key,
     Writes,
     called_name,
+    key_of,
     parameter_variable,
     role_of,
 )
@@ -45,6 +47,7 @@ from rebsync.reverse.roscpp_vocabulary import HANDLE_TYPE
 if TYPE_CHECKING:
     from rebsync.reverse.cpp_values import Values
 
+_DEEPEST = 60
 _OUTSIDE = "handed in by callers outside of the files"
 
 
@@ -54,6 +57,7 @@ class Variables:
 
     values: Values
     writes: Writes = field(init=False)
+    _asked: set[tuple[Key, int, int]] = field(default_factory=set)
     _later: Afterwards = field(init=False)
 
     def __post_init__(self) -> None:
@@ -109,10 +113,18 @@ class Variables:
         return converted(found, types.plain(member.cpp, member.type))
 
     def _at(self, variable: Variable, path: str, node: Node | None, frame: Frame) -> Value:
-        found, sure = self.ways_to(variable, path, node, frame)
-        if not sure:
-            found.append(self._entry(variable, path, node, frame))
-        return choice(found)
+        key = key_of(variable, path), node.id if node is not None else 0, id(frame)
+        if key in self._asked or len(self._asked) > _DEEPEST:
+            self.values.cuts += 1
+            return Nothing()
+        self._asked.add(key)
+        try:
+            found, sure = self.ways_to(variable, path, node, frame)
+            if not sure:
+                found.append(self._entry(variable, path, node, frame))
+            return choice(found)
+        finally:
+            self._asked.discard(key)
 
     def ways_to(
         self, variable: Variable, path: str, node: Node | None, frame: Frame
@@ -142,6 +154,9 @@ class Variables:
 
     def _given(self, reach: Reach, variable: Variable, path: str, frame: Frame) -> Value:
         definition = reach.definition
+        if self._repeats(definition, variable, frame):
+            why = "changes from one round of a loop to the next"
+            return self.values.unknown(why, definition.node, frame)
         match definition.how:
             case "value":
                 return self._as(variable, path, self.values.value(definition.node, frame))
@@ -164,6 +179,18 @@ class Variables:
                 return self._element(definition, frame)
             case _:
                 return self.values.unknown(definition.text, definition.node, frame)
+
+    def _repeats(self, definition: Definition, variable: Variable, frame: Frame) -> bool:
+        """Whether a loop makes a value of the value of the round before."""
+        if definition.how not in ("value", "added", "given"):
+            return False
+        node = definition.node
+        texts = self.values.texts
+        own = texts.within(frame.cpp, variable.text, node.start_byte, node.end_byte)
+        least = {"value": 1, "added": 0, "given": 2}[definition.how]
+        if len(own) < least:
+            return False
+        return in_loop(definition, variable.scope)
 
     def _element(self, definition: Definition, frame: Frame) -> Value:
         """What a loop over a list that is known takes from it."""

@@ -21,6 +21,7 @@ from rebsync.reverse.roscpp_vocabulary import (
     HANDLE,
     HANDLE_TYPE,
     LEAST,
+    LIBRARY,
     NODELETS,
     RATES,
     TRANSPORTS,
@@ -43,7 +44,7 @@ def graph_of(code: Code) -> Graph:
             if place is None or place.start_byte != match.start() or place.named_child_count:
                 continue
             for asked in _asked(facts.values, cpp, place, match.group().decode()):
-                if not _left_out(place):
+                if asked.site.owner not in LIBRARY and not _left_out(place):
                     found += facts.of(asked)
     return Graph(tuple(sorted(found, key=_order)))
 

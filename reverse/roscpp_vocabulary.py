@@ -44,6 +44,7 @@ class Ask:
     options: str | None = None
 
 
+HANDLE_TYPE = "NodeHandle"
 _IMAGE = "sensor_msgs/Image"
 _IMAGES = "image_transport"
 _SUBSCRIBE = ("name", "depth", "callback")
@@ -112,6 +113,8 @@ FILTERS: dict[str, Ask] = {
         Kind.SUBSCRIPTION, ("handle", "name", "depth"), type=_IMAGE, transport=_IMAGES
     ),
 }
+# Classes of the client library, whose own code asks for nothing.
+LIBRARY = frozenset({HANDLE_TYPE, *TRANSPORTS, *FILTERS})
 FILTER_SCOPES = {"Subscriber": "message_filters", "SubscriberFilter": "image_transport"}
 
 # What loops wait with.
@@ -171,7 +174,6 @@ OWN_HANDLES = {
 }
 # Functions of a nodelet that give its name, with which private names begin.
 OWN_NAMES = frozenset({"getName"})
-HANDLE_TYPE = "NodeHandle"
 
 # How many arguments methods have at least that are taken for those of a node handle though no file
 # declares what they are called on: members of classes of other packages.
