@@ -13,6 +13,7 @@ from rebsync.reverse.cpp_declarations import CppFunction, CppParameter
 from rebsync.reverse.cpp_tree import Cpp, named, text_of
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.known_functions import ACTS, LOOKS, takes_values, type_takes_values
+from rebsync.reverse.macros import hides
 from rebsync.reverse.scope import (
     Called,
     Ignored,
@@ -258,6 +259,8 @@ class Effects:
     def _function(self, node: Node, name: str) -> bool:
         """Whether a function of the code is known to do nothing; `Touches` if it is not."""
         match self.scope.functions.get(name):
+            case None if hides(name):
+                raise self._touches(node, f'"{name}" may be a macro that hides statements')
             case None | Ignored():
                 return False
             case Inline(function) | Called(function=function):
