@@ -29,7 +29,7 @@ from tree_sitter import Language, Parser
 
 from rebsync.reverse.packages import CODE
 from rebsync.reverse.parallel import each
-from rebsync.reverse.reading import Chosen, packages
+from rebsync.reverse.reading import Chosen, all_listings, packages
 from rebsync.reverse.recovery import extract
 
 
@@ -65,7 +65,8 @@ def _options() -> argparse.Namespace:
 
 def compare(root: str) -> None:
     """Prints times, speeds and their ratio."""
-    texts = [p.read_bytes() for p in sorted(Path(root).rglob("*")) if _is_code(p, root)]
+    found = (path for listing in all_listings([root]) for path in listing.files.values())
+    texts = [Path(path).read_bytes() for path in found if Path(path).suffix in CODE]
     size = sum(map(len, texts)) / 1e6
     bare = best(lambda: parse_all(texts))
     alone = best(lambda: [work(given) for given in packages([root])])
@@ -99,12 +100,6 @@ def work(given: Chosen) -> tuple[int, int, float]:
     """What is done with a package: the process, its memory now and the classes found."""
     found = extract(given.files, given.only)
     return os.getpid(), len(found.model.classes), memory()
-
-
-def _is_code(path: Path, root: str) -> bool:
-    """Whether a file is of C++, and in no hidden directory."""
-    hidden = any(part.startswith(".") for part in path.relative_to(root).parts)
-    return path.suffix in CODE and not hidden
 
 
 def _size(given: Chosen) -> int:
