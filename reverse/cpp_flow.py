@@ -5,7 +5,7 @@ A name is found in the text first and then looked up in the tree, so that nobody
 
 from __future__ import annotations
 
-from bisect import bisect_left
+from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterator
 from dataclasses import field
 
@@ -18,6 +18,8 @@ from rebsync.reverse.cpp_tree import Cpp, part, text_of
 
 # Macros of tests that make a member function of the class they name first.
 _FIXTURES = frozenset({"TEST_F", "TEST_P", "TYPED_TEST"})
+# How many functions may stand within one another, in classes inside of functions.
+_NESTED = 12
 _NAMES = frozenset(
     {"identifier", "field_identifier", "type_identifier", "namespace_identifier", "this"}
 )
@@ -77,6 +79,7 @@ class Texts:
     _found: dict[tuple[int, str], list[Node]] = field(default_factory=dict)
     _everywhere: dict[str, list[tuple[Cpp, Node]]] = field(default_factory=dict)
     _functions: dict[int, CppFunction] | None = None
+    _ranges: dict[int, tuple[list[int], list[tuple[int, int, CppFunction]]]] | None = None
     _starts: dict[tuple[int, str], list[int]] = field(default_factory=dict)
     _lineages: dict[int, list[CppClass]] = field(default_factory=dict)
     _descendants: dict[int, list[CppClass]] = field(default_factory=dict)
@@ -127,6 +130,9 @@ class Texts:
 
     def function_around(self, cpp: Cpp, node: Node) -> CppFunction | None:
         """The function in whose definition a node stands; lambdas are part of it."""
+        found = self._function_at(cpp, node.start_byte)
+        if found is not None:
+            return found if node != found.node else None
         home = climb(node, lambda n: n.type == "function_definition")
         if home is None:
             return None
@@ -138,6 +144,25 @@ class Texts:
                 known = function_of(cpp, home, unscoped(name) if name is not None else "")
             self._homes[home.id] = known
         return self._homes[home.id]
+
+    def _function_at(self, cpp: Cpp, at: int) -> CppFunction | None:
+        """The innermost function of the index around a byte."""
+        if self._ranges is None:
+            self._ranges = {}
+            ranges: dict[int, list[tuple[int, int, CppFunction]]] = {}
+            for function in self.functions().values():
+                if (node := function.node).type == "function_definition":
+                    span = node.start_byte, node.end_byte, function
+                    ranges.setdefault(id(function.cpp), []).append(span)
+            for key, spans in ranges.items():
+                spans.sort(key=lambda s: s[:2])
+                self._ranges[key] = [s[0] for s in spans], spans
+        starts, spans = self._ranges.get(id(cpp), ([], []))
+        index = bisect_right(starts, at) - 1
+        for back in range(index, max(index - _NESTED, -1), -1):
+            if spans[back][0] <= at < spans[back][1]:
+                return spans[back][2]
+        return None
 
     def functions(self) -> dict[int, CppFunction]:
         """The functions of all files by their nodes."""

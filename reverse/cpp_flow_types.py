@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import field
 
 from tree_sitter import Node
@@ -53,6 +54,7 @@ class Types:
 
     texts: Texts
     _variables: dict[int, Variable | None] = field(default_factory=dict)
+    _locals: dict[tuple[int, str], list[tuple[int, int, Variable]]] = field(default_factory=dict)
     _types: dict[int, str] = field(default_factory=dict)
 
     # --- variables ------------------------------------------------------------------------------
@@ -72,22 +74,28 @@ class Types:
         function = self.texts.function_around(cpp, node)
         if function is None or node.type == "qualified_identifier":
             return None
-        home = function.node
-        best: Variable | None = None
-        for place in self.texts.within(cpp, name, home.start_byte, node.end_byte):
+        key = function.node.id, name
+        if key not in self._locals:
+            self._locals[key] = list(self._declared(function, name))
+        at = node.start_byte
+        seen = [v for v in self._locals[key] if v[0] <= at < v[1] and v[2].name.start_byte <= at]
+        return max(seen, key=lambda v: v[0])[2] if seen else None
+
+    def _declared(self, function: CppFunction, name: str) -> Iterator[tuple[int, int, Variable]]:
+        """The local variables of a name, with the bytes between which they can be named."""
+        home, cpp = function.node, function.cpp
+        places = self.texts.within(cpp, name, home.start_byte, home.end_byte)
+        for place in reversed(places):
             declaration = declaration_of(place)
             scope = scope_of(declaration) if declaration is not None else None
             if declaration is None or scope is None:
-                continue
-            if not scope.start_byte <= node.start_byte < scope.end_byte:
                 continue
             kind, index = "local", 0
             if declaration.type.endswith("parameter_declaration"):
                 kind, index = _parameter(function, declaration, scope)
             type_ = declaration.child_by_field_name("type")
-            if best is None or best.scope is None or scope.start_byte >= best.scope.start_byte:
-                best = Variable(kind, name, cpp, place, type_, scope, index=index)
-        return best
+            variable = Variable(kind, name, cpp, place, type_, scope, index=index)
+            yield scope.start_byte, scope.end_byte, variable
 
     def _member(self, cpp: Cpp, node: Node, name: str) -> Variable | None:
         class_ = self.texts.class_of(self.texts.function_around(cpp, node))

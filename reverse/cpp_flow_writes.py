@@ -10,7 +10,8 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.cpp_flow import Texts, climb
 from rebsync.reverse.cpp_flow_calls import Calls
-from rebsync.reverse.cpp_flow_reach import Definition, definitions
+from rebsync.reverse.cpp_flow_definitions import Definition, definitions
+from rebsync.reverse.cpp_flow_reach import Located, located
 from rebsync.reverse.cpp_flow_types import Types, Variable, unscoped_member
 from rebsync.reverse.cpp_index import CppFunction
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
@@ -35,16 +36,17 @@ class Writes:
     calls: Calls
     _writers: dict[Key, list[CppFunction]] = field(default_factory=dict)
     _changing: dict[tuple[int, int, str], bool] = field(default_factory=dict)
-    _found: dict[tuple[int, Key], list[Definition]] = field(default_factory=dict)
+    _found: dict[tuple[int, Key], list[Located]] = field(default_factory=dict)
 
-    def within(self, variable: Variable, path: str, function: CppFunction) -> list[Definition]:
-        """The definitions of a variable, or of a field of it, in a function."""
+    def within(self, variable: Variable, path: str, function: CppFunction) -> list[Located]:
+        """The definitions of a variable, or of a field of it, in a function, the latest first."""
         key = function.node.id, key_of(variable, path)
         if key not in self._found:
             self._found[key] = []  # while they are looked for
-            self._found[key] = [*self._own(variable, path, function)]
+            found = [*self._own(variable, path, function)]
             if variable.kind in ("member", "global"):
-                self._found[key] += self._by_calls(variable, path, function)
+                found += self._by_calls(variable, path, function)
+            self._found[key] = located(found)
         return self._found[key]
 
     def _own(self, variable: Variable, path: str, function: CppFunction) -> Iterator[Definition]:

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
-from rebsync.reverse.cpp_flow_reach import Definition, reaching
+from rebsync.reverse.cpp_flow_definitions import Definition
+from rebsync.reverse.cpp_flow_reach import located, reaching
 from rebsync.reverse.cpp_flow_types import Variable
 from rebsync.reverse.cpp_tree import named, part, text_of
 from rebsync.reverse.cpp_values_numbers import added
@@ -40,7 +41,7 @@ def streamed(values: Values, variable: Variable, node: Node, frame: Frame) -> Va
     for place in places[1:]:
         pieces = _pieces(place)
         definition = Definition("value", place, pieces[-1] if pieces else place)
-        reach = list(reaching([definition], node, lambda c: values.holds(c, frame)))
+        reach = list(reaching(located([definition]), node, lambda c: values.holds(c, frame)))
         if not pieces or not reach or not reach[0].sure:
             return values.unknown("a stream that is written to in parts", node, frame, "*")
         for piece in pieces:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.cpp_flow_reach import Definition, Reach, in_loop, reaching
+from rebsync.reverse.cpp_flow_definitions import Definition
+from rebsync.reverse.cpp_flow_reach import Reach, in_loop, reaching
 from rebsync.reverse.cpp_flow_types import Variable, is_list
 from rebsync.reverse.cpp_flow_writes import (
     Key,
