@@ -9,7 +9,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync import precedence
 from rebsync.records import dataclass
-from rebsync.reverse import cpp_idioms, cpp_mailbox
+from rebsync.reverse import cpp_called, cpp_idioms, cpp_mailbox
 from rebsync.reverse.building import binary, is_calm, tight
 from rebsync.reverse.cpp_conversions import (
     alternatives,
@@ -24,12 +24,10 @@ from rebsync.reverse.cpp_effects import Effects
 from rebsync.reverse.cpp_literals import literal
 from rebsync.reverse.cpp_places import is_this, resolve
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
-from rebsync.reverse.cpp_types import carried, class_name, type_of
+from rebsync.reverse.cpp_types import carried, type_of
 from rebsync.reverse.cpp_unknowns import Unknown, choice, domain_near
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.scope import (
-    Called,
-    Ignored,
     Inline,
     Itself,
     Lambda,
@@ -39,21 +37,11 @@ from rebsync.reverse.scope import (
     Record,
     Runtime,
     Scope,
-    Sends,
     TimerOf,
     Variable,
 )
 from rebsync.static.types import BOOLEAN, converts, is_boolean, is_integer
 
-_OPERATIONS = {
-    "divide": "/",
-    "remainder": "%",
-    "shiftLeft": "<<",
-    "shiftRight": ">>",
-}
-_ASSIGNMENTS = {f"{name}By": f"{operator}=" for name, operator in _OPERATIONS.items()}
-_MATHEMATICS = frozenset({"pow", "sqrt"})
-_WIDTHS = frozenset({"narrow", "widen"})
 _PREFIX = frozenset({"+", "-", "!", "~"})
 _WORDS = {"and": "&&", "or": "||", "not": "!", "not_eq": "!=", "bitand": "&", "bitor": "|"}
 MOVE = cpp_mailbox.MOVE
@@ -91,7 +79,7 @@ class CppExpressions:
             case "field_expression" | "pointer_expression":
                 return self._field(node)
             case "subscript_expression":
-                return self._index(node, named(part(node, "indices")))
+                return self.index(node, named(part(node, "indices")))
             case "unary_expression":
                 return self._unary(node)
             case "update_expression":
@@ -99,7 +87,7 @@ class CppExpressions:
             case "binary_expression":
                 return self._computed(node)
             case "assignment_expression":
-                return self._assign(node, self._operator(node), named(node))
+                return self.assign(node, self._operator(node), named(node))
             case "conditional_expression":
                 condition, then, otherwise = named(node)
                 tested = tight(self.condition(condition), precedence.CHAIN)
@@ -110,7 +98,7 @@ class CppExpressions:
             case "compound_literal_expression" if len(named(part(node, "value"))) == 1:
                 return self.cast(part(node, "type"), named(part(node, "value"))[0], node)
             case "call_expression":
-                return self._call(node)
+                return cpp_called.called(self, node)
             case _:
                 return self._literal(node)
 
@@ -124,7 +112,7 @@ class CppExpressions:
                 inner = tight(self.condition(part(node, "argument")), precedence.PREFIX)
                 return inner if isinstance(inner, m.Choice) else m.Unary("!", inner, span)
             case "binary_expression" if self._sign(node) in ("&&", "||"):
-                return self._binary(node, self._sign(node), named(node))
+                return self.binary(node, self._sign(node), named(node))
         try:
             return as_boolean(self.scope, self.read(node))
         except Unread as unread:
@@ -252,7 +240,7 @@ class CppExpressions:
             raise self.unread(node, f'the model has no operator "{operator}"')
         return operator
 
-    def _index(self, node: Node, indices: Sequence[Node]) -> m.Expression:
+    def index(self, node: Node, indices: Sequence[Node]) -> m.Expression:
         array = self.operand(part(node, "argument"), precedence.PRIMARY)
         if len(indices) != 1:
             raise self.unread(node, "an array of the model has one index at a time")
@@ -288,15 +276,15 @@ class CppExpressions:
         operator = self._operator(node)
         if operator == "%" and (drawn := cpp_idioms.drawn(self, node, named(node))) is not None:
             return drawn
-        return self._binary(node, operator, named(node))
+        return self.binary(node, operator, named(node))
 
-    def _binary(self, node: Node, operator: str, sides: Sequence[Node]) -> m.Expression:
+    def binary(self, node: Node, operator: str, sides: Sequence[Node]) -> m.Expression:
         reads = self.condition if operator in ("&&", "||") else self.read
         left, right = (reads(side) for side in sides)
         operator, left, right = operands(self.scope, operator, left, right)
         return binary(operator, left, right, self.cpp.span(node))
 
-    def _assign(self, node: Node, operator: str, sides: Sequence[Node]) -> m.Expression:
+    def assign(self, node: Node, operator: str, sides: Sequence[Node]) -> m.Expression:
         target, value = sides
         written = self.operand(target, precedence.CHAIN)
         place, span = self.place(written), self.cpp.span(node)
@@ -350,62 +338,6 @@ class CppExpressions:
 
     # --- calls ----------------------------------------------------------------------------------
 
-    def _call(self, node: Node) -> m.Expression:
-        function, arguments = part(node, "function"), named(part(node, "arguments"))
-        match function.type:
-            case "identifier":
-                return self._call_by_name(node, text_of(function), arguments, m.Self)
-            case "template_function":
-                return self._template(node, function, arguments)
-            case "qualified_identifier":
-                return self._qualified(node, function, arguments)
-            case "field_expression":
-                return self._of_object(node, function, arguments)
-            case "primitive_type" if len(arguments) == 1:
-                return self.cast(function, arguments[0], node)
-            case "lambda_expression" if not self.scope.open and not arguments:
-                return cpp_mailbox.in_order(self, function)
-            case "lambda_expression":
-                return self.inlined(node, Lambda(function, self.scope), arguments)
-            case _:
-                raise self.unknown(node, "the model cannot call this")
-
-    def _call_by_name(
-        self, node: Node, name: str, arguments: Sequence[Node], own: type[m.Self] | None
-    ) -> m.Expression:
-        """A call of a function of the class; `own` is None where it is written as `this->f()`."""
-        if own is not None and isinstance(held := self.scope.locals.get(name), Lambda):
-            return self.inlined(node, held, arguments)
-        match self.scope.functions.get(name):
-            case Sends() as sends:
-                return cpp_mailbox.send(self, node, sends, arguments, implicit=own is None)
-            case Called(_, server=True) if self.scope.open:
-                raise self.unread(node, f'what "{name}" does is not known here')
-            case Called(_, server=True):
-                why = f'"{name}" is a message server: a call runs it at once, a send does not'
-                raise self.unread(node, why, "send the message instead")
-            case Called() as called:
-                target = None if own is not None else m.Self(self.cpp.span(node))
-                return self._local_method(node, target, called, arguments)
-            case Inline() as inline:
-                return self.inlined(node, inline, arguments)
-            case Ignored():
-                raise Unknown(self.cpp.span(node), f'the model cannot know what "{name}" gives')
-        if own is not None and name in _OPERATIONS and len(arguments) == 2:
-            return self._binary(node, _OPERATIONS[name], arguments)
-        if own is not None and name in _ASSIGNMENTS and len(arguments) == 2:
-            return self._assign(node, _ASSIGNMENTS[name], arguments)
-        return self._other(node, name, arguments, f'"{name}" is no function of this class')
-
-    def _other(self, node: Node, name: str, arguments: Sequence[Node], why: str) -> m.Expression:
-        """A function that the code does not have: one of a library."""
-        read = cpp_idioms.call(self, node, name.removeprefix("::"), arguments)
-        if read is not None:
-            return read
-        if self.scope.open:
-            raise Unknown(self.cpp.span(node), f'the model cannot know what "{name}" gives')
-        raise self.unread(node, why)
-
     def inlined(
         self, node: Node, function: Inline | Lambda, arguments: Sequence[Node]
     ) -> m.Expression:
@@ -428,51 +360,3 @@ class CppExpressions:
         """A call with all arguments as they are."""
         values = tuple(self.read(a) for a in arguments)
         return m.Call(target, name, values, span=self.cpp.span(node))
-
-    def _local_method(
-        self, node: Node, target: m.Expression | None, called: Called, arguments: Sequence[Node]
-    ) -> m.Expression:
-        if called.takes is None:
-            return self.calls(node, target, called.name, arguments)
-        values = cpp_idioms.passed(self, node, called.takes, arguments)
-        return m.Call(target, called.name, values, span=self.cpp.span(node))
-
-    def _template(self, node: Node, function: Node, arguments: Sequence[Node]) -> m.Expression:
-        name, types = text_of(part(function, "name")), named(part(function, "arguments"))
-        if len(types) == 1 and len(arguments) == 1:
-            if name in _WIDTHS:  # what the model does unasked
-                return self.read(arguments[0])
-            if name == "static_cast":
-                return self.cast(types[0], arguments[0], node)
-            if name == "as":
-                operand = self.operand(arguments[0], precedence.CAST)
-                return m.Cast(m.Type(class_name(text_of(types[0]))), operand, self.cpp.span(node))
-        why = f'the model has no function "{name}"'
-        return self._other(node, text_of(function), arguments, why)
-
-    def _qualified(self, node: Node, function: Node, arguments: Sequence[Node]) -> m.Expression:
-        owner, _, name = text_of(function).rpartition("::")
-        if owner == "std" and name in _MATHEMATICS:
-            return self.calls(node, None, name, arguments)
-        called = self.scope.functions.get(name)
-        if owner in self.scope.bases and isinstance(called, Called) and not called.server:
-            return self.calls(node, m.Super(self.cpp.span(function)), called.name, arguments)
-        if called is not None and owner not in ("std", "ros", "boost"):
-            return self._call_by_name(node, name, arguments, m.Self)
-        why = f'the model has no function "{owner}::{name}"'
-        return self._other(node, text_of(function), arguments, why)
-
-    def _of_object(self, node: Node, function: Node, arguments: Sequence[Node]) -> m.Expression:
-        target, name = part(function, "argument"), part(function, "field")
-        if is_this(target):
-            return self._call_by_name(node, text_of(name), arguments, None)
-        if isinstance(self.scope.meaning(text_of(target)), Itself):
-            return self._call_by_name(node, text_of(name), arguments, m.Self)
-        if cpp_mailbox.is_runtime(self, target):
-            return cpp_mailbox.built_in(self, node, target, name, arguments)
-        if text_of(name) == "at":
-            return self._index(function, arguments)
-        read = cpp_idioms.member_call(self, node, target, text_of(name), arguments)
-        if read is not None:
-            return read
-        raise self.unknown(node, f'the model cannot call "{text_of(function)}"')

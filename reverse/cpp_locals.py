@@ -11,7 +11,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse import cpp_messages
+from rebsync.reverse import cpp_messages, cpp_plain_locals
 from rebsync.reverse.building import is_calm
 from rebsync.reverse.cpp_conversions import type_in
 from rebsync.reverse.cpp_effects import Effects, Touches
@@ -183,7 +183,7 @@ def _typed(
     if value is not None and value.type == "initializer_list" and not kept.type.dimensions:
         value = named(value)[0] if named(value) else None
     if value is not None and value.type == "initializer_list":
-        initial = reader.braces(value, kept.type)
+        initial = cpp_plain_locals.braces(reader, value, kept.type)
     elif value is not None and kept.type.dimensions:
         if declared.value is not None and declared.value.type != "argument_list":
             initial = reader.expressions.read(value)

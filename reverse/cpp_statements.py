@@ -9,17 +9,23 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse import cpp_inline, cpp_locals, cpp_loops, cpp_special
+from rebsync.reverse import (
+    cpp_control,
+    cpp_inline,
+    cpp_locals,
+    cpp_loops,
+    cpp_plain_locals,
+    cpp_special,
+)
 from rebsync.reverse.building import is_effect
 from rebsync.reverse.cpp_effects import Effects, Touches, is_outside
 from rebsync.reverse.cpp_expressions import MOVE, CppExpressions
 from rebsync.reverse.cpp_tree import Cpp, markers_in, named, part, text_of
-from rebsync.reverse.cpp_types import type_of
 from rebsync.reverse.cpp_unknowns import Demote
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.known_functions import LOGGING
 from rebsync.reverse.made_locals import tidied
-from rebsync.reverse.scope import Inline, Lambda, Meaning, Outside, Record, Scope, Stores, Variable
+from rebsync.reverse.scope import Inline, Lambda, Meaning, Scope, Stores, Variable
 from rebsync.reverse.written import annotation
 
 _NOTHING = frozenset(
@@ -74,7 +80,7 @@ class CppStatements:
     def read(self, nodes: Sequence[Node]) -> tuple[m.Statement, ...]:
         """Statements that follow each other; their locals stay in `scope`."""
         if self._depth or self.shared.running or not self.scope.open:
-            return tuple(self._statements(nodes))
+            return tuple(self.statements(nodes))
         self._root = nodes[0].parent if nodes else None
         self._depth += 1
         try:
@@ -88,7 +94,7 @@ class CppStatements:
         counted = self.findings.statements[self.within]
         while True:
             try:
-                return tidied(tuple(self._statements(nodes)), self.shared.made)
+                return tidied(tuple(self.statements(nodes)), self.shared.made)
             except Demote as demote:
                 self.shared.demoted |= demote.names
                 self.scope, self.before = scope, []
@@ -110,7 +116,7 @@ class CppStatements:
                 case _:
                     yield each
 
-    def _statements(self, nodes: Sequence[Node]) -> Iterator[m.Statement]:
+    def statements(self, nodes: Sequence[Node]) -> Iterator[m.Statement]:
         comments: list[str] = []
         for node in nodes:
             if node.type == "comment":
@@ -186,30 +192,30 @@ class CppStatements:
             case "expression_statement":
                 yield from self._expression_statement(node, annotations)
             case "declaration":
-                yield from self._declaration(node, annotations, local)
+                yield from self.declaration(node, annotations, local)
             case "compound_statement" | "initializer_list":
-                block = self._inner(node)
+                block = self.inner(node)
                 if self._is_hoisting(node):
                     yield from block.statements
                 else:
                     yield m.Block(block.statements, annotations, span)
             case "if_statement":
-                yield from self._if(node, annotations)
+                yield from cpp_control.branches(self, node, annotations)
             case "while_statement":
                 condition = self.loop_condition(part(node, "condition"))
                 yield m.While(condition, self.branch(part(node, "body")), annotations, span)
             case "for_statement":
-                yield self._for(node, annotations)
+                yield cpp_control.counted(self, node, annotations)
             case "for_range_loop":
                 yield from cpp_loops.range_loop(self, node, annotations)
             case "do_statement":
                 yield from cpp_loops.do_loop(self, node, annotations)
             case "switch_statement":
-                yield self._switch(node, annotations)
+                yield cpp_control.switched(self, node, annotations)
             case "try_statement":
                 yield from cpp_special.tried(self, node)
             case "return_statement":
-                yield from self._return(node, annotations)
+                yield from cpp_control.returned(self, node, annotations)
             case "throw_statement":
                 raise self.unread(node, "an exception leaves the function")
             case "break_statement":
@@ -289,13 +295,13 @@ class CppStatements:
             if self.scope.open:  # then it is not outside
                 raise self.unread(node, "what is logged here changes what the model has")
             return
-        if declared := self._late_declaration(expression):
+        if declared := cpp_plain_locals.late(self, expression):
             yield m.Local(declared, annotations, span)
             return
         if (special := cpp_special.read(self, expression)) is not None:
             yield from special
             return
-        read = self._effect(expression)
+        read = self.effect(expression)
         if isinstance(read, m.Call) and read.name == MOVE:
             cells = zip(("X", "Y"), read.arguments, strict=False)
             move = m.Annotation("Move", tuple(_cell(axis, offset) for axis, offset in cells))
@@ -304,7 +310,7 @@ class CppStatements:
         if is_effect(read) or not self.scope.open:
             yield m.ExpressionStatement(read, annotations, span)
 
-    def _effect(self, node: Node) -> m.Expression:
+    def effect(self, node: Node) -> m.Expression:
         """An expression for what it does; generated code says of one without effect that it is."""
         if node.type == "call_expression":
             function = part(node, "function")
@@ -312,72 +318,18 @@ class CppStatements:
                 return self.expressions.read(named(part(node, "arguments"))[0])
         return self.expressions.read(node)
 
-    def _late_declaration(self, node: Node) -> m.Declaration | None:
-        """The assignment that is the declaration of a local which C++ declares before a switch."""
-        if node.type != "assignment_expression":
-            return None
-        name, value = text_of(part(node, "left")), part(node, "right")
-        type_ = self.hoisted.get(name)
-        if type_ is None:
-            return None
-        del self.hoisted[name]
-        initial: m.Initializer | None
-        if value.type == "compound_literal_expression":
-            initial = self.braces(part(value, "value"), type_)
-        else:
-            initial = self.expressions.read(value)
-        declarator = m.Declarator(self.scope.local(name), initial, self.cpp.span(node))
-        return m.Declaration(type_, (declarator,), span=self.cpp.span(node))
-
-    def _declaration(
+    def declaration(
         self, node: Node, annotations: tuple[m.Annotation, ...], hoisted: bool
     ) -> Iterator[m.Statement]:
-        if self.scope.open or not _is_generated(node):
+        if self.scope.open or not cpp_plain_locals.is_plain(node):
             yield from cpp_locals.declarations(self, node)
             return
-        declaration = self._declared(node)
+        declaration = cpp_plain_locals.declared(self, node)
         if hoisted:
-            for name in _declared_names(node):
+            for name in cpp_plain_locals.declared_names(node):
                 self.hoisted[name] = declaration.type
             return
         yield m.Local(declaration, annotations, self.cpp.span(node))
-
-    def _declared(self, node: Node) -> m.Declaration:
-        """The declaration; its names are locals from here on."""
-        type_ = type_of(part(node, "type"))
-        assert type_ is not None
-        declarators = []
-        for declarator in node.children_by_field_name("declarator"):
-            declarators.append(self._declarator(declarator, type_))
-        return m.Declaration(type_, tuple(declarators), span=self.cpp.span(node))
-
-    def _declarator(self, node: Node, type_: m.Type) -> m.Declarator:
-        name, initial = node, None
-        if node.type == "init_declarator":
-            name, value = part(node, "declarator"), part(node, "value")
-            if value.type == "initializer_list":
-                initial = self.braces(value, type_)
-            else:
-                initial = self.expressions.read(value)
-        self.scope = self.scope.declare(text_of(name))
-        local = self.scope.local(text_of(name))
-        return m.Declarator(local, initial, self.cpp.span(node), self.cpp.span(name))
-
-    def braces(self, node: Node, type_: m.Type) -> m.Initializer | None:
-        """`{}` is no initial value; arrays have a pair of braces around the elements, or two."""
-        values = named(node)
-        if not values:
-            return None
-        if not type_.dimensions:
-            return self.expressions.read(values[0])
-        inner = m.Type(type_.name, type_.dimensions[1:])
-        if len(values) == 1 and values[0].type == "initializer_list":
-            values = named(values[0])
-        read: list[m.Initializer] = []
-        for value in values:
-            element = self.braces(value, inner) if value.type == "initializer_list" else None
-            read.append(element if element is not None else self.expressions.read(value))
-        return m.ArrayInitializer(tuple(read), self.cpp.span(node))
 
     # --- control --------------------------------------------------------------------------------
 
@@ -394,149 +346,22 @@ class CppStatements:
     def branch(self, node: Node) -> m.Block:
         """The body of a branch or loop, in braces or not."""
         if node.type == "compound_statement":
-            return self._inner(node)
+            return self.inner(node)
         outside = self.scope
-        statements = tuple(self._statements([node]))
+        statements = tuple(self.statements([node]))
         self.scope = outside
         return m.Block(statements, span=self.cpp.span(node))
 
-    def _inner(self, node: Node) -> m.Block:
+    def inner(self, node: Node) -> m.Block:
         outside = self.scope
-        statements = tuple(self._statements(node.named_children))
+        statements = tuple(self.statements(node.named_children))
         self.scope = outside
         return m.Block(statements, span=self.cpp.span(node))
-
-    def _if(self, node: Node, annotations: tuple[m.Annotation, ...]) -> Iterator[m.Statement]:
-        outside, clause = self.scope, part(node, "condition")
-        initial = clause.child_by_field_name("initializer")
-        inner = named(initial) if initial is not None else []
-        declared = [s for n in inner for s in self._declaration(n, (), False)]
-        tested = part(clause, "value")
-        if tested.type == "declaration":
-            declared += cpp_locals.tested(self, tested)
-            tested = part(tested, "declarator")
-        condition = self.expressions.condition(tested)
-        then = self.branch(part(node, "consequence"))
-        otherwise: m.Statement | None = None
-        alternative = node.child_by_field_name("alternative")
-        if alternative is not None:
-            (body,) = named(alternative)
-            otherwise = self._else(body)
-        self.scope = outside
-        read = m.If(condition, then, otherwise, annotations, self.cpp.span(node))
-        if declared:
-            yield m.Block((*declared, read))
-        else:
-            yield read
-
-    def _else(self, body: Node) -> m.Statement:
-        """The other branch; `else if` goes on without braces where nothing stands before it."""
-        if body.type != "if_statement":
-            return self.branch(body)
-        around, self.before = self.before, []
-        read = list(self._if(body, ()))
-        needed, self.before = self.before, around
-        if needed or len(read) != 1:
-            return m.Block((*needed, *read), span=self.cpp.span(body))
-        return read[0]
-
-    def _for(self, node: Node, annotations: tuple[m.Annotation, ...]) -> m.For:
-        outside = self.scope
-        first = node.child_by_field_name("initializer")
-        initial: m.Declaration | tuple[m.Expression, ...] = ()
-        if first is not None and first.type == "declaration":
-            initial = self._counter(first)
-        elif first is not None:
-            initial = tuple(self._listed(first))
-        tested = node.child_by_field_name("condition")
-        condition = self.loop_condition(tested) if tested is not None else None
-        update = node.child_by_field_name("update")
-        updates = tuple(self._listed(update)) if update is not None else ()
-        body = self.branch(part(node, "body"))
-        self.scope = outside
-        return m.For(initial, condition, updates, body, annotations, self.cpp.span(node))
-
-    def _counter(self, node: Node) -> m.Declaration:
-        """The declaration at the head of a loop."""
-        if not self.scope.open and _is_generated(node):
-            return self._declared(node)
-        read = [s.declaration for s in self._declaration(node, (), False) if isinstance(s, m.Local)]
-        if not read or any(d.type != read[0].type for d in read):
-            raise self.unread(node, "the model has no such loop")
-        declarators = tuple(d for each in read for d in each.declarators)
-        return m.Declaration(read[0].type, declarators, span=self.cpp.span(node))
-
-    def _listed(self, node: Node) -> Iterator[m.Expression]:
-        if node.type == "comma_expression":
-            for child in named(node):
-                yield from self._listed(child)
-        else:
-            yield self._effect(node)
-
-    def _switch(self, node: Node, annotations: tuple[m.Annotation, ...]) -> m.Switch:
-        clause = part(node, "condition")
-        subject = cpp_special.subject(self, part(clause, "value"), part(node, "body"))
-        outside = self.scope
-        cases = [self._case(c) for c in named(part(node, "body"))]
-        self.scope = outside
-        return m.Switch(subject, tuple(cases), annotations, self.cpp.span(node))
-
-    def _case(self, node: Node) -> m.Case:
-        if node.type != "case_statement":
-            raise self.unread(node, "this stands before the first case")
-        value = node.child_by_field_name("value")
-        read = self.expressions.read(value) if value is not None else None
-        body = [c for c in node.named_children if value is None or c.start_byte >= value.end_byte]
-        inside = [c for c in body if c.type != "comment"]
-        if len(inside) == 1 and inside[0].type == "compound_statement":
-            statements = self._inner(inside[0]).statements
-        else:
-            statements = tuple(self._statements(body))
-        return m.Case(read, statements, span=self.cpp.span(node))
 
     def _is_hoisting(self, node: Node) -> bool:
         """Whether a block only holds locals of a switch, and the switch."""
         comments = [text_of(c) for c in node.named_children if c.type == "comment"]
         return any(t.startswith("local ") for t in markers_in(comments))
-
-    def _return(self, node: Node, annotations: tuple[m.Annotation, ...]) -> Iterator[m.Statement]:
-        values = named(node)
-        if values and values[0].type == "initializer_list" and not named(values[0]):
-            return  # what C++ wants behind the last statement of a method
-        span = self.cpp.span(node)
-        if not values:
-            yield m.Return(None, annotations, span)
-            return
-        match self.returns:
-            case Record() as record:
-                yield from cpp_special.returned(self, values[0], record)
-                yield m.Return(None, annotations, span)
-            case Variable() as place:
-                yield m.Return(self.expressions.stored(values[0], place), annotations, span)
-            case Outside():
-                Effects(self.cpp, self.scope).check(values[0])
-                yield m.Return(None, annotations, span)
-            case _ if self.scope.server is not None and self.scope.open:
-                Effects(self.cpp, self.scope).check(values[0])
-                yield m.Return(None, annotations, span)
-            case _:
-                yield m.Return(self.expressions.read(values[0]), annotations, span)
-
-
-def _is_generated(node: Node) -> bool:
-    """Whether a declaration is one that generated code has: of a type of the model, by value."""
-    if type_of(part(node, "type")) is None:
-        return False
-    if any(c.type == "storage_class_specifier" for c in node.named_children):
-        return False
-    for declarator in node.children_by_field_name("declarator"):
-        initial = declarator.type == "init_declarator"
-        name = part(declarator, "declarator") if initial else declarator
-        if name.type != "identifier":
-            return False
-        if initial and part(declarator, "value").type == "argument_list":
-            return False
-    return True
 
 
 def _calls(node: Node, function: str) -> bool:
@@ -546,12 +371,6 @@ def _calls(node: Node, function: str) -> bool:
 def _logs(node: Node) -> bool:
     called = node.type == "call_expression" and part(node, "function").type == "identifier"
     return called and text_of(part(node, "function")).startswith(LOGGING)
-
-
-def _declared_names(node: Node) -> Iterator[str]:
-    for declarator in node.children_by_field_name("declarator"):
-        inner = declarator.child_by_field_name("declarator")
-        yield text_of(inner or declarator)
 
 
 def _cell(axis: str, offset: m.Expression) -> m.Expression:
