@@ -65,6 +65,7 @@ class Body:
     members: bool = True
     used: set[str] = field(default_factory=set)
     looping: int = 0
+    odd: Callable[[Body], list[str]] | None = None
 
     # --- expressions ----------------------------------------------------------------------------
 
@@ -214,6 +215,8 @@ class Body:
     def statement(self, depth: int) -> list[str]:
         flat = (self._assign, self._assign, self._declare, self._publish, self._call, self._outside)
         nested = (self._if, self._if, self._for, self._while, self._switch, self._early)
+        if self.odd is not None and self.chance(25):
+            return self.odd(self)
         if depth < LIMIT and self.chance(45):
             return self.random.choice(nested)(depth)
         return self.random.choice(flat)()

@@ -19,6 +19,8 @@ from rebsync.static import Analysis, analyse
 from tests.reverse.soundness.nodes import Callback, DrawnNode
 from tests.reverse.soundness.programs import Effect, Input, Seen
 
+# What is said of integers that models have no type for: they wrap elsewhere, or not at all.
+_WIDER = "holds more than"
 _ENOUGH = 10_000  # messages that the rebec may have waiting, so that none finds no place
 _FUNCTION = re.compile(r"^ {0,2}\w+ (\w+)\([^\n]*\) \{\n(.*?)^ {0,2}\}$", re.MULTILINE | re.DOTALL)
 
@@ -99,8 +101,9 @@ class _Grades:
         self._found: dict[str, Grade] = {}
         for finding in extracted.findings:
             name = re.split(r"[.:]+", finding.within)[-1]
-            if finding.grade is Grade.UNREADABLE or name not in self._found:
-                self._found[name] = finding.grade
+            grade = Grade.UNREADABLE if _WIDER in finding.why else finding.grade
+            if grade is Grade.UNREADABLE or name not in self._found:
+                self._found[name] = grade
 
     def of(self, callback: Callback) -> Grade | None:
         """The worst of them; None where all is exact."""

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from random import Random
 
 from tests.reverse.soundness.drawing import Body, Helper, Publisher, Variable, lines_of
+from tests.reverse.soundness.odd import odd_statement
 
 # Message types with their fields by paths.
 MESSAGES = {
@@ -101,9 +102,11 @@ class _Writer:
     members: tuple[Variable, ...]
     publishers: tuple[Publisher, ...]
     callbacks: tuple[Callback, ...]
+    odd: bool = False
 
     def source(self) -> str:
         opaque = self.random.random() < 0.6
+        self.odd = self.random.random() < 0.5
         helpers, free = self._helpers()
         bodies = [line for c in self.callbacks for line in self._callback(c, helpers, opaque)]
         members = [h for helper in helpers if helper[0].member for h in helper[1]]
@@ -183,7 +186,9 @@ class _Writer:
     def _body(self, variables: list[Variable], helpers: list[Helper], opaque: bool) -> Body:
         timers = [f"{self.name}::later"] if any(c.name == "later" for c in self.callbacks) else []
         known = [*self.members, *variables]
-        return Body(self.random, known, helpers, list(self.publishers), timers, opaque=opaque)
+        body = Body(self.random, known, helpers, list(self.publishers), timers, opaque=opaque)
+        body.odd = odd_statement if self.odd else None
+        return body
 
     def _helpers(self) -> tuple[list[tuple[Helper, list[str]]], list[str]]:
         """Members that helpers are, each knowing those before it; and the free functions."""
