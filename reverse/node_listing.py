@@ -94,24 +94,25 @@ class Listing:
 
     # --- wiring ---------------------------------------------------------------------------------
 
-    def wiring(self, wiring: Wiring) -> None:
-        """Topics that are not known, and those with nobody at their other end."""
-        for instance in wiring.instances:
+    def wiring(self, wiring: Wiring, units: list[Unit]) -> None:
+        """Topics of some units that are not known, and those with nobody at their other end."""
+        wanted = [i for i in wiring.instances if i.start.unit in units]
+        for instance in wanted:
             self._topics(instance)
         for instance, fact in unheard(wiring):
             topic = instance.topic(fact.topic)
-            if isinstance(topic, str):
+            if isinstance(topic, str) and instance in wanted:
                 why = f'nobody in these files subscribes to "{topic}": it is not sent in the model'
                 self._approximated(fact.site.place, why, instance.start.unit.name, _OPEN)
         for instance, heard in unfed(wiring):
             topic = instance.topic(heard.topic)
-            if isinstance(topic, str):
+            if isinstance(topic, str) and instance in wanted:
                 why = f'nobody in these files publishes "{topic}": the model gets no such message'
                 self._approximated(heard.site.place, why, instance.start.unit.name, _CLOSE)
-        self._services(wiring)
-        self._shared(wiring)
+        self._services(wiring, wanted)
+        self._shared(wanted)
 
-    def _services(self, wiring: Wiring) -> None:
+    def _services(self, wiring: Wiring, wanted: list[Instance]) -> None:
         """Calls of services of the model's own nodes: these are no messages."""
         offered = {
             i.topic(f.name)
@@ -119,7 +120,7 @@ class Listing:
             for f in i.start.unit.facts
             if isinstance(f, ServiceFact)
         }
-        for instance in wiring.instances:
+        for instance in wanted:
             for fact in instance.start.unit.facts:
                 if isinstance(fact, ClientFact) and instance.topic(fact.name) in offered:
                     why = "the model does not send what this asks of another of its nodes"
@@ -133,10 +134,10 @@ class Listing:
                     why = f"the topic is not known: {topic.why}"
                     self._unread(fact.site.place, why, instance.start.unit.name)
 
-    def _shared(self, wiring: Wiring) -> None:
+    def _shared(self, instances: list[Instance]) -> None:
         """Objects of one program that share its thread, and nodes that may not be there."""
         nodes: dict[tuple[int, int], list[Instance]] = {}
-        for instance in wiring.instances:
+        for instance in instances:
             if instance.start.program is not None:
                 key = instance.start.program.main.node.id, id(instance.launched)
                 nodes.setdefault(key, []).append(instance)

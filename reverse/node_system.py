@@ -92,8 +92,8 @@ class NodeSystem:
         for unit in units:
             if self._is_wanted(unit):
                 listing.unit(unit, served[unit.name])
-        if starts and self.only is None:
-            listing.wiring(wiring)
+        if starts:
+            listing.wiring(wiring, [u for u in units if self._is_wanted(u)])
         return Nodes(read, tuple(map(reader.rebec, rebecs)), bool(starts))
 
     def _is_wanted(self, unit: Unit) -> bool:

@@ -23,7 +23,7 @@ from rebsync.reverse.graph import Graph
 from rebsync.reverse.launched import Launch, LaunchedNode
 from rebsync.reverse.manifests import read_manifest
 from rebsync.reverse.node_launch import is_launch, system_of
-from rebsync.reverse.node_system import NodeSystem
+from rebsync.reverse.node_system import Nodes, NodeSystem
 from rebsync.reverse.packages import CODE
 from rebsync.reverse.parameters import Parameter
 from rebsync.reverse.ros1_classes import Classes
@@ -67,21 +67,32 @@ def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
     package = _package(files)
     asked = only if only is not None and is_launch(only) else None
     only = only if asked is None else None
-    system = system_of(files, package, asked) if only is None else None
+    system = system_of(files, package, asked)
     launch = system.launch if system is not None else None
     classes = Classes(code, findings, own_messages(files))
     read = classes.read(_classes_in(code, files[only].path) if only is not None else None)
-    nodes = NodeSystem(code, graph, files, launch, package, findings, only, bool(read)).read()
-    if system is not None and (read or nodes.classes):
+    nodes = NodeSystem(
+        code, graph, files, launch, package, findings, only, _is_generated(code)
+    ).read()
+    if system is not None and only is None and (read or nodes.classes):
         system.note(findings)
-    generated = _System(code, classes, read, launch)
-    main = generated.main() if launch is not None or not nodes.starts else m.Main(())
-    if main is not None and nodes.rebecs and (launch is not None or nodes.starts):
-        main = m.Main((*main.rebecs, *nodes.rebecs))
-    if only is not None and len(files) > 1:
-        main = None
+    generated = _System(code, classes, read, launch if only is None else None)
+    main = _main(generated, nodes, only is not None and len(files) > 1)
     model = m.Model(tuple(generated.heads() if read else ()), (*read, *nodes.classes), main)
     return Extracted(model, tuple(findings.all), tuple(findings.statements.items()), graph)
+
+
+def _main(generated: _System, nodes: Nodes, is_part: bool) -> m.Main | None:
+    """The rebecs of all nodes; None where only part of a system is asked for, or nothing starts."""
+    main = generated.main()
+    if is_part or (main is None and not nodes.starts):
+        return None
+    return m.Main((*(main.rebecs if main is not None else ()), *nodes.rebecs))
+
+
+def _is_generated(code: Code) -> bool:
+    """Whether there are classes that rebsync made."""
+    return any(text_of(f.type) == "Mailbox" for c in code.classes.values() for f in c.fields)
 
 
 def _package(files: Mapping[str, Source]) -> str:
