@@ -28,12 +28,18 @@ class Calls:
     texts: Texts
     types: Types
     _uses: dict[int, list[Use]] = field(default_factory=dict)
+    _functions: dict[int, list[CppFunction]] = field(default_factory=dict)
     _made: dict[int, list[Use]] = field(default_factory=dict)
 
     # --- from a call to functions ---------------------------------------------------------------
 
     def functions(self, cpp: Cpp, call: Node) -> list[CppFunction]:
         """The functions with a body that a call may reach; empty where none is in the files."""
+        if call.id not in self._functions:
+            self._functions[call.id] = self._reached(cpp, call)
+        return self._functions[call.id]
+
+    def _reached(self, cpp: Cpp, call: Node) -> list[CppFunction]:
         function = part(call, "function")
         given = named(part(call, "arguments"))
         found = [f for f in self._named(cpp, function) if self.fits(f, len(given))]

@@ -55,6 +55,7 @@ class Types:
     texts: Texts
     _variables: dict[int, Variable | None] = field(default_factory=dict)
     _locals: dict[tuple[int, str], list[tuple[int, int, Variable]]] = field(default_factory=dict)
+    _plain: dict[int, str] = field(default_factory=dict)
     _types: dict[int, str] = field(default_factory=dict)
 
     # --- variables ------------------------------------------------------------------------------
@@ -130,6 +131,11 @@ class Types:
         """
         if type_ is None or depth > 8:
             return ""
+        if type_.id not in self._plain:
+            self._plain[type_.id] = self._plainly(cpp, type_, depth)
+        return self._plain[type_.id]
+
+    def _plainly(self, cpp: Cpp, type_: Node, depth: int) -> str:
         if type_.type in ("type_descriptor", "dependent_type"):
             inner = type_.child_by_field_name("type") or type_.named_children[-1]
             return self.plain(cpp, inner, depth + 1)

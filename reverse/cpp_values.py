@@ -63,6 +63,8 @@ class Values:
     types: Types = field(init=False)
     calls: Calls = field(init=False)
     variables: Variables = field(init=False)
+    # What functions return, by their nodes.
+    returns: dict[int, list[Node]] = field(default_factory=dict)
     _active: set[tuple[int, int]] = field(default_factory=set)
     _memo: dict[tuple[int, int], tuple[Value, Frame]] = field(default_factory=dict)
     _steps: int = 0

@@ -194,7 +194,10 @@ def returned(
 
 def _reached(values: Values, function: CppFunction, frame: Frame) -> Iterator[Node]:
     """What a function returns, up to a return that is surely reached."""
-    for result in sorted(_returns(function.body), key=lambda n: n.start_byte):
+    key = function.node.id
+    if key not in values.returns:
+        values.returns[key] = sorted(_returns(function.body), key=lambda n: n.start_byte)
+    for result in values.returns[key]:
         sure = taken(result, lambda c: values.holds(c, frame))
         if sure is not False:
             yield result
