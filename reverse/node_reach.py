@@ -10,6 +10,8 @@ from rebsync.reverse.cpp_index import Code, CppFunction
 from rebsync.reverse.node_servers import Server
 from rebsync.reverse.node_units import Unit
 
+_NAMED = re.compile(r"(?:->|\.)\s*(\w+)\s*\(|&\s*(?:\w+::)*(\w+)")
+
 
 def unreached(
     code: Code, unit: Unit, first: Sequence[CppFunction], servers: Sequence[Server]
@@ -17,11 +19,12 @@ def unreached(
     """The functions that neither servers nor the start lead to, though some code names them."""
     reached = _reached(code, unit, first, servers)
     served = {s.body.id for s in servers}
+    named = _named(code)
     for function in unit.functions:
         if function.body is None or function.node.id in reached or function.body.id in served:
             continue
         special = function.name in unit.names or function.name.startswith(("~", "operator"))
-        if not special and _is_named(code, function.name):
+        if not special and function.name in named:
             yield function
 
 
@@ -44,8 +47,7 @@ def _reached(
     return found
 
 
-def _is_named(code: Code, name: str) -> bool:
-    """Whether some code calls a function of that name on an object, or hands it on."""
-    word = re.escape(name)
-    pattern = re.compile(rf"(?:->|\.)\s*{word}\s*\(|&\s*(?:\w+::)*{word}\b")
-    return any(pattern.search(cpp.source.text) for cpp in code.files)
+def _named(code: Code) -> frozenset[str]:
+    """The functions that some code calls on an object, or hands on."""
+    found = (m for cpp in code.files for m in _NAMED.finditer(cpp.source.text))
+    return frozenset(m[1] or m[2] for m in found)

@@ -30,7 +30,7 @@ from rebsync.reverse.node_times import Times
 from rebsync.reverse.node_units import Start, Unit, Units
 from rebsync.reverse.node_values import Instance
 from rebsync.reverse.node_views import all_units
-from rebsync.reverse.node_wiring import Wiring, instances
+from rebsync.reverse.node_wiring import Wiring, idle, instances
 from rebsync.reverse.scope import Target
 from rebsync.source import Source
 
@@ -81,8 +81,8 @@ class NodeSystem:
         served = {u.name: servers(u, types, self._states[u.name].names) for u in units}
         names = Names.beside(())
         classes = {u.name: names.give(_class(u)) for u in units}
-        rebecs = instances(starts or _each(units), self.launch, self.package, names)
-        wiring = Wiring(rebecs, served)
+        rebecs = instances(starts, self.launch, self.package, names)
+        wiring = Wiring((*rebecs, *idle(units, starts, rebecs, names)), served)
         reader = _Reader(self, reading, types, common, wiring, classes, names, starts)
         read = tuple(c for u in units if self._is_wanted(u) for c in reader.classes_of(u))
         listing = Listing(self.findings, types)
@@ -92,8 +92,7 @@ class NodeSystem:
         for unit in units:
             if self._is_wanted(unit):
                 listing.unit(unit, served[unit.name])
-        if starts:
-            listing.wiring(wiring, [u for u in units if self._is_wanted(u)])
+        listing.wiring(wiring, [u for u in units if self._is_wanted(u)])
         return Nodes(read, tuple(map(reader.rebec, rebecs)), bool(starts))
 
     def _is_wanted(self, unit: Unit) -> bool:
@@ -281,8 +280,3 @@ def _value(parameter: Given, index: int) -> bool | int | float | str:
 
 def _class(unit: Unit) -> str:
     return class_name(unit.owner.name) if unit.owner is not None else class_word(unit.name)
-
-
-def _each(units: Sequence[Unit]) -> list[Start]:
-    """One rebec of each unit, where no program says how many there are."""
-    return [Start(unit, None, None) for unit in units]

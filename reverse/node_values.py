@@ -19,7 +19,8 @@ from rebsync.reverse.unknowns import Open, Text
 class Instance:
     """A rebec to be: what runs it, under which name, started by which tag of which launch file.
 
-    Without a launch file a node has its own name in the global namespace and no parameters.
+    Without a launch file a node has its own name in the global namespace and no parameters. What
+    is `idle` is started by nobody: it stands for how the objects of its class would be wired.
     """
 
     start: Start
@@ -27,6 +28,7 @@ class Instance:
     node: str
     launched: LaunchedNode | None = None
     launch: Launch | None = None
+    idle: bool = False
 
     def topic(self, name: Resolved) -> Text:
         """The absolute name of a topic or service."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import field
+from dataclasses import field, replace
 
 from rebsync.records import dataclass
 from rebsync.reverse.graph import PublisherFact, SubscriptionFact
@@ -35,6 +35,17 @@ def instances(
             given = names.give(wish, f"{space.strip('/')}_{wish}")
             found.append(Instance(start, given, plain, node, launch))
     return tuple(found)
+
+
+def idle(
+    units: Sequence[Unit], starts: Sequence[Start], found: Sequence[Instance], names: Names
+) -> Iterator[Instance]:
+    """An instance of each unit that nobody starts."""
+    started = {id(i.start.unit) for i in found}
+    for unit in units:
+        if id(unit) not in started:
+            start = next((s for s in starts if s.unit is unit), Start(unit, None, None))
+            yield from (replace(i, idle=True) for i in _alone([start], names))
 
 
 def _alone(starts: Sequence[Start], names: Names) -> Iterator[Instance]:
@@ -110,6 +121,8 @@ class Wiring:
             if not isinstance(fact, PublisherFact) or isinstance(topic, Open):
                 continue
             for name, type_, to, server in listening:
+                if self.instances[to].idle and not instance.idle:
+                    continue
                 if name == topic and (type_ == fact.type or not _both(type_, fact.type)):
                     yield number, to, server
 
