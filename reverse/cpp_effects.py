@@ -10,6 +10,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.cpp_calls import CppCall, call_of
 from rebsync.reverse.cpp_declarations import CppFunction, CppParameter
+from rebsync.reverse.cpp_misread import first_of, is_misread
 from rebsync.reverse.cpp_tree import Cpp, named, text_of
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.known_functions import ACTS, LOOKS, takes_values, type_takes_values
@@ -72,6 +73,12 @@ class Effects:
                 self._write(node.children_by_field_name("argument")[0])
             case "call_expression":
                 self._call(node)
+            case "binary_expression":
+                self._binary(node)
+            case "cast_expression" if is_misread(self.scope, node):
+                self._misread(node)
+            case "ERROR":
+                raise self._touches(node, "this does not parse as C++")
             case "pointer_expression" if text_of(node).startswith("&"):
                 self._address(named(node)[0])
             case "declaration":
@@ -176,6 +183,33 @@ class Effects:
             return
         raise self._touches(node, f'this changes "{text_of(node)}"')
 
+    def _binary(self, node: Node) -> None:
+        """An operator; of an object it may be a function: `stream >> count` changes `count`."""
+        left, right = (node.children_by_field_name(side)[0] for side in ("left", "right"))
+        operator = text_of(node.children_by_field_name("operator")[0])
+        self.check(left)
+        if operator in (">>", "&") and not self._is_number(left):
+            self._arguments((right,))
+        else:
+            self.check(right)
+
+    def _misread(self, node: Node) -> None:
+        first = first_of(self.cpp, self.scope, node)
+        try:
+            replace(self, cpp=first.cpp).check(first.node)
+        except Touches as touches:
+            raise self._touches(node, touches.why) from None
+        value = node.children_by_field_name("value")[0]
+        self.check(value.children_by_field_name("argument")[0])
+
+    def _is_number(self, node: Node) -> bool:
+        """Whether it is a literal or a variable of the model: no object with functions."""
+        if node.type == "number_literal":
+            return True
+        if node.type in ("parenthesized_expression", "binary_expression"):
+            return all(self._is_number(c) for c in named(node))
+        return isinstance(self._root(node)[1], Variable)
+
     def _subscripts(self, node: Node) -> None:
         """What is evaluated to find the place that is written."""
         if node.type == "subscript_expression":
@@ -194,12 +228,17 @@ class Effects:
         self.check(node)
 
     def _declaration(self, node: Node) -> None:
-        by_value = type_takes_values(text_of(node.children_by_field_name("type")[0]))
+        type_ = text_of(node.children_by_field_name("type")[0])
+        if self.scope.meaning(type_) is not None and type_ not in self._inner:
+            raise self._touches(node, "this looks like a declaration, but starts with a variable")
+        by_value = type_takes_values(type_)
         for declarator in node.children_by_field_name("declarator"):
             value = declarator.child_by_field_name("value")
             inner = declarator.child_by_field_name("declarator")
             target = inner if declarator.type == "init_declarator" and inner else declarator
             constant = any(text_of(c) == "const" for c in node.named_children)
+            if target.type == "reference_declarator" and value is None:
+                raise self._touches(node, "this looks like a declaration, but it is none")
             if target.type == "reference_declarator" and value is not None and not constant:
                 self._address(value)
             elif value is not None and value.type == "argument_list" and by_value:
@@ -244,8 +283,7 @@ class Effects:
         own = call.target is not None and isinstance(self._root(call.target)[1], Itself)
         if call.target is None or own:
             known = self._function(node, name)
-            if isinstance(self.scope.meaning(name), Lambda):
-                raise self._touches(node, f'"{name}" may change what the model has')
+            self._held(node, name, call)
         else:
             self._method(call, name)
         if name in ACTS:
@@ -267,6 +305,17 @@ class Effects:
                 if function is not None and self._is_calm(function):
                     return True
         raise self._touches(node, f'"{name}" may change what the model has')
+
+    def _held(self, node: Node, name: str, call: CppCall) -> None:
+        """A variable that is called: a function that somebody has put there may do anything.
+
+        But for one that only gets an object that is outside, as a distribution gets a generator.
+        """
+        meaning = None if name in self._inner else self.scope.meaning(name)
+        objects = [self._root(a)[1] for a in call.arguments]
+        drawn = len(objects) == 1 and isinstance(objects[0], Outside)
+        if meaning is not None and not (isinstance(meaning, Outside) and drawn):
+            raise self._touches(node, f'"{name}" may change what the model has')
 
     def _is_calm(self, function: CppFunction) -> bool:
         """Whether a body touches nothing but what it declares, or gets."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from tree_sitter import Node
 
@@ -22,6 +23,7 @@ from rebsync.reverse.cpp_conversions import (
 )
 from rebsync.reverse.cpp_effects import Effects
 from rebsync.reverse.cpp_literals import literal
+from rebsync.reverse.cpp_misread import Chain, Operand, Operation, chain_of, is_misread
 from rebsync.reverse.cpp_places import is_this, resolve
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.cpp_types import carried, type_of
@@ -84,6 +86,8 @@ class CppExpressions:
                 return self._unary(node)
             case "update_expression":
                 return self._update(node)
+            case "binary_expression" | "cast_expression" if is_misread(self.scope, node):
+                return self._joined(node, chain_of(self.cpp, self.scope, node))
             case "binary_expression":
                 return self._computed(node)
             case "assignment_expression":
@@ -271,6 +275,22 @@ class CppExpressions:
         if before:
             return m.Unary(operator, self.operand(argument, precedence.PREFIX), span)
         return m.Postfix(operator, self.operand(argument, precedence.POSTFIX), span)
+
+    def _joined(self, whole: Node, chain: Chain) -> m.Expression:
+        """A chain of operators of which the grammar took a part for a cast."""
+        match chain:
+            case Operand(cpp, node) if cpp is self.cpp:
+                return self.read(node)
+            case Operand(cpp, node):
+                try:
+                    value = replace(self, cpp=cpp).read(node)
+                except Unread as unread:
+                    span = self.cpp.span(whole)
+                    raise type(unread)(span, unread.why, unread.hint) from None
+                return value if self.scope.open else m.Paren(value)
+            case Operation(operator, left, right):
+                sides = self._joined(whole, left), self._joined(whole, right)
+                return binary(*operands(self.scope, operator, *sides))
 
     def _computed(self, node: Node) -> m.Expression:
         operator = self._operator(node)

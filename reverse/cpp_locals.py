@@ -50,9 +50,15 @@ class _Declared:
 
 def declarations(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
     """The locals of a declaration; what the model has nothing like is outside from here on."""
+    if reader.scope.meaning(text_of(part(node, "type"))) is not None:
+        why = "this looks like a declaration, but starts with a variable"
+        raise reader.unread(node, why, "put it in parentheses")
     kept_elsewhere = any(text_of(c) == "static" for c in node.named_children)
     for declarator in node.children_by_field_name("declarator"):
         declared = _taken_apart(node, declarator)
+        if declared.kind == "reference_declarator" and declared.value is None:
+            why = "this looks like a declaration, but it is none"
+            raise reader.unread(node, why, "put it in parentheses")
         if kept_elsewhere and not declared.constant:
             _static(reader, declared)
             continue

@@ -55,3 +55,12 @@ void Node::onElements() {
   names_.push_back(count_);
   sensor_.change(std::move(kept_));
 }
+void Node::onHidden() {
+  stream_ >> count_;
+  archive_ & limit_;
+  range_ = count_ >> 1;
+  sensor_();
+  sensor_(count_ + 1);
+  if (sensor_(range_) > 3) on_ = true;
+  names_.at(0).append(text_);
+}
