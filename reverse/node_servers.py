@@ -190,7 +190,8 @@ def used_paths(fields: Fields, variable: str, bodies: Sequence[Node]) -> Iterato
             inner = f"{path}." if path else ""
             for each, type_ in fields.items():
                 plain = type_ is not None and not type_.dimensions
-                if each.startswith(inner) and plain and (inner or not _of_header(each)):
+                counted = each.endswith("header.seq") or (not inner and _of_header(each))
+                if each.startswith(inner) and plain and not counted:
                     yield each
 
 
