@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
@@ -101,7 +102,30 @@ def switched(reader: CppStatements, node: Node, annotations: tuple[m.Annotation,
     outside = reader.scope
     cases = [_case(reader, c) for c in named(part(node, "body"))]
     reader.scope = outside
+    if reader.scope.open:
+        cases = _default_last(reader, node, cases)
     return m.Switch(subject, tuple(cases), annotations, reader.cpp.span(node))
+
+
+def _default_last(reader: CppStatements, node: Node, cases: list[m.Case]) -> list[m.Case]:
+    """The cases with `default` at the end, where the model wants it, if nothing falls through."""
+    places = [index for index, case in enumerate(cases) if case.value is None]
+    if not places or places[0] == len(cases) - 1:
+        return cases
+    at, last = places[0], cases[-1]
+    before = at == 0 or _leaves(cases[at - 1])
+    if not before or not _leaves(cases[at]):
+        raise reader.unread(node, "a default in the middle falls through", "put it last")
+    if not _leaves(last):
+        last = replace(last, statements=(*last.statements, m.Break()))
+    return [*cases[:at], *cases[at + 1 : -1], last, cases[at]]
+
+
+def _leaves(case: m.Case) -> bool:
+    """Whether a case ends with leaving the switch."""
+    return bool(case.statements) and isinstance(
+        case.statements[-1], m.Break | m.Return | m.Continue
+    )
 
 
 def _case(reader: CppStatements, node: Node) -> m.Case:

@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse import cpp_messages
 from rebsync.reverse.cpp_tree import named, part, text_of
 from rebsync.reverse.cpp_types import type_of
+from rebsync.reverse.scope import Variable
 
 if TYPE_CHECKING:
     from rebsync.reverse.cpp_statements import CppStatements
@@ -70,8 +72,20 @@ def braces(reader: CppStatements, node: Node, type_: m.Type) -> m.Initializer | 
     read: list[m.Initializer] = []
     for value in values:
         element = braces(reader, value, inner) if value.type == "initializer_list" else None
-        read.append(element if element is not None else reader.expressions.read(value))
+        read.append(element if element is not None else _element(reader, value, inner))
+    missing = type_.dimensions[0] - len(read)
+    if reader.scope.open and missing > 0:
+        zero = cpp_messages.zero_of(inner)
+        if zero is None:
+            raise reader.unread(node, "what is left out of this array is not written")
+        read += [zero] * missing
     return m.ArrayInitializer(tuple(read), reader.cpp.span(node))
+
+
+def _element(reader: CppStatements, value: Node, type_: m.Type) -> m.Expression:
+    if type_.dimensions:
+        return reader.expressions.read(value)
+    return reader.expressions.stored(value, Variable("", type_))
 
 
 def is_plain(node: Node) -> bool:
