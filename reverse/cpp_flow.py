@@ -17,7 +17,7 @@ from rebsync.reverse.cpp_index import Code, CppClass, CppFunction, function_of
 from rebsync.reverse.cpp_tree import Cpp, part, text_of
 
 # Macros of tests that make a member function of the class they name first.
-_FIXTURES = frozenset({"TEST_F", "TEST_P", "TYPED_TEST"})
+FIXTURES = frozenset({"TEST_F", "TEST_P", "TYPED_TEST"})
 # How many functions may stand within one another, in classes inside of functions.
 _NESTED = 12
 _NAMES = frozenset(
@@ -188,7 +188,7 @@ class Texts:
 
     def class_of(self, function: CppFunction | None) -> CppClass | None:
         """The class that a function is a member of."""
-        if function is not None and function.name in _FIXTURES and function.parameters:
+        if function is not None and function.name in FIXTURES and function.parameters:
             return self.class_near(text_of(function.parameters[0].type), function.cpp)
         if function is None or not function.owner:
             return None

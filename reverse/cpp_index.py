@@ -5,6 +5,7 @@ Header and source are read together: a function's body is looked for wherever it
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import field
 
@@ -47,6 +48,7 @@ __all__ = [
 ]
 
 _HEADERS = (".h", ".hh", ".hpp", ".hxx", ".cuh", ".ipp", ".tpp")
+_HANDED = re.compile(r"(?:->|\.)\s*(\w+)\s*\(|&\s*(?:\w+::)*(\w+)")
 _CONTAINERS = frozenset(
     {
         *("translation_unit", "namespace_definition", "declaration_list", "ERROR"),
@@ -61,7 +63,7 @@ class Code:
     """All declarations of some files.
 
     `classes` has the first class of each name; `all_classes` has all of them, those inside of
-    classes too.
+    classes too. `statics` are static members with the values that stand outside of their class.
     """
 
     files: list[Cpp] = field(default_factory=list)
@@ -69,12 +71,14 @@ class Code:
     enumerators: dict[str, list[CppEnumerator]] = field(default_factory=dict)
     aliases: dict[str, list[CppAlias]] = field(default_factory=dict)
     variables: dict[str, list[CppField]] = field(default_factory=dict)
+    statics: dict[tuple[str, str], CppField] = field(default_factory=dict)
     classes: dict[str, CppClass] = field(default_factory=dict)
     definitions: dict[tuple[str, str], list[CppFunction]] = field(default_factory=dict)
     constants: dict[tuple[str, str], tuple[Cpp, Node]] = field(default_factory=dict)
     _calls: dict[int, tuple[CppCall, ...]] = field(default_factory=dict)
     _types: dict[int, tuple[str, ...]] = field(default_factory=dict)
     _visible: dict[str, dict[str, tuple[Cpp, Node]]] = field(default_factory=dict)
+    _handed: frozenset[str] | None = None
 
     @staticmethod
     def of(files: Iterable[Cpp]) -> Code:
@@ -108,6 +112,13 @@ class Code:
         if function.body.id not in self._calls:
             self._calls[function.body.id] = tuple(calls_in(function.body))
         return self._calls[function.body.id]
+
+    def handed_on(self) -> frozenset[str]:
+        """The names of functions that some code calls on an object, or hands on."""
+        if self._handed is None:
+            found = (m for cpp in self.files for m in _HANDED.finditer(cpp.source.text))
+            self._handed = frozenset(m[1] or m[2] for m in found)
+        return self._handed
 
     def constant(self, cpp: Cpp, name: str) -> tuple[Cpp, Node] | None:
         """The value of a constant of a file."""
@@ -261,10 +272,23 @@ class Code:
                 value, declarator = part(declarator, "value"), part(declarator, "declarator")
                 if constant:
                     self.constants[cpp.source.path, text_of(declarator)] = cpp, value
+            if declarator.type == "qualified_identifier" and value is not None:
+                self._add_static(cpp, node, declarator, value)
+                continue
             name = declared_name(declarator)
             if name is not None:
                 read = CppField(text_of(name), type_, value, (), cpp, node)
                 self.variables.setdefault(read.name, []).append(read)
+
+    def _add_static(self, cpp: Cpp, node: Node, declarator: Node, value: Node) -> None:
+        """`int C::x = 3;`, outside of the class."""
+        scope = ""
+        while declarator.type == "qualified_identifier":
+            above = declarator.child_by_field_name("scope")
+            scope = unscoped(above) if above is not None else scope
+            declarator = part(declarator, "name")
+        read = CppField(text_of(declarator), part(node, "type"), value, (), cpp, node)
+        self.statics.setdefault((scope, read.name), read)
 
     def _add_macro(self, cpp: Cpp, node: Node) -> None:
         """`#define LIMIT 8`: the text as an expression, if it is one."""

@@ -68,6 +68,8 @@ class Values:
     _active: set[tuple[int, int]] = field(default_factory=set)
     _memo: dict[tuple[int, int], tuple[Value, Frame]] = field(default_factory=dict)
     _steps: int = 0
+    # Whether there were more ways than are followed.
+    truncated: bool = False
     # How often a value was asked for while it was looked for: what comes of it is not kept.
     cuts: int = 0
 
@@ -103,6 +105,7 @@ class Values:
             root = current.root
             away = root.outside or (root is not current and self._is_unused(root))
             (outside if away else inside).append(result)
+        self.truncated = self.truncated or bool(waiting)
         return inside or outside
 
     def _is_unused(self, frame: Frame) -> bool:
@@ -117,6 +120,9 @@ class Values:
         root = frame.root
         uses = self.calls.uses(root.function) if root.function is not None else []
         uses = [u for u in uses if not _on_the_way(frame, u)]
+        self.truncated = (
+            self.truncated or len(uses) > MOST or (frame.depth >= _LONGEST and bool(uses))
+        )
         if frame.depth >= _LONGEST or not uses:
             yield _with_root(frame, Frame(root.cpp, root.function, outside=True))
             return
@@ -137,6 +143,7 @@ class Values:
     def fresh(self) -> None:
         """Begins a question of its own: nothing of the one before counts against it."""
         self._steps = 0
+        self.truncated = False
         self._active.clear()
         self._memo.clear()
 

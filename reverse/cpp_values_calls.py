@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
@@ -44,11 +45,19 @@ from rebsync.reverse.roscpp_vocabulary import (
 if TYPE_CHECKING:
     from rebsync.reverse.cpp_values import Values
 
+_LIMITS: dict[tuple[str, str], float] = {
+    ("double", "max"): sys.float_info.max,
+    ("double", "min"): sys.float_info.min,
+    ("double", "lowest"): -sys.float_info.max,
+    ("int", "max"): 0x7FFFFFFF,
+    ("int", "min"): -0x80000000,
+}
 # What gives its argument, or its target, as it is.
 _SAME = frozenset({"move", "ref", "cref", "forward", "boost::ref", "get_pointer"})
 _SAME_OF = frozenset({"c_str", "get", "data", "toStdString", "str", "value", "string"})
 _CASTS = frozenset({"static_cast", "const_cast", "dynamic_cast", "reinterpret_cast"})
 _MAKERS = frozenset({"make_shared", "make_unique"})
+_MOST_FUNCTIONS = 8
 _BINDS = frozenset({"bind", "mem_fn", "bind_front"})
 _PARAMETERS = frozenset({"param", "param_cached", "paramCached"})
 
@@ -110,6 +119,8 @@ def _of_function(
         return Function(node, frame)
     if name in ("quiet_NaN", "signaling_NaN"):
         return Nothing()
+    if scope.startswith("numeric_limits<") and (scope[15:-1], name) in _LIMITS:
+        return _LIMITS[scope[15:-1], name]
     if name in ("to_string", "lexical_cast", "max", "min", "abs", "fabs") and given:
         return _of_library(values, node, name, given, frame)
     return _of_own(values, node, name, given, frame)
@@ -185,7 +196,9 @@ def returned(
         return values.unknown("too many calls to follow", node, frame)
     use = Use(frame.cpp, node, given, frame.function)
     found: list[Value] = []
-    for function in functions[:8]:
+    if len(functions) > _MOST_FUNCTIONS:
+        return values.unknown("too many functions may be called", node, frame)
+    for function in functions:
         inner = Frame(function.cpp, function, use, frame)
         results = [values.value(r, inner) for r in _reached(values, function, inner)]
         found += results or [values.unknown(f"what {function.name} gives", node, frame)]

@@ -152,8 +152,6 @@ def choice(values: Iterable[Value]) -> Value:
         for way in ways(value):
             if not isinstance(way, Nothing) and not any(same(way, f) for f in some):
                 some.append(way)
-    if len(some) > MOST:
-        some = some[:MOST]
     match some:
         case []:
             return Nothing()

@@ -374,7 +374,10 @@ class Variables:
     def initial(self, variable: Variable, path: str) -> Value:
         """What a member or global holds by its declaration."""
         member = variable.field
-        frame = Frame(variable.cpp)
+        if variable.owner is not None and (member is None or member.value is None):
+            owners = variable.owner.name, variable.text
+            member = self.values.code.statics.get(owners, member)
+        frame = Frame(member.cpp if member is not None else variable.cpp)
         if member is None:
             return Nothing()
         if member.value is not None and not path:

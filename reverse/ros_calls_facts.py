@@ -94,6 +94,9 @@ class Facts:
         for key in {k: None for a in answers for k in a.values}:
             known = [v for a in answers if (v := a.values.get(key)) is not None]
             merged[key] = one_of(known)
+        if self.values.truncated:
+            more = self._unknown(asked, "it is called from too many places")
+            merged = {k: one_of([v, more]) if v is not None else None for k, v in merged.items()}
         called = [c for a in answers for c in a.called]
         if not called and "callback" not in ask.arguments and ask.kind is Kind.SUBSCRIPTION:
             called = registered(self.values, self.callbacks, site)

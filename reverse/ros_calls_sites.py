@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from tree_sitter import Node
 
+from rebsync.reverse.cpp_flow import FIXTURES
 from rebsync.reverse.cpp_flow_types import unscoped_member
 from rebsync.reverse.cpp_tree import Cpp, part, text_of
 from rebsync.reverse.cpp_values import Values
@@ -15,6 +16,8 @@ def site_of(values: Values, cpp: Cpp, place: Node, call: Node) -> Site:
     """The site of a call whose function's name stands at a place."""
     function = values.texts.function_around(cpp, place)
     owner = (function.owner or function.name) if function is not None else None
+    if owner in FIXTURES:
+        owner = None  # no function of that name
     return Site(owner, function, cpp, call, at(cpp, place), kept(call))
 
 

@@ -27,6 +27,7 @@ T Table<T>::get() const { return T(); }
 using Twist = geometry_msgs::Twist;
 static int counter = 1, *where;
 const std::string NAME("x");
+int a::Outer::shared = 6;
 enum class Kind : uint8_t { FIRST = 1, SECOND };
 """
 
@@ -71,6 +72,8 @@ def test_variables_constants_and_other_names_for_types() -> None:
     code = _code()
     assert set(code.variables) == {"counter", "where", "NAME"}
     assert {name for _, name in code.constants} == {"LIMIT", "COUNT", "NAME"}
+    assert [text_of(v.value) for v in code.statics.values() if v.value] == ["6"]
+    assert set(code.statics) == {("Outer", "shared")}
     assert {name: text_of(a[0].type) for name, a in code.aliases.items()} == {
         "Message": "std_msgs::Int32",
         "Twist": "geometry_msgs::Twist",
