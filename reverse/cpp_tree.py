@@ -9,7 +9,7 @@ from dataclasses import field
 from functools import cache
 
 import tree_sitter_cpp
-from tree_sitter import Language, Node, Parser
+from tree_sitter import Language, Node, Parser, Query, QueryCursor
 
 from rebsync.records import dataclass
 from rebsync.reverse.cpp_depth import deep_parts, may_be_deep, without
@@ -52,8 +52,13 @@ class Cpp:
 
 
 @cache
+def _language() -> Language:
+    return Language(tree_sitter_cpp.language())
+
+
+@cache
 def _parser() -> Parser:
-    return Parser(Language(tree_sitter_cpp.language()))
+    return Parser(_language())
 
 
 def parse(source: Source) -> Cpp:
@@ -90,6 +95,27 @@ def text_of(node: Node) -> str:
 def named(node: Node) -> list[Node]:
     """The named children of a node but for comments."""
     return [c for c in node.named_children if c.type != "comment"]
+
+
+def inside(node: Node | None, *types: str) -> list[Node]:
+    """The nodes of some types in a node, itself included, outer ones first, in the text's order.
+
+    The parser's library looks for them, which is much quicker than going through a tree.
+    """
+    if node is None:
+        return []
+    found = QueryCursor(_query(types)).captures(node).get("found", [])
+    found.sort(key=_in_text)
+    return found
+
+
+@cache
+def _query(types: tuple[str, ...]) -> Query:
+    return Query(_language(), " ".join(f"({type_}) @found" for type_ in types))
+
+
+def _in_text(node: Node) -> tuple[int, int]:
+    return node.start_byte, -node.end_byte
 
 
 def part(node: Node, name: str) -> Node:

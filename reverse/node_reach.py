@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 
 from rebsync.reverse.cpp_calls import calls_in
 from rebsync.reverse.cpp_index import Code, CppFunction
 from rebsync.reverse.node_servers import Server
 from rebsync.reverse.node_units import Unit
-
-_NAMED = re.compile(r"(?:->|\.)\s*(\w+)\s*\(|&\s*(?:\w+::)*(\w+)")
 
 
 def unreached(
@@ -19,12 +16,11 @@ def unreached(
     """The functions that neither servers nor the start lead to, though some code names them."""
     reached = _reached(code, unit, first, servers)
     served = {s.body.id for s in servers}
-    named = _named(code)
     for function in unit.functions:
         if function.body is None or function.node.id in reached or function.body.id in served:
             continue
         special = function.name in unit.names or function.name.startswith(("~", "operator"))
-        if not special and function.name in named:
+        if not special and function.name in code.handed_on():
             yield function
 
 
@@ -45,9 +41,3 @@ def _reached(
             called = {c.name.rpartition("::")[2] for c in code.calls_of(function)}
             waiting += [f for name in called for f in by_name.get(name, ())]
     return found
-
-
-def _named(code: Code) -> frozenset[str]:
-    """The functions that some code calls on an object, or hands on."""
-    found = (m for cpp in code.files for m in _NAMED.finditer(cpp.source.text))
-    return frozenset(m[1] or m[2] for m in found)
