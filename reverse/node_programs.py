@@ -30,6 +30,11 @@ class Program:
     sources: frozenset[str]
     node: NodeFact | None
 
+    @property
+    def stem(self) -> str:
+        """The name of the file that its `main` is in, which programs often have."""
+        return self.main.cpp.source.path.rpartition("/")[2].rpartition(".")[0]
+
     def has(self, cpp: Cpp) -> bool:
         """Whether a file is one of its sources."""
         return cpp.source.path in self.sources

@@ -21,7 +21,7 @@ from rebsync.reverse.node_classes import NodeClass
 from rebsync.reverse.node_listing import Listing
 from rebsync.reverse.node_names import Names, class_word
 from rebsync.reverse.node_parameters import Given
-from rebsync.reverse.node_programs import programs
+from rebsync.reverse.node_programs import Program
 from rebsync.reverse.node_servers import declared, servers
 from rebsync.reverse.node_setup import Setup
 from rebsync.reverse.node_starts import first_functions, opening
@@ -58,6 +58,7 @@ class NodeSystem:
     files: Mapping[str, Source]
     launch: Launch | None
     package: str
+    programs: tuple[Program, ...]
     findings: Findings
     only: str | None = None
     generated: bool = False
@@ -65,7 +66,7 @@ class NodeSystem:
 
     def read(self) -> Nodes:
         """All of them. What has no place in the model is listed."""
-        found = programs(self.code, self.graph, self.files)
+        found = self.programs
         if self.generated:
             found = tuple(p for p in found if not p.name.endswith(_STAND_IN))
         reading = Units(self.code, self.graph, found, self.generated)

@@ -81,9 +81,7 @@ def _runs(node: LaunchedNode, start: Start, package: str) -> bool:
         return start.program is None and plain == start.nodelet
     if start.program is None or (package and node.package not in (package, "")):
         return False
-    main = start.program.main.cpp.source.path
-    stem = main.rpartition("/")[2].rpartition(".")[0]
-    return node.type == start.program.name or node.type == stem
+    return node.type in (start.program.name, start.program.stem)
 
 
 # --- who receives what --------------------------------------------------------------------------

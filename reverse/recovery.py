@@ -23,6 +23,7 @@ from rebsync.reverse.graph import Graph
 from rebsync.reverse.launched import Launch, LaunchedNode
 from rebsync.reverse.manifests import read_manifest
 from rebsync.reverse.node_launch import is_launch, system_of
+from rebsync.reverse.node_programs import Program, programs
 from rebsync.reverse.node_system import Nodes, NodeSystem
 from rebsync.reverse.packages import CODE
 from rebsync.reverse.parameters import Parameter
@@ -71,12 +72,13 @@ def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
     launch = system.launch if system is not None else None
     classes = Classes(code, findings, own_messages(files))
     read = classes.read(_classes_in(code, files[only].path) if only is not None else None)
+    started = programs(code, graph, files)
     nodes = NodeSystem(
-        code, graph, files, launch, package, findings, only, _is_generated(code)
+        code, graph, files, launch, package, started, findings, only, _is_generated(code)
     ).read()
     if system is not None and only is None and (read or nodes.classes):
         system.note(findings)
-    generated = _System(code, classes, read, launch if only is None else None)
+    generated = _System(code, classes, read, launch if only is None else None, started)
     main = _main(generated, nodes, only is not None and len(files) > 1)
     model = m.Model(tuple(generated.heads() if read else ()), (*read, *nodes.classes), main)
     return Extracted(model, tuple(findings.all), tuple(findings.statements.items()), graph)
@@ -115,6 +117,7 @@ class _System:
     classes: Classes
     read: tuple[m.ReactiveClass | m.Interface, ...]
     launch: Launch | None
+    programs: tuple[Program, ...]
 
     # --- constants ------------------------------------------------------------------------------
 
@@ -208,11 +211,10 @@ class _System:
     def _started(self, node: LaunchedNode) -> tuple[str, list[str]] | None:
         """The class that a node's program makes a rebec of, and its private parameters."""
         names = {c.name for c in self.read}
-        for function in self.code.definitions.get(("", "main"), []):
-            stem = function.cpp.source.path.rpartition("/")[2].rpartition(".")[0]
-            if stem != node.type:
+        for program in self.programs:
+            if node.type not in (program.name, program.stem):
                 continue
-            for made, keys in _made(function):
+            for made, keys in _made(program.main):
                 if class_name(made) in names:
                     return class_name(made), keys
         return None
