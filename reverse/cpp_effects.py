@@ -387,6 +387,8 @@ class Effects:
             elif self._is_noted(name):
                 self.written.add(name)
             else:
+                if isinstance(meaning, Itself):
+                    raise self._touches(argument, "what is done to the object itself is not known")
                 hint = "hand over a copy: +x, or a const local"
                 raise self._touches(argument, f'this may change "{text_of(argument)}"', hint)
 

@@ -42,7 +42,7 @@ from rebsync.reverse.scope import (
     TimerOf,
     Variable,
 )
-from rebsync.static.types import BOOLEAN, converts, is_boolean, is_integer
+from rebsync.static.types import BOOLEAN, converts, is_boolean, is_floating, is_integer
 
 _PREFIX = frozenset({"+", "-", "!", "~"})
 _WORDS = {"and": "&&", "or": "||", "not": "!", "not_eq": "!=", "bitand": "&", "bitor": "|"}
@@ -266,9 +266,11 @@ class CppExpressions:
         argument = part(node, "argument")
         before = argument.start_byte != node.start_byte
         place = self.place(self.read(argument))
-        if place.bits:
+        real = place.type is not None and is_floating(place.type)
+        if place.bits or real:
             if not before and node.parent is not None and node.parent.type.endswith("expression"):
-                raise self.unread(node, f'"{text_of(argument)}" is unsigned: this wraps sooner')
+                why = "the model counts only whole numbers" if real else "this wraps sooner"
+                raise self.unread(node, why, "count in a statement of its own")
             target = self.read(argument)
             value = binary(operator[0], target, m.IntLiteral(1))
             return m.Assign("=", target, converted_to(self.scope, value, place), span)

@@ -14,7 +14,7 @@ from rebsync.reverse.cpp_conversions import as_number, operands, type_in
 from rebsync.reverse.cpp_effects import Effects
 from rebsync.reverse.cpp_places import resolve
 from rebsync.reverse.cpp_time import time_called, to_seconds
-from rebsync.reverse.cpp_tree import text_of
+from rebsync.reverse.cpp_tree import named, text_of
 from rebsync.reverse.cpp_types import carried
 from rebsync.reverse.cpp_unknowns import Unknown
 from rebsync.reverse.scope import Record, Takes, Variable
@@ -60,8 +60,9 @@ def call(
         case "ros::ok", 0:
             return m.BoolLiteral(True, span)
         case "min" | "max", 2:
-            left, right = _calm(reader, arguments)
-            return _lesser(reader, left, right, "<" if plain == "min" else ">")
+            return _least(reader, arguments, plain)
+        case "min" | "max", 1 if arguments[0].type == "initializer_list":
+            return _least(reader, named(arguments[0]), plain)
         case "clamp" | "math::clamp" | "algorithm::clamp", 3:
             value, low, high = _calm(reader, arguments)
             return _lesser(reader, _lesser(reader, value, low, ">"), high, "<")
@@ -96,6 +97,14 @@ def _calm(reader: CppExpressions, nodes: Sequence[Node]) -> list[m.Expression]:
         if not is_calm(value):
             raise reader.unread(node, "the model would do this more than once", "use a local")
     return read
+
+
+def _least(reader: CppExpressions, nodes: Sequence[Node], name: str) -> m.Expression:
+    """The least, or the greatest, of some values."""
+    first, *others = _calm(reader, nodes)
+    for other in others:
+        first = _lesser(reader, first, other, "<" if name == "min" else ">")
+    return first
 
 
 def _lesser(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
@@ -14,7 +15,7 @@ from rebsync.reverse.cpp_calls import call_of
 from rebsync.reverse.cpp_conversions import as_boolean, as_number, converted_to
 from rebsync.reverse.cpp_effects import Effects, Touches, is_outside
 from rebsync.reverse.cpp_places import is_this, resolve
-from rebsync.reverse.cpp_time import pause
+from rebsync.reverse.cpp_time import pause, units
 from rebsync.reverse.cpp_tree import named, part, text_of
 from rebsync.reverse.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
@@ -134,7 +135,7 @@ def _called(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
     if name == "ROS_BREAK":
         return _statement(reader, node, m.Call(None, "assertion", (m.BoolLiteral(False),)))
     if name in ASSERTS and name not in reader.scope.functions:
-        condition = reader.expressions.read(named(part(node, "arguments"))[0])
+        condition = _checked(reader, named(part(node, "arguments"))[0])
         checked = m.Call(None, "assertion", (as_boolean(reader.scope, condition),))
         return _statement(reader, node, checked)
     if (inline := _inline(reader, function)) is not None:
@@ -142,6 +143,8 @@ def _called(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
         return iter(())
     if (timer := _timer(reader, node)) is not None:
         return _starts(reader, node, timer)
+    if (stored := _from_seconds(reader, node)) is not None:
+        return _statement(reader, node, stored)
     if function.type == "field_expression" and not is_this(part(function, "argument")):
         _check_timer(reader, node, function)
     return None
@@ -163,6 +166,27 @@ def _inline(reader: CppStatements, function: Node) -> Inline | Lambda | None:
         return None
     found = reader.scope.functions.get(name.rpartition("::")[2])
     return found if isinstance(found, Inline) else None
+
+
+def _checked(reader: CppStatements, node: Node) -> m.Expression:
+    """What is asserted; a choice would be an assertion that fails."""
+    try:
+        return reader.expressions.read(node)
+    except Unknown as unknown:
+        why = f"whether this holds is not known: {unknown.why}"
+        raise Unread(unknown.span, why, unknown.hint) from None
+
+
+def _from_seconds(reader: CppStatements, node: Node) -> m.Expression | None:
+    """`duration.fromSec(2.0)`: a variable gets a span of time."""
+    function, arguments = part(node, "function"), named(part(node, "arguments"))
+    if function.type != "field_expression" or len(arguments) != 1:
+        return None
+    variable = resolve(reader.scope, part(function, "argument"))
+    if text_of(part(function, "field")) != "fromSec" or not isinstance(variable, Variable):
+        return None
+    value = units(reader.expressions, arguments[0], Fraction(1))
+    return m.Assign("=", m.Name(variable.name), value, reader.cpp.span(node))
 
 
 def _statement(

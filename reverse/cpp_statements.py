@@ -222,8 +222,12 @@ class CppStatements:
                 yield m.Break(annotations, span)
             case "continue_statement":
                 yield m.Continue(annotations, span)
-            case _:
-                raise self.unread(node, f"the model has no {node.type.replace('_', ' ')}")
+            case kind if kind.startswith("preproc_"):
+                raise self.unread(node, "which of these alternatives counts is not known")
+            case "ERROR":
+                raise self.unread(node, "this does not parse as C++")
+            case kind:
+                raise self.unread(node, f"the model has no {kind.replace('_', ' ')}")
 
     # --- what others read with ------------------------------------------------------------------
 

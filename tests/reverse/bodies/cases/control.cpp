@@ -50,3 +50,18 @@ void Node::onEndless() {
     ++count_;
   }
 }
+void Node::onDefaultFirst() {
+  switch (count_) {
+    default:
+      limit_ = 1;
+      break;
+    case 2:
+      limit_ = 2;
+  }
+  switch (count_) {
+    default:
+      limit_ = 1;
+    case 2:
+      limit_ = 2;
+  }
+}

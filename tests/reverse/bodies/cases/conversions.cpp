@@ -32,3 +32,14 @@ void Node::onWideTypes() {
   unsigned int more = n + big;
   limit_ = (long)more;
 }
+void Node::onCounting() {
+  level_++;
+  --level_;
+  half_++;
+  limit_ = small_++;
+  count_ = std::max({count_, 2, limit_});
+  int a[4] = {1, 2};
+  bool b[3] = {on_};
+  limit_ = a[3] + b[0];
+  limit_ = on_ ? count_ : on_;
+}

@@ -64,3 +64,13 @@ void Node::onHidden() {
   if (sensor_(range_) > 3) on_ = true;
   names_.at(0).append(text_);
 }
+void Node::onAlternatives() {
+#if DEBUG
+  sensor_.trace();
+#endif
+#ifdef FAST
+  count_ = 2;
+#else
+  count_ = 1;
+#endif
+}

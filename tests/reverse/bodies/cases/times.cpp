@@ -35,3 +35,8 @@ void Node::onLibrary() {
   count_ = grid_.size();
   if (std::isnan(level_)) count_ = INT_MAX;
 }
+void Node::onSpans() {
+  last_.fromSec(3.0);
+  last_ = ros::Time(2, 0) + ros::Duration(1.0);
+  if (last_.isZero()) count_ = close(count_);
+}
