@@ -88,12 +88,14 @@ class Values:
         """
         return self.settle_all([frame], do)
 
-    def settle_all(self, frames: list[Frame], do: Callable[[Frame], T]) -> list[T]:
-        """As `settle`, for several frames."""
+    def settle_all(
+        self, frames: list[Frame], do: Callable[[Frame], T], used: list[Frame] | None = None
+    ) -> list[T]:
+        """As `settle`, for several frames; `used` gets the frames that gave something."""
         waiting = [*frames]
         inside: list[T] = []
         outside: list[T] = []
-        while waiting and len(inside) < MOST:
+        while waiting and len(inside) + len(outside) < MOST:
             current = waiting.pop(0)
             try:
                 result = do(current)
@@ -102,6 +104,8 @@ class Values:
                     raise
                 waiting += self._called(current)
                 continue
+            if used is not None:
+                used.append(current)
             root = current.root
             away = root.outside or (root is not current and self._is_unused(root))
             (outside if away else inside).append(result)

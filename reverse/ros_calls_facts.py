@@ -49,6 +49,9 @@ from rebsync.reverse.ros_calls_options import Given, options_of
 from rebsync.reverse.ros_calls_types import MessageTypes
 from rebsync.reverse.roscpp_vocabulary import ANONYMOUS, OPTIONS, TRANSPORTS, Ask, Kind
 
+# Ways into a function up to which all of its calls are looked at on each of them from the start.
+_FEW = 3
+
 
 @dataclass(frozen=True, eq=False)
 class Asked:
@@ -77,6 +80,7 @@ class Facts:
     values: Values
     callbacks: Callbacks = field(init=False)
     types: MessageTypes = field(init=False)
+    _frames: dict[int, list[Frame]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.callbacks = Callbacks(self.values)
@@ -88,8 +92,7 @@ class Facts:
         site, ask = asked.site, asked.ask
         if ask.kind is Kind.NODELET:
             return list(_nodelet(asked))
-        frame = Frame(site.cpp, site.function)
-        answers = self.values.settle(frame, lambda f: self._answer(asked, f))
+        answers = self._answers(asked)
         merged: dict[str, Resolved | None] = {}
         for key in {k: None for a in answers for k in a.values}:
             known = [v for a in answers if (v := a.values.get(key)) is not None]
@@ -102,6 +105,17 @@ class Facts:
             called = registered(self.values, self.callbacks, site)
         searched = any(a.searched for a in answers)
         return [self._fact(asked, merged, _distinct(called), called, searched)]
+
+    def _answers(self, asked: Asked) -> list[_Answer]:
+        """What the arguments are on each way into the function around a call."""
+        site = asked.site
+        home = site.function.node.id if site.function is not None else 0
+        frames = self._frames.get(home, [Frame(site.cpp, site.function)])
+        used: list[Frame] = []
+        answers = self.values.settle_all(frames, lambda f: self._answer(asked, f), used)
+        if home and len(used) <= _FEW:
+            self._frames[home] = used  # what the next call in the function will ask for
+        return answers
 
     # --- on one way -----------------------------------------------------------------------------
 
