@@ -59,7 +59,8 @@ class Body:
     variables: list[Variable]
     helpers: list[Helper]
     publishers: list[Publisher]
-    timers: list[str]
+    timers: list[str] = field(default_factory=list)
+    handle: str = "nh_"
     result: str = "void"
     opaque: bool = True
     members: bool = True
@@ -255,7 +256,7 @@ class Body:
     def _publish(self) -> list[str]:
         if self.timers and self.chance(8):
             seconds, timer = self.random.randint(1, 4), self.random.choice(self.timers)
-            made = f"nh_.createTimer(ros::Duration({seconds}), &{timer}, this, true)"
+            made = f"{self.handle}.createTimer(ros::Duration({seconds}), {timer}, true)"
             return [f"once_ = {made};"]
         if not self.publishers:
             return []

@@ -22,7 +22,10 @@ from tests.reverse.soundness.programs import Effect, Input, Seen
 # What is said of integers that models have no type for: they wrap elsewhere, or not at all.
 _WIDER = "holds more than"
 _ENOUGH = 10_000  # messages that the rebec may have waiting, so that none finds no place
-_FUNCTION = re.compile(r"^ {0,2}\w+ (\w+)\([^\n]*\) \{\n(.*?)^ {0,2}\}$", re.MULTILINE | re.DOTALL)
+_FUNCTION = re.compile(
+    r"^(?:\w+ (?:\w+::)?|(?=on\w+_ = ))(\w+)(?:\(|_ = )[^\n]*\) \{\n(.*?)^\}",
+    re.MULTILINE | re.DOTALL,
+)
 
 
 @dataclass
@@ -74,6 +77,8 @@ def compare(
     for call, after in zip(calls, seen[1:], strict=True):
         grade = grades.of(call.callback)
         if grade is Grade.UNREADABLE or not possible.serves(call.callback):
+            if grade is None and call.callback.message is not None:
+                tally.unsound.append(f"{node.name}.{call.callback.name} is not in the model")
             tally.unreadable += 1
             possible.states = possible.as_seen(possible.states, after)
             continue
@@ -132,7 +137,7 @@ class Possible:
     def __init__(self, node: DrawnNode, analysis: Analysis) -> None:
         self.node = node
         self.program: Program = lower(analysis, Properties())[0]
-        rebecs = [r for r in self.program.rebecs if r.class_name == node.name]
+        rebecs = [r for r in self.program.rebecs if r.name == node.name.lower()]
         assert len(rebecs) == 1, (node.name, [r.class_name for r in self.program.rebecs])
         self.rebec = replace(rebecs[0], capacity=_ENOUGH)
         index = self.program.rebecs.index(rebecs[0])
@@ -196,7 +201,7 @@ class Possible:
 
     def _server(self, callback: Callback) -> int | None:
         for index, server in enumerate(self.program.servers):
-            if server.class_name == self.node.name and server.name == callback.name:
+            if server.class_name == self.rebec.class_name and server.name == callback.name:
                 return index
         return None
 

@@ -11,6 +11,7 @@ from random import Random
 
 from tests.reverse.soundness.drawing import Body, Helper, Publisher, Variable, lines_of
 from tests.reverse.soundness.odd import odd_statement
+from tests.reverse.soundness.shapes import SHAPES, Function, Parts, Subscription, files_of
 
 # Message types with their fields by paths.
 MESSAGES = {
@@ -55,17 +56,24 @@ class Callback:
 
 @dataclass(frozen=True)
 class DrawnNode:
-    """A node: `files` are its package's, `source` the one that has the class."""
+    """A node: `files` are its package's, `sources` those of the node itself by their names."""
 
     name: str
     files: dict[str, str]
-    source: str
+    sources: dict[str, str]
+    shape: str
     callbacks: tuple[Callback, ...]
     members: tuple[Variable, ...]
     publishers: tuple[Publisher, ...]
 
-    def topic(self, publisher: Publisher) -> str:
-        return f"{self.name.lower()}/{publisher.name.rstrip('_')}"
+    @property
+    def source(self) -> str:
+        """All of its code."""
+        return "\n".join(self.sources.values())
+
+    def topic(self, callback: Callback) -> str:
+        """The topic of a callback's messages."""
+        return f"{self.name.lower()}/{callback.name}"
 
 
 def draw_node(seed: int) -> DrawnNode:
@@ -84,15 +92,17 @@ def draw_node(seed: int) -> DrawnNode:
     ticks = (Callback("tick", None),) if random.random() < 0.5 else ()
     once = (Callback("later", None),) if random.random() < 0.4 else ()
     callbacks = (*taken, *ticks, *once)
-    source = _Writer(random, name, members, publishers, callbacks).source()
+    shape = random.choice(SHAPES)
+    parts = _Writer(random, name, members, publishers, callbacks, shape).parts()
+    sources = files_of(parts, shape, random)
     files = {
-        f"src/{name.lower()}.cpp": source,
+        **{f"src/{path}": text for path, text in sources.items()},
         f"src/{name.lower()}_sink.cpp": _sink(name, publishers),
         "CMakeLists.txt": _build(name),
         "package.xml": f"<package format='2'><name>{name.lower()}</name></package>\n",
         "launch/all.launch": _launch(name),
     }
-    return DrawnNode(name, files, source, callbacks, members, publishers)
+    return DrawnNode(name, files, sources, shape, callbacks, members, publishers)
 
 
 @dataclass
@@ -102,49 +112,53 @@ class _Writer:
     members: tuple[Variable, ...]
     publishers: tuple[Publisher, ...]
     callbacks: tuple[Callback, ...]
+    shape: str
     odd: bool = False
 
-    def source(self) -> str:
+    def parts(self) -> Parts:
         opaque = self.random.random() < 0.6
         self.odd = self.random.random() < 0.5
         helpers, free = self._helpers()
-        bodies = [line for c in self.callbacks for line in self._callback(c, helpers, opaque)]
-        members = [h for helper in helpers if helper[0].member for h in helper[1]]
-        text = [
-            "#include <ros/ros.h>",
-            "#include <geometry_msgs/Twist.h>",
-            *(f"#include <std_msgs/{m.rpartition('::')[2]}.h>" for m in MESSAGES if "std" in m),
-            "#include <library.h>",
-            "",
-            *(["enum Mode { IDLE, RUN, STOP };", ""] if self._has("Mode") else []),
-            *free,
-            f"class {self.name} {{",
-            " public:",
-            *(f"  {line}" for line in self._constructor()),
-            "",
-            " private:",
-            *(f"  {line}" for line in [*members, *bodies]),
-            "  ros::NodeHandle nh_;",
-            *(f"  ros::Publisher {p.name};" for p in self.publishers),
-            "  std::vector<ros::Subscriber> subscribers_;",
-            "  ros::Timer timer_;",
-            "  ros::Timer once_;",
-            "  std::map<int, int> table_;",
-            "  std::string label_;",
-            *(f"  {self._declared(m)}" for m in self.members),
-            "};",
-            "",
-            "int main(int argc, char** argv) {",
-            f'  ros::init(argc, argv, "{self.name.lower()}");',
-            f"  {self.name} node;",
-            "  ros::spin();",
-            "  return 0;",
-            "}",
-        ]
-        return "\n".join(text) + "\n"
+        called = [h for h, _ in helpers]
+        made = {c.name: self._callback(c, called, opaque) for c in self.callbacks}
+        mode = ["enum Mode { IDLE, RUN, STOP };", ""]
+        low = self.name.lower()
+        return Parts(
+            self.name,
+            ("#include <ros/ros.h>", *(f"#include <{_path(m)}.h>" for m in sorted(MESSAGES))),
+            ("#include <library.h>", "", *(mode if self._has("Mode") else []), *free),
+            tuple(f for h, f in helpers if h.member),
+            tuple(made[c.name] for c in self.callbacks if c.message is None),
+            tuple(
+                Subscription(f"{low}/{c.name}", c.message, made[c.name], self._style())
+                for c in self.callbacks
+                if c.message is not None
+            ),
+            tuple(self._declarations()),
+            tuple(self._initial()),
+            self.random.randint(1, 3),
+            tuple(
+                f'{p.name} = nh_.advertise<{p.message}>("{low}/{p.name.rstrip("_")}", 10);'
+                for p in self.publishers
+            ),
+        )
+
+    def _style(self) -> str:
+        style = self.random.choice(("pointer", "pointer", "bind", "lambda"))
+        return "pointer" if self.shape == "functions" else style
 
     def _has(self, type_: str) -> bool:
         return any(m.type == type_ for m in self.members)
+
+    def _declarations(self) -> list[str]:
+        return [
+            "ros::NodeHandle nh_;",
+            *(f"ros::Publisher {p.name};" for p in self.publishers),
+            *(f"ros::Subscriber {c.name}_;" for c in self.callbacks if c.message is not None),
+            *("ros::Timer timer_;", "ros::Timer once_;"),
+            *("std::map<int, int> table_;", "std::string label_;"),
+            *map(self._declared, self.members),
+        ]
 
     def _declared(self, member: Variable) -> str:
         if member.length:
@@ -159,40 +173,27 @@ class _Writer:
             (f"{member.type} {member.name} = {value};", f"{member.type} {member.name}{{}};")
         )
 
-    def _constructor(self) -> list[str]:
-        lines = [f"{self.name}() {{"]
-        low = self.name.lower()
-        for callback in self.callbacks:
-            if callback.message is not None:
-                given = f'"{low}/{callback.name}", 10, &{self.name}::{callback.name}, this'
-                lines.append(f"  subscribers_.push_back(nh_.subscribe({given}));")
-            elif callback.name == "tick":
-                seconds = self.random.randint(1, 3)
-                made = f"nh_.createTimer(ros::Duration({seconds}), &{self.name}::tick, this)"
-                lines.append(f"  timer_ = {made};")
-        for publisher in self.publishers:
-            topic = f"{low}/{publisher.name.rstrip('_')}"
-            made = f'nh_.advertise<{publisher.message}>("{topic}", 10)'
-            lines.append(f"  {publisher.name} = {made};")
+    def _initial(self) -> list[str]:
         plain = [m for m in self.members if m.type == "int" and not m.length]
-        lines += [f"  {m.name} = {self.random.randrange(9)};" for m in plain if self._maybe()]
-        return [*lines, "}"]
-
-    def _maybe(self) -> bool:
-        return self.random.random() < 0.4
+        some = [m for m in plain if self.random.random() < 0.4]
+        return [f"{m.name} = {self.random.randrange(9)};" for m in some]
 
     # --- functions ------------------------------------------------------------------------------
 
     def _body(self, variables: list[Variable], helpers: list[Helper], opaque: bool) -> Body:
-        timers = [f"{self.name}::later"] if any(c.name == "later" for c in self.callbacks) else []
+        once = any(c.name == "later" for c in self.callbacks)
+        free = self.shape == "functions"
+        timer = "later" if free else f"&{self.name}::later, this"
         known = [*self.members, *variables]
-        body = Body(self.random, known, helpers, list(self.publishers), timers, opaque=opaque)
+        body = Body(self.random, known, helpers, list(self.publishers), opaque=opaque)
+        body.timers = [timer] if once and self.shape != "base" else []
+        body.handle = "ros::NodeHandle()" if free else "nh_"
         body.odd = odd_statement if self.odd else None
         return body
 
-    def _helpers(self) -> tuple[list[tuple[Helper, list[str]]], list[str]]:
-        """Members that helpers are, each knowing those before it; and the free functions."""
-        found: list[tuple[Helper, list[str]]] = []
+    def _helpers(self) -> tuple[list[tuple[Helper, Function]], list[str]]:
+        """Helpers that are members, each knowing those before it; and the free functions."""
+        found: list[tuple[Helper, Function]] = []
         free: list[str] = []
         for index in range(self.random.randint(0, 3)):
             result = self.random.choice(("int", "bool", "void", "void"))
@@ -202,28 +203,29 @@ class _Writer:
             member = result == "void" or self.random.random() < 0.7
             helper = Helper(f"help{index}", result, takes, member)
             names = [f"p{i}" for i in range(len(takes))]
-            variables = [Variable(n, "int") for n in names]
-            body = self._body(variables, [h for h, _ in found if member or not h.member], False)
-            body.result = result
-            if result != "void":  # C++ leaves open when an expression has its effects
-                body.publishers, body.timers = [], []
-                body.helpers = [h for h in body.helpers if h.result != "void"]
-                body.variables = [
-                    Variable(v.name, v.type, v.length, constant=v.name.endswith("_"))
-                    for v in body.variables
-                ]
-            if not member:
-                body.variables, body.members = variables, False
+            body = self._helping(helper, names, [h for h, _ in found if member or not h.member])
             given = ", ".join(f"{t} {n}" for t, n in zip(takes, names, strict=True))
-            head = f"{result} {helper.name}({given}) {{"
-            text = [head, *lines_of(body), "}"]
-            found.append((helper, text if member else []))
-            free += [] if member else [*text, ""]
+            function = Function(result, helper.name, given, tuple(lines_of(body)))
+            found.append((helper, function))
+            free += [] if member else [*function.text(), ""]
         return found, free
 
-    def _callback(
-        self, callback: Callback, helpers: list[tuple[Helper, list[str]]], opaque: bool
-    ) -> list[str]:
+    def _helping(self, helper: Helper, names: list[str], others: list[Helper]) -> Body:
+        variables = [Variable(n, "int") for n in names]
+        body = self._body(variables, others, False)
+        body.result = helper.result
+        if helper.result != "void":  # C++ leaves open when an expression has its effects
+            body.publishers, body.timers = [], []
+            body.helpers = [h for h in body.helpers if h.result != "void"]
+            body.variables = [
+                Variable(v.name, v.type, v.length, constant=v.name.endswith("_"))
+                for v in body.variables
+            ]
+        if not helper.member:
+            body.variables, body.members = variables, False
+        return body
+
+    def _callback(self, callback: Callback, helpers: list[Helper], opaque: bool) -> Function:
         if callback.message is None:
             taken, variables = "const ros::TimerEvent& event", []
         else:
@@ -234,8 +236,12 @@ class _Writer:
             ]
             by = "&" if callback.by_value else "::ConstPtr&"
             taken = f"const {callback.message}{by} msg"
-        body = self._body(variables, [h for h, _ in helpers], opaque)
-        return [f"void {callback.name}({taken}) {{", *lines_of(body), "}"]
+        body = self._body(variables, helpers, opaque)
+        return Function("void", callback.name, taken, tuple(lines_of(body)))
+
+
+def _path(message: str) -> str:
+    return message.replace("::", "/")
 
 
 def _sink(name: str, publishers: tuple[Publisher, ...]) -> str:

@@ -72,9 +72,9 @@ def run(
     """For each node what is seen after its constructor, and after each call."""
     sources = []
     for node in nodes:
-        path = folder / f"{node.name}.cpp"
-        path.write_text(node.source, encoding="utf-8")
-        sources.append(path)
+        for name, text in node.sources.items():
+            (folder / name).write_text(text, encoding="utf-8")
+        sources.append(folder / f"{node.name.lower()}.cpp")
     driver = folder / "driver.cpp"
     driver.write_text(_driver(nodes, calls, sources), encoding="utf-8")
     program = folder / "driver"
@@ -90,7 +90,7 @@ def _driver(
 ) -> str:
     text = ["#include <ros/ros.h>", "#include <library.h>"]
     text += [f"#include <{m.replace('::', '/')}.h>" for m in MESSAGES]
-    text += [_LIBRARY, "#define private public"]
+    text += [_LIBRARY, "#define private public", "#define protected public"]
     for node, path in zip(nodes, sources, strict=True):
         low = node.name.lower()
         text += [f"namespace of_{low} {{", f"#define main main_of_{low}"]
@@ -125,30 +125,39 @@ def _runner(node: DrawnNode, calls: Sequence[Input]) -> list[str]:
         number = node.callbacks.index(call.callback)
         rows.append(f"{{{number}, {', '.join(repr(float(v)) for v in values)}}}")
     text = [f"static void run_{node.name}() {{", f'  tell("node {node.name}");']
-    text += ["  fake::effects().clear();", f"  of_{node.name.lower()}::{node.name} node;"]
+    inside = f"of_{node.name.lower()}"
+    made, at = f"static {inside}::{node.name} node;", "node."
+    if node.shape == "functions":
+        made, at = f"{inside}::main_{inside}(0, nullptr);", f"{inside}::"
+    text += ["  fake::effects().clear();", f"  {made}"]
     text += ["  auto report = [&] {", "    for (auto& e : fake::effects()) tell(e);"]
     text += ['    std::string state = "state";']
     for member in node.members:
         for index in range(member.length or 1):
-            at = f"[{index}]" if member.length else ""
-            text.append(f"    state += fake::value(node.{member.name}{at});")
+            place = f"[{index}]" if member.length else ""
+            text.append(f"    state += fake::value({at}{member.name}{place});")
     text += ["    tell(state);", "  };", "  report();"]
     text += [f"  static const double calls[][{width + 1}] = {{{', '.join(rows)}}};"]
     text += ["  for (auto& call : calls) {", "    fake::effects().clear(); fake::clock() = 0;"]
     text += ["    switch (static_cast<int>(call[0])) {"]
     for number, callback in enumerate(node.callbacks):
-        text += [f"      case {number}: {{", *_called(callback), "        break;", "      }"]
+        text += [
+            f"      case {number}: {{",
+            *_called(node, callback, at),
+            "        break;",
+            "      }",
+        ]
     return [*text, "    }", "    report();", "  }", "}"]
 
 
-def _called(callback: Callback) -> list[str]:
+def _called(node: DrawnNode, callback: Callback, at: str) -> list[str]:
     if callback.message is None:
-        return [f"        node.{callback.name}(ros::TimerEvent());"]
+        return [f"        {at}{callback.name}(ros::TimerEvent());"]
     text = [f"        auto msg = std::make_shared<{callback.message}>();"]
     for index, (path, type_) in enumerate(callback.fields, 1):
         text.append(f"        msg->{path} = static_cast<{type_}>(call[{index}]);")
-    given = "*msg" if callback.by_value else "msg"
-    return [*text, f"        node.{callback.name}({given});"]
+    topic = node.topic(callback)
+    return [*text, f'        fake::callbacks<{callback.message}>().at("{topic}")(msg);']
 
 
 def _read(told: str, nodes: Sequence[DrawnNode]) -> list[list[Seen]]:

@@ -40,6 +40,16 @@ inline double& clock() {
   return seconds;
 }
 
+/// The callbacks of subscriptions by their topics, for a driver to call.
+template <class M>
+using Callback = std::function<void(const std::shared_ptr<const M>&)>;
+
+template <class M>
+std::map<std::string, Callback<M>>& callbacks() {
+  static std::map<std::string, Callback<M>> all;
+  return all;
+}
+
 inline std::string number(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.17g", value);
@@ -124,18 +134,31 @@ class NodeHandle {
   }
 
   template <class M, class T>
-  Subscriber subscribe(const std::string&, uint32_t, void (T::*)(const std::shared_ptr<const M>&),
-      T*) {
-    return {};
+  Subscriber subscribe(const std::string& topic, uint32_t,
+      void (T::*callback)(const std::shared_ptr<const M>&), T* object) {
+    return take<M>(topic, [=](const std::shared_ptr<const M>& m) { (object->*callback)(m); });
   }
   template <class M, class T>
-  Subscriber subscribe(const std::string&, uint32_t, void (T::*)(const M&), T*) {
-    return {};
+  Subscriber subscribe(const std::string& topic, uint32_t, void (T::*callback)(const M&),
+      T* object) {
+    return take<M>(topic, [=](const std::shared_ptr<const M>& m) { (object->*callback)(*m); });
   }
   template <class M>
-  Subscriber subscribe(const std::string&, uint32_t,
-      const std::function<void(const std::shared_ptr<const M>&)>&) {
-    return {};
+  Subscriber subscribe(const std::string& topic, uint32_t,
+      void (*callback)(const std::shared_ptr<const M>&)) {
+    return take<M>(topic, callback);
+  }
+  template <class M>
+  Subscriber subscribe(const std::string& topic, uint32_t, void (*callback)(const M&)) {
+    return take<M>(topic, [=](const std::shared_ptr<const M>& m) { callback(*m); });
+  }
+  template <class M, class F>
+  Subscriber subscribe(const std::string& topic, uint32_t, const F& callback) {
+    if constexpr (std::is_invocable_v<F, const std::shared_ptr<const M>&>) {
+      return take<M>(topic, callback);
+    } else {
+      return take<M>(topic, [=](const std::shared_ptr<const M>& m) mutable { callback(*m); });
+    }
   }
 
   template <class T>
@@ -159,6 +182,11 @@ class NodeHandle {
   }
 
  private:
+  template <class M>
+  static Subscriber take(const std::string& topic, const fake::Callback<M>& callback) {
+    fake::callbacks<M>()[topic] = callback;
+    return {};
+  }
   static Timer timer(const Duration& period, bool one_shot) {
     if (one_shot) fake::note("arm " + fake::number(period.toSec()));
     return {};
