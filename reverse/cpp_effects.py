@@ -6,11 +6,11 @@ from dataclasses import field, replace
 
 from tree_sitter import Node
 
-from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.cpp_calls import CppCall, call_of
 from rebsync.reverse.cpp_declarations import CppFunction, CppParameter
 from rebsync.reverse.cpp_misread import first_of, is_misread
+from rebsync.reverse.cpp_roots import is_modelled, path_in, root
 from rebsync.reverse.cpp_tree import Cpp, named, text_of
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.known_functions import ACTS, LOOKS, takes_values, type_takes_values
@@ -110,60 +110,7 @@ class Effects:
     # --- what names stand for -------------------------------------------------------------------
 
     def _root(self, node: Node) -> tuple[str, Meaning | None]:
-        """The variable that an expression is, or is part of."""
-        match node.type:
-            case "identifier":
-                name = text_of(node)
-                return name, None if name in self._inner else self.scope.meaning(name)
-            case "field_expression":
-                target = node.children_by_field_name("argument")[0]
-                of = self._root(target)
-                if isinstance(of[1], Itself):
-                    name = text_of(node.children_by_field_name("field")[0])
-                    return name, self.scope.members.get(name)
-                return of
-            case "subscript_expression" | "pointer_expression":
-                return self._root(node.children_by_field_name("argument")[0])
-            case "parenthesized_expression" if len(named(node)) == 1:
-                return self._root(named(node)[0])
-            case "qualified_identifier":
-                name = text_of(node).rpartition("::")[2]
-                return name, self.scope.members.get(name)
-            case "this":
-                return "this", Itself()
-            case "call_expression":
-                target = node.children_by_field_name("function")[0]
-                if target.type == "field_expression":
-                    return self._root(target)
-        return "", None
-
-    def _is_modelled(self, node: Node, meaning: Meaning | None) -> bool:
-        """Whether a change of the variable is one of the model."""
-        match meaning:
-            case None | Outside(reaches=False) | m.StringLiteral() | m.IntLiteral():
-                return False
-            case m.BoolLiteral() | m.FloatLiteral():
-                return False
-            case Record(fields):
-                path = self.path_in(node)
-                return any(p == path or not path or p.startswith(f"{path}.") for p in fields)
-            case _:
-                return True
-
-    def path_in(self, node: Node) -> str:
-        """The path of a field in its message: `linear.x` of `m.linear.x`; empty for all of it."""
-        if node.type == "parenthesized_expression" and len(named(node)) == 1:
-            return self.path_in(named(node)[0])
-        if node.type == "subscript_expression":
-            return self.path_in(node.children_by_field_name("argument")[0])
-        if node.type != "field_expression":
-            return ""
-        target = node.children_by_field_name("argument")[0]
-        if target.type == "this":
-            return ""
-        before = self.path_in(target)
-        own = text_of(node.children_by_field_name("field")[0])
-        return f"{before}.{own}" if before else own
+        return root(self.scope, self._inner, node)
 
     def _is_noted(self, name: str) -> bool:
         return self.everything or (name in self.own and name in self.scope.locals)
@@ -173,12 +120,12 @@ class Effects:
     def _write(self, node: Node) -> None:
         name, meaning = self._root(node)
         self._subscripts(node)
-        if not self._is_modelled(node, meaning):
+        if not is_modelled(node, meaning):
             if not name and node.type not in ("identifier", "call_expression"):
                 self.check(node)
             return
         if self._is_noted(name):
-            path = self.path_in(node) if isinstance(meaning, Record) else ""
+            path = path_in(node) if isinstance(meaning, Record) else ""
             self.written.add(f"{name}.{path}" if path else name)
             return
         raise self._touches(node, f'this changes "{text_of(node)}"')
@@ -220,7 +167,7 @@ class Effects:
 
     def _address(self, node: Node) -> None:
         name, meaning = self._root(node)
-        if self._is_modelled(node, meaning):
+        if is_modelled(node, meaning):
             if self._is_noted(name):
                 self.written.add(name)
                 return
@@ -359,7 +306,7 @@ class Effects:
                 if name not in LOOKS:
                     raise self._touches(call.node, "this changes a timer")
             case Record() | Variable():
-                if name not in LOOKS and self._is_modelled(target, meaning):
+                if name not in LOOKS and is_modelled(target, meaning):
                     if self._is_noted(of):
                         self.written.add(of)
                     else:
@@ -367,7 +314,7 @@ class Effects:
             case Runtime() | Lambda() | Itself():
                 raise self._touches(call.node, f'"{of}" acts on the node')
             case _:
-                if name not in LOOKS and self._is_modelled(target, meaning):
+                if name not in LOOKS and is_modelled(target, meaning):
                     raise self._touches(call.node, f'this may change "{of}"')
         self.check(target)
 
@@ -380,7 +327,7 @@ class Effects:
             name, meaning = self._root(argument)
             if (
                 argument.type == "call_expression" and not _is_element(argument)
-            ) or not self._is_modelled(argument, meaning):
+            ) or not is_modelled(argument, meaning):
                 self.check(argument)
             elif isinstance(meaning, Record) and meaning.constant:
                 continue

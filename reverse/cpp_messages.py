@@ -14,6 +14,7 @@ from rebsync.reverse import cpp_mailbox
 from rebsync.reverse.cpp_conversions import converted_to
 from rebsync.reverse.cpp_effects import Effects
 from rebsync.reverse.cpp_places import field_of, resolve
+from rebsync.reverse.cpp_roots import path_in
 from rebsync.reverse.cpp_tree import named, part, text_of
 from rebsync.reverse.cpp_unknowns import HINT, Demote, Unknown, choice, domain_near
 from rebsync.reverse.findings import Unread
@@ -194,8 +195,7 @@ def _unknown_field(
     reader: CppStatements, target: Node, value: Node, path: str, variable: Variable
 ) -> m.Expression:
     """What a field gets from a message of which the model lacks it."""
-    effects = Effects(reader.cpp, reader.scope)
-    before = effects.path_in(target)
+    before = path_in(target)
     name = f"{text_of(target).partition('.')[0].partition('->')[0]}"
     whole = ".".join(piece for piece in (name, before, path) if piece)
     if name in reader.own:
