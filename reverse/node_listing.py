@@ -32,6 +32,10 @@ _THREADS = re.compile(
 _ENTRIES = re.compile(
     r"(Simple)?Action(Server|Client)|SimpleActionServer|TimeSynchronizer|Synchronizer|MessageFilter"
 )
+_ANY = re.compile(  # what texts without such a name lack
+    rb"Spinner|Threaded|thread|async|getMT|CallbackQueue|Action(?:Server|Client)|Synchronizer"
+    rb"|MessageFilter"
+)
 _SEVERAL = "its callbacks may run at the same time as others: the model has one at a time"
 
 
@@ -83,6 +87,8 @@ class Listing:
                     self._approximated(fact.site.place, why, f"{unit.name}.{server.name}")
 
     def _words(self, unit: Unit, cpp: Cpp, body: Node) -> None:
+        if _ANY.search(body.text or b"") is None:
+            return
         for node in _words(body):
             name = text_of(node)
             place = Place(cpp.source, cpp.span(node))

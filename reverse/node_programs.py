@@ -13,7 +13,7 @@ from rebsync.reverse.cmake import read_build
 from rebsync.reverse.cmake_targets import Folder
 from rebsync.reverse.cpp_calls import call_of
 from rebsync.reverse.cpp_index import Code, CppClass, CppFunction
-from rebsync.reverse.cpp_tree import Cpp, named, text_of
+from rebsync.reverse.cpp_tree import Cpp, inside, named, text_of
 from rebsync.reverse.graph import Graph, NodeFact
 from rebsync.source import Source
 
@@ -130,8 +130,8 @@ class Objects:
         return first + list(self._members(owner, entry))
 
     def _in(self, body: Node | None, in_main: bool) -> Iterator[Made]:
-        for node in _walk(body):
-            name = text_of(node) if node.type == "type_identifier" else ""
+        for node in inside(body, "type_identifier"):
+            name = text_of(node)
             if name in self.wanted and (made := _made(node, name, in_main)) is not None:
                 yield made
             if name in self.code.classes and name not in self._seen and _makes(node):
@@ -150,16 +150,8 @@ class Objects:
                     yield from self._in(function.body, False)
 
 
-def _walk(node: Node | None) -> Iterator[Node]:
-    waiting = [node] if node is not None else []
-    while waiting:
-        current = waiting.pop()
-        yield current
-        waiting += reversed(current.named_children)
-
-
 def _types(node: Node) -> list[str]:
-    return [text_of(n) for n in _walk(node) if n.type == "type_identifier"]
+    return [text_of(n) for n in inside(node, "type_identifier")]
 
 
 def _is_plain(node: Node) -> bool:

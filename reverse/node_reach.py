@@ -6,27 +6,33 @@ from collections.abc import Iterator, Sequence
 
 from rebsync.reverse.cpp_calls import calls_in
 from rebsync.reverse.cpp_index import Code, CppFunction
+from rebsync.reverse.cpp_tree import text_of
 from rebsync.reverse.node_servers import Server
 from rebsync.reverse.node_units import Unit
+
+# Bases that are not in the files and that call nothing but `onInit`.
+_CALLS_NOTHING = frozenset({"Nodelet", "enable_shared_from_this", "noncopyable"})
 
 
 def unreached(
     code: Code, unit: Unit, first: Sequence[CppFunction], servers: Sequence[Server]
 ) -> Iterator[CppFunction]:
     """The functions that neither servers nor the start lead to, though some code names them."""
-    reached = _reached(code, unit, first, servers)
+    found = reached(code, unit, first, servers)
+    called = code.handed_on() | _overridden(code, unit)
     served = {s.body.id for s in servers}
     for function in unit.functions:
-        if function.body is None or function.node.id in reached or function.body.id in served:
+        if function.body is None or function.node.id in found or function.body.id in served:
             continue
         special = function.name in unit.names or function.name.startswith(("~", "operator"))
-        if not special and function.name in code.handed_on():
+        if not special and function.name in called:
             yield function
 
 
-def _reached(
+def reached(
     code: Code, unit: Unit, first: Sequence[CppFunction], servers: Sequence[Server]
 ) -> set[int]:
+    """The ids of the functions that run: those that the start and the servers lead to."""
     by_name: dict[str, list[CppFunction]] = {}
     for function in unit.functions:
         by_name.setdefault(function.name, []).append(function)
@@ -41,3 +47,12 @@ def _reached(
             called = {c.name.rpartition("::")[2] for c in code.calls_of(function)}
             waiting += [f for name in called for f in by_name.get(name, ())]
     return found
+
+
+def _overridden(code: Code, unit: Unit) -> set[str]:
+    """The virtual functions of a class whose base is not in the files: that calls them."""
+    known = set(code.classes) | _CALLS_NOTHING
+    if all(base in known for above in unit.lineage for base in above.bases):
+        return set()
+    functions = (f for above in unit.lineage for f in above.functions)
+    return {f.name for f in functions if f.overrides or text_of(f.node).startswith("virtual ")}

@@ -13,7 +13,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.cpp_calls import calls_in
 from rebsync.reverse.cpp_index import CppFunction
-from rebsync.reverse.cpp_tree import Cpp, named, text_of
+from rebsync.reverse.cpp_tree import Cpp, inside, named, text_of
 from rebsync.reverse.graph import Callback, ServiceFact, SubscriptionFact, TimerFact
 from rebsync.reverse.message_types import Fields, MessageTypes
 from rebsync.reverse.node_names import Names
@@ -21,6 +21,7 @@ from rebsync.reverse.node_units import Unit
 
 Asking: TypeAlias = SubscriptionFact | TimerFact | ServiceFact
 _HEADER = "header."
+_DECLARING = ("declaration", "init_declarator", "for_range_loop", "parameter_declaration")
 _PLACE = re.compile(r"(^|::)_\d$")
 
 
@@ -231,18 +232,9 @@ def _path(node: Node) -> str:
 def declared(body: Node) -> set[str]:
     """The names of the variables that a body declares."""
     found = set()
-    waiting = [body]
-    while waiting:
-        node = waiting.pop()
-        if node.type in (
-            "declaration",
-            "init_declarator",
-            "for_range_loop",
-            "parameter_declaration",
-        ):
-            for child in node.children_by_field_name("declarator"):
-                found |= {text_of(n) for n in _identifiers(child)}
-        waiting += node.named_children
+    for node in inside(body, *_DECLARING):
+        for child in node.children_by_field_name("declarator"):
+            found |= {text_of(n) for n in _identifiers(child)}
     return found
 
 

@@ -13,7 +13,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.cpp_calls import calls_in
 from rebsync.reverse.cpp_declarations import declared_name
 from rebsync.reverse.cpp_index import Code, CppFunction
-from rebsync.reverse.cpp_tree import named, text_of
+from rebsync.reverse.cpp_tree import inside, named, text_of
 from rebsync.reverse.cpp_types import carried
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import (
@@ -31,6 +31,7 @@ from rebsync.reverse.graph import (
 from rebsync.reverse.node_loops import Loop, loops_in
 from rebsync.reverse.node_names import Names
 from rebsync.reverse.node_parameters import Given, asked
+from rebsync.reverse.node_reach import reached
 from rebsync.reverse.node_servers import Server
 from rebsync.reverse.node_state import State
 from rebsync.reverse.node_times import Times
@@ -42,6 +43,7 @@ _WAITS = frozenset({"spin", "waitForShutdown", "spinOnce", "shutdown", "start"})
 _AUDIENCE = frozenset({"getNumSubscribers", "getNumPublishers", "waitForService"})
 _ENDS = frozenset({"spin", "waitForShutdown"})
 _PLAIN = (NodeFact, PublisherFact, SubscriptionFact, ServiceFact, ClientFact, RateFact)
+_AGAIN = "a timer that is made again stops the one before; in the model both go on"
 _NESTING = frozenset(
     {"if_statement", "while_statement", "for_statement", "switch_statement", "else_clause"}
 )
@@ -157,10 +159,19 @@ class Setup:
                 self.instead.pop(statement.id, None)
             return
         self.instead[statement.id] = ()
+        if self._is_again(fact):
+            place = fact.site.place
+            self.findings.approximated(place.source, place.span, _AGAIN, within=within)
         if fact.autostart is True and period is not None:
             self.instead[statement.id] = (send(server.name, period),)
         elif fact.autostart not in (True, False):
             self._listed(fact, "it is not known whether the timer starts at once")
+
+    def _is_again(self, fact: TimerFact) -> bool:
+        """Whether a timer may be made while it is still running: by what a server calls."""
+        function = fact.site.function
+        served = reached(self.code, self.state.unit, (), self.servers)
+        return function is not None and function.node.id in served
 
     def _listed(self, fact: Fact, why: str, hint: str = "") -> None:
         place = fact.site.place
@@ -217,18 +228,14 @@ class Setup:
             case Outside():
                 return None
         body = fact.site.function.body if fact.site.function is not None else None
-        waiting = [body] if body is not None else []
-        while waiting:
-            node = waiting.pop()
-            if node.type == "declaration":
-                for declarator in node.children_by_field_name("declarator"):
-                    inner = declarator.child_by_field_name("declarator")
-                    found = declared_name(inner if inner is not None else declarator)
-                    type_node = node.child_by_field_name("type")
-                    if found is not None and text_of(found) == name and type_node is not None:
-                        kept = carried(type_node, self.state.enums)
-                        return kept.type if kept is not None else None
-            waiting += node.named_children
+        for node in inside(body, "declaration"):
+            for declarator in node.children_by_field_name("declarator"):
+                inner = declarator.child_by_field_name("declarator")
+                found = declared_name(inner if inner is not None else declarator)
+                type_node = node.child_by_field_name("type")
+                if found is not None and text_of(found) == name and type_node is not None:
+                    kept = carried(type_node, self.state.enums)
+                    return kept.type if kept is not None else None
         return None
 
     # --- loops and waiting ----------------------------------------------------------------------
@@ -284,6 +291,8 @@ class Setup:
             if statement.type != "expression_statement" or own or statement.id in self.instead:
                 continue
             if name == "start" and "pinner" not in call.on.lower():
+                continue
+            if call.target is not None and any(f.name == name for f in self.state.unit.functions):
                 continue
             self.instead[statement.id] = ()
             if name in _ENDS:

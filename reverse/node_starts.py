@@ -187,7 +187,7 @@ def _passed(function: CppFunction, start: Start | None) -> dict[str, tuple[Cpp, 
 def _constructed(
     function: CppFunction, state: State, arguments: Mapping[str, tuple[Cpp, Node]]
 ) -> Iterator[Step]:
-    """The initialisers of a constructor, then its body."""
+    """The initialisers of a constructor, then its body; first another that it hands on to."""
     nodes = []
     instead: dict[int, tuple[Stores, ...]] = {}
     for entry in named(function.initialisers) if function.initialisers is not None else []:
@@ -197,6 +197,13 @@ def _constructed(
         meaning = state.members.get(name)
         nodes.append(entry)
         instead[entry.id] = ()
+        if name == function.owner:
+            others = [f for f in state.unit.functions if f.name == f.owner == name]
+            for other in others:
+                if len(other.parameters) == len(values) and other.node.id != function.node.id:
+                    given = zip(other.parameters, values, strict=True)
+                    passed = {p.name: (function.cpp, value) for p, value in given}
+                    yield from _constructed(other, state, passed)
         if isinstance(meaning, Variable) and len(values) == 1:
             instead[entry.id] = (Stores(m.Name(meaning.name), values[0]),)
     yield Step(function, tuple(nodes), instead, arguments)

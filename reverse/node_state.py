@@ -11,7 +11,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.cpp_declarations import CppField, declared_name
 from rebsync.reverse.cpp_index import Code, CppFunction
-from rebsync.reverse.cpp_tree import Cpp, named, text_of
+from rebsync.reverse.cpp_tree import Cpp, inside, named, text_of
 from rebsync.reverse.cpp_types import carried
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.message_types import MessageTypes
@@ -183,6 +183,8 @@ class State:
                 inner = _inner(declarator)
                 meaning = self.meaning(name, type_, inner, function.cpp, set())
                 local[name] = meaning
+                if only_static:  # what is put in the place of a call sees it too
+                    self.members.setdefault(name, meaning)
                 value = _value(declarator)
                 if isinstance(meaning, Variable) and value is not None:
                     stores.append(Stores(m.Name(meaning.name), value))
@@ -245,10 +247,11 @@ def _value(declarator: Node) -> Node | None:
 
 
 def _declarations(body: Node | None) -> Iterator[Node]:
-    waiting = [body] if body is not None else []
-    while waiting:
-        node = waiting.pop()
-        if node.type == "declaration":
-            yield node
-        elif node.type != "lambda_expression":
-            waiting += reversed(node.named_children)
+    """Those of a body itself, not of lambdas in it."""
+    end = -1
+    for node in inside(body, "declaration", "lambda_expression"):
+        if node.start_byte >= end:
+            if node.type == "declaration":
+                yield node
+            else:
+                end = node.end_byte
