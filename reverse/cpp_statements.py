@@ -163,7 +163,7 @@ class CppStatements:
 
         One that only gives locals values that the model cannot know makes these outside as well.
         """
-        if self.scope.open:
+        if self.scope.open and node.id not in self.scope.instead:
             effects = Effects(self.cpp, self.scope, frozenset(self.own))
             try:
                 effects.check(node)
