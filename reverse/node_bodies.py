@@ -224,7 +224,8 @@ class Bodies:
         scope = self.scope(cpp, None)
         scope = replace(scope, instead={**scope.instead, node.id: (stores,)})
         bare = {k: v for k, v in scope.instead.items() if k == node.id}
-        reader = CppStatements(cpp, replace(scope, instead=bare), Findings(), self.setup.within)
+        inside = replace(scope, instead=bare)
+        reader = CppStatements(cpp, inside, self.findings, self.setup.within)
         return reader.read([node])
 
 

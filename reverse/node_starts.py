@@ -14,11 +14,10 @@ from rebsync.reverse.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.cpp_tree import Cpp, named, text_of
 from rebsync.reverse.graph import TimerFact
 from rebsync.reverse.node_names import Names
-from rebsync.reverse.node_programs import Made
 from rebsync.reverse.node_state import State
 from rebsync.reverse.node_units import Start, Unit
 from rebsync.reverse.rewriting import renamed
-from rebsync.reverse.scope import Itself, Member, Outside, Stores, Variable
+from rebsync.reverse.scope import Itself, Member, Outside, Stores
 
 _ENTRY = "onInit"
 
@@ -109,11 +108,19 @@ def opening(unit: Unit, state: State, start: Start | None, starts: Sequence[Star
         main = unit.program.main
         together = [s for s in starts if s.process == main.node.id]
         return Opening((Step(main, _statements(main), _arguments(main)),), main, _objects(together))
-    steps = []
-    for owner in reversed(unit.lineage):
-        constructor = _constructor(unit, owner, start.made if start is not None else None)
+    steps: list[Step] = []
+    given: dict[str, list[tuple[Cpp, Node]]] = {}
+    for owner in unit.lineage:  # each says what its bases get, which are made before it
+        made = start.made if start is not None and owner is unit.lineage[0] else None
+        count = len(made.arguments) if made is not None else len(given.get(owner.name, ()))
+        constructor = _constructor(unit, owner, count)
         if constructor is not None:
-            steps += list(_constructed(constructor, state, _passed(constructor, start)))
+            passed = _passed(constructor, start if made is not None else None)
+            values = zip(constructor.parameters, given.get(owner.name, ()), strict=False)
+            passed |= {p.name: value for p, value in values}
+            own = list(_constructed(constructor, state, passed))
+            given |= {n: v for step in own for n, v in _to_bases(step)}
+            steps = [*own, *steps]
     steps += [Step(f, _statements(f)) for f in unit.functions if f.name == _ENTRY]
     if start is None or start.entry is None or start.made is None:
         return Opening(tuple(steps))
@@ -160,13 +167,22 @@ def _statements(function: CppFunction) -> tuple[Node, ...]:
     return tuple(function.body.named_children) if function.body is not None else ()
 
 
-def _constructor(unit: Unit, owner: CppClass, made: Made | None) -> CppFunction | None:
+def _constructor(unit: Unit, owner: CppClass, count: int) -> CppFunction | None:
     """The constructor that makes the object: by the number of its arguments, if that tells."""
     found = unit.constructors(owner)
-    if made is not None and len(found) > 1 and owner.name == made.owner:
-        count = len(made.arguments)
+    if len(found) > 1:
         found = [f for f in found if len(f.parameters) == count] or found
     return found[0] if found else None
+
+
+def _to_bases(step: Step) -> Iterator[tuple[str, list[tuple[Cpp, Node]]]]:
+    """What the initialisers of a constructor give to those of others, by their classes."""
+    for entry in step.nodes:
+        inner = named(entry)
+        if entry.type == "field_initializer" and len(inner) > 1:
+            cpp = step.function.cpp
+            values = [step.arguments.get(text_of(v), (cpp, v)) for v in named(inner[-1])]
+            yield text_of(inner[0]).rpartition("::")[2], values
 
 
 def _passed(function: CppFunction, start: Start | None) -> dict[str, tuple[Cpp, Node]]:
@@ -204,8 +220,9 @@ def _constructed(
                     given = zip(other.parameters, values, strict=True)
                     passed = {p.name: (function.cpp, value) for p, value in given}
                     yield from _constructed(other, state, passed)
-        if isinstance(meaning, Variable) and len(values) == 1:
-            instead[entry.id] = (Stores(m.Name(meaning.name), values[0]),)
+        stores = state.stored(meaning, values)
+        if stores is not None:
+            instead[entry.id] = (stores,)
     yield Step(function, tuple(nodes), instead, arguments)
     yield Step(function, _statements(function), {}, arguments)
 

@@ -72,9 +72,23 @@ class State:
         declarator = _declarator(member.node, member.name)
         meaning = self.meaning(member.name, member.type, declarator, member.cpp, self.taken)
         self.members[member.name] = meaning
-        if member.value is not None and isinstance(meaning, Variable):
-            stores = Stores(m.Name(meaning.name), member.value)
-            self.initial.append((member.cpp, stores))
+        if member.value is not None:
+            braces = member.value.type == "initializer_list"
+            values = named(member.value) if braces else [member.value]
+            stores = self.stored(meaning, values)
+            if stores is not None:
+                self.initial.append((member.cpp, stores))
+
+    def stored(self, meaning: Member | None, values: list[Node]) -> Stores | None:
+        """What a variable of the model holds from the start; one of several parts as its first."""
+        match meaning:
+            case Variable(name) if values:
+                return Stores(m.Name(name), values[0] if len(values) == 1 else _parent(values[0]))
+            case Record(fields) if values and fields:
+                first = next(iter(fields.values()))
+                return Stores(m.Name(first.name), _parent(values[0]))
+            case _:
+                return None
 
     def meaning(
         self, name: str, type_: Node, declarator: Node | None, cpp: Cpp, taken: set[str]
@@ -204,6 +218,10 @@ class State:
         """Lists the variables that hold more than the model's."""
         for cpp, node, why in self.wide:
             findings.approximated(cpp.source, cpp.span(node), why, within=within)
+
+
+def _parent(node: Node) -> Node:
+    return node.parent if node.parent is not None else node
 
 
 def _number(code: Code, cpp: Cpp, node: Node) -> int | None:
