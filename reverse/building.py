@@ -76,6 +76,17 @@ def is_effect(expression: m.Expression) -> bool:
             return False
 
 
+def is_place(expression: m.Expression) -> bool:
+    """Whether it is a variable or an element of one."""
+    match bare(expression):
+        case m.Name() | m.Member():
+            return True
+        case m.Index(array):
+            return is_place(array)
+        case _:
+            return False
+
+
 def is_plain(expression: m.Expression) -> bool:
     """Whether it is a literal or a name, which cost nothing to repeat."""
     match bare(expression):

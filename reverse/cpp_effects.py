@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import field, replace
 
 from tree_sitter import Node
@@ -10,7 +11,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.cpp_calls import CppCall, call_of
 from rebsync.reverse.cpp_declarations import CppFunction, CppParameter
 from rebsync.reverse.cpp_misread import first_of, is_misread
-from rebsync.reverse.cpp_roots import is_modelled, path_in, root
+from rebsync.reverse.cpp_roots import identifiers_in, is_modelled, path_in, root
 from rebsync.reverse.cpp_tree import Cpp, named, text_of
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.known_functions import ACTS, LOOKS, takes_values, type_takes_values
@@ -121,14 +122,27 @@ class Effects:
         name, meaning = self._root(node)
         self._subscripts(node)
         if not is_modelled(node, meaning):
-            if not name and node.type not in ("identifier", "call_expression"):
-                self.check(node)
+            self._found_out(node, name)
             return
         if self._is_noted(name):
             path = path_in(node) if isinstance(meaning, Record) else ""
             self.written.add(f"{name}.{path}" if path else name)
             return
         raise self._touches(node, f'this changes "{text_of(node)}"')
+
+    def _found_out(self, node: Node, name: str) -> None:
+        """A place that is only known when the code runs: `(on ? count : limit) = 0`."""
+        if not name and node.type not in ("identifier", "qualified_identifier"):
+            self.check(node)
+            for inner in identifiers_in(node):
+                if is_modelled(inner, self._root(inner)[1]) or text_of(inner) in self._functions:
+                    raise self._touches(node, f'this may change "{text_of(inner)}"')
+
+    @property
+    def _functions(self) -> Collection[str]:
+        """The names of functions that may give a reference to a variable of the model."""
+        ignored = (n for n, f in self.scope.functions.items() if isinstance(f, Ignored))
+        return self.scope.functions.keys() - set(ignored)
 
     def _binary(self, node: Node) -> None:
         """An operator; of an object it may be a function: `stream >> count` changes `count`."""
@@ -173,6 +187,11 @@ class Effects:
                 return
             raise self._touches(node, f'the address of "{text_of(node)}" is taken')
         self.check(node)
+        self._found_out(node, name)
+
+    def refers(self, node: Node) -> None:
+        """Raises `Touches` where a reference to a place could change what the model has."""
+        self._address(node)
 
     def _declaration(self, node: Node) -> None:
         type_ = text_of(node.children_by_field_name("type")[0])

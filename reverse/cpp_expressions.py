@@ -11,7 +11,7 @@ from rebsync import model as m
 from rebsync import precedence
 from rebsync.records import dataclass
 from rebsync.reverse import cpp_called, cpp_idioms, cpp_mailbox
-from rebsync.reverse.building import binary, is_calm, tight
+from rebsync.reverse.building import binary, is_calm, is_place, tight
 from rebsync.reverse.cpp_conversions import (
     alternatives,
     as_boolean,
@@ -265,7 +265,10 @@ class CppExpressions:
         operator, span = text_of(part(node, "operator")), self.cpp.span(node)
         argument = part(node, "argument")
         before = argument.start_byte != node.start_byte
-        place = self.place(self.read(argument))
+        counted = self.read(argument)
+        if not is_place(counted):
+            raise self.unread(argument, "what is changed here is only known when it runs")
+        place = self.place(counted)
         real = place.type is not None and is_floating(place.type)
         if place.bits or real:
             if not before and node.parent is not None and node.parent.type.endswith("expression"):
@@ -309,6 +312,8 @@ class CppExpressions:
     def assign(self, node: Node, operator: str, sides: Sequence[Node]) -> m.Expression:
         target, value = sides
         written = self.operand(target, precedence.CHAIN)
+        if not is_place(written):
+            raise self.unread(target, "what is changed here is only known when it runs")
         place, span = self.place(written), self.cpp.span(node)
         if operator == "=":
             return m.Assign("=", written, self.stored(value, place), span)

@@ -139,7 +139,9 @@ def _check_value(reader: CppStatements, effects: Effects, declared: _Declared) -
     refers = declared.kind != "identifier" and not declared.constant
     if refers and isinstance(meaning, Variable | Record) and not getattr(meaning, "constant", 0):
         raise Touches(reader.cpp.span(value), "the model has no pointers and references")
-    if value.type == "argument_list" and type_takes_values(declared.text):
+    if refers:
+        effects.refers(value)
+    elif value.type == "argument_list" and type_takes_values(declared.text):
         for argument in named(value):
             effects.check(argument)
     else:

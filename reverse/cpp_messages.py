@@ -153,7 +153,7 @@ def declare(
         if not fresh:
             held = source.fields.get(path)
             initial = m.Name(held.name) if held is not None else None
-        if f"{name}.{path}" in reader.shared.demoted or (not fresh and initial is None):
+        if _is_demoted(reader, f"{name}.{path}") or (not fresh and initial is None):
             continue
         variable = Variable(reader.fresh(f"{name}_{path.replace('.', '_')}", inlining), of)
         reader.shared.made.add(variable.name)
@@ -162,6 +162,11 @@ def declare(
         declarator = m.Declarator(variable.name, initial, span)
         yield m.Local(m.Declaration(of, (declarator,), span=span), (), span)
     reader.meaning(name, Record(fields, type_, pointer=pointer), own=True)
+
+
+def _is_demoted(reader: CppStatements, field: str) -> bool:
+    """Whether a field, or a part of the message that it is in, gets values that nobody knows."""
+    return any(field == d or field.startswith(f"{d}.") for d in reader.shared.demoted)
 
 
 def assign(reader: CppStatements, target: Node, value: Node) -> Iterator[m.Statement] | None:
@@ -198,7 +203,7 @@ def _unknown_field(
     before = path_in(target)
     name = f"{text_of(target).partition('.')[0].partition('->')[0]}"
     whole = ".".join(piece for piece in (name, before, path) if piece)
-    if name in reader.own:
+    if name in reader.own and whole not in reader.shared.demoted:
         raise Demote({whole})
     why = f'the model cannot know "{text_of(value)}.{path}"'
     found = unknown_value(reader, value, variable.type, why)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 
 from tree_sitter import Node
 
@@ -68,3 +68,13 @@ def path_in(node: Node) -> str:
     before = path_in(target)
     own = text_of(node.children_by_field_name("field")[0])
     return f"{before}.{own}" if before else own
+
+
+def identifiers_in(node: Node) -> Iterator[Node]:
+    """All names in a place."""
+    waiting = [node]
+    while waiting:
+        current = waiting.pop()
+        if current.type == "identifier":
+            yield current
+        waiting += current.named_children

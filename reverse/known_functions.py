@@ -37,7 +37,18 @@ LOOKS = frozenset(
 )
 _VALUES = frozenset(
     {
-        *("close", "fcntl", "fclose", "ioctl", "open", "read", "select", "socket", "write"),
+        *(
+            "close",
+            "fcntl",
+            "fclose",
+            "ioctl",
+            "open",
+            "read",
+            "select",
+            "setParam",
+            "socket",
+            "write",
+        ),
         *("abs", "acos", "asin", "atan", "atan2", "atof", "atoi", "cbrt", "ceil", "clamp", "cos"),
         *("cosh", "defined", "exp", "exp2", "expm1", "fabs", "fabsf", "floor", "fmax", "fmin"),
         *("fmod", "fprintf", "hypot", "isfinite", "isinf", "isnan", "isnormal", "labs", "log"),

@@ -74,3 +74,16 @@ void Node::onAlternatives() {
   count_ = 1;
 #endif
 }
+int& Node::chosen() { return count_; }
+void Node::onReferences() {
+  (on_ ? count_ : limit_) = 0;
+  ++(on_ ? count_ : limit_);
+  int& r = on_ ? count_ : limit_;
+  r = 5;
+  chosen() = 3;
+  int& c = chosen();
+  c = 4;
+  sensor_.list()[count_] = 3;
+  *sensor_.place() = count_;
+  sensor_[count_].x++;
+}
