@@ -37,6 +37,8 @@ class Cpp:
 
     def span(self, node: Node) -> Span:
         """The characters that a node covers."""
+        if self.wide is None:
+            return Span(node.start_byte, node.end_byte)
         return self.characters(node.start_byte, node.end_byte)
 
     def characters(self, start: int, end: int) -> Span:
@@ -89,7 +91,8 @@ def _wide(text: str) -> tuple[list[int], list[int]]:
 
 def text_of(node: Node) -> str:
     """The text of a node."""
-    return (node.text or b"").decode("utf-8", "replace")
+    text = node.text
+    return text.decode("utf-8", "replace") if text else ""
 
 
 def named(node: Node) -> list[Node]:
@@ -156,7 +159,10 @@ def markers_in(comments: Iterable[str]) -> tuple[str, ...]:
 
     A formatter may have split a marker over lines, or joined two.
     """
-    text = " ".join(_COMMENT.sub(" ", comment) for comment in comments)
+    marked = list(comments)
+    if not any("rebsync:" in comment for comment in marked):
+        return ()
+    text = " ".join(_COMMENT.sub(" ", comment) for comment in marked)
     return tuple(" ".join(piece.split()) for piece in text.split("rebsync:")[1:])
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import fields, replace
+from dataclasses import fields, is_dataclass, replace
+from functools import cache
 from typing import TypeVar
 
 from rebsync import model as m
@@ -14,13 +15,12 @@ _Node = TypeVar("_Node")
 def rewritten(node: _Node, change: Callable[[object], object]) -> _Node:
     """The node with each part below it, then itself, replaced by what `change` makes of it."""
     changed: dict[str, object] = {}
-    for each in fields(node):  # type: ignore[arg-type]
-        if not each.compare:
-            continue
-        before = getattr(node, each.name)
+    kind: type = type(node)
+    for name in _parts(kind):
+        before = getattr(node, name)
         after = _rewritten(before, change)
         if after is not before:
-            changed[each.name] = after
+            changed[name] = after
     whole = replace(node, **changed) if changed else node  # type: ignore[type-var]
     result = change(whole)
     assert isinstance(result, object)
@@ -32,7 +32,18 @@ def _rewritten(value: object, change: Callable[[object], object]) -> object:
         parts = tuple(_rewritten(v, change) for v in value)
         same = all(a is b for a, b in zip(parts, value, strict=True))
         return value if same else parts
-    return rewritten(value, change) if hasattr(value, "__dataclass_fields__") else value
+    kind: type = type(value)
+    return rewritten(value, change) if _is_node(kind) else value
+
+
+@cache
+def _parts(kind: type) -> tuple[str, ...]:
+    return tuple(f.name for f in fields(kind) if f.compare)
+
+
+@cache
+def _is_node(kind: type) -> bool:
+    return is_dataclass(kind)
 
 
 def renamed(node: m.Statement, old: str, new: str) -> m.Statement:
