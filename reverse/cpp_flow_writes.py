@@ -18,6 +18,7 @@ from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.roscpp_vocabulary import FUNCTIONS, HANDLE, Kind
 
 FORMATS = frozenset({"sprintf", "snprintf"})
+_DEEPEST = 30
 _READERS = frozenset({"getline", "get", "sscanf", "scanf", "read", "fread"})
 Key = tuple[int, str, str]
 
@@ -36,6 +37,7 @@ class Writes:
     calls: Calls
     _writers: dict[Key, list[CppFunction]] = field(default_factory=dict)
     _changing: dict[tuple[int, int, str], bool] = field(default_factory=dict)
+    _depth: int = 0
     _found: dict[tuple[int, Key], list[Located]] = field(default_factory=dict)
 
     def within(self, variable: Variable, path: str, function: CppFunction) -> list[Located]:
@@ -112,13 +114,17 @@ class Writes:
             return False
         key = function.node.id, index, path
         if key not in self._changing:
+            if self._depth > _DEEPEST:
+                return True
             self._changing[key] = False  # while it is looked for
             inner = parameter_variable(function, index)
+            self._depth += 1
             self._changing[key] = (
                 inner is not None
                 and _by_reference(function.parameters[index].node)
                 and any(True for _ in self._own(inner, path, function))
             )
+            self._depth -= 1
         return self._changing[key]
 
     def writing(self, variable: Variable, path: str) -> list[CppFunction]:

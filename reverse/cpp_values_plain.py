@@ -130,6 +130,9 @@ class Choice:
 Value: TypeAlias = "Resolved | Nothing | Handle | Length | Found | Made | Function | Choice"
 
 
+_HASHED = (bool, int, float, str)
+
+
 def ways(value: Value) -> Iterator[Value]:
     """The values that it may be."""
     match value:
@@ -148,9 +151,14 @@ def choice(values: Iterable[Value]) -> Value:
     if len(given) == 1:
         return given[0]
     some: list[Value] = []
+    seen: set[tuple[type, object]] = set()
     for value in given:
         for way in ways(value):
-            if not isinstance(way, Nothing) and not any(same(way, f) for f in some):
+            if isinstance(way, _HASHED):
+                if (type(way), way) not in seen:
+                    seen.add((type(way), way))
+                    some.append(way)
+            elif not isinstance(way, Nothing) and not any(same(way, f) for f in some):
                 some.append(way)
     match some:
         case []:

@@ -149,6 +149,9 @@ class Variables:
             stands_in = Nothing()
             if reach.sure:
                 return found, True
+            if len(found) > MOST:
+                place = node if node is not None else reach.definition.place
+                return [self.values.unknown("one of too many values", place, frame)], True
         return found if isinstance(stands_in, Nothing) else [*found, stands_in], False
 
     # --- one definition -------------------------------------------------------------------------

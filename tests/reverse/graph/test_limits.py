@@ -1,0 +1,61 @@
+"""Code that goes on and on: values that are too far away are unknown, and soon."""
+
+from __future__ import annotations
+
+import pytest
+
+from rebsync.reverse.cpp_index import Code
+from rebsync.reverse.cpp_tree import parse
+from rebsync.reverse.graph import PublisherFact, Unresolved
+from rebsync.reverse.ros_calls import graph_of
+from rebsync.source import Source
+
+_LONG = 400
+_MAIN = "int main() { ros::NodeHandle n; "
+_ASK = "n.advertise<std_msgs::Bool>(s, 1);"
+
+
+def _each(piece: str, count: int = _LONG) -> str:
+    return "\n".join(
+        piece.replace("$1", str(i - 1)).replace("$2", str(i + 1)).replace("$", str(i))
+        for i in range(1, count)
+    )
+
+
+CASES = {
+    "variables": _MAIN
+    + 'std::string s0 = "x";'
+    + _each("std::string s$ = s$1;")
+    + f"std::string s = s{_LONG - 1};{_ASK}}}",
+    "sums": _MAIN + 'std::string s = "x";' + _each('s = s + "$";') + _ASK + "}",
+    "branches": _MAIN + "std::string s;" + _each('if (c$) s = "$";') + _ASK + "}",
+    "conditions": _MAIN + 'std::string s = "1";' + _each('if (s == "$") s = "$2";') + _ASK + "}",
+    "functions": 'std::string f0() { return "x"; }'
+    + _each("std::string f$() { return f$1(); }")
+    + f"{_MAIN} std::string s = f{_LONG - 1}(); {_ASK} }}",
+    "references": "void f0(std::string& s) { std::cin >> s; }"
+    + _each("void f$(std::string& s) { f$1(s); }")
+    + f"{_MAIN} std::string s; f{_LONG - 1}(s); {_ASK} }}",
+    "callers": f"void f0(ros::NodeHandle n, std::string s) {{ {_ASK} }}"
+    + _each("void f$(ros::NodeHandle n, std::string s) { f$1(n, s); }")
+    + f'{_MAIN} f{_LONG - 1}(n, "x"); }}',
+    "many callers": f"void f(ros::NodeHandle n, std::string s) {{ {_ASK} }}{_MAIN}"
+    + _each('f(n, "$");')
+    + "}",
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_what_is_too_far_away_is_unknown(case: str) -> None:
+    code = Code.of([parse(Source("a.cpp", CASES[case]))])
+    found = [f for f in graph_of(code).facts if isinstance(f, PublisherFact)]
+    assert [type(f.topic) for f in found] == [Unresolved]
+
+
+def test_many_facts_of_one_function() -> None:
+    body = _each('n.param("p$", v$_, $); n.advertise<std_msgs::Bool>("t$", v$_);')
+    members = _each("int v$_;")
+    text = f"struct C {{ C(ros::NodeHandle n) {{ {body} }} {members} }};"
+    text += f"{_MAIN} C c(n); }}"
+    found = graph_of(Code.of([parse(Source("a.cpp", text))])).facts
+    assert len(found) == 2 * (_LONG - 1)
