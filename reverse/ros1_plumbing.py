@@ -89,7 +89,11 @@ def _odd_in_constructor(
 
 def _sets_up(statement: Node, function: CppFunction, roles: Roles, timers: Container[int]) -> bool:
     """Whether it is one call that sets something up, whose value may be kept."""
-    inner = named(statement)[0] if statement.type == "expression_statement" else statement
+    inner = statement
+    if statement.type == "expression_statement":
+        if not named(statement):
+            return True  # a semicolon alone
+        inner = named(statement)[0]
     if inner.type == "assignment_expression":
         inner = part(inner, "right")
     call = call_of(inner)
