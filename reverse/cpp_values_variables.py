@@ -360,8 +360,20 @@ class Variables:
     def _from_outside(self, variable: Variable, frame: Frame) -> Value:
         type_ = self.values.types.plain(variable.cpp, variable.type)
         if type_.rpartition("::")[2] == HANDLE_TYPE:
-            return Handle(Under(""))
+            return Handle(Under("", self._without(variable, frame)))
         return self.values.unknown(_OUTSIDE, variable.name, frame)
+
+    def _without(self, variable: Variable, frame: Frame) -> tuple[str, ...]:
+        """The namespace that a node handle has where callers give none."""
+        function = frame.function
+        default = None
+        if function is not None:
+            default = self.values.calls.default(function, variable.index)
+        if default is None:
+            return ()
+        handle = self.values.value(default[1], Frame(default[0]))
+        known = isinstance(handle, Handle) and isinstance(handle.namespace, str)
+        return (str(handle.namespace),) if known and isinstance(handle, Handle) else ()
 
     def _member(self, variable: Variable, path: str, owner: CppClass, frame: Frame) -> Value:
         function, texts = frame.function, self.values.texts
