@@ -163,6 +163,9 @@ def returned(
         case Outside():
             Effects(reader.cpp, reader.scope).check(values[0])
             yield m.Return(None, annotations, span)
+        case None if reader.scope.returns is not None:
+            place = Variable("", reader.scope.returns)
+            yield m.Return(reader.expressions.stored(values[0], place), annotations, span)
         case _ if reader.scope.server is not None and reader.scope.open:
             Effects(reader.cpp, reader.scope).check(values[0])
             yield m.Return(None, annotations, span)

@@ -39,7 +39,7 @@ def variable_of(scope: Scope, name: str) -> Variable | None:
                 for variable in fields.values():
                     if variable.name == name:
                         return variable
-    return None
+    return scope.results.get(name)
 
 
 def type_in(scope: Scope, expression: m.Expression) -> m.Type | None:

@@ -227,7 +227,7 @@ def _body(
     if isinstance(place, Variable) and place.type is not None:
         reader.shared.made.add(place.name)
         reader.before.append(reader.local(body, place, zero_of(place.type)))
-        reader.meaning(f"result {place.name}", place)
+        reader.scope.results[place.name] = place
     target = m.Name(place.name) if isinstance(place, Variable) else None
     reader.before += without_returns(inside, body, statements, target)
     return place

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import field
+from dataclasses import field, replace
 
 from rebsync import model as m
 from rebsync.records import dataclass
@@ -119,7 +119,7 @@ class Functions:
             given = scope.local(parameter.name)
             local[parameter.name] = Variable(given, type_)
             parameters.append(m.Parameter(type_, given, function.cpp.span(parameter.node)))
-        inside = scope.with_locals(local)
+        inside = replace(scope.with_locals(local), returns=called.returns)
         body = self.bodies.block(
             function.cpp, inside, function.body, self.bodies.within(function.name)
         )

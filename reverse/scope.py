@@ -222,6 +222,10 @@ class Scope:
     server: str | None = None
     # Seconds that a unit of the model's time takes.
     unit: Fraction = Fraction(1)
+    # The type of what the method gives whose body this is, if it is one.
+    returns: Type | None = None
+    # Locals that hold what the functions give whose bodies stand in this one, by their names.
+    results: dict[str, Variable] = field(default_factory=dict, compare=False, repr=False)
     # Whether functions, by the ids of their bodies, touch nothing: what has been found out.
     calm: dict[int, bool] = field(default_factory=dict, compare=False, repr=False)
 

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.cpp_conditions import Conditional, blank, conditionals
+from rebsync.reverse.cpp_misread import mended
 from rebsync.reverse.cpp_text import has_alternatives, is_split, read_branch
 from rebsync.reverse.cpp_tree import Cpp
 from rebsync.reverse.findings import Finding, Grade
@@ -35,7 +36,7 @@ def unparsed(cpp: Cpp) -> Iterator[Finding]:
             Grade.UNREADABLE, cpp.source, span, why, "give parts of it names of their own"
         )
     if cpp.root.has_error:
-        yield from (_error(cpp, node) for node in _errors(cpp.root))
+        yield from (_error(cpp, node) for node in _errors(cpp))
     if has_alternatives(cpp.source.text):
         yield from _alternatives(cpp)
 
@@ -43,23 +44,25 @@ def unparsed(cpp: Cpp) -> Iterator[Finding]:
 # --- what is no C++ -----------------------------------------------------------------------------
 
 
-def _errors(root: Node) -> Iterator[Node]:
+def _errors(cpp: Cpp) -> Iterator[Node]:
     """The outermost nodes that say that the text is no C++, one for each line."""
-    waiting = [root]
+    waiting = [cpp.root]
     lines = set[int]()
     while waiting:
         node = waiting.pop()
         if node.is_error or node.is_missing:
-            if not _harmless(node) and node.start_point.row not in lines:
+            if not _harmless(cpp, node) and node.start_point.row not in lines:
                 lines.add(node.start_point.row)
                 yield node
         elif node.has_error:
             waiting += reversed(node.children)
 
 
-def _harmless(node: Node) -> bool:
+def _harmless(cpp: Cpp, node: Node) -> bool:
     """Whether what is missing says nothing: the `;` after a macro, the name of an instantiation."""
     parent = node.parent
+    if node.is_error and mended(cpp, node) is not None:
+        return True
     if not node.is_missing or parent is None:
         return False
     if parent.type == "template_instantiation":
