@@ -6,11 +6,19 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 
 from rebsync.records import dataclass
-from rebsync.reverse.graph import PublisherFact, SubscriptionFact
+from rebsync.reverse.graph import (
+    Access,
+    ParameterFact,
+    PublisherFact,
+    RateFact,
+    SubscriptionFact,
+    TimerFact,
+)
 from rebsync.reverse.launched import Launch, LaunchedNode
 from rebsync.reverse.node_names import Names
 from rebsync.reverse.node_programs import Program
 from rebsync.reverse.node_servers import Server
+from rebsync.reverse.node_times import period_of
 from rebsync.reverse.node_units import Start, Unit
 from rebsync.reverse.node_values import Instance
 from rebsync.reverse.unknowns import Open
@@ -125,9 +133,13 @@ class Wiring:
                     yield number, to, server
 
     def _sort(self) -> None:
-        """Rebecs of a unit are of one kind if they send alike to rebecs of equal kinds."""
-        units = {i.start.unit.name: n for n, i in enumerate(self.instances)}
-        self.kinds = {i.name: units[i.start.unit.name] for i in self.instances}
+        """Rebecs of a unit are of one kind if they send alike to rebecs of equal kinds.
+
+        Their timers have the same periods, and the same parameters are set.
+        """
+        apart = {i.name: (i.start.unit.name, *_settings(i)) for i in self.instances}
+        first = {mark: n for n, mark in enumerate(dict.fromkeys(apart.values()))}
+        self.kinds = {name: first[mark] for name, mark in apart.items()}
         while True:
             marks = {i.name: (self.kinds[i.name], self._shape(i)) for i in self.instances}
             numbers = {mark: n for n, mark in enumerate(dict.fromkeys(marks.values()))}
@@ -158,6 +170,16 @@ class Wiring:
             if instance.start.unit is unit:
                 found.setdefault(self.kinds[instance.name], []).append(instance)
         return list(found.values())
+
+
+def _settings(instance: Instance) -> Iterator[str]:
+    """What rebecs of one class have in common besides."""
+    for fact in instance.start.unit.facts:
+        match fact:
+            case TimerFact() | RateFact():
+                yield str(period_of(instance, fact))
+            case ParameterFact(default=None, access=Access.GET | Access.HAS):
+                yield str(instance.parameter(fact.name) is not None)
 
 
 def _both(one: object, other: object) -> bool:
