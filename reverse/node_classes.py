@@ -17,6 +17,7 @@ from rebsync.reverse.node_reach import unreached
 from rebsync.reverse.node_setup import send
 from rebsync.reverse.node_starts import started_late
 from rebsync.reverse.node_tidying import tidy
+from rebsync.reverse.rewriting import rewritten
 from rebsync.source import Span
 
 _Member = TypeVar("_Member", m.MessageServer, m.Method)
@@ -47,6 +48,7 @@ class NodeClass:
         constructor, late, variables = started_late(tidy(body, own), arguments, setup.names)
         variables = {**own, **variables}
         servers = [_tidied(s, variables) for s in [*late, *served]]
+        servers, constructor = _without_idle(servers, constructor, {n for _, n in setup.loops})
         methods = [_tidied(method, variables) for method in methods]
         arguments = self._needed(arguments, constructor)
         self._note_unreached()
@@ -121,6 +123,36 @@ class NodeClass:
 
 def _tidied(member: _Member, variables: Collection[str]) -> _Member:
     return replace(member, body=tidy(member.body, variables)) if member.body is not None else member
+
+
+def _without_idle(
+    servers: list[m.MessageServer], constructor: m.Block, loops: set[str]
+) -> tuple[list[m.MessageServer], m.Block]:
+    """Without the loops that only wait, and what starts them."""
+    idle = {s.name for s in servers if s.name in loops and s.body and _sends_only(s.body, s.name)}
+
+    def change(node: object) -> object:
+        if not isinstance(node, m.Block):
+            return node
+        kept = tuple(s for s in node.statements if not any(_sends(s, name) for name in idle))
+        return replace(node, statements=kept)
+
+    if not idle:
+        return servers, constructor
+    others = [rewritten(s, change) for s in servers if s.name not in idle]
+    return others, rewritten(constructor, change)
+
+
+def _sends_only(body: m.Block, server: str) -> bool:
+    return all(_sends(s, server) for s in body.statements)
+
+
+def _sends(statement: m.Statement, server: str) -> bool:
+    match statement:
+        case m.ExpressionStatement(m.Call(m.Self(), name)):
+            return name == server
+        case _:
+            return False
 
 
 def _declared(type_: m.Type, name: str) -> m.Declaration:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
@@ -15,6 +16,7 @@ from rebsync.reverse.cpp_tree import named, text_of
 from rebsync.reverse.graph import RateFact
 
 _LOOPS = frozenset({"while_statement", "do_statement", "for_statement"})
+_HAS_LOOP = re.compile(rb"while|for|do")
 _SPINS = frozenset({"spinOnce", "callAvailable", "callOne"})
 _AWAKE = frozenset({"ok", "isStarted"})
 
@@ -38,7 +40,8 @@ class Loop:
 
 def loops_in(function: CppFunction, rates: Sequence[RateFact]) -> Iterator[Loop]:
     """The loops of a function that run as long as the node does, outer ones only."""
-    waiting = [function.body] if function.body is not None else []
+    body = function.body
+    waiting = [body] if body is not None and _HAS_LOOP.search(body.text or b"") else []
     while waiting:
         node = waiting.pop()
         if node.type in _LOOPS and (loop := _loop(function, node, rates)) is not None:

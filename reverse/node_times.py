@@ -50,7 +50,8 @@ class Times:
                 why = f"{_seconds(period)} s is no multiple of the model's unit of time"
                 if self.unit == 1:
                     why += ", which is a second"
-                hint = f"set time_unit = {_seconds(self.fitting)} in rebsync.toml"
+                fitting = _common(self.fitting, period)
+                hint = f"set time_unit = {_seconds(fitting)} in rebsync.toml"
                 _listed(findings, fact.site.place, why, hint, within)
                 return None
         if len(periods) > 1:
