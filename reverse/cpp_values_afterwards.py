@@ -52,7 +52,7 @@ class Afterwards:
         """As `value`; `own` is the function that asks, before it gives a value itself."""
         writers = [w for w in self.variables.writes.writing(variable, path) if w.node.id != own]
         owner = variable.owner.name if variable.owner is not None else ""
-        makers = [w for w in writers if owner and w.name == w.owner]
+        makers = self._makers(variable)
         others = [w for w in writers if not owner or w.name != w.owner]
         called = [w for w in others if self._is_called(w)]
         at_first = self._after(makers, variable, path)[0] if makers else Nothing()
@@ -62,6 +62,14 @@ class Afterwards:
             return at_first
         later, sure = self._after(called or others, variable, path)
         return choice([later]) if sure else choice([later, at_first])
+
+    def _makers(self, variable: Variable) -> list[CppFunction]:
+        """The constructors of the class of a member: those that are used, if some are."""
+        if variable.owner is None:
+            return []
+        calls = self.variables.values.calls
+        found = calls.bodies(variable.owner, variable.owner.name)
+        return [f for f in found if calls.uses(f)] or found
 
     def _after(
         self, functions: list[CppFunction], variable: Variable, path: str

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from tree_sitter import Node
 
-from rebsync.reverse.cpp_flow import climb, covers, declaration_of, made_of
+from rebsync.reverse.cpp_flow import declaration_of, made_of
 from rebsync.reverse.cpp_index import Code
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.cpp_values import Values
@@ -44,25 +44,13 @@ def graph_of(code: Code) -> Graph:
             if place is None or place.start_byte != match.start() or place.named_child_count:
                 continue
             for asked in _asked(facts.values, cpp, place, match.group().decode()):
-                if asked.site.owner not in LIBRARY and not _left_out(place):
+                if asked.site.owner not in LIBRARY:
                     found += facts.of(asked)
     return Graph(tuple(sorted(found, key=_order)))
 
 
 def _order(fact: Fact) -> tuple[str, int]:
     return fact.site.place.source.path, fact.site.place.span.start
-
-
-def _left_out(place: Node) -> bool:
-    """Whether a place is in `#if 0`."""
-    around = climb(place, lambda n: n.type == "preproc_if")
-    while around is not None:
-        condition = around.child_by_field_name("condition")
-        other = around.child_by_field_name("alternative")
-        if condition is not None and text_of(condition) == "0":
-            return other is None or not covers(other, place)
-        around = climb(around, lambda n: n.type == "preproc_if")
-    return False
 
 
 def _asked(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:

@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
   if (argc > 3) {
     topic = "fourth";
   } else {
+    n.advertise<Int32>(topic, 1);  //= publisher "third" | "second" "std_msgs/Int32" 1
     topic = "fifth";
     n.advertise<Int32>(topic, 1);  //= publisher "fifth" "std_msgs/Int32" 1
   }
