@@ -53,6 +53,7 @@ class Body:
     """Draws the statements of one body.
 
     `opaque` ones have values that no reader can know; `members` says that it is one's function.
+    `message` is the type of what the callback takes, `callable` are other callbacks.
     """
 
     random: Random
@@ -67,6 +68,9 @@ class Body:
     used: set[str] = field(default_factory=set)
     looping: int = 0
     odd: Callable[[Body], list[str]] | None = None
+    message: str = ""
+    by_value: bool = False
+    callable: list[str] = field(default_factory=list)
 
     # --- expressions ----------------------------------------------------------------------------
 

@@ -114,7 +114,7 @@ class _Grades:
         """The worst of them; None where all is exact."""
         reached = [callback.name]
         for name in reached:
-            called = re.findall(r"\b(help\d+)\(", self._bodies.get(name, ""))
+            called = re.findall(r"\b(help\d+|tick)\(", self._bodies.get(name, ""))
             reached += [c for c in called if c not in reached]
         grades = {self._found[n] for n in reached if n in self._found}
         if Grade.UNREADABLE in grades:
@@ -179,8 +179,8 @@ class Possible:
         for member in self.node.members:
             size = member.length or 1
             values, at = seen.state[at : at + size], at + size
-            wish = member.name.rstrip("_")
-            slot = next((self._slots[n] for n in (wish, member.name) if n in self._slots), None)
+            names = member.name.rstrip("_"), member.name, member.name.replace("_.", "_")
+            slot = next((self._slots[n] for n in names if n in self._slots), None)
             if slot is not None:
                 found.append((slot, values))
         return found

@@ -38,6 +38,7 @@ MEMBERS = (
     Variable("speed_", "double"),
     Variable("mode_", "Mode"),
     Variable("cells_", "int", length=4),
+    Variable("last_.data", "int"),
 )
 
 
@@ -160,7 +161,14 @@ class _Writer:
             *map(self._declared, self.members),
         ]
 
+    def _ticks(self) -> list[str]:
+        """Callbacks that others call; a lambda has no name, and base classes do not know it."""
+        timers = any(c.name == "tick" for c in self.callbacks)
+        return ["tick"] if timers and self.shape in ("class", "header") else []
+
     def _declared(self, member: Variable) -> str:
+        if member.name.endswith(".data"):
+            return f"std_msgs::Int32 {member.name.partition('.')[0]};"
         if member.length:
             return self.random.choice(
                 (
@@ -175,6 +183,7 @@ class _Writer:
 
     def _initial(self) -> list[str]:
         plain = [m for m in self.members if m.type == "int" and not m.length]
+        plain = [m for m in plain if m.name.isidentifier()]
         some = [m for m in plain if self.random.random() < 0.4]
         return [f"{m.name} = {self.random.randrange(9)};" for m in some]
 
@@ -218,8 +227,7 @@ class _Writer:
             body.publishers, body.timers = [], []
             body.helpers = [h for h in body.helpers if h.result != "void"]
             body.variables = [
-                Variable(v.name, v.type, v.length, constant=v.name.endswith("_"))
-                for v in body.variables
+                Variable(v.name, v.type, v.length, constant="_" in v.name) for v in body.variables
             ]
         if not helper.member:
             body.variables, body.members = variables, False
@@ -237,6 +245,9 @@ class _Writer:
             by = "&" if callback.by_value else "::ConstPtr&"
             taken = f"const {callback.message}{by} msg"
         body = self._body(variables, helpers, opaque)
+        body.message = callback.message or ""
+        body.by_value = callback.by_value
+        body.callable = self._ticks() if callback.message is not None else []
         return Function("void", callback.name, taken, tuple(lines_of(body)))
 
 

@@ -201,9 +201,32 @@ def _jump(body: Body) -> list[str]:
     ]
 
 
+def _whole(body: Body) -> list[str]:
+    """Messages that are passed on as they are."""
+    given = "msg" if body.by_value else "*msg"
+    keeps = any(v.name == "last_.data" for v in body.variables) and body.members
+    writable = keeps and any(v.name == "last_.data" and not v.constant for v in body.variables)
+    lines = [f"{p.name}.publish({given});" for p in body.publishers if p.message == body.message]
+    lines += [f"{p.name}.publish(msg);" for p in body.publishers if p.message == body.message]
+    if body.message == "std_msgs::Int32" and writable:
+        field = "msg.data" if body.by_value else "(*msg).data"
+        lines += [f"last_ = {given};", f"if ({field} > last_.data) last_ = {given};"]
+    numbers = [p.name for p in body.publishers if p.message == "std_msgs::Int32"]
+    if keeps:
+        lines += [f"{p}.publish(last_);" for p in numbers]
+    if writable:
+        lines += ["last_ = std_msgs::Int32();"]
+    lines += [f"{name}(ros::TimerEvent());" for name in body.callable]
+    if numbers and (name := _name(body, "copy", "next")) and keeps:
+        lines += [f"auto {name} = last_; {name}.data += 1; {numbers[0]}.publish({name});"]
+    return [body.random.choice(lines)] if lines else []
+
+
 _ALL: tuple[Callable[[Body], list[str]], ...] = (
     _effect_inside,
     _effect_inside,
+    _whole,
+    _whole,
     _mixed,
     _mixed,
     _unsigned,

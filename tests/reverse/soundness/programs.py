@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -51,8 +52,10 @@ def inputs(node: DrawnNode, seed: int, count: int) -> list[Input]:
     """Random calls of a node's callbacks."""
     random = Random(seed)
     found = []
+    armed = re.search(r"later(?:, this)?, true", node.source) is not None
+    callbacks = [c for c in node.callbacks if armed or c.name != "later"]
     for _ in range(count):
-        callback = random.choice(node.callbacks)
+        callback = random.choice(callbacks)
         found.append(Input(callback, tuple(_value(random, t) for _, t in callback.fields)))
     return found
 
