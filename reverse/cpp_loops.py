@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.building import negated
+from rebsync.reverse.building import binary, negated
 from rebsync.reverse.cpp_conversions import type_in
 from rebsync.reverse.cpp_tree import named, part, text_of
 from rebsync.reverse.cpp_types import carried
 from rebsync.reverse.scope import Variable
+from rebsync.static.types import BOOLEAN
 
 if TYPE_CHECKING:
     from rebsync.reverse.cpp_statements import CppStatements
@@ -81,8 +82,11 @@ def do_loop(
     """`do { ... } while (c);`: the test ends a loop that has none at its start."""
     span, body, condition = reader.cpp.span(node), part(node, "body"), part(node, "condition")
     once = text_of(condition).strip("() ") in ("0", "false")
-    if _goes_on(body) or (once and _breaks(body)):
+    if once and (_goes_on(body) or _breaks(body)):
         raise reader.unread(node, "the model has no such loop with continue or break")
+    if _goes_on(body):
+        yield _first_time(reader, node, annotations)
+        return
     block = reader.branch(body)
     if once:
         yield m.Block(block.statements, annotations, span)
@@ -90,6 +94,22 @@ def do_loop(
     ends = negated(reader.loop_condition(condition))
     last = m.If(ends, m.Block((m.Break(),)), None)
     yield m.While(m.BoolLiteral(True), m.Block((*block.statements, last)), annotations, span)
+
+
+def _first_time(
+    reader: CppStatements, node: Node, annotations: tuple[m.Annotation, ...]
+) -> m.Statement:
+    """`for (boolean first = true; first || c; first = false)`: `continue` goes to the test."""
+    outside = reader.scope
+    first = Variable(reader.fresh("first"), BOOLEAN)
+    reader.meaning(f"do {node.start_byte}", first)
+    body = reader.branch(part(node, "body"))
+    reader.scope = outside
+    name = m.Name(first.name)
+    again = binary("||", name, reader.loop_condition(part(node, "condition")))
+    initial = m.Declaration(BOOLEAN, (m.Declarator(first.name, m.BoolLiteral(True)),))
+    done = m.Assign("=", name, m.BoolLiteral(False))
+    return m.For(initial, again, (done,), body, annotations, reader.cpp.span(node))
 
 
 def _goes_on(node: Node) -> bool:

@@ -65,3 +65,10 @@ void Node::onDefaultFirst() {
       limit_ = 2;
   }
 }
+void Node::onContinueInDo() {
+  int left = 3;
+  do {
+    if (on_) continue;
+    count_++;
+  } while (--left > 0);
+}
