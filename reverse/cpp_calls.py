@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cache
 
-import tree_sitter_cpp
-from tree_sitter import Language, Node, Query, QueryCursor
+from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.cpp_tree import named, part, text_of
+from rebsync.reverse.cpp_tree import inside, named, part, text_of
 
 
-@cache
-def _calls() -> Query:
-    return Query(Language(tree_sitter_cpp.language()), "(call_expression) @call")
+_FEW = 60
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,10 +47,23 @@ def call_of(node: Node) -> CppCall | None:
 
 def calls_in(node: Node | None) -> Iterator[CppCall]:
     """All calls in a node, outer ones first, in the order of the text."""
-    found = QueryCursor(_calls()).captures(node).get("call", []) if node is not None else []
-    for current in sorted(found, key=lambda n: (n.start_byte, -n.end_byte)):
+    if node is None:
+        return
+    found = _walked(node) if node.descendant_count < _FEW else inside(node, "call_expression")
+    for current in found:
         if (call := call_of(current)) is not None:
             yield call
+
+
+def _walked(node: Node) -> Iterator[Node]:
+    """The nodes of calls: with few nodes this is quicker than a search."""
+    waiting = [node]
+    while waiting:
+        current = waiting.pop()
+        if current.type == "call_expression":
+            yield current
+        if current.named_child_count:
+            waiting += reversed(current.named_children)
 
 
 def string_of(node: Node) -> str | None:

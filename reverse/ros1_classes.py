@@ -62,6 +62,10 @@ class Classes:
 
     def __post_init__(self) -> None:
         self.fields = {t.rpartition("/")[2]: f for t, f in self.messages.items()}
+        if not any("Mailbox" in cpp.source.text for cpp in self.code.files):
+            self.roles = {name: Roles() for name in self.code.classes}
+            self.types = frozenset(self.code.classes)
+            return  # nothing here is generated
         for owner in self.code.classes.values():
             self.roles[owner.name] = roles_of(self.code, owner)
         for owner in self.code.classes.values():
