@@ -9,7 +9,6 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.cpp_tree import inside, named, part, text_of
 
-
 _FEW = 60
 
 
