@@ -11,7 +11,7 @@ from rebsync import model as m
 from rebsync import precedence
 from rebsync.records import dataclass
 from rebsync.reverse import cpp_called, cpp_idioms, cpp_mailbox
-from rebsync.reverse.building import binary, is_calm, is_place, tight
+from rebsync.reverse.building import bare, binary, is_calm, is_place, tight
 from rebsync.reverse.cpp_conversions import (
     alternatives,
     as_boolean,
@@ -42,7 +42,7 @@ from rebsync.reverse.scope import (
     TimerOf,
     Variable,
 )
-from rebsync.static.types import BOOLEAN, converts, is_boolean, is_floating, is_integer
+from rebsync.static.types import BOOLEAN, INT, converts, is_boolean, is_floating, is_integer
 
 _PREFIX = frozenset({"+", "-", "!", "~"})
 _WORDS = {"and": "&&", "or": "||", "not": "!", "not_eq": "!=", "bitand": "&", "bitor": "|"}
@@ -361,7 +361,7 @@ class CppExpressions:
             return as_number(self.scope, value)
         if of is not None and kept.bits:
             return converted_to(self.scope, value, Variable("", kept.type, kept.bits))
-        if of is not None and is_integer(of) and (of == kept.type or kept.why):
+        if of is not None and is_integer(of) and (_holds(value, of, kept.type) or kept.why):
             return value
         return m.Cast(kept.type, tight(value, precedence.CAST), self.cpp.span(node))
 
@@ -389,3 +389,9 @@ class CppExpressions:
         """A call with all arguments as they are."""
         values = tuple(self.read(a) for a in arguments)
         return m.Call(target, name, values, span=self.cpp.span(node))
+
+
+def _holds(value: m.Expression, of: m.Type, type_: m.Type) -> bool:
+    """Whether a value is in the range of a type: what is computed is as wide as an int."""
+    stored = isinstance(bare(value), m.Name | m.Member | m.Index | m.Cast | m.IntLiteral)
+    return of == type_ and (type_ == INT or stored)
