@@ -121,6 +121,10 @@ class NodeSystem:
         known |= types.constants()
         return Common(known, frozenset(enums), messages, frozenset())
 
+    def state(self, unit: Unit) -> State:
+        """The variables of a unit."""
+        return self._states[unit.name]
+
     def unit_of_time(self) -> Fraction:
         """The seconds that a unit of the model's time takes."""
         if FILE_NAME not in self.files:
@@ -141,9 +145,8 @@ class _Reader:
     names: Names
     starts: Sequence[Start]
     kinds: dict[int, str] = field(default_factory=dict)
-    given: dict[str, tuple[Given, int]] = field(default_factory=dict)
+    times: Times = field(default_factory=lambda: Times(Fraction(1), Fraction(1)))
     _parameters: dict[str, tuple[list[Given], int]] = field(default_factory=dict)
-    _times: Times | None = None
 
     def __post_init__(self) -> None:
         for unit_name, class_ in self.classes.items():
@@ -152,7 +155,7 @@ class _Reader:
                 dict.fromkeys(self.wiring.kinds[i.name] for i in of_unit)
             ):
                 self.kinds[kind] = class_ if not number else self.names.give(class_)
-        self._times = Times.of(self.system.unit_of_time(), self.wiring.instances)
+        self.times = Times.of(self.system.unit_of_time(), self.wiring.instances)
 
     def classes_of(self, unit: Unit) -> Iterator[m.ReactiveClass]:
         """The classes that a unit becomes: one, or more if its rebecs are wired differently."""
@@ -165,56 +168,55 @@ class _Reader:
                 self.system.findings.all += new
 
     def _class(self, unit: Unit, alike: list[Instance], findings: Findings) -> m.ReactiveClass:
-        state = self.system._states[unit.name]
-        served = self.wiring.servers[unit.name]
+        state = self.system.state(unit)
+        before, state.names = state.names, Names(state.names.used | set(state.variables))
+        setup = self._setup(unit, alike, state, findings)
+        start = alike[0].start if alike else None
+        known = self._known(unit, alike, state.names)
+        bodies = Bodies(
+            unit.code,
+            unit,
+            self.wiring.servers[unit.name],
+            state,
+            setup,
+            self.common,
+            self._targets(alike, known),
+            opening(unit, state, start, self.starts),
+            findings,
+        )
+        name = self.kinds[self.wiring.kinds[alike[0].name]] if alike else self.classes[unit.name]
+        read = NodeClass(name, bodies, [(n, c) for n, c, _ in known]).read()
+        state.note(findings, unit.name)
+        state.names = before
+        for index, instance in enumerate(alike):
+            self._parameters[instance.name] = setup.parameters, index
+        return read
+
+    def _setup(self, unit: Unit, alike: list[Instance], state: State, findings: Findings) -> Setup:
+        """What sets up the rebecs of one kind."""
         start = alike[0].start if alike else None
         first = first_functions(unit.code, unit, self.starts)
         facts = unit.facts
         if start is not None and start.entry is not None and self._is_alone(start):
             first = [*first, start.entry]
             facts = (*facts, *self._facts_at(start))
-        names = Names(set(state.names.used))
-        assert self._times is not None
-        state_names = state.names
-        state.names = names
         setup = Setup(
             unit.code,
             self.system.graph,
             state,
-            served,
+            self.wiring.servers[unit.name],
             facts,
             alike,
             first,
-            self._times,
+            self.times,
             findings,
             unit.name,
-            names,
+            state.names,
         )
         setup.prepare()
-        static = [state.outlive(f, set(), True) for f in unit.functions]
-        for instead in static:
-            setup.instead |= instead
-        opens = opening(unit, state, start, self.starts)
-        name = self.kinds[self.wiring.kinds[alike[0].name]] if alike else self.classes[unit.name]
-        known = self._known(unit, alike, names)
-        bodies = Bodies(
-            unit.code,
-            unit,
-            served,
-            state,
-            setup,
-            self.common,
-            self._targets(alike, known),
-            opens,
-            findings,
-        )
-        reader = NodeClass(name, bodies, [(n, c) for n, c, _ in known])
-        read = reader.read()
-        state.note(findings, unit.name)
-        state.names = state_names
-        for index, instance in enumerate(alike):
-            self._parameters[instance.name] = setup.parameters, index
-        return read
+        for function in unit.functions:
+            setup.instead |= state.outlive(function, set(), True)
+        return setup
 
     def _is_alone(self, start: Start) -> bool:
         """Whether an object is all that its program or nodelet has to do with ROS."""
