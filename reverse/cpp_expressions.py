@@ -137,7 +137,8 @@ class CppExpressions:
             values = domain_near(node) or place.domain
             if not values or not (self.scope.open or isinstance(unread, Unknown)):
                 raise
-            self.approximate(node, unread)
+            why = f"{unread.why}: it is one of the values in the comment"
+            self.approximate(node, Unread(unread.span, why))
             pinned = tuple(converted_to(self.scope, v, place) for v in values)
             return choice(tuple(dict.fromkeys(pinned)))
 

@@ -13,6 +13,7 @@ from rebsync.reverse.cpp_declarations import CppField, declared_name
 from rebsync.reverse.cpp_index import Code, CppFunction
 from rebsync.reverse.cpp_tree import Cpp, inside, named, text_of
 from rebsync.reverse.cpp_types import carried
+from rebsync.reverse.cpp_unknowns import domain_near
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.message_types import MessageTypes
 from rebsync.reverse.node_names import Names
@@ -108,7 +109,8 @@ class State:
             if kept.why:
                 self.wide.append((cpp, type_, kept.why))
             free = [w for w in (wish, name, f"{wish}_") if w not in taken] or [f"{wish}_"]
-            return Variable(self._new(free, kept.type), kept.type, kept.bits)
+            given, domain = self._new(free, kept.type), domain_near(type_) or ()
+            return Variable(given, kept.type, kept.bits, domain)
         return self._struct(text_of(type_).rpartition("::")[2], wish, cpp, 0)
 
     def _new(self, wishes: list[str], type_: m.Type) -> str:

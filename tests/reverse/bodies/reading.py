@@ -36,6 +36,7 @@ _STATE = {
     **{"on_": Variable("on", BOOLEAN), "level_": Variable("level", DOUBLE)},
     **{"small_": Variable("small", _SHORT, 8), "tiny_": Variable("tiny", m.Type("byte"))},
     **{"half_": Variable("half", _FLOAT), "grid_": Variable("grid", _GRID)},
+    "rank_": Variable("rank", INT, 0, (m.IntLiteral(0), m.IntLiteral(1))),
     **{"last_": Variable("last", INT), "mode_": Variable("mode", INT)},
 }
 _KEPT = {"data": Variable("kept_data", INT)}

@@ -50,3 +50,9 @@ void Node::onTransform() {
   }
   limit_ = 3;
 }
+void Node::onDomainOfMember() {
+  rank_ = sensor_.read();
+  rank_ = count_;
+  int local = sensor_.read();  // rebsync: domain 7..8
+  count_ = local;
+}
