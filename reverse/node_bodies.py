@@ -78,11 +78,14 @@ class Bodies:
     def scope(self, cpp: Cpp, function: CppFunction | None) -> Scope:
         """What a body in a file, in a function, can name."""
         members: dict[str, Member] = dict(self.state.members_of(function))
+        published: dict[str, Publishes] = {}
         for number, fact in enumerate(self.unit.facts):
             kept = fact.site.kept.removeprefix("this->")
             if isinstance(fact, PublisherFact) and kept:
                 type_ = fact.type if isinstance(fact.type, str) else ""
-                members[kept] = Publishes(self.targets.get(number, ()), type_)
+                made = Publishes(self.targets.get(number, ()), type_)
+                same = published.setdefault(kept, made) == made
+                members[kept] = made if same else Outside()  # one of several
             elif isinstance(fact, TimerFact) and kept:
                 server = next((s for s in self.servers if fact in s.timers), None)
                 if server is not None:

@@ -9,6 +9,10 @@ class Server {
     reset_ = nh_.advertiseService("reset", &Server::reset, this);
     sub_ = nh_.subscribe("state", 1, &Server::state, this);
     worker_ = std::thread([this] { state_ = !state_; });
+    either_ = nh_.advertise<std_msgs::Bool>("state", 1);
+    if (state_) {
+      either_ = nh_.advertise<std_msgs::Bool>("other", 1);
+    }
   }
 
  private:
@@ -16,10 +20,13 @@ class Server {
     state_ = false;
     return true;
   }
-  void state(const std_msgs::Bool::ConstPtr& msg) { state_ = msg->data; }
+  void state(const std_msgs::Bool::ConstPtr& msg) {
+    state_ = msg->data;
+    either_.publish(msg);
+  }
 
   ros::NodeHandle nh_;
-  ros::Publisher pub_;
+  ros::Publisher pub_, either_;
   ros::ServiceServer reset_;
   ros::Subscriber sub_;
   std::thread worker_;
