@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterator
+from functools import lru_cache
 from typing import TypeAlias, TypeVar
 
 import yaml
@@ -67,7 +68,7 @@ def read_parameters(
     """The parameters of a file, or of a `text` in it whose ranges `place` finds in the source."""
     reader = _Reader(source, place)
     try:
-        root = yaml.compose(source.text if text is None else text, Loader=yaml.SafeLoader)
+        root = _composed(source.text if text is None else text)
         if root is not None:
             reader.flatten("", root)
     except yaml.YAMLError as error:
@@ -75,6 +76,12 @@ def read_parameters(
     except (_TooLarge, RecursionError):
         reader.unknown("the YAML", "it is nested too deeply, or too large, to be read", Span(0, 0))
     return Parameters(tuple(reader.entries.values()), tuple(reader.unknowns))
+
+
+@lru_cache(maxsize=8)
+def _composed(text: str) -> yaml.Node | None:
+    """The tree of a text; kept for a while, as many nodes of a launch file load the same one."""
+    return yaml.compose(text, Loader=yaml.SafeLoader)
 
 
 def storable(value: _Stored) -> _Stored | Open:
