@@ -46,13 +46,13 @@ def tidy(body: m.Block, variables: Collection[str] = ()) -> m.Block:
 
 
 def _read(body: m.Block) -> Counter[str]:
-    """How often each name is read: what is only assigned is not."""
+    """How often each name is read: what is only assigned, and may go with its value, is not."""
     names: Counter[str] = Counter()
     for node in m.walk(body):
         match node:
             case m.Name(name):
                 names[name] += 1
-            case m.ExpressionStatement(m.Assign("=", m.Name(name))):
+            case m.ExpressionStatement(m.Assign("=", m.Name(name), value)) if is_calm(value):
                 names[name] -= 1
             case m.Annotation(_, arguments) if arguments:
                 names.update(n.name for a in arguments for n in m.walk(a) if isinstance(n, m.Name))
