@@ -18,13 +18,15 @@ from tests.reverse.soundness.programs import inputs, run
 
 DRAWN = int(os.environ.get("REBSYNC_DRAWN_NODES", "24"))
 BATCH = 24
+FOUND = (114, 274, 340)  # nodes that have shown mistakes
 
 pytestmark = pytest.mark.skipif(shutil.which("g++") is None, reason="g++ is not installed")
 
 
 @pytest.mark.parametrize("first", range(0, DRAWN, BATCH))
 def test_models_can_do_what_the_code_does(first: int, tmp_path: Path) -> None:
-    tally = tallied(tmp_path, range(first, min(first + BATCH, DRAWN)))
+    drawn = range(first, min(first + BATCH, DRAWN))
+    tally = tallied(tmp_path, (*drawn, *FOUND) if first == 0 else drawn)
     assert tally.refused == []
     assert tally.unsound == []
     assert tally.inexact == []
