@@ -24,6 +24,7 @@ from rebsync.reverse.cpp_index import CppClass
 from rebsync.reverse.cpp_tree import named, part, text_of
 from rebsync.reverse.cpp_values_afterwards import Afterwards
 from rebsync.reverse.cpp_values_calls import from_parameter
+from rebsync.reverse.cpp_values_kept import is_pointer, listed, on_this, with_default
 from rebsync.reverse.cpp_values_made import constructed, default_of
 from rebsync.reverse.cpp_values_names import name_under, resolved
 from rebsync.reverse.cpp_values_numbers import added, converted
@@ -42,7 +43,7 @@ from rebsync.reverse.cpp_values_plain import (
     ways,
 )
 from rebsync.reverse.cpp_values_texts import formatted
-from rebsync.reverse.graph import FromParameter, Under
+from rebsync.reverse.graph import Under
 from rebsync.reverse.roscpp_vocabulary import HANDLE_TYPE
 
 if TYPE_CHECKING:
@@ -97,7 +98,7 @@ class Variables:
             return self._of_class(node, frame)
         if not path:
             return self.value(variable, "", node, frame)
-        if variable.kind == "member" and _is_pointer(variable):
+        if variable.kind == "member" and is_pointer(variable):
             return self._of_class(node, frame)
         found = self._at(variable, path, node, frame)
         return self._of_class(node, frame) if isinstance(found, Nothing) else found
@@ -145,7 +146,7 @@ class Variables:
             if reach.unset:
                 stands_in = value
                 continue
-            found.append(each(partial(_with_default, default=stands_in), value))
+            found.append(each(partial(with_default, default=stands_in), value))
             stands_in = Nothing()
             if reach.sure:
                 return found, True
@@ -214,37 +215,17 @@ class Variables:
             return Nothing()
         types = self.values.types
         type_ = types.plain(variable.cpp, variable.type)
-        if len(definition.arguments) == 1 and _is_pointer(variable):
+        if len(definition.arguments) == 1 and is_pointer(variable):
             return self.values.value(definition.arguments[0], frame)
         if is_list(variable):
-            return self._listed(variable, type_, definition, frame)
+            return listed(self.values, type_, definition, frame)
         if not type_ or type_ == "auto":
             return self.values.value(definition.arguments[0], frame)
         use = Use(frame.cpp, definition.node, definition.arguments, frame.function)
         return constructed(self.values, type_, use, frame)
 
-    def _listed(
-        self, variable: Variable, type_: str, definition: Definition, frame: Frame
-    ) -> Value:
-        """The elements of an array or vector that is made of them."""
-        given = definition.arguments
-        found = [converted(self.values.value(g, frame), type_) for g in given]
-        holder = (
-            part(definition.node, "value") if definition.node.type == "init_declarator" else None
-        )
-        braces = holder is not None and holder.type == "initializer_list"
-        match found:
-            case [tuple() as copied]:
-                return copied
-            case [int() as count, (bool() | int() | float() | str()) as element] if not braces:
-                return (element,) * count if 0 <= count < MOST else Nothing()
-            case _ if braces and all(isinstance(v, (bool, int, float, str)) for v in found):
-                return tuple(v for v in found if isinstance(v, (bool, int, float, str)))
-            case _:
-                return self.values.unknown("a list that is not known", definition.place, frame)
-
     def _declared(self, variable: Variable, path: str, place: Node, frame: Frame) -> Value:
-        if variable.type is None or _is_pointer(variable):
+        if variable.type is None or is_pointer(variable):
             return Nothing()
         type_ = self.values.types.plain(variable.cpp, variable.type)
         if not path:
@@ -382,7 +363,7 @@ class Variables:
         if function is not None and frame.call is not None and frame.caller is not None:
             before = frame.caller.function
             class_ = texts.class_of(before)
-            if class_ is not None and owner in texts.lineage(class_) and _on_this(frame.call.node):
+            if class_ is not None and owner in texts.lineage(class_) and on_this(frame.call.node):
                 return self._at(variable, path, frame.call.node, frame.caller)
         return self._later.value(variable, path, frame)
 
@@ -404,34 +385,3 @@ class Variables:
             type_ = self.values.types.plain(variable.cpp, variable.type)
             return constructed(self.values, type_, use, frame) if inside else Nothing()
         return self._declared(variable, path, member.node, frame)
-
-
-def _with_default(value: Value, default: Value) -> Value:
-    """The value of a parameter with what the code puts in its place where it is not set."""
-    match default:
-        case Nothing():
-            return value
-        case bool() | int() | float() | str() | FromParameter() if isinstance(value, FromParameter):
-            return FromParameter(value.name, default, value.expression, value.search, value.within)
-        case _:
-            return choice([default, value])
-
-
-def _is_pointer(variable: Variable) -> bool:
-    above = variable.name.parent
-    if above is not None and above.type == "pointer_declarator":
-        return True
-    if variable.field is not None:
-        for declarator in variable.field.node.children_by_field_name("declarator"):
-            if declarator.type == "pointer_declarator" and variable.text in text_of(declarator):
-                return True
-    text = text_of(variable.type) if variable.type is not None else ""
-    return "_ptr<" in text or text.endswith("Ptr")
-
-
-def _on_this(call: Node) -> bool:
-    """Whether a call is one of a method of the same object."""
-    if call.type != "call_expression":
-        return call.type == "field_initializer"
-    function = part(call, "function")
-    return function.type != "field_expression" or part(function, "argument").type == "this"
