@@ -52,7 +52,8 @@ def mended(cpp: Cpp, node: Node) -> Operand | None:
         return None
     if not text_of(node).lstrip("( ").startswith("~"):
         return None
-    inside = parse(Source(cpp.source.path, f"auto x = {text_of(node)};"))
+    text = text_of(node).rstrip().removesuffix(",")  # the comma may have gone with it
+    inside = parse(Source(cpp.source.path, f"auto x = {text};"))
     declared = inside.root.named_children[0] if inside.root.named_children else None
     declarator = declared.child_by_field_name("declarator") if declared is not None else None
     value = declarator.child_by_field_name("value") if declarator is not None else None
