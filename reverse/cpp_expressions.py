@@ -23,7 +23,7 @@ from rebsync.reverse.cpp_conversions import (
 )
 from rebsync.reverse.cpp_effects import Effects
 from rebsync.reverse.cpp_literals import literal
-from rebsync.reverse.cpp_misread import Chain, Operand, Operation, chain_of, is_misread, mended
+from rebsync.reverse.cpp_misread import Chain, Operand, Operation, chain_of, is_misread
 from rebsync.reverse.cpp_places import is_this, resolve
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.cpp_types import carried, type_of
@@ -103,8 +103,6 @@ class CppExpressions:
                 return self.cast(part(node, "type"), named(part(node, "value"))[0], node)
             case "call_expression":
                 return cpp_called.called(self, node)
-            case "ERROR" if (inverted := mended(self.cpp, node)) is not None:
-                return replace(self, cpp=inverted.cpp).read(inverted.node)
             case _:
                 return self._literal(node)
 
@@ -238,7 +236,7 @@ class CppExpressions:
     # --- operators ------------------------------------------------------------------------------
 
     def _sign(self, node: Node) -> str:
-        operator = text_of(part(node, "operator"))
+        operator = self.cpp.operator(node)
         return _WORDS.get(operator, operator)
 
     def _operator(self, node: Node) -> str:

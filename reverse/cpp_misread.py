@@ -46,20 +46,6 @@ def is_misread(scope: Scope, node: Node) -> bool:
             return False
 
 
-def mended(cpp: Cpp, node: Node) -> Operand | None:
-    """`{~x[0]}`, in which the grammar looks for a destructor: the operand, if it is one."""
-    if node.parent is None or node.parent.type != "initializer_list":
-        return None
-    if not text_of(node).lstrip("( ").startswith("~"):
-        return None
-    text = text_of(node).rstrip().removesuffix(",")  # the comma may have gone with it
-    inside = parse(Source(cpp.source.path, f"auto x = {text};"))
-    declared = inside.root.named_children[0] if inside.root.named_children else None
-    declarator = declared.child_by_field_name("declarator") if declared is not None else None
-    value = declarator.child_by_field_name("value") if declarator is not None else None
-    return None if value is None or inside.root.has_error else Operand(inside, value)
-
-
 def first_of(cpp: Cpp, scope: Scope, node: Node) -> Operand:
     """The first operand of a misread cast."""
     first = _flat(cpp, scope, node)[0]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import field
 from functools import cache
 
@@ -18,6 +18,8 @@ from rebsync.source import Source, Span
 
 _MOST_COMMENTS = 60  # each is looked for from the start of what is around it
 _NOT_ASCII = re.compile(r"[^\x00-\x7f]")
+_INVERTED = re.compile(rb"[\s(]*~")
+_ELEMENTS = frozenset({"initializer_list", "parenthesized_expression"})
 _COMMENT = re.compile(r"^\s*//[/!]?|^\s*/\*+|\*+/\s*\Z")
 
 
@@ -27,13 +29,19 @@ class Cpp:
 
     `wide` are the bytes behind each character that takes more than one, and by how many bytes more
     than characters the text up to there has. `deep` are the bytes of places that nest deeper than
-    is read: they are not in the tree.
+    is read: they are not in the tree. `inverted` are the bytes of each `~` that is `!` in the tree.
     """
 
     source: Source
     root: Node = field(repr=False)
     wide: tuple[list[int], list[int]] | None = field(repr=False)
     deep: tuple[tuple[int, int], ...] = ()
+    inverted: frozenset[int] = frozenset()
+
+    def operator(self, node: Node) -> str:
+        """The operator of an operation."""
+        operator = part(node, "operator")
+        return "~" if operator.start_byte in self.inverted else text_of(operator)
 
     def span(self, node: Node) -> Span:
         """The characters that a node covers."""
@@ -74,7 +82,31 @@ def parse(source: Source) -> Cpp:
         deep += parts
         data = without(data, parts)
         root = _parser().parse(data).root_node
-    return Cpp(source, root, wide, tuple(deep))
+    inverted: set[int] = set()
+    while root.has_error and (found := list(_taken_for_destructors(root, data))):
+        inverted.update(found)
+        data = _with_negations(data, found)
+        root = _parser().parse(data).root_node
+    return Cpp(source, root, wide, tuple(deep), frozenset(inverted))
+
+
+def _taken_for_destructors(root: Node, data: bytes) -> Iterator[int]:
+    """The bytes of `~` with which elements in braces begin, `{~x[0], 1}`.
+
+    There the grammar looks for the name of a destructor, and finds an error; with `!` it does not.
+    """
+    for node in inside(root, "ERROR"):
+        if node.parent is not None and node.parent.type in _ELEMENTS:
+            sign = _INVERTED.match(data, node.start_byte)
+            if sign is not None:
+                yield sign.end() - 1
+
+
+def _with_negations(data: bytes, places: Iterable[int]) -> bytes:
+    changed = bytearray(data)
+    for place in places:
+        changed[place] = ord("!")
+    return bytes(changed)
 
 
 def _wide(text: str) -> tuple[list[int], list[int]]:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 def unary(values: Values, node: Node, frame: Frame) -> Value:
     """The value of an operation on one operand."""
-    operator = text_of(node.children[0])
+    operator = frame.cpp.operator(node)
 
     def one(value: Value) -> Value:
         match value:

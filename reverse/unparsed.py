@@ -12,7 +12,6 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.cpp_conditions import Conditional, blank, conditionals
-from rebsync.reverse.cpp_misread import mended
 from rebsync.reverse.cpp_text import has_alternatives, is_split, read_branch
 from rebsync.reverse.cpp_tree import Cpp
 from rebsync.reverse.findings import Finding, Grade
@@ -61,8 +60,6 @@ def _errors(cpp: Cpp) -> Iterator[Node]:
 def _harmless(cpp: Cpp, node: Node) -> bool:
     """Whether what is missing says nothing: the `;` after a macro, the name of an instantiation."""
     parent = node.parent
-    if node.is_error and mended(cpp, node) is not None:
-        return True
     if not node.is_missing or parent is None:
         return False
     if parent.type == "template_instantiation":
