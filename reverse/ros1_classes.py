@@ -174,8 +174,7 @@ class Classes:
                 return
 
     def _is_reactive(self, name: str) -> bool:
-        owner = self.code.classes.get(name)
-        return owner is not None and self._has_mailbox(owner)
+        return name in self.code.classes and self._has_mailbox(self.code.classes[name])
 
     def _is_abstract(self, owner: CppClass) -> bool:
         """Whether no node is of this class: then it does not say what its state is."""
@@ -242,11 +241,8 @@ class Classes:
         if call is None or any(x.startswith(("msgsrv ", "method ")) for x in function.markers):
             return False
         passed = [text_of(a) for a in call.arguments]
-        inherited = {f"{b}::{function.name}" for b in self._above(owner)}
+        inherited = {f"{c.name}::{function.name}" for c in self.code.lineage(owner.name)[1:]}
         return call.name in inherited and passed == [p.name for p in function.parameters]
-
-    def _above(self, owner: CppClass) -> set[str]:
-        return {c.name for c in self.code.lineage(owner.name)[1:]}
 
     def _served(self, owner: CppClass, function: CppFunction) -> str | None:
         """The server whose messages a function serves, here or in a class above."""
@@ -388,7 +384,7 @@ class Classes:
         for function in self._free(owner):
             functions[function.name] = Called(plain_name(function, self.types))
             callable_.add(function.name)
-        bases = {b: class_name(b) for b in self._above(owner)}
+        bases = {c.name: class_name(c.name) for c in self.code.lineage(owner.name)[1:]}
         timers = {t.call.node.id: server_of_timer(t, n) for t, n in self._timed_servers(owner)}
         return Scope(
             members,
