@@ -152,6 +152,20 @@ def converted_to(scope: Scope, expression: m.Expression, target: Variable) -> m.
     return _wrapped(scope, value, target.bits) if target.bits else value
 
 
+def is_truth(scope: Scope, expression: m.Expression) -> bool:
+    """Whether C++ takes the value of an expression for 0 or 1 where it is stored as a number."""
+    match bare(expression):
+        case m.IntLiteral(value):
+            return value in (0, 1)
+        case m.Conditional(_, then, otherwise):
+            return is_truth(scope, then) and is_truth(scope, otherwise)
+        case m.Cast(_, operand):
+            return is_truth(scope, operand)
+        case other:
+            of = type_in(scope, other)
+            return of is not None and is_boolean(of)
+
+
 def _literal(expression: m.Expression, type_: m.Type) -> m.Expression | None:
     """A literal of another type as one of this type."""
     match bare(expression):
@@ -173,6 +187,11 @@ def _wrapped(scope: Scope, expression: m.Expression, bits: int) -> m.Expression:
     if isinstance(value, int):
         return m.IntLiteral(value & mask, expression.span)
     inner = bare(expression)
+    if isinstance(inner, m.Conditional) and all(
+        isinstance(way := constant(w), int) and 0 <= way <= mask
+        for w in (inner.then, inner.otherwise)
+    ):
+        return expression
     if isinstance(inner, m.Index):
         inner = inner.target
     if isinstance(inner, m.Name):

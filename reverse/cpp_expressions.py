@@ -14,7 +14,6 @@ from rebsync.reverse import cpp_called, cpp_idioms, cpp_mailbox
 from rebsync.reverse.building import bare, binary, is_calm, is_place, tight
 from rebsync.reverse.cpp_conversions import (
     alternatives,
-    as_boolean,
     as_number,
     converted_to,
     operands,
@@ -25,6 +24,7 @@ from rebsync.reverse.cpp_effects import Effects
 from rebsync.reverse.cpp_literals import literal
 from rebsync.reverse.cpp_misread import Chain, Operand, Operation, chain_of, is_misread
 from rebsync.reverse.cpp_places import is_this, resolve
+from rebsync.reverse.cpp_stores import kept
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.cpp_types import carried, type_of
 from rebsync.reverse.cpp_unknowns import Unknown, choice, domain_near
@@ -46,6 +46,7 @@ from rebsync.static.types import BOOLEAN, INT, converts, is_boolean, is_floating
 
 _PREFIX = frozenset({"+", "-", "!", "~"})
 _WORDS = {"and": "&&", "or": "||", "not": "!", "not_eq": "!=", "bitand": "&", "bitor": "|"}
+_TRUTH = Variable("", BOOLEAN)
 MOVE = cpp_mailbox.MOVE
 
 # Reads the call of a function whose body stands in its place: what the call gives, if anything.
@@ -106,30 +107,31 @@ class CppExpressions:
             case _:
                 return self._literal(node)
 
-    def condition(self, node: Node) -> m.Expression:
-        """An expression as a truth value; a choice of both where the model cannot know it."""
+    def condition(self, node: Node, place: Variable | None = None) -> m.Expression:
+        """An expression as a truth value that `place` holds; of what is not known a choice."""
         span = self.cpp.span(node)
         match node.type:
             case "parenthesized_expression":
-                return m.Paren(self.condition(self.only(node)), span)
+                return m.Paren(self.condition(self.only(node), place), span)
             case "unary_expression" if self._sign(node) == "!":
                 inner = tight(self.condition(part(node, "argument")), precedence.PREFIX)
                 return inner if isinstance(inner, m.Choice) else m.Unary("!", inner, span)
             case "binary_expression" if self._sign(node) in ("&&", "||"):
                 return self.binary(node, self._sign(node), named(node))
         try:
-            return as_boolean(self.scope, self.read(node))
+            read = self.read(node)
         except Unread as unread:
             if not isinstance(unread, Unknown) and not self.scope.open:
                 raise
             self.approximate(node, unread)
             return m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)), span)
+        return kept(self, node, read, place or _TRUTH)
 
     def stored(self, node: Node, place: Variable) -> m.Expression:
         """A value as `place` holds it; where a hint says what it can be, a choice of that."""
         try:
             if place.type is not None and is_boolean(place.type):
-                return self.condition(node)
+                return self.condition(node, place)
             return converted_to(self.scope, self.read(node), place)
         except Unread as unread:
             values = domain_near(node) or place.domain
@@ -276,8 +278,8 @@ class CppExpressions:
                 why = "the model counts only whole numbers" if real else "this wraps sooner"
                 raise self.unread(node, why, "count in a statement of its own")
             target = self.read(argument)
-            value = binary(operator[0], target, m.IntLiteral(1))
-            return m.Assign("=", target, converted_to(self.scope, value, place), span)
+            value = binary(*operands(self.scope, operator[0], target, m.IntLiteral(1)))
+            return m.Assign("=", target, kept(self, node, value, place), span)
         if before:
             return m.Unary(operator, self.operand(argument, precedence.PREFIX), span)
         return m.Postfix(operator, self.operand(argument, precedence.POSTFIX), span)
@@ -324,7 +326,7 @@ class CppExpressions:
         if place.type is None or result is None or not is_calm(written):
             return m.Assign(operator, written, right, span)
         if place.bits or left is not written or not converts(result, place.type, {}):
-            whole = converted_to(self.scope, binary(done, left, right), place)
+            whole = kept(self, node, binary(done, left, right), place)
             return m.Assign("=", written, whole, span)
         return m.Assign(operator, written, right, span)
 

@@ -16,9 +16,19 @@ from rebsync.reverse.cpp_effects import Effects
 from rebsync.reverse.cpp_places import field_of, resolve
 from rebsync.reverse.cpp_roots import path_in
 from rebsync.reverse.cpp_tree import named, part, text_of
+from rebsync.reverse.cpp_types import wider
 from rebsync.reverse.cpp_unknowns import HINT, Demote, Unknown, choice, domain_near
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.scope import Called, Inline, Publishes, Record, Scope, Target, Variable
+from rebsync.reverse.scope import (
+    WIDE,
+    Called,
+    Inline,
+    Publishes,
+    Record,
+    Scope,
+    Target,
+    Variable,
+)
 from rebsync.static.types import is_boolean
 
 if TYPE_CHECKING:
@@ -155,7 +165,12 @@ def declare(
             initial = m.Name(held.name) if held is not None else None
         if _is_demoted(reader, f"{name}.{path}") or (not fresh and initial is None):
             continue
-        variable = Variable(reader.fresh(f"{name}_{path.replace('.', '_')}", inlining), of)
+        width = reader.scope.width(type_, path)
+        of_model = reader.fresh(f"{name}_{path.replace('.', '_')}", inlining)
+        variable = Variable(of_model, of, width if width < WIDE else 0)
+        if width >= WIDE:
+            place, why = reader.cpp.span(node), wider(path)
+            reader.findings.approximated(reader.cpp.source, place, why, "", reader.within)
         reader.shared.made.add(variable.name)
         fields[path] = variable
         span = reader.cpp.span(node)

@@ -111,7 +111,12 @@ def carried(node: Node, enums: Collection[str] = ()) -> Carried | None:
     if name in _UNSIGNED:
         return Carried(Type(_UNSIGNED[name][0]), _UNSIGNED[name][1])
     if name in _WIDE or (words and words <= {"long", "int", "unsigned", "signed"}):
-        return Carried(Type("int"), why=f'"{text}" holds more than the model\'s int does')
+        return Carried(Type("int"), why=wider(text))
     if last in _TIMES and scope.strip(":") == "ros":
         return Carried(Type("int"))
     return Carried(Type("int")) if text in enums or last in enums else None
+
+
+def wider(what: str) -> str:
+    """What is said of a type, or of a field of a message, that is wider than the model's."""
+    return f'"{what}" holds more than the model\'s int does'

@@ -11,6 +11,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.common_messages import COMMON
 from rebsync.reverse.cpp_tree import Cpp
 from rebsync.reverse.messages import plain_type, read_message
+from rebsync.reverse.scope import WIDE, Variable
 from rebsync.source import Source
 
 # What the model keeps of a field's values. Wider integers are taken for `int`.
@@ -19,7 +20,9 @@ _TYPES = {
     **{"uint16": "int", "uint32": "int", "int64": "int", "uint64": "int"},
     **{"float32": "float", "float64": "double"},
 }
-WIDER = frozenset({"uint32", "int64", "uint64"})
+# In bits: narrow ones wrap sooner than the model's type, others hold more than its `int`. A truth
+# value is a byte in the code.
+_WIDTHS = {"bool": 8, "uint8": 8, "uint16": 16, "uint32": 32, "int64": 64, "uint64": 64}
 _DEEPEST = 8
 _POINTERS = re.compile(r"(::)?(Const)?(Shared|Unique|Weak)?Ptr$")
 _WORD = re.compile(r"[A-Z]\w*")
@@ -32,12 +35,13 @@ Fields = Mapping[str, Type | None]
 class MessageTypes:
     """The types that the files of a package declare, and those that come with ROS.
 
-    `wide` are the paths of fields that hold more than the model's `int`, by type.
+    `widths` are those of fields, by type and path, that are not the model's type's: 8 and 16 bits
+    wrap sooner, 32 and 64 hold more than its `int`.
     """
 
     own: dict[str, list[tuple[str, str, int | None]]]
     package: str
-    wide: dict[str, set[str]] = field(default_factory=dict)
+    widths: dict[str, dict[str, int]] = field(default_factory=dict)
     _constants: dict[str, int] = field(default_factory=dict)
     _fields: dict[str, Fields] = field(default_factory=dict)
 
@@ -71,6 +75,15 @@ class MessageTypes:
                 return None
             self._fields[type_] = dict(self._flat(type_, "", type_, 0))
         return self._fields[type_]
+
+    def variable(self, type_: str, path: str, name: str, of: Type) -> Variable:
+        """A variable of the model for a field of a type."""
+        width = self.widths.get(type_, {}).get(path, 0)
+        return Variable(name, of, width if width < WIDE else 0)
+
+    def holds_more(self, type_: str, path: str) -> bool:
+        """Whether a field holds more than the model's `int` does."""
+        return self.widths.get(type_, {}).get(path, 0) >= WIDE
 
     def all_fields(self, types: set[str]) -> dict[str, Fields]:
         """The fields of several types, of those that are known."""
@@ -107,8 +120,8 @@ class MessageTypes:
     ) -> Iterator[tuple[str, Type | None]]:
         for name, inner, length in self._declared(type_) or ():
             at, plain = f"{path}{name}", plain_type(inner)
-            if plain in WIDER:
-                self.wide.setdefault(whole, set()).add(at)
+            if plain in _WIDTHS:
+                self.widths.setdefault(whole, {})[at] = _WIDTHS[plain]
             if plain in _TYPES:
                 dimensions = () if length is None else (length,)
                 yield at, Type(_TYPES[plain], dimensions) if length != 0 else None

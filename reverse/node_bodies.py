@@ -104,6 +104,7 @@ class Bodies:
             enumerators=self.common.enumerators,
             enums=self.common.enums,
             messages=self.common.messages,
+            widths=self.state.types.widths,
             timers=self.setup.timers,
             instead=self.setup.instead,
             values=self.setup.values,
@@ -156,8 +157,9 @@ class Bodies:
     def _message(self, server: Server) -> Member:
         if server.timers or server.type is None:
             return Outside()
-        fields = {p.path: Variable(p.name, p.type) for p in server.parameters}
-        return Record(fields, server.type)
+        given = [(p.path, p.name, p.type) for p in server.parameters]
+        variable = self.state.types.variable
+        return Record({p: variable(server.type, p, n, t) for p, n, t in given}, server.type)
 
     def loop(self, loop: Loop, name: str) -> Iterator[m.MessageServer]:
         """The server of a loop, and one for what comes after its sleep where both do something."""

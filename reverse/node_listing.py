@@ -79,9 +79,8 @@ class Listing:
                 self._approximated(fact.site.place, why, unit.name)
 
     def _wide(self, unit: Unit, server: Server) -> None:
-        wide = self.types.wide.get(server.type or "", set())
         for parameter in server.parameters:
-            if parameter.path in wide:
+            if self.types.holds_more(server.type or "", parameter.path):
                 for fact in server.subscriptions[:1]:
                     why = f'"{parameter.path}" holds more than the model\'s int does'
                     self._approximated(fact.site.place, why, f"{unit.name}.{server.name}")

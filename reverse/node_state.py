@@ -12,7 +12,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.cpp_declarations import CppField, declared_name
 from rebsync.reverse.cpp_index import Code, CppFunction
 from rebsync.reverse.cpp_tree import Cpp, inside, named, text_of
-from rebsync.reverse.cpp_types import carried
+from rebsync.reverse.cpp_types import carried, wider
 from rebsync.reverse.cpp_unknowns import domain_near
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.message_types import MessageTypes
@@ -99,7 +99,7 @@ class State:
         shape = declarator.type if declarator is not None else "identifier"
         message = self.types.named(text_of(type_))
         if message is not None and shape in ("identifier", "field_identifier"):
-            return self._record(message, wish)
+            return self._record(message, wish, cpp, type_)
         if shape == "array_declarator" and declarator is not None:
             return self._array(wish, name, type_, declarator, cpp, taken)
         if shape not in ("identifier", "field_identifier", "init_declarator"):
@@ -118,13 +118,15 @@ class State:
         self.variables[given] = type_
         return given
 
-    def _record(self, message: str, wish: str) -> Record:
+    def _record(self, message: str, wish: str, cpp: Cpp, node: Node) -> Record:
         fields = {}
         for path, type_ in (self.types.fields(message) or {}).items():
             plain = type_ is not None and not type_.dimensions
             if type_ is not None and plain and not f".{path}".count(".header."):
                 given = self._new([f"{wish}_{path}".replace(".", "_")], type_)
-                fields[path] = Variable(given, type_)
+                fields[path] = self.types.variable(message, path, given, type_)
+                if self.types.holds_more(message, path):
+                    self.wide.append((cpp, node, wider(path)))
         return Record(fields, message)
 
     def _array(

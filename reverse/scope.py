@@ -15,6 +15,8 @@ from rebsync.reserved import RESERVED, uncarry_local
 from rebsync.reverse.cpp_index import CppFunction
 from rebsync.reverse.cpp_tree import Cpp
 
+WIDE = 32  # bits, from which on unsigned numbers hold more than the model's `int`
+
 # --- variables ----------------------------------------------------------------------------------
 
 
@@ -23,7 +25,8 @@ class Variable:
     """A state variable, a known rebec, a constant, a parameter or a local of the model.
 
     With `type` None nothing is converted when it is read or written: the code says it all.
-    `bits` is the width of an unsigned type that `type` holds but that wraps sooner (8 or 16).
+    `bits` is the width of an unsigned type that `type` holds but that wraps sooner (8 or 16). A
+    truth value with bits is a number in the code, which can hold others than 0 and 1.
     `domain` are the values that a hint beside its declaration gives it.
     """
 
@@ -207,6 +210,9 @@ class Scope:
     # The fields of message types (`std_msgs/Int32`) by their paths; None where the model has no
     # such type.
     messages: Mapping[str, Mapping[str, Type | None]] = field(default_factory=dict)
+    # The widths in bits of their fields where these are not the model's type's: narrow ones wrap
+    # sooner, wide ones hold more.
+    widths: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
     # The servers of callbacks that calls (`createTimer`), by the id of the call's node, set timers
     # for.
     timers: Mapping[int, TimerOf] = field(default_factory=dict)
@@ -228,6 +234,10 @@ class Scope:
     results: dict[str, Variable] = field(default_factory=dict, compare=False, repr=False)
     # Whether functions, by the ids of their bodies, touch nothing: what has been found out.
     calm: dict[int, bool] = field(default_factory=dict, compare=False, repr=False)
+
+    def width(self, type_: str, path: str) -> int:
+        """The width of a field of a message type; 0 where it is that of the model's type."""
+        return self.widths.get(type_, {}).get(path, 0)
 
     def meaning(self, name: str) -> Meaning | None:
         """What a name stands for: a local hides a member."""

@@ -93,7 +93,7 @@ class Body:
 
     def integer(self, depth: int = 0) -> str:
         """An expression of an integer type."""
-        known = self.of(*INTEGERS)
+        known = self.of(*INTEGERS, "uint16_t")
         if depth > 2 or self.chance(30):
             return self.random.choice(known).name if known and self.chance(70) else self.number()
         left, right = self.integer(depth + 1), self.integer(depth + 1)
@@ -271,9 +271,7 @@ class Body:
         name = free[0]
         self.used.add(name)
         filled = [
-            f"{path} = {self.expression('bool' if t == 'uint8_t' and path == 'data' else t)};"
-            for path, t in publisher.fields
-            if self.chance(85)
+            f"{path} = {self.expression(t)};" for path, t in publisher.fields if self.chance(85)
         ]
         if self.chance(20):
             made = f"auto {name} = boost::make_shared<{publisher.message}>();"

@@ -19,6 +19,7 @@ MESSAGES = {
     "std_msgs::Int16": (("data", "int16_t"),),
     "std_msgs::Int8": (("data", "int8_t"),),
     "std_msgs::UInt8": (("data", "uint8_t"),),
+    "std_msgs::UInt16": (("data", "uint16_t"),),
     "std_msgs::Bool": (("data", "bool"),),
     "std_msgs::Float64": (("data", "double"),),
     "std_msgs::Empty": (),
@@ -27,6 +28,16 @@ MESSAGES = {
     ),
 }
 SENT = ("std_msgs::Int32", "std_msgs::Bool", "std_msgs::Int8", "geometry_msgs::Twist")
+TAKEN = tuple(m for m in sorted(MESSAGES) if m != "std_msgs::UInt16")
+# Some nodes have messages of unsigned numbers instead; what else is drawn is the same.
+UNSIGNED = (
+    {},
+    {},
+    {"std_msgs::Int8": "std_msgs::UInt8"},
+    {"std_msgs::Int8": "std_msgs::UInt16", "std_msgs::Int32": "std_msgs::UInt8"},
+    {},
+    {"std_msgs::Int32": "std_msgs::UInt16", "std_msgs::Int16": "std_msgs::UInt16"},
+)
 MEMBERS = (
     Variable("total_", "int"),
     Variable("level_", "int"),
@@ -84,9 +95,9 @@ def draw_node(seed: int) -> DrawnNode:
     members = tuple(m for m in MEMBERS if random.randrange(100) < 70)
     publishers = tuple(
         Publisher(f"pub{i}_", message, MESSAGES[message])
-        for i, message in enumerate(random.sample(SENT, random.randint(1, 3)))
+        for i, message in enumerate(_drawn(random, SENT, seed))
     )
-    messages = random.sample(sorted(MESSAGES), random.randint(1, 3))
+    messages = _drawn(random, TAKEN, seed)
     taken = tuple(
         Callback(f"on{m.rpartition('::')[2]}", m, random.random() < 0.3) for m in messages
     )
@@ -104,6 +115,13 @@ def draw_node(seed: int) -> DrawnNode:
         "launch/all.launch": _launch(name),
     }
     return DrawnNode(name, files, sources, shape, callbacks, members, publishers)
+
+
+def _drawn(random: Random, messages: tuple[str, ...], seed: int) -> list[str]:
+    """One to three types of messages."""
+    instead = UNSIGNED[seed % len(UNSIGNED)]
+    drawn = random.sample(messages, random.randint(1, 3))
+    return list(dict.fromkeys(instead.get(m, m) for m in drawn))
 
 
 @dataclass
