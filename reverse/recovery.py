@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import field
+from fractions import Fraction
 
 from tree_sitter import Node
 
@@ -38,6 +39,7 @@ from rebsync.static.values import converted
 
 _ENV_MARKER = re.compile(r"# *rebsync: env (?P<type>[a-z]+)(?P<lengths>(?:\[\d+\])*) (?P<name>\S+)")
 _MANIFEST = "package.xml"
+_TIME_UNIT = "/mailbox/time_unit"
 _CODE = tuple(sorted(CODE))
 
 
@@ -70,7 +72,7 @@ def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
     only = only if asked is None else None
     system = system_of(files, package, asked)
     launch = system.launch if system is not None else None
-    classes = Classes(code, findings, own_messages(files))
+    classes = Classes(code, findings, own_messages(files), _unit_of_time(launch))
     read = classes.read(_classes_in(code, files[only].path) if only is not None else None)
     started = programs(code, graph, files)
     nodes = NodeSystem(
@@ -107,6 +109,15 @@ def _classes_in(code: Code, path: str) -> set[str]:
     found = {c.name for c in code.classes.values() if c.cpp.source.path == path}
     parts = (f for all_of in code.definitions.values() for f in all_of)
     return found | {f.owner for f in parts if f.cpp.source.path == path and f.owner}
+
+
+def _unit_of_time(launch: Launch | None) -> Fraction:
+    """The seconds that a unit of time takes in generated nodes."""
+    for parameter in launch.parameters if launch is not None else ():
+        value = parameter.value
+        if parameter.name == _TIME_UNIT and isinstance(value, (int, float)) and value > 0:
+            return Fraction(repr(value))
+    return Fraction(1)
 
 
 @dataclass(frozen=True, slots=True)
