@@ -25,7 +25,7 @@ _NOTHING = Extracted(m.Model((), (), None), (), ())
 class Answer:
     """What is told of a package, as texts that another process can hand over.
 
-    `model` is None where no class was found; `asks` says that its nodes ask something of ROS.
+    `model` is None where no class was found; then `asks` says if the code asks something of ROS.
     `summary` says how much is exact, and is empty when all is. `report` and `whole` are empty
     unless they are wanted.
     """
@@ -46,13 +46,14 @@ def answer(given: Chosen, style: str | None, whole: bool) -> Answer:
     readable = given.only is None or given.only in given.files
     read = extract(given.files, given.only) if readable else _NOTHING
     extracted = replace(read, findings=given.findings + read.findings)
+    model = _model(extracted)
     report = as_text if style == "text" else as_json
     return Answer(
         _package(given) or Path(given.root).resolve().name,
         given.root,
         grade_of(extracted),
-        _model(extracted),
-        bool(_graph(given, extracted).facts),
+        model,
+        model is None and bool(_graph(given, extracted).facts),
         () if whole or style == "json" else diagnostics(extracted.findings),
         summary(extracted) if extracted.findings else "",
         report(extracted) if style is not None else "",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import field
+from dataclasses import field, replace
 
 from tree_sitter import Node
 
@@ -28,7 +28,7 @@ class Program:
     name: str
     main: CppFunction
     sources: frozenset[str]
-    node: NodeFact | None
+    node: NodeFact | None = None
 
     @property
     def stem(self) -> str:
@@ -54,7 +54,7 @@ class Made:
     repeated: bool = False
 
 
-def programs(code: Code, graph: Graph, files: Mapping[str, Source]) -> tuple[Program, ...]:
+def programs(code: Code, files: Mapping[str, Source]) -> tuple[Program, ...]:
     """The executables that the package makes, or what has a `main` where no CMake says so."""
     build = _build(files)
     found = []
@@ -65,8 +65,13 @@ def programs(code: Code, graph: Graph, files: Mapping[str, Source]) -> tuple[Pro
         stem = path.rpartition("/")[2].rpartition(".")[0]
         for name, sources in targets or [(stem, frozenset({inside}))]:
             paths = frozenset(files[p].path for p in sources if p in files) | {path}
-            found.append(Program(name, main, paths, _node(graph, main, paths)))
+            found.append(Program(name, main, paths))
     return tuple(found)
+
+
+def with_nodes(found: tuple[Program, ...], graph: Graph) -> tuple[Program, ...]:
+    """The programs, each with the node that it is."""
+    return tuple(replace(p, node=_node(graph, p.main, p.sources)) for p in found)
 
 
 def _build(files: Mapping[str, Source]) -> BuildFiles | None:

@@ -21,6 +21,7 @@ from rebsync.reverse.node_classes import NodeClass
 from rebsync.reverse.node_listing import Listing
 from rebsync.reverse.node_names import Names, class_word
 from rebsync.reverse.node_parameters import Given
+from rebsync.reverse.node_presence import STAND_IN
 from rebsync.reverse.node_programs import Program
 from rebsync.reverse.node_servers import declared, servers
 from rebsync.reverse.node_setup import Setup
@@ -33,8 +34,6 @@ from rebsync.reverse.node_views import all_units
 from rebsync.reverse.node_wiring import Wiring, idle, instances
 from rebsync.reverse.scope import Target
 from rebsync.source import Source
-
-_STAND_IN = "_stand_in"
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +67,7 @@ class NodeSystem:
         """All of them. What has no place in the model is listed."""
         found = self.programs
         if self.generated:
-            found = tuple(p for p in found if not p.name.endswith(_STAND_IN))
+            found = tuple(p for p in found if not p.name.endswith(STAND_IN))
         reading = Units(self.code, self.graph, found, self.generated)
         units, starts = all_units(self.code, self.graph, found, self.generated)
         if not units:

@@ -24,14 +24,15 @@ from rebsync.reverse.graph import Graph
 from rebsync.reverse.launched import Launch, LaunchedNode
 from rebsync.reverse.manifests import read_manifest
 from rebsync.reverse.node_launch import is_launch, system_of
-from rebsync.reverse.node_programs import Program, programs
+from rebsync.reverse.node_presence import is_generated, may_have_nodes
+from rebsync.reverse.node_programs import Program, programs, with_nodes
 from rebsync.reverse.node_system import Nodes, NodeSystem
 from rebsync.reverse.packages import CODE
 from rebsync.reverse.parameters import Parameter
 from rebsync.reverse.ros1_classes import Classes
 from rebsync.reverse.ros1_messages import own_messages
 from rebsync.reverse.ros1_names import variable_name
-from rebsync.reverse.ros_calls import graph_of
+from rebsync.reverse.ros_calls import Asking
 from rebsync.reverse.unparsed import unparsed
 from rebsync.reverse.written import annotation
 from rebsync.source import Source
@@ -47,13 +48,18 @@ _CODE = tuple(sorted(CODE))
 class Extracted:
     """The model of some files, what in them is not in it, and how many statements each body has.
 
-    `graph` is what the code asks of ROS.
+    `asking` are its calls to ROS, of which `graph` is made when it is first asked for.
     """
 
     model: m.Model
     findings: tuple[Finding, ...]
     statements: tuple[tuple[str, int], ...]
-    graph: Graph = field(default_factory=Graph)
+    asking: Asking = field(default_factory=lambda: Asking(Code()), compare=False)
+
+    @property
+    def graph(self) -> Graph:
+        """What the code asks of ROS."""
+        return self.asking.graph
 
 
 def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
@@ -66,7 +72,7 @@ def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
     trees = [parse(source) for path, source in sorted(files.items()) if path.endswith(_CODE)]
     findings.all += [f for cpp in trees for f in unparsed(cpp)]
     code = Code.of(trees)
-    graph = graph_of(code)
+    asking = Asking(code)
     package = _package(files)
     asked = only if only is not None and is_launch(only) else None
     only = only if asked is None else None
@@ -74,16 +80,21 @@ def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
     launch = system.launch if system is not None else None
     classes = Classes(code, findings, own_messages(files), _unit_of_time(launch))
     read = classes.read(_classes_in(code, files[only].path) if only is not None else None)
-    started = programs(code, graph, files)
-    nodes = NodeSystem(
-        code, graph, files, launch, package, started, findings, only, _is_generated(code)
-    ).read()
+    started = programs(code, files)
+    nodes = Nodes((), (), False)
+    generated = is_generated(code)
+    if not generated or may_have_nodes(code, asking, started):
+        graph = asking.graph
+        found = with_nodes(started, graph)
+        nodes = NodeSystem(
+            code, graph, files, launch, package, found, findings, only, generated
+        ).read()
     if system is not None and only is None and (read or nodes.classes):
         system.note(findings)
-    generated = _System(code, classes, read, launch if only is None else None, started)
-    main = _main(generated, nodes, only is not None and len(files) > 1)
-    model = m.Model(tuple(generated.heads() if read else ()), (*read, *nodes.classes), main)
-    return Extracted(model, tuple(findings.all), tuple(findings.statements.items()), graph)
+    made = _System(code, classes, read, launch if only is None else None, started)
+    main = _main(made, nodes, only is not None and len(files) > 1)
+    model = m.Model(tuple(made.heads() if read else ()), (*read, *nodes.classes), main)
+    return Extracted(model, tuple(findings.all), tuple(findings.statements.items()), asking)
 
 
 def _main(generated: _System, nodes: Nodes, is_part: bool) -> m.Main | None:
@@ -92,11 +103,6 @@ def _main(generated: _System, nodes: Nodes, is_part: bool) -> m.Main | None:
     if is_part or (main is None and not nodes.starts):
         return None
     return m.Main((*(main.rebecs if main is not None else ()), *nodes.rebecs))
-
-
-def _is_generated(code: Code) -> bool:
-    """Whether there are classes that rebsync made."""
-    return any(text_of(f.type) == "Mailbox" for c in code.classes.values() for f in c.fields)
 
 
 def _package(files: Mapping[str, Source]) -> str:

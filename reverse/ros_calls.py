@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from tree_sitter import Node
 
+from rebsync.records import dataclass
 from rebsync.reverse.cpp_flow import declaration_of, made_of
 from rebsync.reverse.cpp_index import Code
 from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
@@ -33,20 +34,47 @@ _TEMPLATES = ("template_type", "template_function", "template_method")
 _CALLED = frozenset({"template_method", "template_function", "dependent_name"})
 
 
+@dataclass(slots=True, eq=False)
+class Asking:
+    """What the files ask of ROS: the calls, and the graph that their arguments make of them."""
+
+    code: Code
+    _facts: Facts | None = None
+    _calls: list[Asked] | None = None
+    _graph: Graph | None = None
+
+    def calls(self) -> list[Asked]:
+        """The calls, without those of the client library itself."""
+        if self._calls is None:
+            self._facts = Facts(Values(self.code))
+            found = _calls_in(self.code, self._facts.values)
+            self._calls = [a for a in found if a.site.owner not in LIBRARY]
+        return self._calls
+
+    @property
+    def graph(self) -> Graph:
+        """What is asked for, in the order of files and places: made when it is first wanted."""
+        if self._graph is None:
+            calls = self.calls()
+            facts = self._facts or Facts(Values(self.code))
+            found = [fact for asked in calls for fact in facts.of(asked)]
+            self._graph = Graph(tuple(sorted(found, key=_order)))
+        return self._graph
+
+
 def graph_of(code: Code) -> Graph:
     """What the files ask of ROS, in the order of files and places."""
-    facts = Facts(Values(code))
-    found: list[Fact] = []
+    return Asking(code).graph
+
+
+def _calls_in(code: Code, values: Values) -> Iterator[Asked]:
     for cpp in code.files:
-        data = facts.values.texts.data(cpp)
+        data = values.texts.data(cpp)
         for match in WORDS.finditer(data):
             place = cpp.root.descendant_for_byte_range(match.start(), match.end())
             if place is None or place.start_byte != match.start() or place.named_child_count:
                 continue
-            for asked in _asked(facts.values, cpp, place, match.group().decode()):
-                if asked.site.owner not in LIBRARY:
-                    found += facts.of(asked)
-    return Graph(tuple(sorted(found, key=_order)))
+            yield from _asked(values, cpp, place, match.group().decode())
 
 
 def _order(fact: Fact) -> tuple[str, int]:
