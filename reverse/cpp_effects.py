@@ -11,6 +11,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.cpp_calls import CppCall, call_of
 from rebsync.reverse.cpp_declarations import CppFunction, CppParameter
 from rebsync.reverse.cpp_misread import first_of, is_misread
+from rebsync.reverse.cpp_places import is_this
 from rebsync.reverse.cpp_roots import identifiers_in, is_modelled, path_in, root
 from rebsync.reverse.cpp_tree import Cpp, named, text_of
 from rebsync.reverse.findings import Unread
@@ -202,6 +203,8 @@ class Effects:
             value = declarator.child_by_field_name("value")
             inner = declarator.child_by_field_name("declarator")
             target = inner if declarator.type == "init_declarator" and inner else declarator
+            if value is not None and is_this(value):
+                raise self._touches(node, "the object itself gets another name here")
             constant = any(text_of(c) == "const" for c in node.named_children)
             if target.type == "reference_declarator" and value is None:
                 raise self._touches(node, "this looks like a declaration, but it is none")

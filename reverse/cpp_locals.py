@@ -15,12 +15,12 @@ from rebsync.reverse import cpp_messages, cpp_plain_locals
 from rebsync.reverse.building import is_calm
 from rebsync.reverse.cpp_conversions import type_in
 from rebsync.reverse.cpp_effects import Effects, Touches
-from rebsync.reverse.cpp_places import resolve
+from rebsync.reverse.cpp_places import is_this, resolve
 from rebsync.reverse.cpp_tree import named, part, text_of
 from rebsync.reverse.cpp_types import Carried, carried
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.known_functions import type_takes_values
-from rebsync.reverse.scope import Lambda, Meaning, Outside, Record, Variable
+from rebsync.reverse.scope import Itself, Lambda, Meaning, Outside, Record, Variable
 from rebsync.static.constants import constant
 from rebsync.static.types import BYTE, INT, SHORT
 
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 _VECTOR = re.compile(r"(?:std::)?vector<(.*)>\Z")
 _RESIZES = ("push_back", "emplace_back", "resize", "insert", "erase", "clear", "assign", "swap")
+_REFERS = ("reference_declarator", "pointer_declarator")
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,7 +153,10 @@ def _declared(reader: CppStatements, declared: _Declared) -> Iterator[m.Statemen
     if declared.name in reader.shared.demoted:
         raise reader.unread(declared.node, "the model cannot know its values")
     value = _only_value(declared)
-    if declared.kind in ("reference_declarator", "pointer_declarator"):
+    if value is not None and is_this(value) and (declared.kind in _REFERS or _is_auto(declared)):
+        reader.meaning(declared.name, Itself())
+        return
+    if declared.kind in _REFERS:
         yield from _reference(reader, declared, value)
         return
     if declared.kind == "function_declarator":
@@ -162,7 +166,7 @@ def _declared(reader: CppStatements, declared: _Declared) -> Iterator[m.Statemen
     if type_ is not None and declared.kind == "identifier":
         yield from _message(reader, declared, type_, value)
         return
-    if declared.text in ("auto", "const auto") or declared.type.type.startswith("placeholder"):
+    if _is_auto(declared):
         yield from _inferred(reader, declared, value)
         return
     array = _array(reader, declared)
@@ -170,6 +174,10 @@ def _declared(reader: CppStatements, declared: _Declared) -> Iterator[m.Statemen
     if kept is None:
         raise reader.unread(declared.node, f'the model has no type "{declared.text}"')
     yield from _typed(reader, declared, kept, value)
+
+
+def _is_auto(declared: _Declared) -> bool:
+    return declared.text in ("auto", "const auto") or declared.type.type.startswith("placeholder")
 
 
 def _only_value(declared: _Declared) -> Node | None:

@@ -10,7 +10,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse import cpp_messages
-from rebsync.reverse.building import bare
+from rebsync.reverse.building import bare, negated
 from rebsync.reverse.cpp_calls import call_of
 from rebsync.reverse.cpp_conversions import as_boolean, as_number, converted_to
 from rebsync.reverse.cpp_effects import Effects, Touches, is_outside
@@ -73,6 +73,10 @@ def read(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
             return _each(reader, node)
         case "conditional_expression" if reader.scope.open:
             return _either(reader, node)
+        case "binary_expression" if reader.scope.open and _joins(node):
+            return _guarded(reader, node)
+        case "parenthesized_expression" if reader.scope.open:
+            return read(reader, named(node)[0])
         case "assignment_expression" if text_of(part(node, "operator")) == "=":
             target, value = part(node, "left"), part(node, "right")
             if (timer := _timer(reader, value)) is not None:
@@ -106,16 +110,33 @@ def _either(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
     """`c ? f() : g();`."""
     condition, then, otherwise = named(node)
     test = reader.expressions.condition(condition)
-    ways = [m.Block(tuple(_each_of(reader, way))) for way in (then, otherwise)]
-    yield m.If(test, ways[0], ways[1], (), reader.cpp.span(node))
+    yield m.If(test, _way(reader, then), _way(reader, otherwise), (), reader.cpp.span(node))
 
 
-def _each_of(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
+def _joins(node: Node) -> bool:
+    return text_of(part(node, "operator")) in ("&&", "||", "and", "or")
+
+
+def _guarded(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
+    """`c && f();`, and `c || f();`."""
+    test = reader.expressions.condition(part(node, "left"))
+    if text_of(part(node, "operator")) in ("||", "or"):
+        test = negated(test)
+    yield m.If(test, _way(reader, part(node, "right")), None, (), reader.cpp.span(node))
+
+
+def _way(reader: CppStatements, node: Node) -> m.Block:
+    """What one branch of an expression does, and what must run before that only there."""
+    around, reader.before = reader.before, []
     inner = read(reader, node)
     if inner is not None:
-        yield from inner
+        done = list(inner)
     elif not is_outside(reader.cpp, reader.scope, node):
-        yield m.ExpressionStatement(reader.expressions.read(node), (), reader.cpp.span(node))
+        done = list(reader.done(node, reader.effect(node)))
+    else:
+        done = []
+    needed, reader.before = reader.before, around
+    return m.Block((*needed, *done), span=reader.cpp.span(node))
 
 
 def _streams(node: Node) -> bool:

@@ -17,7 +17,7 @@ from rebsync.reverse import (
     cpp_plain_locals,
     cpp_special,
 )
-from rebsync.reverse.building import is_effect
+from rebsync.reverse.building import bare, is_calm, is_effect
 from rebsync.reverse.cpp_effects import Effects, Touches, is_outside
 from rebsync.reverse.cpp_expressions import MOVE, CppExpressions
 from rebsync.reverse.cpp_tree import Cpp, markers_in, named, part, text_of
@@ -311,8 +311,17 @@ class CppStatements:
             move = m.Annotation("Move", tuple(_cell(axis, offset) for axis, offset in cells))
             yield m.Empty((*annotations, move), span)
             return
+        yield from self.done(node, read, annotations)
+
+    def done(
+        self, node: Node, read: m.Expression, annotations: tuple[m.Annotation, ...] = ()
+    ) -> Iterator[m.Statement]:
+        """The statement of an expression, if it does anything."""
+        span = self.cpp.span(node)
         if is_effect(read) or not self.scope.open:
-            yield m.ExpressionStatement(read, annotations, span)
+            yield m.ExpressionStatement(bare(read) if self.scope.open else read, annotations, span)
+        elif not is_calm(read):
+            raise self.unread(node, "what this changes stands within an expression")
 
     def effect(self, node: Node) -> m.Expression:
         """An expression for what it does; generated code says of one without effect that it is."""
@@ -320,6 +329,8 @@ class CppStatements:
             function = part(node, "function")
             if text_of(function) == "static_cast<void>":
                 return self.expressions.read(named(part(node, "arguments"))[0])
+        if node.type == "cast_expression" and text_of(part(node, "type")) == "void":
+            return self.effect(part(node, "value"))
         return self.expressions.read(node)
 
     def declaration(

@@ -72,3 +72,26 @@ void Node::onContinueInDo() {
     count_++;
   } while (--left > 0);
 }
+void Node::onGuards(const std_msgs::Int32& msg) {
+  msg.data > 5 && (count_ = 9);
+  on_ || bump();
+  on_ && limit_ && count_--;
+  (void)(count_ += 2);
+  (limit_ = 4);
+  limit_ > 3 && msg.data;
+  count_++ > 3;
+}
+void Node::onAlias() {
+  Node* self = this;
+  self->count_ = 5;
+  Node& me = *this;
+  me.bump();
+  auto that = this;
+  that->limit_++;
+}
+void Node::onAliasUnseen() {
+  for (const auto& entry : sensor_.list()) {
+    Node* self = this;
+    self->count_ = entry.x;
+  }
+}
