@@ -12,6 +12,7 @@ from rebsync.reverse import cpp_messages
 from rebsync.reverse.cpp_tree import named, part, text_of
 from rebsync.reverse.cpp_types import type_of
 from rebsync.reverse.scope import Variable
+from rebsync.source import Span
 
 if TYPE_CHECKING:
     from rebsync.reverse.cpp_statements import CppStatements
@@ -86,6 +87,17 @@ def _element(reader: CppStatements, value: Node, type_: m.Type) -> m.Expression:
     if type_.dimensions:
         return reader.expressions.read(value)
     return reader.expressions.stored(value, Variable("", type_))
+
+
+def elements(
+    array: m.Expression, initial: m.Initializer | None, span: Span
+) -> Iterator[m.Statement]:
+    """The elements of an array, each as it is in braces."""
+    if isinstance(initial, m.ArrayInitializer):
+        for index, value in enumerate(initial.values):
+            yield from elements(m.Index(array, m.IntLiteral(index)), value, span)
+    elif initial is not None:
+        yield m.ExpressionStatement(m.Assign("=", array, initial, span), (), span)
 
 
 def is_plain(node: Node) -> bool:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse import cpp_messages
+from rebsync.reverse import cpp_messages, cpp_plain_locals
 from rebsync.reverse.building import bare, negated
 from rebsync.reverse.cpp_calls import call_of
 from rebsync.reverse.cpp_conversions import as_boolean, as_number, converted_to
@@ -335,6 +335,11 @@ def stores(reader: CppStatements, node: Node, known: Stores) -> Iterator[m.State
     except Unread:
         return
     place = expressions.place(written)
+    listed = isinstance(value, Node) and value.type == "initializer_list"
+    if listed and isinstance(value, Node) and place.type is not None and place.type.dimensions:
+        initial = cpp_plain_locals.braces(reader, value, place.type)
+        yield from cpp_plain_locals.elements(written, initial, span)
+        return
     if isinstance(value, Node):
         read_ = expressions.stored(value, place)
     else:

@@ -103,7 +103,7 @@ def carried(node: Node, enums: Collection[str] = ()) -> Carried | None:
     words = set(name.split())
     if "unsigned" in words and "char" not in words and "short" not in words:
         name = "unsigned"
-    scope, _, last = text.rpartition("::")
+    last = text.rpartition("::")[2]
     if name in _PLAIN and name != "void":
         return Carried(Type(_PLAIN[name]))
     if name == "char":
@@ -112,9 +112,15 @@ def carried(node: Node, enums: Collection[str] = ()) -> Carried | None:
         return Carried(Type(_UNSIGNED[name][0]), _UNSIGNED[name][1])
     if name in _WIDE or (words and words <= {"long", "int", "unsigned", "signed"}):
         return Carried(Type("int"), why=wider(text))
-    if last in _TIMES and scope.strip(":") == "ros":
+    if is_time(node):
         return Carried(Type("int"))
     return Carried(Type("int")) if text in enums or last in enums else None
+
+
+def is_time(node: Node) -> bool:
+    """Whether a type is a time or a duration of ROS."""
+    scope, _, last = text_of(node).strip().rpartition("::")
+    return last in _TIMES and scope.strip(":") == "ros"
 
 
 def wider(what: str) -> str:

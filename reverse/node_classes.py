@@ -8,7 +8,9 @@ from typing import TypeVar
 
 from rebsync import model as m
 from rebsync.records import dataclass
+from rebsync.reverse.cpp_conversions import converted_to
 from rebsync.reverse.cpp_effects import is_outside
+from rebsync.reverse.cpp_unknowns import choice
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import SubscriptionFact, TimerFact
 from rebsync.reverse.node_bodies import Bodies, repeated, takes_time
@@ -17,8 +19,10 @@ from rebsync.reverse.node_reach import unreached
 from rebsync.reverse.node_setup import send
 from rebsync.reverse.node_starts import started_late
 from rebsync.reverse.node_tidying import tidy
+from rebsync.reverse.node_unset import read_unset
 from rebsync.reverse.rewriting import rewritten
 from rebsync.source import Span
+from rebsync.static.types import BOOLEAN
 
 _Member = TypeVar("_Member", m.MessageServer, m.Method)
 _BEAT = (
@@ -43,6 +47,7 @@ class NodeClass:
         body = bodies.constructor()
         methods = [functions.method(n, f) for n, f in functions.methods.items()]
         served = self._servers(methods)
+        body = self._begun(body, served, methods)
         arguments = tuple(m.Parameter(p.type, p.name) for p in setup.parameters)
         own = bodies.state.variables
         constructor, late, variables = started_late(tidy(body, own), arguments, setup.names)
@@ -77,6 +82,33 @@ class NodeClass:
             else s
             for s in found
         ]
+
+    def _begun(
+        self, body: m.Block, servers: Sequence[m.MessageServer], methods: Sequence[m.Method]
+    ) -> m.Block:
+        """The constructor with choices for what C++ leaves open; lists where that is too much."""
+        bodies = self.bodies
+        unset = bodies.state.unset
+        variables = {n: t for n, t in bodies.state.variables.items() if n in unset}
+        chosen: list[m.Statement] = []
+        for name in read_unset(variables, body, servers, methods):
+            left = unset[name]
+            span, within = left.cpp.span(left.node), bodies.setup.within
+            why = f'"{left.name}" has no value that is known when it is first read'
+            values = left.variable.domain
+            if not values and variables[name] == BOOLEAN:
+                values = m.BoolLiteral(True), m.BoolLiteral(False)
+            if not values or variables[name].dimensions:
+                unread = Unread(span, why, "give it an initial value")
+                bodies.findings.unreadable(left.cpp.source, unread, within)
+                continue
+            scope = bodies.scope(left.cpp, None)
+            options = tuple(converted_to(scope, v, left.variable) for v in values)
+            bodies.findings.approximated(left.cpp.source, span, why, within=within)
+            chosen.append(
+                m.ExpressionStatement(m.Assign("=", m.Name(name), choice(options)), (), span)
+            )
+        return replace(body, statements=(*chosen, *body.statements))
 
     def _note_beats(self) -> None:
         """Lists the timers of a node that is busy at times."""

@@ -223,6 +223,8 @@ def _constructed(
         stores = state.stored(meaning, values)
         if stores is not None:
             instead[entry.id] = (stores,)
+        elif not values:
+            instead[entry.id] = state.zeros(meaning)
     yield Step(function, tuple(nodes), instead, arguments)
     yield Step(function, _statements(function), {}, arguments)
 

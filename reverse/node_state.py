@@ -11,8 +11,9 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.cpp_declarations import CppField, declared_name
 from rebsync.reverse.cpp_index import Code, CppFunction
+from rebsync.reverse.cpp_messages import zero_of
 from rebsync.reverse.cpp_tree import Cpp, inside, named, text_of
-from rebsync.reverse.cpp_types import carried, wider
+from rebsync.reverse.cpp_types import carried, is_time, wider
 from rebsync.reverse.cpp_unknowns import domain_near
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.message_types import MessageTypes
@@ -23,7 +24,16 @@ from rebsync.reverse.scope import Member, Outside, Record, Stores, Variable
 from rebsync.source import Span
 
 Note = Callable[[Cpp, Span, str], None]
-_DEEPEST = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Unset:
+    """A variable that is made without a value, by its name in the code."""
+
+    name: str
+    variable: Variable
+    cpp: Cpp
+    node: Node
 
 
 @dataclass(slots=True)
@@ -31,7 +41,8 @@ class State:
     """The variables of a unit by their names in the code.
 
     `variables` are the state variables with their types; `local` are those of one function that
-    outlive it, by the id of the function's node; `initial` what holds before a constructor runs.
+    outlive it, by the id of the function's node; `initial` what holds before a constructor runs;
+    `unset` are those that are made without a value, by their names in the model.
     """
 
     code: Code
@@ -45,6 +56,7 @@ class State:
     local: dict[int, dict[str, Member]] = field(default_factory=dict)
     initial: list[tuple[Cpp, Stores]] = field(default_factory=list)
     wide: list[tuple[Cpp, Node, str]] = field(default_factory=list)
+    unset: dict[str, Unset] = field(default_factory=dict)
 
     taken: set[str] = field(default_factory=set)
     _outlived: dict[tuple[int, frozenset[str], bool], dict[int, tuple[Stores, ...]]] = field(
@@ -60,7 +72,11 @@ class State:
             self._add(member)
         for above in reversed(self.unit.lineage):
             for member in (*above.fields, *above.others):
-                self._add(member)
+                outside = self.code.statics.get((above.name, member.name))
+                self._add(member, outside if member.value is None else None)
+                if member.value is None and not _is_static(member.node):
+                    left = self.members[member.name]
+                    self._leave(member.name, left, member.type, member.cpp, member.type)
 
     def _globals(self) -> Iterator[CppField]:
         for variables in self.code.variables.values():
@@ -69,20 +85,50 @@ class State:
                 if path in self.unit.files and (path, variable.name) not in self.code.constants:
                     yield variable
 
-    def _add(self, member: CppField) -> None:
+    def _add(self, member: CppField, outside: CppField | None = None) -> None:
+        """`outside` gives the value of a static member that has it outside of its class."""
         declarator = _declarator(member.node, member.name)
         meaning = self.meaning(member.name, member.type, declarator, member.cpp, self.taken)
         self.members[member.name] = meaning
-        if member.value is not None:
-            braces = member.value.type == "initializer_list"
-            values = named(member.value) if braces else [member.value]
+        given = outside if outside is not None else member
+        if given.value is not None:
+            braces = given.value.type == "initializer_list"
+            values = named(given.value) if braces else [given.value]
             stores = self.stored(meaning, values)
             if stores is not None:
-                self.initial.append((member.cpp, stores))
+                self.initial.append((given.cpp, stores))
+
+    def _leave(self, name: str, meaning: Member, type_: Node, cpp: Cpp, node: Node) -> None:
+        """Keeps in mind that a variable has no value yet: times and messages have theirs."""
+        match meaning:
+            case Variable(of_model) if not is_time(type_):
+                self.unset[of_model] = Unset(name, meaning, cpp, node)
+            case Record(fields, ""):
+                owner = self.code.classes.get(text_of(type_).rpartition("::")[2])
+                for member in owner.fields if owner is not None else ():
+                    if member.name in fields and member.value is None:
+                        inner = f"{name}.{member.name}"
+                        self._leave(inner, fields[member.name], member.type, cpp, node)
+            case _:
+                pass
+
+    def zeros(self, meaning: Member | None) -> tuple[Stores, ...]:
+        """What `x()` stores in the initialisers of a constructor."""
+        match meaning:
+            case Variable(name) if name in self.unset:
+                return tuple(zeros(m.Name(name), self.variables[name]))
+            case Record(fields):
+                return tuple(s for field_ in fields.values() for s in self.zeros(field_))
+            case _:
+                return ()
 
     def stored(self, meaning: Member | None, values: list[Node]) -> Stores | None:
         """What a variable of the model holds from the start; one of several parts as its first."""
         match meaning:
+            case Variable(name, m.Type(dimensions=(_, *_))) if values:
+                around = _parent(values[0])
+                braces = around.type == "initializer_list"
+                return Stores(m.Name(name), around if braces else values[0])
             case Variable(name) if values:
                 return Stores(m.Name(name), values[0] if len(values) == 1 else _parent(values[0]))
             case Record(fields) if values and fields:
@@ -111,7 +157,7 @@ class State:
             free = [w for w in (wish, name, f"{wish}_") if w not in taken] or [f"{wish}_"]
             given, domain = self._new(free, kept.type), domain_near(type_) or ()
             return Variable(given, kept.type, kept.bits, domain)
-        return self._struct(text_of(type_).rpartition("::")[2], wish, cpp, 0)
+        return self._struct(text_of(type_).rpartition("::")[2], wish)
 
     def _new(self, wishes: list[str], type_: m.Type) -> str:
         given = self.names.give(*wishes)
@@ -144,17 +190,19 @@ class State:
             at = at.child_by_field_name("declarator")
         if kept is None or kept.type.dimensions or kept.bits:
             return Outside()
+        if kept.why:
+            self.wide.append((cpp, type_, kept.why))
         array = m.Type(kept.type.name, tuple(lengths))
         free = [w for w in (wish, name) if w not in taken] or [f"{wish}_"]
         return Variable(self._new(free, array), array)
 
-    def _struct(self, type_: str, wish: str, cpp: Cpp, depth: int) -> Member:
+    def _struct(self, type_: str, wish: str) -> Member:
         """A plain structure is a message of its own; other objects are outside."""
         owner = self.code.classes.get(type_)
         if owner is None:
             return Outside(reaches=type_ in self.units)
         plain = not owner.bases and not owner.others and not owner.functions
-        if type_ in self.units or not plain or depth > _DEEPEST:
+        if type_ in self.units or not plain:
             return Outside(reaches=type_ in self.units)
         fields: dict[str, Variable] = {}
         for member in owner.fields:
@@ -162,8 +210,10 @@ class State:
             if kept is not None and not kept.type.dimensions:
                 given = self._new([f"{wish}_{member.name}"], kept.type)
                 fields[member.name] = Variable(given, kept.type, kept.bits)
+                if kept.why:
+                    self.wide.append((member.cpp, member.type, kept.why))
                 if member.value is not None:
-                    self.initial.append((cpp, Stores(m.Name(given), member.value)))
+                    self.initial.append((member.cpp, Stores(m.Name(given), member.value)))
         return Record(fields)
 
     # --- variables of functions -----------------------------------------------------------------
@@ -201,6 +251,8 @@ class State:
                 inner = _inner(declarator)
                 meaning = self.meaning(name, type_, inner, function.cpp, set())
                 local[name] = meaning
+                if not only_static and declarator.type != "init_declarator":
+                    self._leave(name, meaning, type_, function.cpp, type_)
                 if only_static:  # what is put in the place of a call sees it too
                     self.members.setdefault(name, meaning)
                 value = _value(declarator)
@@ -222,6 +274,20 @@ class State:
         """Lists the variables that hold more than the model's."""
         for cpp, node, why in self.wide:
             findings.approximated(cpp.source, cpp.span(node), why, within=within)
+
+
+def zeros(place: m.Expression, type_: m.Type) -> Iterator[Stores]:
+    """What a variable, or each element of an array, holds at first."""
+    zero = zero_of(type_)
+    if zero is not None:
+        yield Stores(place, zero)
+    for index in range(type_.dimensions[0] if type_.dimensions else 0):
+        inner = m.Type(type_.name, type_.dimensions[1:])
+        yield from zeros(m.Index(place, m.IntLiteral(index)), inner)
+
+
+def _is_static(node: Node) -> bool:
+    return any(text_of(c) == "static" for c in node.named_children)
 
 
 def _parent(node: Node) -> Node:

@@ -30,7 +30,7 @@ MESSAGES = {
 SENT = ("std_msgs::Int32", "std_msgs::Bool", "std_msgs::Int8", "geometry_msgs::Twist")
 TAKEN = tuple(m for m in sorted(MESSAGES) if m != "std_msgs::UInt16")
 # Some nodes have messages of unsigned numbers instead; what else is drawn is the same.
-UNSIGNED = (
+UNSIGNED: tuple[dict[str, str], ...] = (
     {},
     {},
     {"std_msgs::Int8": "std_msgs::UInt8"},

@@ -11,6 +11,11 @@ static std_msgs::UInt8 octet(int value) {
   return m;
 }
 
+struct Sums {
+  uint8_t low = 250;
+  int64_t high = 0;
+};
+
 class Packer {
  public:
   Packer() {
@@ -67,6 +72,8 @@ class Packer {
     if (msg.data > 200) last_.data = total_;
     last_.data -= 1;
     total_ = msg.data + 1;
+    sums_.low += msg.data;
+    sums_.high += wide_[sums_.low % 2];
   }
   void word(const std_msgs::UInt16& msg) { last_.data = msg.data; }
   void truth(const std_msgs::BoolConstPtr& msg) {
@@ -87,6 +94,8 @@ class Packer {
   ros::Publisher octet_, word_, truth_, packed_;
   std_msgs::UInt8 last_;
   widths::Packed kept_;
+  Sums sums_;
+  uint32_t wide_[2] = {1, 2};
   int total_ = 0;
   double level_ = 0.0;
   bool on_ = false;
