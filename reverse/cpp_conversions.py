@@ -31,12 +31,13 @@ _ONE, _ZERO = m.IntLiteral(1), m.IntLiteral(0)
 
 def variable_of(scope: Scope, name: str) -> Variable | None:
     """The variable that has a name in the model."""
-    for meaning in (*scope.locals.values(), *scope.members.values()):
-        match meaning:
-            case Variable() if meaning.name == name:
-                return meaning
-            case Record(fields):
-                for variable in fields.values():
+    for meanings in (scope.locals, scope.members):
+        for meaning in meanings.values():
+            if isinstance(meaning, Variable):
+                if meaning.name == name:
+                    return meaning
+            elif isinstance(meaning, Record):
+                for variable in meaning.fields.values():
                     if variable.name == name:
                         return variable
     return scope.results.get(name)

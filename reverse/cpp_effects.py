@@ -42,6 +42,15 @@ _LEAVES = {
     "co_return_statement": "the model has no coroutines",
 }
 _LOOPS = frozenset({"for_statement", "while_statement", "do_statement", "for_range_loop"})
+_REPEATED = _LOOPS | {"switch_statement"}
+# What touches nothing, whatever it is: not looked into, as most of all nodes are of these.
+_PLAIN = frozenset(
+    {
+        *("identifier", "field_identifier", "type_identifier", "namespace_identifier", "this"),
+        *("number_literal", "string_literal", "char_literal", "true", "false", "null", "comment"),
+        *("primitive_type", "sized_type_specifier"),
+    }
+)
 
 
 class Touches(Unread):
@@ -67,7 +76,10 @@ class Effects:
 
     def check(self, node: Node) -> None:
         """Raises `Touches` where a piece of code may touch what the model has."""
-        match node.type:
+        type_ = node.type
+        if type_ in _PLAIN:
+            return
+        match type_:
             case "assignment_expression":
                 self._write(node.children_by_field_name("left")[0])
                 self.check(node.children_by_field_name("right")[0])
@@ -90,21 +102,25 @@ class Effects:
             case "break_statement" | "continue_statement" if not self._loops:
                 raise self._touches(node, "this leaves the loop")
             case "return_statement" if self.returning:
-                for child in node.named_children:
-                    self.check(child)
+                self._inside(node)
             case kind if kind in _LEAVES:
                 raise self._touches(node, _LEAVES[kind])
             case "new_expression" | "argument_list" | "initializer_list":
                 self._arguments(named(node))
-            case kind:
-                looping = kind in _LOOPS or kind == "switch_statement"
+            case kind if kind in _REPEATED or kind == "compound_statement":
+                looping = kind in _REPEATED
                 before = set(self._inner)
                 self._loops += looping
-                for child in node.named_children:
-                    self.check(child)
+                self._inside(node)
                 self._loops -= looping
-                if looping or kind == "compound_statement":
-                    self._inner = before
+                self._inner = before
+            case _:
+                self._inside(node)
+
+    def _inside(self, node: Node) -> None:
+        for child in node.named_children:
+            if child.type not in _PLAIN:
+                self.check(child)
 
     def _touches(self, node: Node, why: str, hint: str = "") -> Touches:
         return Touches(self.cpp.span(node), why, hint)

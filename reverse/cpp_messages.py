@@ -139,7 +139,10 @@ def needed(reader: CppStatements, type_: str) -> Mapping[str, m.Type]:
 
 
 def _is_read(path: str, text: str) -> bool:
-    spelled = r"\s*\.\s*".join(re.escape(piece) for piece in path.split("."))
+    pieces = path.split(".")
+    if any(piece not in text for piece in pieces):
+        return False  # most of them: much quicker than a search for all
+    spelled = r"\s*\.\s*".join(map(re.escape, pieces))
     return bool(re.search(rf"(?:\.|->)\s*{spelled}\b(?!\s*=[^=])", text))
 
 

@@ -92,20 +92,40 @@ class Functions:
     def _try(self, methods: dict[str, CppFunction]) -> None:
         """Leaves those methods that can be read as such; a choice is none of a method."""
         findings = self.bodies.findings
+        waiting = set(methods)
         for _ in range(_ROUNDS):
             failed = []
             for name, function in methods.items():
+                if name not in waiting:
+                    continue
                 self.bodies.findings = Findings()
                 self.method(name, function)
                 if self.bodies.findings.all:
                     failed.append(name)
             self.bodies.findings = findings
+            waiting = self._affected(methods, set(failed))
             for name in failed:
                 self.bodies.functions[name] = Inline(methods.pop(name))
             if not failed:
                 break
         for name in methods:
             self.methods[name] = methods[name]
+
+    def _affected(self, methods: dict[str, CppFunction], changed: set[str]) -> set[str]:
+        """The methods that lead to some functions, by the names that bodies call."""
+        if not changed:
+            return set()
+        functions = (*self.bodies.unit.functions, *self._free())
+        calls = {
+            f.name: {c.name.rpartition("::")[2] for c in self.bodies.code.calls_of(f)}
+            for f in functions
+            if f.name in self.bodies.functions
+        }
+        found, fresh = set[str](), changed
+        while fresh:
+            fresh = {n for n, names in calls.items() if names & fresh} - found
+            found |= fresh
+        return found & set(methods)
 
     def method(self, name: str, function: CppFunction) -> m.Method:
         """A function as a local method."""
