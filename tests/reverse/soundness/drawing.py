@@ -181,7 +181,7 @@ class Body:
 
     def real(self, depth: int = 0) -> str:
         """An expression of floating type."""
-        known = self.of("double")
+        known = self.of("double", "float")
         constant = self.random.choice(("0.5", "1.0", "2.5", "-0.25"))
         if not known or depth > 1:
             return self.random.choice(known).name if known else constant
@@ -199,7 +199,7 @@ class Body:
         match type_:
             case "bool":
                 return self.boolean()
-            case "double":
+            case "double" | "float":
                 return self.real()
             case "Mode":
                 return self.random.choice(("IDLE", "Mode::RUN", "STOP"))

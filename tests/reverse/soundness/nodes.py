@@ -21,6 +21,7 @@ MESSAGES = {
     "std_msgs::UInt8": (("data", "uint8_t"),),
     "std_msgs::UInt16": (("data", "uint16_t"),),
     "std_msgs::Bool": (("data", "bool"),),
+    "std_msgs::Float32": (("data", "float"),),
     "std_msgs::Float64": (("data", "double"),),
     "std_msgs::Empty": (),
     "geometry_msgs::Twist": tuple(
@@ -28,11 +29,11 @@ MESSAGES = {
     ),
 }
 SENT = ("std_msgs::Int32", "std_msgs::Bool", "std_msgs::Int8", "geometry_msgs::Twist")
-TAKEN = tuple(m for m in sorted(MESSAGES) if m != "std_msgs::UInt16")
-# Some nodes have messages of unsigned numbers instead; what else is drawn is the same.
-UNSIGNED: tuple[dict[str, str], ...] = (
+TAKEN = tuple(m for m in sorted(MESSAGES) if m not in ("std_msgs::UInt16", "std_msgs::Float32"))
+# Some nodes have messages of other numbers instead; what else is drawn is the same.
+INSTEAD: tuple[dict[str, str], ...] = (
     {},
-    {},
+    {"std_msgs::Bool": "std_msgs::Float32", "std_msgs::Float64": "std_msgs::Float32"},
     {"std_msgs::Int8": "std_msgs::UInt8"},
     {"std_msgs::Int8": "std_msgs::UInt16", "std_msgs::Int32": "std_msgs::UInt8"},
     {},
@@ -119,7 +120,7 @@ def draw_node(seed: int) -> DrawnNode:
 
 def _drawn(random: Random, messages: tuple[str, ...], seed: int) -> list[str]:
     """One to three types of messages."""
-    instead = UNSIGNED[seed % len(UNSIGNED)]
+    instead = INSTEAD[seed % len(INSTEAD)]
     drawn = random.sample(messages, random.randint(1, 3))
     return list(dict.fromkeys(instead.get(m, m) for m in drawn))
 

@@ -62,7 +62,7 @@ def inputs(node: DrawnNode, seed: int, count: int) -> list[Input]:
 
 
 def _value(random: Random, type_: str) -> float:
-    if type_ == "double":
+    if type_ in ("double", "float"):
         return random.choice((0.0, 0.5, -0.25, 1.0, 2.5, -3.0, 100.0))
     low, high = _RANGES[type_]
     if random.random() < 0.7:
