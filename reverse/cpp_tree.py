@@ -12,7 +12,7 @@ from tree_sitter import Language, Node, Parser
 
 from rebsync.records import dataclass
 from rebsync.reverse.cpp_text import readable
-from rebsync.source import Source, Span
+from rebsync.source import Source, SourceSpan, Span
 
 _COMMENT = re.compile(r"^\s*//[/!]?|^\s*/\*+|\*+/\s*\Z")
 
@@ -27,9 +27,10 @@ class Cpp:
 
     def span(self, node: Node) -> Span:
         """The characters that a node covers."""
-        if self.offsets is None:
-            return Span(node.start_byte, node.end_byte)
-        return Span(self.offsets[node.start_byte], self.offsets[node.end_byte])
+        start, end = node.start_byte, node.end_byte
+        if self.offsets is not None:
+            start, end = self.offsets[start], self.offsets[end]
+        return SourceSpan(start, end, self.source)
 
 
 @cache

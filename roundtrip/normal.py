@@ -72,8 +72,8 @@ def _heads(model: m.Model, analysis: Analysis) -> Iterator[m.Head]:
         type_ = head.declaration.type
         for declarator in head.declaration.declarators:
             value = initial_of(env_value(declarator, type_, _lookup(analysis)))
-            one = m.Declarator(declarator.name, value)
-            yield m.Env(m.Declaration(type_, (one,), head.declaration.annotations))
+            one = replace(declarator, initial=value)
+            yield replace(head, declaration=replace(head.declaration, declarators=(one,)))
 
 
 def _main(model: m.Model, analysis: Analysis) -> m.Main:
@@ -84,12 +84,12 @@ def _main(model: m.Model, analysis: Analysis) -> m.Main:
 def _rebec(rebec: m.Rebec, analysis: Analysis) -> m.Rebec:
     constructor = analysis.constructor_of(rebec)
     parameters = constructor.parameters if constructor is not None else ()
-    arguments = []
-    for argument, parameter in zip(rebec.arguments, parameters, strict=True):
+    arguments = list(rebec.arguments)
+    for i, (argument, parameter) in enumerate(zip(rebec.arguments, parameters, strict=False)):
         value = constant(argument, _lookup(analysis))
         if value is not None:
-            argument = literal_of(converted(value, parameter.type))
-        arguments.append(argument)
+            literal = literal_of(converted(value, parameter.type))
+            arguments[i] = replace(literal, span=argument.span)
     bindings = tuple(rewrite(b, _rule) for b in rebec.bindings)
     return replace(rebec, bindings=bindings, arguments=tuple(arguments))
 
