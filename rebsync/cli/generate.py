@@ -44,7 +44,7 @@ def command(
     config = _config(model)
     if target is not None:
         config = replace(config, target=target)
-    name, files = package_files(read_source(model), config)
+    name, files = package_files(read_source(model), config, output)
     folder = Path(output) / name
     if only_list:
         click.echo("".join(f"{folder / path}\n" for path in sorted(files)), nl=False)
@@ -80,12 +80,16 @@ def _config(model: str) -> Config:
     return parse_config(read_source(str(path))) if path.is_file() else Config()
 
 
-def package_files(source: Source, config: Config) -> tuple[str, dict[str, str]]:
-    """The package's name and all its files, `.rebsync/` included; warnings go to stderr."""
+def package_files(source: Source, config: Config, output: str = ".") -> tuple[str, dict[str, str]]:
+    """The package's name and all its files, `.rebsync/` included; warnings go to stderr.
+
+    `output` is the directory that the package's folder goes to.
+    """
     from rebsync.forward.generate import generate, package_name
     from rebsync.forward.limits import limits
     from rebsync.grammars.parser import parse_model
     from rebsync.roundtrip.manifest import with_manifest
+    from rebsync.roundtrip.packages import path_to_model
     from rebsync.static import analyse
 
     parsed = parse_model(source)
@@ -100,7 +104,9 @@ def package_files(source: Source, config: Config) -> tuple[str, dict[str, str]]:
     if found:
         print_report([Findings(source, found)], sys.stderr)
     files = generate(parsed.model, parsed.comments, analysis, config, stem)
-    return package_name(stem, config), with_manifest(files, f"{stem}.rebeca", source.text, config)
+    name = package_name(stem, config)
+    path = path_to_model(source.path, str(Path(output, name)))
+    return name, with_manifest(files, f"{stem}.rebeca", source.text, config, path)
 
 
 def _show(steps: tuple[Step, ...]) -> Status:

@@ -1,0 +1,82 @@
+"""What in a package is not as it was generated, told from digests: nothing is parsed for this."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+from rebsync.diagnostics import RebsyncError
+from rebsync.files import BOM, read_bytes
+from rebsync.records import dataclass
+from rebsync.reverse.packages import Listing, is_read, listings
+from rebsync.roundtrip.manifest import BASE_MODEL
+from rebsync.roundtrip.packages import Kept
+from rebsync.roundtrip.recorded import Record
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """How a package stands: the files that a model is read from, each with the digest it has.
+
+    `changed` are those that are not as generated, or that were not generated, `missing` those that
+    are no longer there. Line ends and byte order marks do not count.
+    """
+
+    listing: Listing
+    digests: dict[str, str]
+    changed: tuple[str, ...]
+    missing: tuple[str, ...]
+
+    @property
+    def is_as_generated(self) -> bool:
+        """Whether all code is what was generated."""
+        return not (self.changed or self.missing or self.listing.odd)
+
+
+def standing(kept: Kept, record: Record | None) -> Standing:
+    """How a package stands against what its manifest records; without one, all is changed."""
+    listing = next(listings(kept.root, kept.tree), Listing(kept.root, {}))
+    wanted = record.files if record is not None else {}
+    digests: dict[str, str] = {}
+    changed = []
+    for name, path in listing.files.items():
+        try:
+            data = read_bytes(path)
+        except RebsyncError:
+            digests[name] = "unreadable"
+            changed.append(name)
+            continue
+        digests[name] = digest_of(data)
+        if name not in wanted or not is_text_of(data, wanted[name]):
+            changed.append(name)
+    missing = [name for name in wanted if name not in digests and _counts(name)]
+    return Standing(listing, digests, tuple(changed), tuple(missing))
+
+
+def _counts(name: str) -> bool:
+    """Whether a file that was generated is one that a model is read from."""
+    parts = name.split("/")
+    if any(part.startswith(".") for part in parts):
+        return False
+    return is_read(parts[-1], "".join(f"{part}/" for part in parts[:-1]))
+
+
+def is_base_whole(kept: Kept, record: Record) -> bool:
+    """Whether the model as of the last time that both were in step is as it was recorded."""
+    try:
+        return is_text_of(Path(kept.root, BASE_MODEL).read_bytes(), record.digest)
+    except OSError:
+        return False
+
+
+def digest_of(data: bytes) -> str:
+    """The digest of a file's bytes."""
+    return hashlib.sha256(data).hexdigest()
+
+
+def is_text_of(data: bytes, digest: str) -> bool:
+    """Whether bytes are the text that has a digest, with whatever line ends."""
+    if digest_of(data) == digest:
+        return True
+    plain = data.removeprefix(BOM).replace(b"\r\n", b"\n")
+    return plain != data and digest_of(plain) == digest
