@@ -74,12 +74,12 @@ def conflict_in(source: Source) -> Findings | None:
 
 def _record(source: Source, data: object) -> Record:
     match data:
-        case {"format": int(version)} if version > FORMAT:
+        case {"format": int(version), "rebsync": by_version} if version > FORMAT:
             message = (
                 f"the manifest has format {version}; this rebsync knows formats up to {FORMAT}"
             )
-            by = f"install rebsync {data.get('rebsync', 'of its version')} or newer"
-            raise RebsyncError.of(source.path, "RS963", message, by)
+            hint = f"install rebsync {by_version} or newer"
+            raise RebsyncError.of(source.path, "RS963", message, hint)
         case {
             "format": int(),
             "model": {"name": str(name), "digest": str(digest)},
