@@ -46,6 +46,7 @@ class Aspect(Enum):
     DELAY = "delay"
     CONDITION = "condition"
     EXPRESSION = "expression"
+    BODY = "body"
     SECTIONS = "sections"
 
 
@@ -78,8 +79,8 @@ def place(span: Span, source: Source) -> Place | None:
 class Element:
     """A part of a model that has a name: its kind and its path, as markers have them.
 
-    Kinds are model, env, class, interface, statevar, knownrebec, constructor, msgsrv, method,
-    parameter, main and rebec. The path is that of the left model, if the element is in there.
+    Kinds are model, env, reactiveclass, interface, statevar, knownrebec, constructor, msgsrv,
+    method, parameter, main and rebec. The path is that of the left model, if it is in there.
     """
 
     kind: str
