@@ -3,7 +3,8 @@
 RS1xx syntax, RS2xx names, RS3xx types, RS4xx declarations and structure, RS5xx warnings about a
 model that is accepted, RS6xx warnings about robotic models (thesis, section 3.2), RS7xx what
 cannot be generated, RS8xx files, options and configuration, RS90x and RS91x properties, RS92x
-runs and state spaces, RS94x extraction, RS95x and RS96x model and code in step.
+runs and state spaces, RS94x extraction, RS95x and RS96x model and code in step, RS97x
+differences between two models.
 """
 
 from __future__ import annotations
@@ -198,6 +199,18 @@ STEP = {
     "RS966": "a conflict that a merge left in a file",
 }
 
+DIFFERENCES = {
+    "RS971": "an element that only the second of two models has",
+    "RS972": "an element that only the first of two models has",
+    "RS973": "an element that has another name in the second of two models",
+    "RS974": "an element or a statement that is elsewhere in the second of two models",
+    "RS975": "a statement that only the second of two models has",
+    "RS976": "a statement that only the first of two models has",
+    "RS977": "a part of an element or a statement that is different in two models",
+    "RS978": "a place of which it is not known whether two models differ there",
+    "RS979": "a run that only one of two models has",
+}
+
 RUNS = {
     "RS921": "a text that is not JSON where a run is wanted",
     "RS922": "a part of a run that is missing or of the wrong kind",
@@ -221,5 +234,6 @@ CODES: dict[str, str] = {
     **PROPERTIES,
     **RUNS,
     **EXTRACTION,
+    **DIFFERENCES,
     **STEP,
 }

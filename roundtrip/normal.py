@@ -29,10 +29,12 @@ _Node = TypeVar("_Node")
 
 
 def normal(model: m.Model) -> m.Model:
-    """The normal form; the model must be free of errors."""
-    analysis = analyse(model)
-    heads = tuple(_heads(model, analysis))
+    """The normal form; in a model with errors, constants stay as they are written."""
+    analysis = analyse(model, fragment=True)
     classes = sorted((_class(c) for c in model.classes), key=lambda c: c.name)
+    if analysis.errors:
+        return m.Model(model.heads, tuple(classes), model.main)
+    heads = tuple(_heads(model, analysis))
     main = _main(model, analysis) if model.main is not None else None
     return m.Model(heads, tuple(classes), main)
 
