@@ -27,7 +27,10 @@ _MOST = 1000  # entries; when there are more, the older half goes
 _DIGEST = hashlib.sha256().digest_size
 _BUILTINS = frozenset({"frozenset", "set", "dict", "list", "tuple"})
 # What an entry holds follows from the texts and from the code that reads these.
-_READERS = ("", "grammars", "reverse", "static")
+_READERS = (
+    *("", "grammars", "reverse", "static"),
+    *("checker", "checker/lowering", "checker/temporal"),
+)
 
 
 def key_of(*parts: str) -> str:

@@ -36,12 +36,13 @@ def model_given(path: str) -> Given:
     key = key_of("model", digest_of(source.text.encode("utf-8")))
     model = kept(key, m.Model)
     if model is None:
-        model = _parsed(source)
+        model = parsed(source)
         keep(key, model)
     return Given(model, source)
 
 
-def _parsed(source: Source) -> m.Model:
+def parsed(source: Source) -> m.Model:
+    """The model that a text is. RebsyncError: it has mistakes, or conflicts of a merge."""
     if (found := conflict_in(source)) is not None:
         raise RebsyncError([found])
     from rebsync.grammars.parser import parse_model

@@ -79,6 +79,11 @@ def judge(apart: Comparison, of_model: Comparison | None, of_code: Comparison | 
     return Drift(Verdict.CONFLICT if is_conflict else Verdict.BOTH_MOVED, told)
 
 
+def undetermined(drift: Drift) -> Drift:
+    """The same where something is in the code that neither model nor comparison sees."""
+    return replace(drift, verdict=Verdict.UNDETERMINED)
+
+
 def _without_base(apart: Comparison) -> Verdict:
     if apart.is_undetermined:
         return Verdict.UNDETERMINED

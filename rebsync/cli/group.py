@@ -9,6 +9,7 @@ import click
 from rebsync.diagnostics import did_you_mean
 
 COMMANDS = {
+    "check": "Tell whether packages and their models are in step.",
     "export": "Print a model in the form that another tool accepts.",
     "extract": "Read the code of a package back into a model.",
     "fmt": "Bring models into the canonical layout.",
