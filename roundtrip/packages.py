@@ -143,17 +143,16 @@ def _joined(folder: str, name: str) -> str:
 
 def _unrecorded(folder: str, roots: list[str]) -> Iterator[str]:
     """The packages that settings speak of, and that have lost the records they had."""
-    from rebsync.config import Config, parse_config
-    from rebsync.files import read_source
-
     prefix = "" if folder == "." else f"{folder.rstrip('/')}/"
     if any(root.startswith(prefix) for root in roots):
         return
+    from rebsync.config import Config, parse_config
+    from rebsync.files import read_source
+    from rebsync.forward.generate import package_name
+
     config = Config()
     with suppress(RebsyncError):
         config = parse_config(read_source(f"{prefix}{SETTINGS}"))
-    from rebsync.forward.generate import package_name
-
     for model in sorted(Path(folder).glob(f"*{SUFFIX}")):
         root = f"{prefix}{package_name(model.stem, config)}"
         if Path(root, "package.xml").is_file():
