@@ -30,6 +30,7 @@ from rebsync.roundtrip.tokens import Tokens
 
 _SYSTEM = ("env", "rebec")
 _CLASSES = ("reactiveclass", "interface")
+_BODIES = ("msgsrv", "method", "constructor")
 _SECTIONS = {m.KnownRebecs: "knownrebecs", m.StateVars: "statevars"}
 
 
@@ -91,13 +92,13 @@ class _Comparing:
     def _removed(self, item: Item) -> Removed:
         owner = self._item(self.left, item.owner)
         partner = self.partners.get(id(owner)) if owner is not None else None
-        right = self.right.place_of(partner) if partner is not None else None
+        right = self.right.place_of(partner) if partner is not None else self.right.whole
         return Removed(item.element, self.left.place_of(item), right)
 
     def _added(self, item: Item) -> Added:
         owner = self._item(self.right, item.owner)
         partner = next((x for x, r in self.matching.pairs if r is owner), None)
-        left = self.left.place_of(partner) if partner is not None else None
+        left = self.left.place_of(partner) if partner is not None else self.left.whole
         name = f"{partner.name}.{item.name}" if partner is not None else item.path
         path = name if item.kind != "constructor" else item.name
         return Added(Element(item.kind, path), left, self.right.place_of(item))
@@ -213,9 +214,21 @@ class _Comparing:
         for own in (self.left, self.right):
             for unread in own.given.unread:
                 if not any(_tells(d, own is self.left, unread) for d in told):
-                    element = Element("model", "") if not unread.within else _body(unread, own)
-                    places = (unread.place, None) if own is self.left else (None, unread.place)
-                    yield Undetermined(element, unread.why, *places)
+                    yield self._undetermined(unread, own is self.left)
+
+    def _undetermined(self, unread: Unread, is_left: bool) -> Undetermined:
+        own = self.left if is_left else self.right
+        item = next((i for i in own.items if i.path == unread.within and i.kind in _BODIES), None)
+        pair = next((p for p in self.matching.pairs if item in p), None)
+        if pair is None:
+            element = item.element if item is not None else Element("model", unread.within)
+            left, right = self.left.whole, self.right.whole
+        else:
+            element = pair[0].element
+            left = self.left.place_of(pair[0]) or self.left.whole
+            right = self.right.place_of(pair[1]) or self.right.whole
+        places = (unread.place, right) if is_left else (left, unread.place)
+        return Undetermined(element, unread.why, *places)
 
 
 def _tells(difference: Undetermined, left: bool, unread: Unread) -> bool:
@@ -224,13 +237,6 @@ def _tells(difference: Undetermined, left: bool, unread: Unread) -> bool:
         return False
     same = place.source.path == unread.place.source.path
     return same and place.span.start <= unread.place.span.start <= place.span.end
-
-
-def _body(unread: Unread, own: Side) -> Element:
-    for item in own.items:
-        if item.path == unread.within and item.kind in ("msgsrv", "method", "constructor"):
-            return item.element
-    return Element("model", unread.within)
 
 
 def _grouped(found: Sequence[Difference], left: Side) -> Iterator[Difference]:

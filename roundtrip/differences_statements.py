@@ -210,7 +210,7 @@ class Bodies:
         return self.words[id(statement)]
 
     def _text(self, tokens: Tokens, statement: m.Statement) -> str:
-        return print_statement(_head(tokens.written(statement))).removesuffix(" {}")
+        return " ".join(print_statement(tokens.written(statement)).split())
 
     def _shown(self, tokens: Tokens, node: object) -> str:
         written = tokens.written(node)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import field, replace
+from dataclasses import field
 from typing import TypeAlias
 
 from rebsync import model as m
@@ -85,6 +85,11 @@ class Side:
             if span != NOWHERE and (found := place(span, self.given.source)) is not None:
                 return found
         return None
+
+    @property
+    def whole(self) -> Place:
+        """The model or code as a whole."""
+        return Place(self.given.source, NOWHERE)
 
     def place_of(self, item: Item) -> Place | None:
         """Where the name of an element is, or else the element."""
@@ -168,8 +173,3 @@ def is_unreadable(statement: object) -> bool:
     return isinstance(statement, m.Empty) and any(
         note.name == UNREADABLE for note in statement.annotations
     )
-
-
-def without_unread(given: Given, taken: frozenset[Unread]) -> Given:
-    """The same without the places that have been told already."""
-    return replace(given, unread=tuple(u for u in given.unread if u not in taken))

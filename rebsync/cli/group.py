@@ -10,6 +10,7 @@ from rebsync.diagnostics import did_you_mean
 
 COMMANDS = {
     "check": "Tell whether packages and their models are in step.",
+    "diff": "Compare two models, packages of code, or revisions of either.",
     "export": "Print a model in the form that another tool accepts.",
     "extract": "Read the code of a package back into a model.",
     "fmt": "Bring models into the canonical layout.",
