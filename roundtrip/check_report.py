@@ -74,6 +74,20 @@ def sentence(outcome: Outcome) -> str:
 # --- text ---------------------------------------------------------------------------------------
 
 
+def differences(checked: Checked) -> Iterator[tuple[Difference, Mover]]:
+    """What is different, but for places that are among the findings anyway."""
+    if checked.drift is None:
+        return
+    from rebsync.roundtrip.difference import Undetermined
+
+    told = {(f.source.path, d.span.start) for f in checked.findings for d in f.diagnostics}
+    for difference, mover in checked.drift.differences:
+        place = difference.right
+        known = place is not None and (place.source.path, place.span.start) in told
+        if not (isinstance(difference, Undetermined) and known):
+            yield difference, mover
+
+
 def lines(outcome: Outcome) -> Iterator[str]:
     """The verdict, and below it the differences with both places, by class."""
     yield f"{outcome.root}: {sentence(outcome)}"
@@ -83,7 +97,7 @@ def lines(outcome: Outcome) -> Iterator[str]:
     from rebsync.roundtrip.difference import explain
 
     rows = []
-    for difference, mover in checked.drift.differences:
+    for difference, mover in differences(checked):
         left, right = (str(p) if p else "-" for p in (difference.left, difference.right))
         whose = {"unknown": "", "conflict": "  [both]"}.get(mover.value, f"  [{mover.value}]")
         what = f"{difference.element}: {explain(difference)}{whose}"
@@ -102,8 +116,8 @@ def lines(outcome: Outcome) -> Iterator[str]:
 def findings(outcome: Outcome) -> Iterator[Findings]:
     """Each difference as a finding at the place of whoever moved, and all other findings."""
     checked = outcome.checked
-    if checked is not None and checked.drift is not None:
-        for difference, mover in checked.drift.differences:
+    if checked is not None:
+        for difference, mover in differences(checked):
             yield _finding(checked, difference, mover)
     yield from outcome.findings
     if outcome.proof is not None:
@@ -113,7 +127,7 @@ def findings(outcome: Outcome) -> Iterator[Findings]:
 
 
 def _finding(checked: Checked, difference: Difference, mover: Mover) -> Findings:
-    from rebsync.roundtrip.difference import explain
+    from rebsync.roundtrip.difference import Undetermined, explain
 
     by_model = mover.value == "model"
     first, other = difference.left, difference.right
@@ -124,7 +138,8 @@ def _finding(checked: Checked, difference: Difference, mover: Mover) -> Findings
     hint = f"the {'code' if by_model else 'model'} says this at {there}" if there else None
     source = here.source if here is not None else Source(checked.model, "")
     span = here.span if here is not None else NOWHERE
-    return Findings(source, (Diagnostic(_CODES[mover.value], span, what, hint),))
+    code = "RS978" if isinstance(difference, Undetermined) else _CODES[mover.value]
+    return Findings(source, (Diagnostic(code, span, what, hint),))
 
 
 # --- JSON ---------------------------------------------------------------------------------------
@@ -140,14 +155,13 @@ def _package(outcome: Outcome) -> Json:
     from rebsync.report_data import as_json as findings_json
 
     checked = outcome.checked
-    drift = checked.drift if checked is not None else None
     told = json.loads(findings_json(outcome.findings))["findings"]
     return {
         "path": outcome.root,
         "model": checked.model if checked is not None else None,
         "verdict": verdict_of(outcome),
         "message": sentence(outcome),
-        "differences": [_difference(d, mover) for d, mover in drift.differences] if drift else [],
+        "differences": [_difference(*d) for d in differences(checked)] if checked else [],
         "findings": told,
         "verification": _verification(outcome),
     }
