@@ -55,7 +55,7 @@ def command(left: str, right: str, depth: str, style: str, output: str) -> Statu
         raise click.UsageError("standard input can be one of the two only")
     sides = read_side(left), read_side(right)
     comparison = compare(sides[0].given, sides[1].given, Depth(depth))
-    write_output(output, _text(comparison, (left, right), depth, style))
+    write_output(output, _text(comparison, sides, (left, right), depth, style))
     loose = [found for side in sides for found in _loose(side)]
     if style == "text":
         print_report(loose, sys.stderr)
@@ -81,7 +81,9 @@ def _counted(comparison: Comparison) -> str:
     return counted(comparison)
 
 
-def _text(comparison: Comparison, names: tuple[str, str], depth: str, style: str) -> str:
+def _text(
+    comparison: Comparison, sides: tuple[Code, Code], names: tuple[str, str], depth: str, style: str
+) -> str:
     from rebsync.roundtrip import difference_report as report
 
     match style:
@@ -94,6 +96,6 @@ def _text(comparison: Comparison, names: tuple[str, str], depth: str, style: str
         case "html":
             from rebsync.roundtrip.sides_page import sides_page
 
-            return sides_page(comparison, names)
+            return sides_page(comparison, sides[0].given, sides[1].given)
         case _:
             return "".join(f"{line}\n" for line in report.lines(comparison))
