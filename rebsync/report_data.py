@@ -29,7 +29,7 @@ def as_json(findings: Sequence[Findings]) -> str:
 
 def as_sarif(findings: Sequence[Findings]) -> str:
     """A SARIF 2.1.0 log with one run."""
-    return sarif_log(findings, [{"rebsyncFinding/v1": p} for p in _fingerprints(findings)])
+    return sarif_log(findings, [{"rebsyncFinding/v1": p} for p in fingerprints(findings)])
 
 
 def sarif_log(
@@ -157,7 +157,7 @@ def _sarif_fix(source: Source, diagnostic: Diagnostic) -> Json:
     return fix
 
 
-def _fingerprints(findings: Sequence[Findings]) -> Iterator[str]:
+def fingerprints(findings: Sequence[Findings]) -> Iterator[str]:
     """Codes of the findings that do not change when lines above them come or go."""
     seen: Counter[tuple[str, str, str, str]] = Counter()
     for source, diagnostic in _flat(findings):

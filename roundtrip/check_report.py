@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.records import dataclass
 from rebsync.roundtrip.checked import Checked
-from rebsync.source import NOWHERE, Source
+from rebsync.source import NOWHERE, Source, Span
 
 if TYPE_CHECKING:
-    from rebsync.roundtrip.difference import Difference, Place
+    from rebsync.roundtrip.difference import Difference
     from rebsync.roundtrip.proof import Proof
     from rebsync.roundtrip.verdict import Mover
 
 Json: TypeAlias = dict[str, Any]
+Remark: TypeAlias = tuple[Source, Span, str]
 
 IN_STEP = "in step"
 _CODES = {"model": "RS951", "code": "RS952", "conflict": "RS953", "unknown": "RS954"}
@@ -74,9 +77,9 @@ def sentence(outcome: Outcome) -> str:
 # --- text ---------------------------------------------------------------------------------------
 
 
-def differences(checked: Checked) -> Iterator[tuple[Difference, Mover]]:
+def differences(checked: Checked | None) -> Iterator[tuple[Difference, Mover]]:
     """What is different, but for places that are among the findings anyway."""
-    if checked.drift is None:
+    if checked is None or checked.drift is None:
         return
     from rebsync.roundtrip.difference import Undetermined
 
@@ -113,20 +116,61 @@ def lines(outcome: Outcome) -> Iterator[str]:
 # --- findings -----------------------------------------------------------------------------------
 
 
-def findings(outcome: Outcome) -> Iterator[Findings]:
-    """Each difference as a finding at the place of whoever moved, and all other findings."""
-    checked = outcome.checked
-    if checked is not None:
-        for difference, mover in differences(checked):
-            yield _finding(checked, difference, mover)
-    yield from outcome.findings
-    if outcome.proof is not None:
-        from rebsync.roundtrip.proof_report import proof_findings
+def as_sarif(outcomes: Sequence[Outcome]) -> str:
+    """A SARIF 2.1.0 log; a difference is known again by its element, wherever that is."""
+    from rebsync.report_data import fingerprints, sarif_log
 
-        yield from proof_findings(outcome.proof)
+    found: list[Findings] = []
+    prints: list[dict[str, str]] = []
+    related: list[list[Remark]] = []
+    for outcome in outcomes:
+        for difference, mover, print_ in _printed(outcome):
+            assert outcome.checked is not None
+            found.append(_finding(outcome.checked, difference, mover))
+            prints.append({"rebsyncElement/v1": print_})
+            pairs = ((difference.left, "the model"), (difference.right, "the code"))
+            related.append([(p.source, p.span, remark) for p, remark in pairs if p is not None])
+        others = [(f, list[Remark]()) for f in outcome.findings] + _proofs(outcome)
+        prints += [{"rebsyncFinding/v1": p} for p in fingerprints([f for f, _ in others])]
+        found += [f for f, _ in others]
+        related += [places for f, places in others for _ in f.diagnostics]
+    return sarif_log(found, prints, related)
 
 
-def _finding(checked: Checked, difference: Difference, mover: Mover) -> Findings:
+def as_github(outcomes: Sequence[Outcome]) -> str:
+    """Workflow commands that GitHub shows beside the changed lines."""
+    from rebsync.report_data import as_github as commands
+
+    found: list[Findings] = []
+    for outcome in outcomes:
+        found += [_finding(outcome.checked, *d) for d in differences(outcome.checked)]
+        found += [*outcome.findings, *(f for f, _ in _proofs(outcome))]
+    return commands(found)
+
+
+def _printed(outcome: Outcome) -> Iterator[tuple[Difference, Mover, str]]:
+    """Each difference with its fingerprint, which is another one in each package."""
+    told = list(differences(outcome.checked))
+    if not told:
+        return
+    from rebsync.roundtrip.difference_report import fingerprints
+
+    prints = fingerprints([d for d, _ in told])
+    for (difference, mover), print_ in zip(told, prints, strict=True):
+        root = Path(outcome.root).as_posix()
+        yield difference, mover, hashlib.sha256(f"{root}\0{print_}".encode()).hexdigest()[:32]
+
+
+def _proofs(outcome: Outcome) -> list[tuple[Findings, list[Remark]]]:
+    if outcome.proof is None:
+        return []
+    from rebsync.roundtrip.proof_report import proof_findings
+
+    return list(proof_findings(outcome.proof))
+
+
+def _finding(checked: Checked | None, difference: Difference, mover: Mover) -> Findings:
+    """A difference at the place of whoever moved."""
     from rebsync.roundtrip.difference import Undetermined, explain
 
     by_model = mover.value == "model"
@@ -136,7 +180,8 @@ def _finding(checked: Checked, difference: Difference, mover: Mover) -> Findings
         here, there = there, None
     what = f"{difference.element}: {explain(difference)}"
     hint = f"the {'code' if by_model else 'model'} says this at {there}" if there else None
-    source = here.source if here is not None else Source(checked.model, "")
+    model = checked.model if checked is not None else "-"
+    source = here.source if here is not None else Source(model, "")
     span = here.span if here is not None else NOWHERE
     code = "RS978" if isinstance(difference, Undetermined) else _CODES[mover.value]
     return Findings(source, (Diagnostic(code, span, what, hint),))
@@ -146,23 +191,26 @@ def _finding(checked: Checked, difference: Difference, mover: Mover) -> Findings
 
 
 def as_json(outcomes: Sequence[Outcome]) -> str:
-    """One object with all packages."""
-    data = {"version": 1, "packages": [_package(outcome) for outcome in outcomes]}
-    return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
+    """One object with all packages (docs/check.schema.json)."""
+    from rebsync.report_data import dump
+
+    return dump({"version": 1, "packages": [_package(outcome) for outcome in outcomes]})
 
 
 def _package(outcome: Outcome) -> Json:
     from rebsync.report_data import as_json as findings_json
+    from rebsync.roundtrip.difference_report import data_of
 
-    checked = outcome.checked
-    told = json.loads(findings_json(outcome.findings))["findings"]
     return {
         "path": outcome.root,
-        "model": checked.model if checked is not None else None,
+        "model": outcome.checked.model if outcome.checked is not None else None,
         "verdict": verdict_of(outcome),
         "message": sentence(outcome),
-        "differences": [_difference(*d) for d in differences(checked)] if checked else [],
-        "findings": told,
+        "differences": [
+            {**data_of(difference, print_), "moved": mover.value}
+            for difference, mover, print_ in _printed(outcome)
+        ],
+        "findings": json.loads(findings_json(outcome.findings))["findings"],
         "verification": _verification(outcome),
     }
 
@@ -173,25 +221,3 @@ def _verification(outcome: Outcome) -> Json | None:
     from rebsync.roundtrip.proof_report import proof_data
 
     return proof_data(outcome.proof)
-
-
-def _difference(difference: Difference, mover: Mover) -> Json:
-    from rebsync.roundtrip.difference import explain
-
-    return {
-        "element": {"kind": difference.element.kind, "path": difference.element.path},
-        "kind": type(difference).__name__,
-        "message": explain(difference),
-        "moved": mover.value,
-        "model": _place(difference.left),
-        "code": _place(difference.right),
-    }
-
-
-def _place(place: Place | None) -> Json | None:
-    if place is None:
-        return None
-    if place.line is None:
-        return {"path": place.source.path, "line": None, "column": None}
-    position = place.source.position(place.span.start)
-    return {"path": place.source.path, "line": position.line, "column": position.column}

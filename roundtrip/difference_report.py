@@ -106,7 +106,7 @@ def as_json(comparison: Comparison, left: str, right: str, depth: str, **more: o
             "depth": depth,
             "verdict": verdict_of(comparison),
             "differences": [
-                _data(d, print_)
+                data_of(d, print_)
                 for d, print_ in zip(
                     comparison.differences, fingerprints(comparison.differences), strict=True
                 )
@@ -116,7 +116,8 @@ def as_json(comparison: Comparison, left: str, right: str, depth: str, **more: o
     )
 
 
-def _data(difference: Difference, fingerprint: str) -> Json:
+def data_of(difference: Difference, fingerprint: str) -> Json:
+    """A difference as JSON has it."""
     data: Json = {
         "kind": _KINDS[type(difference)],
         "code": code_of(difference),
@@ -183,10 +184,11 @@ def _finding(difference: Difference) -> Findings:
 def as_sarif(comparison: Comparison) -> str:
     """A SARIF 2.1.0 log: each difference with both places, and a fingerprint that stays."""
     prints = [{"rebsyncElement/v1": p} for p in fingerprints(comparison.differences)]
-    return sarif_log(findings(comparison), prints, [_both(d) for d in comparison.differences])
+    return sarif_log(findings(comparison), prints, [both_places(d) for d in comparison.differences])
 
 
-def _both(difference: Difference) -> list[tuple[Source, Span, str]]:
+def both_places(difference: Difference) -> list[tuple[Source, Span, str]]:
+    """The places on both sides, each with a remark that tells which it is."""
     pairs = ((difference.left, "the first side"), (difference.right, "the second side"))
     return [(place.source, place.span, remark) for place, remark in pairs if place is not None]
 

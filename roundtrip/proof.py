@@ -26,12 +26,14 @@ PROPERTY = ".property"
 class Proof:
     """What a verification of the extracted model says.
 
-    `places` tells for its lines where they are in the model and in the code. `reason` says why
-    the verdict is no better, empty if nothing is in its way.
+    `path` is that of the user's model, `source` the text that was verified; `places` tells for its
+    lines where they are in model and code. `reason` says why the verdict is no better, empty if
+    nothing is in its way.
     """
 
     verdict: Verdict
     reason: str
+    path: str
     source: Source
     result: Result | None = None
     places: dict[int, Both] = field(default_factory=dict)
@@ -53,7 +55,7 @@ def prove(code: Code, today: Given, property_path: str | None, options: Options)
     source = Source(f"{code.given.source.path} as a model", text)
     path = property_path or _beside(today.source.path)
     properties = read_source(path) if path is not None else None
-    problem = _problem(source, properties)
+    problem = _problem(source, properties, today.source.path)
     if not isinstance(problem, Problem):
         return problem
     result = _verified(problem, options)
@@ -62,7 +64,8 @@ def prove(code: Code, today: Given, property_path: str | None, options: Options)
         from rebsync.grammars.parser import parse_model
 
         places = correspondence(source, parse_model(source).model, code.given, today)
-    return _judged(Proof(result.verdict, result.reason or "", source, result, places), code)
+    reason, model = result.reason or "", today.source.path
+    return _judged(Proof(result.verdict, reason, model, source, result, places), code)
 
 
 def _beside(model: str) -> str | None:
@@ -70,7 +73,7 @@ def _beside(model: str) -> str | None:
     return str(path) if os.path.lexists(path) else None
 
 
-def _problem(source: Source, properties: Source | None) -> Problem | Proof:
+def _problem(source: Source, properties: Source | None, model: str) -> Problem | Proof:
     """What is to be verified; or why nothing can be."""
     from rebsync.checker.sizes import check_sizes
     from rebsync.grammars.parser import parse_model
@@ -83,7 +86,7 @@ def _problem(source: Source, properties: Source | None) -> Problem | Proof:
         found += check_sizes(analysis)
     if errors := _errors(found):
         reason = f"what the code says is no whole model: {errors[0].message}"
-        return Proof("undetermined", reason, source)
+        return Proof("undetermined", reason, model, source)
     if properties is None:
         return Problem(source, analysis)
     from rebsync.grammars.properties import parse_properties
@@ -94,7 +97,7 @@ def _problem(source: Source, properties: Source | None) -> Problem | Proof:
         raise RebsyncError([Findings(properties, errors)])
     if errors := _errors(list(check_properties(read.properties, analysis))):
         reason = f"the properties do not fit what the code says: {errors[0].message}"
-        return Proof("undetermined", reason, source, remarks=(Findings(properties, errors),))
+        return Proof("undetermined", reason, model, source, remarks=(Findings(properties, errors),))
     return Problem(source, analysis, read.properties, properties)
 
 

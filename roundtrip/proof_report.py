@@ -16,9 +16,10 @@ from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.roundtrip.correspondence import Both
 from rebsync.roundtrip.difference import Place
 from rebsync.roundtrip.proof import Proof
-from rebsync.source import NOWHERE, Source
+from rebsync.source import NOWHERE, Source, Span
 
 Json: TypeAlias = dict[str, Any]
+Remark: TypeAlias = tuple[Source, Span, str]
 
 _HEAD = ("step", "time", "", "model", "code")
 _LONG = 30  # columns of a place that is told whole with every step
@@ -102,32 +103,36 @@ def _details(step: TraceStep) -> Iterator[str]:
 # --- for other programs -------------------------------------------------------------------------
 
 
-def proof_findings(proof: Proof) -> Iterator[Findings]:
-    """What is violated, at the place in the code where the run ends."""
-    yield from proof.remarks
+def proof_findings(proof: Proof) -> Iterator[tuple[Findings, list[Remark]]]:
+    """What is violated, where in the code the run ends; with the places that it comes by."""
+    for remark in proof.remarks:
+        yield remark, [(remark.source, d.span, d.message) for d in remark.diagnostics]
     if proof.verdict == "undetermined":
         message = f"whether the properties hold is undetermined: {proof.reason}"
-        yield _finding("RS958", None, proof, message, None)
+        yield _finding("RS958", None, proof, message, None), []
         return
-    for violation in proof.result.violations if proof.result is not None else ():
-        steps = violation.trace.steps
-        ends = [b for s in steps if (b := proof.places.get(s.line)) and (b.code or b.model)]
-        end = (ends[-1].code or ends[-1].model) if ends else None
+    for violation in violations(proof):
+        steps = list(_places(proof, violation))
+        end = steps[-1][0] if steps else None
         told = f"{words.title(violation)}: {violation.message}"
-        hint = f"after {words.counted(len(steps), 'step')}: {'; '.join(_told(proof, violation))}"
-        yield _finding("RS957", end, proof, told, hint)
+        hint = proof.reason or f"the run has {words.counted(len(violation.trace.steps), 'step')}"
+        remarks = [(place.source, place.span, what) for place, what in steps]
+        yield _finding("RS957", end, proof, told, hint), remarks
 
 
-def _told(proof: Proof, violation: Violation) -> Iterator[str]:
+def _places(proof: Proof, violation: Violation) -> Iterator[tuple[Place, str]]:
+    """The places that a run comes by, in the code where that is known, and what happens there."""
     for step in violation.trace.steps:
-        code = proof.places.get(step.line, _NOWHERE).code
-        yield words.heading(step) + (f" ({code})" if code is not None else "")
+        both = proof.places.get(step.line, _NOWHERE)
+        place = both.code or both.model
+        if place is not None:
+            yield place, f"step {step.number}, time {step.time}: {words.heading(step)}"
 
 
 def _finding(
     code: str, place: Place | None, proof: Proof, message: str, hint: str | None
 ) -> Findings:
-    source = place.source if place is not None else Source(proof.source.path, "")
+    source = place.source if place is not None else Source(proof.path, "")
     span = place.span if place is not None else NOWHERE
     return Findings(source, (Diagnostic(code, span, message, hint),))
 
@@ -135,7 +140,7 @@ def _finding(
 def proof_data(proof: Proof) -> Json:
     """The verdict and the whole result; `places` are those of the lines that its runs name."""
     result = json.loads(result_json(proof.result)) if proof.result is not None else None
-    lines = {s.line for v in result_violations(proof) for s in v.trace.steps if s.line}
+    lines = {s.line for v in violations(proof) for s in v.trace.steps if s.line}
     return {
         "verdict": proof.verdict,
         "reason": proof.reason or None,
@@ -146,7 +151,7 @@ def proof_data(proof: Proof) -> Json:
     }
 
 
-def result_violations(proof: Proof) -> tuple[Violation, ...]:
+def violations(proof: Proof) -> tuple[Violation, ...]:
     """The runs in which something goes wrong."""
     return proof.result.violations if proof.result is not None else ()
 

@@ -15,7 +15,15 @@ from rebsync.cli.status import Status, status_of, worst
 from rebsync.diagnostics import RebsyncError
 from rebsync.records import dataclass
 from rebsync.report import FORMATS, print_report, report
-from rebsync.roundtrip.check_report import IN_STEP, Outcome, as_json, findings, lines, verdict_of
+from rebsync.roundtrip.check_report import (
+    IN_STEP,
+    Outcome,
+    as_github,
+    as_json,
+    as_sarif,
+    lines,
+    verdict_of,
+)
 from rebsync.roundtrip.checked import Checked, check
 from rebsync.roundtrip.packages import Kept, find
 
@@ -117,12 +125,16 @@ class _Told:
 
 
 def _text(outcomes: list[Outcome], style: str) -> str:
-    if style == "json":
-        return as_json(outcomes)
-    if style != "text":
-        return report([f for outcome in outcomes for f in findings(outcome)], style)
-    parts = ("".join(f"{x}\n" for x in _lines(o)) + report(o.findings) for o in outcomes)
-    return "".join(parts)
+    match style:
+        case "json":
+            return as_json(outcomes)
+        case "sarif":
+            return as_sarif(outcomes)
+        case "github":
+            return as_github(outcomes)
+        case _:
+            parts = ("".join(f"{x}\n" for x in _lines(o)) + report(o.findings) for o in outcomes)
+            return "".join(parts)
 
 
 def _lines(outcome: Outcome) -> Iterator[str]:

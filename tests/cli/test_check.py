@@ -289,8 +289,9 @@ def test_json_has_everything(check: Check) -> None:
     )
     (difference,) = told["differences"]
     assert difference["element"] == {"kind": "msgsrv", "path": "Robot.go"}
-    assert (difference["moved"], difference["model"]["line"]) == ("code", 24)
-    assert difference["code"]["path"] == SOURCE
+    assert (difference["moved"], difference["kind"]) == ("code", "changed")
+    assert difference["left"]["region"]["startLine"] == 24
+    assert difference["right"]["path"] == SOURCE
 
 
 def test_sarif_points_at_the_code(check: Check) -> None:
