@@ -52,10 +52,11 @@ def proof_lines(proof: Proof, drifted: bool) -> Iterator[str]:
     for violation in proof.result.violations:
         yield ""
         yield f"  {words.title(violation)}: {violation.message}"
-        yield from _run(proof, violation)
+        yield from run_lines(proof, violation)
 
 
-def _run(proof: Proof, violation: Violation) -> Iterator[str]:
+def run_lines(proof: Proof, violation: Violation) -> Iterator[str]:
+    """A run as a table: what happens in each step, and both places of it."""
     rows = [_row(proof, step) for step in violation.trace.steps]
     wide = [max(len(row[i]) for row in (_HEAD, *rows)) for i in range(5)]
     yield _laid_out(_HEAD, wide)

@@ -55,7 +55,7 @@ _PROVED = {
 @click.option(
     "--format",
     "style",
-    type=click.Choice(FORMATS),
+    type=click.Choice([*FORMATS, "junit"]),
     default="text",
     show_default=True,
     help="How to print what was found.",
@@ -132,6 +132,10 @@ def _text(outcomes: list[Outcome], style: str) -> str:
             return as_sarif(outcomes)
         case "github":
             return as_github(outcomes)
+        case "junit":
+            from rebsync.roundtrip.junit import as_junit
+
+            return as_junit(outcomes)
         case _:
             parts = ("".join(f"{x}\n" for x in _lines(o)) + report(o.findings) for o in outcomes)
             return "".join(parts)

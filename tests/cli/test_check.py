@@ -10,11 +10,13 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from xml.etree import ElementTree
 
+from jsonschema import validate  # type: ignore[import-untyped]
 import pytest
 
 from rebsync.cli import main
-from tests.cli.run import environment
+from tests.cli.run import ROOT, environment
 
 MODEL = """\
 env int e = 2;
@@ -294,6 +296,31 @@ def test_json_has_everything(check: Check) -> None:
     assert difference["right"]["path"] == SOURCE
 
 
+@pytest.mark.parametrize("spoil", ["", "% 6", "asm", "manifest"])
+def test_json_is_as_described(check: Check, spoil: str) -> None:
+    match spoil:
+        case "asm":
+            replace(SOURCE, "  mailbox_.delay(1);", '  asm("nop");')
+        case "manifest":
+            Path("patrol/.rebsync/manifest.json").write_text("")
+        case _:
+            replace(SOURCE, "% 4", spoil or "% 4")
+    schema = json.loads((ROOT / "docs/check.schema.json").read_text(encoding="utf-8"))
+    validate(json.loads(check("--verify", "--format", "json")[1]), schema)
+
+
+def test_junit_has_a_case_for_each_property(check: Check) -> None:
+    def cases() -> dict[str, list[str]]:
+        suites = ElementTree.fromstring(check("--verify", "--format", "junit")[1])
+        return {c.get("name", ""): [e.tag for e in c] for c in suites.iter("testcase")}
+
+    assert cases() == {"in step": [], "property Stays_Small": []}
+    replace(SOURCE, "% 4", "% 6")
+    assert cases() == {"in step": ["failure"], "property Stays_Small": ["failure"]}
+    Path("patrol/.rebsync/manifest.json").unlink()
+    assert cases() == {"in step": ["error"]}
+
+
 def test_sarif_points_at_the_code(check: Check) -> None:
     replace(SOURCE, "mailbox_.delay(1)", "mailbox_.delay(3)")
     status, shown = check("--format", "sarif")
@@ -318,7 +345,7 @@ def test_github_annotates_the_line(check: Check) -> None:
     assert "title=RS951" in shown
 
 
-@pytest.mark.parametrize("style", ["text", "json", "sarif", "github"])
+@pytest.mark.parametrize("style", ["text", "json", "sarif", "github", "junit"])
 def test_output_goes_to_a_file(check: Check, package: Path, style: str) -> None:
     out = package.parent / ".cache" / "result"
     assert check("--format", style, "-o", str(out)) == (0, "")
