@@ -12,8 +12,8 @@ from collections.abc import Callable
 from pathlib import Path
 from xml.etree import ElementTree
 
-from jsonschema import validate  # type: ignore[import-untyped]
 import pytest
+from jsonschema import validate  # type: ignore[import-untyped]
 
 from rebsync.cli import main
 from tests.cli.run import ROOT, environment
