@@ -47,7 +47,9 @@ def verdict_of(outcome: Outcome) -> str:
     if outcome.checked is None:
         return "unusable"
     drift = outcome.checked.drift
-    return drift.verdict.value if drift is not None else IN_STEP
+    verdict = drift.verdict.value if drift is not None else IN_STEP
+    has_old_settings = any(d.code == "RS955" for f in outcome.findings for d in f.diagnostics)
+    return "model ahead" if verdict == IN_STEP and has_old_settings else verdict
 
 
 def sentence(outcome: Outcome) -> str:

@@ -12,6 +12,7 @@ from rebsync.roundtrip.manifest import BASE_MODEL
 from rebsync.roundtrip.model_file import model_of
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record, read_record
+from rebsync.roundtrip.settings import changed_settings
 from rebsync.source import NOWHERE, Source
 
 if TYPE_CHECKING:
@@ -41,16 +42,19 @@ class Checked:
 def check(kept: Kept, depth: str = "equal") -> Checked:
     """How a package stands; a RebsyncError says why that cannot be told."""
     record = _record(kept)
-    model = kept.model if record is None or kept.model is not None else model_of(kept, record)
-    assert model is not None
+    if record is None:
+        assert kept.model is not None
+        return _compared(kept, kept.model, None, standing(kept, None), depth)
+    model = model_of(kept, record)
     now = standing(kept, record)
-    if record is not None and now.is_as_generated and _is_unchanged(model, record):
-        return Checked(kept, model, record, now, findings=_about_base(kept, record))
-    return _compared(kept, model, record, now, depth)
+    if not (now.is_as_generated and _is_unchanged(model, record)):
+        return _compared(kept, model, record, now, depth)
+    findings = (*changed_settings(model, record), *_about_base(kept, record))
+    return Checked(kept, model, record, now, findings=findings)
 
 
 def _record(kept: Kept) -> Record | None:
-    """What is recorded; nothing need be where a user says which model it is."""
+    """What is recorded; nothing need be where it is known which model it is."""
     try:
         return read_record(kept.root)
     except RebsyncError as error:
@@ -66,11 +70,11 @@ def _is_unchanged(model: str, record: Record) -> bool:
 
 
 def _about_base(kept: Kept, record: Record) -> tuple[Findings, ...]:
-    """A base model that is missing or not as recorded costs nothing yet, but it will."""
+    """A base model that is missing or not as recorded: without it nobody knows who has moved."""
     if is_base_whole(kept, record):
         return ()
     message = "the model as of the last time in step is missing, or not as recorded"
-    hint = "`rebsync generate` writes it anew, now that model and code are in step"
+    hint = "`rebsync generate` writes it anew, once model and code are in step"
     found = Diagnostic("RS964", NOWHERE, message, hint, severity=Severity.WARNING)
     return (Findings(Source(f"{kept.root}/{BASE_MODEL}", ""), (found,)),)
 
@@ -78,31 +82,31 @@ def _about_base(kept: Kept, record: Record) -> tuple[Findings, ...]:
 def _compared(kept: Kept, model: str, record: Record | None, now: Standing, depth: str) -> Checked:
     from rebsync.roundtrip.difference import Depth
     from rebsync.roundtrip.differences import compare
-    from rebsync.roundtrip.models import base_given, code_given, model_given
+    from rebsync.roundtrip.models import code_given, model_given
     from rebsync.roundtrip.runtime import edited
     from rebsync.roundtrip.verdict import judge, undetermined
 
     today = model_given(model)
-    findings: list[Findings] = []
-    base = None
-    try:
-        base = base_given(kept)
-    except RebsyncError as error:
-        findings += map(_as_warning, error.findings)
+    base, findings = _base(kept, record)
     code = code_given(kept, now)
     how = Depth(depth)
     of_model = compare(base, today, how) if base is not None else None
     of_code = compare(base, code.given, how) if base is not None else None
     drift = judge(compare(today, code.given, how), of_model, of_code)
-    unknown = edited(kept, record, now)
-    if unknown:
-        drift = undetermined(drift)
-    findings += [*code.findings, *unknown]
-    return Checked(kept, model, record, now, drift, tuple(findings), code, today)
+    findings += code.findings
+    if record is not None:
+        unknown = edited(kept, record, now)
+        drift = undetermined(drift) if unknown else drift
+        findings += (*unknown, *changed_settings(model, record))
+    return Checked(kept, model, record, now, drift, findings, code, today)
 
 
-def _as_warning(findings: Findings) -> Findings:
-    from dataclasses import replace
+def _base(kept: Kept, record: Record | None) -> tuple[Given | None, tuple[Findings, ...]]:
+    """The model of last time, if it is there and as recorded; else what is to be said of that."""
+    if record is None:
+        return None, ()
+    if is_base_whole(kept, record):
+        from rebsync.roundtrip.models import model_given
 
-    changed = (replace(d, severity=Severity.WARNING) for d in findings.diagnostics)
-    return replace(findings, diagnostics=tuple(changed))
+        return model_given(f"{kept.root}/{BASE_MODEL}"), ()
+    return None, _about_base(kept, record)

@@ -6,13 +6,12 @@ What was read once is kept in the user's cache, so that only what has changed is
 from __future__ import annotations
 
 from rebsync import model as m
-from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
+from rebsync.diagnostics import Findings, RebsyncError
 from rebsync.files import read_source
 from rebsync.records import dataclass
 from rebsync.roundtrip.difference import Place
 from rebsync.roundtrip.digests import Standing, digest_of
 from rebsync.roundtrip.extraction_cache import keep, kept, key_of
-from rebsync.roundtrip.manifest import BASE_MODEL
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import conflict_in
 from rebsync.roundtrip.sides import Given, Unread
@@ -54,23 +53,6 @@ def parsed(source: Source) -> m.Model:
     if findings.errors:
         raise RebsyncError([Findings(source, tuple(dict.fromkeys(findings.errors)))])
     return parsed.model
-
-
-def base_given(package: Kept) -> Given:
-    """The model as of the last time that both were in step. RebsyncError: it is not there."""
-    path = f"{package.root}/{BASE_MODEL}"
-    hint = "`rebsync generate` or `rebsync sync` writes it once both are in step"
-    try:
-        return model_given(path)
-    except RebsyncError as error:
-        found = error.findings[0].diagnostics[0]
-        message = "the model as of the last time in step is missing: who moved is not known"
-        if found.code != "RS801":
-            message = f"the model as of the last time in step cannot be read: {found.message}"
-        source = error.findings[0].source
-        raise RebsyncError(
-            [Findings(source, (Diagnostic("RS964", found.span, message, hint),))]
-        ) from None
 
 
 def code_given(package: Kept, standing: Standing) -> Code:

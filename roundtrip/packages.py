@@ -20,7 +20,7 @@ SKIPPED = frozenset({"node_modules", "__pycache__"})
 
 @dataclass(frozen=True, slots=True)
 class Kept:
-    """A package that was made from a model; `model` is its path where a user has said it.
+    """A package with a model; `model` is its path where a user or settings say it.
 
     `tree` is the directory that holds all that belongs together: a repository, or else what is
     around the package.
@@ -43,6 +43,9 @@ def find(paths: Iterable[str], model: str | None = None) -> Iterator[Kept]:
             message = "there is no package here that was made from a model"
             hint = f"`rebsync generate` makes one, with a folder {FOLDER} that is to be committed"
             raise RebsyncError.of(path, "RS960", message, hint)
+        if model is not None and len(found) > 1:
+            message = f"--model is for one package, and here are {len(found)}"
+            raise RebsyncError.of(path, "RS960", message, "name the package")
         for kept in found:
             with operating_on(kept.root):
                 status = Path(kept.root).stat()
@@ -64,10 +67,27 @@ def _packages(path: str, model: str | None) -> Iterator[Kept]:
     if around is not None:
         yield Kept(around, tree_of(around), model)
     elif is_folder:
-        yield from (Kept(k.root, k.tree, model) for k in _below(path))
+        found = list(_below(path)) or list(_unrecorded_at(path, model))
+        yield from (Kept(k.root, k.tree, model or k.model) for k in found)
+
+
+def _unrecorded_at(path: str, model: str | None) -> Iterator[Kept]:
+    """A package without records of which a user or settings say what its model is."""
+    if not Path(path, "package.xml").is_file():
+        return
+    if model is not None:
+        yield Kept(path, tree_of(path), model)
+        return
+    above = Path(os.path.normpath(Path(path).absolute())).parent
+    if (above / SETTINGS).is_file():
+        for kept in _unrecorded(os.path.relpath(above), []):
+            if Path(kept.root).samefile(path):
+                yield Kept(path, kept.tree, kept.model)
 
 
 def _is_of(kept: Kept, model: str) -> bool:
+    if kept.model is not None:
+        return Path(kept.model).samefile(model)
     from rebsync.roundtrip.model_file import model_of
     from rebsync.roundtrip.recorded import read_record
 
@@ -111,8 +131,8 @@ def _below(path: str) -> Iterator[Kept]:
             settings.append(folder)
         waiting += [_joined(folder, n) for n in reversed(folders)]
     lost = [each for folder in settings for each in _unrecorded(folder, roots)]
-    for root in sorted([*roots, *lost]):
-        yield Kept(root, tree_of(root))
+    kept = [*(Kept(root, tree_of(root)) for root in roots), *lost]
+    yield from sorted(kept, key=lambda k: k.root)
 
 
 def _entries(folder: str, top: bool) -> tuple[list[str], list[str]]:
@@ -141,8 +161,8 @@ def _joined(folder: str, name: str) -> str:
     return name if folder == "." else f"{folder.rstrip('/')}/{name}"
 
 
-def _unrecorded(folder: str, roots: list[str]) -> Iterator[str]:
-    """The packages that settings speak of, and that have lost the records they had."""
+def _unrecorded(folder: str, roots: list[str]) -> Iterator[Kept]:
+    """The packages that settings and models in a directory stand for, without any records."""
     prefix = "" if folder == "." else f"{folder.rstrip('/')}/"
     if any(root.startswith(prefix) for root in roots):
         return
@@ -156,7 +176,7 @@ def _unrecorded(folder: str, roots: list[str]) -> Iterator[str]:
     for model in sorted(Path(folder).glob(f"*{SUFFIX}")):
         root = f"{prefix}{package_name(model.stem, config)}"
         if Path(root, "package.xml").is_file():
-            yield root
+            yield Kept(root, tree_of(root), f"{prefix}{model.name}")
 
 
 @cache

@@ -399,6 +399,11 @@ WRONG: dict[str, tuple[Callable[[], object], int, str]] = {
     "model gone": (Path("patrol.rebeca").unlink, 2, "patrol: RS965 the model patrol.rebeca"),
     "model broken": (put("patrol.rebeca", "reactiveclass {"), 2, "patrol.rebeca:1:"),
     "model not text": (lambda: Path("patrol.rebeca").write_bytes(b"\xff\xfe"), 2, "RS804"),
+    "base of another model": (
+        lambda: replace("patrol/.rebsync/base.rebeca", "delay(1)", "delay(2)"),
+        1,
+        "base.rebeca: RS964",
+    ),
     "base gone": (Path("patrol/.rebsync/base.rebeca").unlink, 1, "base.rebeca: RS964"),
     "base damaged": (put("patrol/.rebsync/base.rebeca", "<<"), 1, "base.rebeca: RS964"),
     "code gone": (Path(SOURCE).unlink, 4, "RS941"),
@@ -434,19 +439,41 @@ def test_a_model_that_moved_is_pointed_at(check: Check) -> None:
 
 
 def test_records_are_not_needed_where_the_model_is_named(check: Check) -> None:
-    Path("patrol/.rebsync/manifest.json").unlink()
-    Path("patrol/.rebsync/base.rebeca").unlink()
+    shutil.rmtree("patrol/.rebsync")
+    assert check("patrol", "--model", "patrol.rebeca") == (0, "patrol: in step\n")
+    replace(SOURCE, "mailbox_.delay(1)", "mailbox_.delay(3)")
     status, shown = check("patrol", "--model", "patrol.rebeca")
-    assert (status, shown.partition("\n")[0]) == (1, "patrol: in step")
-    assert "RS964" in shown
+    assert status == 1
+    assert shown.startswith("patrol: model and code differ; who moved is not known")
 
 
-def test_settings_without_records_are_noticed(check: Check) -> None:
+def test_settings_say_which_model_it_is(check: Check) -> None:
     Path("rebsync.toml").write_text("time_unit = 1.0\n")
     shutil.rmtree("patrol/.rebsync")
+    for arguments in ([], ["patrol"], ["patrol.rebeca"]):
+        assert check(*arguments) == (0, "patrol: in step\n")
+    replace(SOURCE, "mailbox_.delay(1)", "mailbox_.delay(3)")
+    assert check()[0] == 1
+
+
+def test_a_model_is_named_for_one_package(check: Check, package: Path) -> None:
+    shutil.copytree("patrol", "other")
+    status, shown = check(".", "--model", "patrol.rebeca")
+    assert (status, "--model is for one package, and here are 2" in shown) == (2, True)
+
+
+def test_settings_that_changed_are_noticed(check: Check) -> None:
+    Path("rebsync.toml").write_text("seed = 0\n")
+    assert check() == (0, "patrol: in step\n")
+    Path("rebsync.toml").write_text("seed = 0\ntime_unit = 0.5\n")
     status, shown = check()
-    assert status == 2
-    assert "patrol/.rebsync/manifest.json: RS961" in shown
+    assert status == 1
+    assert shown.startswith("patrol: the model is ahead")
+    assert "rebsync.toml:2:1: RS955 `time_unit` was 1.0" in shown
+    assert main(["generate", "patrol.rebeca"]) == 0
+    assert check() == (0, "patrol: in step\n")
+    Path("rebsync.toml").write_text("time_unit = 0\n")
+    assert check()[0] == 2
 
 
 def test_a_package_may_move(check: Check, package: Path) -> None:
