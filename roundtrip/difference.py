@@ -115,7 +115,10 @@ class Removed:
 
 @dataclass(frozen=True, slots=True)
 class Renamed:
-    """An element that the right model has under another name."""
+    """An element that the right model has under another name.
+
+    `name` is its path there; for a parameter only the name.
+    """
 
     element: Element
     name: str

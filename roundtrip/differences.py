@@ -73,7 +73,7 @@ class _Comparing:
                 found.append(self._added(item))
         if self.left.depth is Depth.IDENTICAL:
             found += self._orders()
-            found += self._sections(found)
+            found += self._sections() if not found else ()
         found += self._unread(found)
         yield from _grouped(found, self.left)
 
@@ -192,19 +192,18 @@ class _Comparing:
                     places = self.left.place_of(x), self.right.place_of(r)
                     yield Moved(x.element, to, *places)
 
-    def _sections(self, found: Iterable[Difference]) -> Iterator[Changed]:
-        """Sections that divide the same variables in another way."""
-        seen = {d.element.group for d in found}
+    def _sections(self) -> Iterator[Changed]:
+        """Sections and declarations that divide the same variables in another way."""
         for x, r in self.matching.pairs:
             if isinstance(x.node, m.ReactiveClass) and isinstance(r.node, m.ReactiveClass):
                 old, new = _outline(x.node), _outline(r.node)
-                if old != new and x.name not in seen:
+                if old != new:
                     places = self.left.place_of(x), self.right.place_of(r)
                     yield Changed(x.element, Aspect.SECTIONS, "", old, new, *places)
-        heads = [_heads(each.model) for each in (self.left, self.right)]
-        if heads[0] != heads[1] and "" not in seen:
-            element = Element("model", "")
-            yield Changed(element, Aspect.SECTIONS, "", heads[0], heads[1], None, None)
+        old, new = _heads(self.left.model), _heads(self.right.model)
+        if old != new:
+            places = self.left.whole, self.right.whole
+            yield Changed(Element("model", ""), Aspect.SECTIONS, "", old, new, *places)
 
     # --- what could not be read -----------------------------------------------------------------
 
@@ -241,7 +240,7 @@ def _tells(difference: Undetermined, left: bool, unread: Unread) -> bool:
 
 def _grouped(found: Sequence[Difference], left: Side) -> Iterator[Difference]:
     """The differences of each class together, in the order of the classes; the system last."""
-    classes = [i.name for i in left.items if i.kind in _CLASSES]
+    classes = [c.name for c in left.given.model.classes]
     order = {name: i for i, name in enumerate(classes)}
     yield from sorted(found, key=lambda d: order.get(d.element.group, _place_of(d, len(order))))
 

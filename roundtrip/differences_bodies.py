@@ -54,19 +54,22 @@ def callable_differences(
 
 
 def _parameter_pairs(left: Callable, right: Callable, tokens: Both) -> Parameters:
-    """Parameters of one name, then those without a partner that have one type, in their order."""
+    """Parameters of one name, then of one type; as many others as there are left on both sides."""
     by_own_name = {p.name: p for p in right.parameters}
     pairs = [(p, by_own_name[p.name]) for p in left.parameters if p.name in by_own_name]
     lefts, rights = (
         [p for p in each.parameters if all(p is not pair[i] for pair in pairs)]
         for i, each in enumerate((left, right))
     )
-    for p in lefts:
+    for p in list(lefts):
         wanted = tokens[0].of(p.type)
         same = next((r for r in rights if tokens[1].of(r.type) == wanted), None)
         if same is not None:
-            rights.remove(same)
+            lefts = [x for x in lefts if x is not p]
+            rights = [r for r in rights if r is not same]
             pairs.append((p, same))
+    if len(lefts) == len(rights):
+        pairs += zip(lefts, rights, strict=True)
     return pairs
 
 
@@ -139,8 +142,6 @@ class _Body:
         return bodies
 
     def _tokens(self, locals_: Mapped) -> Both:
-        if self.tokens[0].side.depth is Depth.IDENTICAL:
-            return self.tokens
         given = parameters_as_one(self.left, self.right, self.parameters)
         first, second = (
             replace(tokens, locals={**own, **parameters}, origin={}, kept=[])

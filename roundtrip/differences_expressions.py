@@ -101,27 +101,19 @@ def _expression(x: m.Expression, r: m.Expression, two: _Two) -> Iterator[Part]:
 
 
 def _call(x: m.Call, r: m.Call, two: _Two) -> Iterator[Part]:
+    same = x.target == r.target
+    one_only = not same and (x.target is None or r.target is None)
+    if one_only or len(x.arguments) != len(r.arguments):
+        yield Part(Aspect.EXPRESSION, "", x, r)
+        return
     called = two.left.written(x)
     name = two.name(m.Call(called.target, called.name)).removesuffix("()")
-    if x.target != r.target or len(x.arguments) != len(r.arguments):
-        whole = x.target == r.target
-        yield Part(*((Aspect.EXPRESSION, "", x, r) if whole else _receivers(x, r, name)))
-        if whole:
-            return
-    if len(x.arguments) == len(r.arguments):
-        for number, (a, b) in enumerate(zip(x.arguments, r.arguments, strict=True), start=1):
-            aspect, of = _argument(x, name, number)
-            yield from _part(aspect, of, a, b)
+    yield from _part(Aspect.RECEIVER, name, x.target, r.target)
+    for number, (a, b) in enumerate(zip(x.arguments, r.arguments, strict=True), start=1):
+        aspect, of = _argument(x, name, number)
+        yield from _part(aspect, of, a, b)
     for aspect, each in _TIMES:
         yield from _part(aspect, name, getattr(x, each), getattr(r, each))
-
-
-def _receivers(x: m.Call, r: m.Call, name: str) -> tuple[Aspect, str, object, object]:
-    if len(x.arguments) != len(r.arguments):
-        return Aspect.EXPRESSION, "", x, r
-    if x.target is None or r.target is None:
-        return Aspect.RECEIVER, name, x.target or "self", r.target or "self"
-    return Aspect.RECEIVER, name, x.target, r.target
 
 
 def _argument(call: m.Call, name: str, number: int) -> tuple[Aspect, str]:
@@ -164,19 +156,26 @@ def _switch(x: m.Switch, r: m.Switch, two: _Two) -> Parts:
     if labels[0] != labels[1]:
         cases = [_cases(each, tokens) for each, tokens in ((x, two.left), (r, two.right))]
         yield Part(Aspect.EXPRESSION, "cases", *cases)
-    others = list(r.cases)
-    for case in x.cases:
-        same = next((c for c in others if c.value == case.value), None)
-        if same is not None:
-            others.remove(same)
-            if case.annotations != same.annotations:
-                notes = case.annotations or None, same.annotations or None
-                yield Part(Aspect.ANNOTATION, "case", *notes)
-            yield case.statements, same.statements
-        else:
-            yield case.statements, ()
-    for case in others:
-        yield (), case.statements
+    for case, same in _case_pairs(x.cases, r.cases):
+        notes = [each.annotations if each is not None else () for each in (case, same)]
+        if case is not None and same is not None:
+            yield from _part(Aspect.ANNOTATION, "case", notes[0] or None, notes[1] or None)
+        yield (
+            case.statements if case is not None else (),
+            same.statements if same is not None else (),
+        )
+
+
+def _case_pairs(
+    lefts: tuple[m.Case, ...], rights: tuple[m.Case, ...]
+) -> Iterator[tuple[m.Case | None, m.Case | None]]:
+    """Cases of one label, and those without a partner in their order."""
+    by_label = {case.value: case for case in reversed(rights)}
+    paired = {id(by_label[c.value]) for c in lefts if c.value in by_label}
+    others = iter([case for case in rights if id(case) not in paired])
+    for case in lefts:
+        yield case, by_label.get(case.value) or next(others, None)
+    yield from ((None, case) for case in others)
 
 
 def _cases(switch: m.Switch, tokens: Tokens) -> str:

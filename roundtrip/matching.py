@@ -228,8 +228,12 @@ def _words(item: Item, blind: set[str]) -> list[str]:
 
 
 def _alike_classes(left: Item, right: Item) -> float:
-    first, second = (Counter(_class_words(item)) for item in (left, right))
-    return overlap(first, second)
+    """By the words that they share, and by the order of their words but for names of one side."""
+    first, second = (list(_class_words(item)) for item in (left, right))
+    common = set(first) & set(second)
+    blind = [[w if w in common else "_" for w in words] for words in (first, second)]
+    in_order = SequenceMatcher(None, blind[0], blind[1], autojunk=False).ratio()
+    return (overlap(Counter(first), Counter(second)) + in_order) / 2
 
 
 def _class_words(item: Item) -> Iterator[str]:
@@ -239,21 +243,21 @@ def _class_words(item: Item) -> Iterator[str]:
     members = node.members if isinstance(node, m.ReactiveClass) else node.servers
     for member in members:
         text = print_member(member)
-        yield from (w for w in _WORD.findall(text) if w != node.name and w.isidentifier())
+        yield from (w for w in _WORD.findall(text) if w != node.name)
 
 
 def _uses(side: Side, blind: set[str]) -> dict[str, Counter[str]]:
-    """For each name of a class, and each `env`, the statements that use it."""
+    """For each name of a class, and each `env`, the words of the statements that use it."""
     found: dict[str, Counter[str]] = defaultdict(Counter)
     for each in side.model.classes:
         for node in m.walk(each):
             if isinstance(node, m.ExpressionStatement | m.Local | m.Return | m.If | m.While):
                 text = print_statement(_head(node))
                 words = _WORD.findall(text)
-                line = " ".join("_" if w in blind else w for w in words)
+                line = Counter("_" if w in blind else w for w in words)
                 for word in {w for w in words if w in blind}:
-                    found[f"{each.name}.{word}"][line] += 1
-                    found[f".{word}"][line] += 1
+                    found[f"{each.name}.{word}"] += line
+                    found[f".{word}"] += line
     return found
 
 

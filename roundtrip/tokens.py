@@ -84,6 +84,8 @@ class Tokens:
                 return replace(node, name=self._referred(node, node.name))
             case m.Member(m.Self()) if self._folds and isinstance(self._symbol(node), _OWN):
                 return m.Name(self._referred(node, node.name))
+            case m.Member():
+                return replace(self._parts(node), name=self._referred(node, node.name))
             case m.Call():
                 return self._call(node)
             case m.Type():
