@@ -85,6 +85,7 @@ def _compared(kept: Kept, model: str, record: Record | None, now: Standing, dept
     from rebsync.roundtrip.models import code_given, model_given
     from rebsync.roundtrip.runtime import edited
     from rebsync.roundtrip.verdict import judge, undetermined
+    from rebsync.roundtrip.wiring import odd_wiring
 
     today = model_given(model)
     base, findings = _base(kept, record)
@@ -96,6 +97,8 @@ def _compared(kept: Kept, model: str, record: Record | None, now: Standing, dept
     findings += code.findings
     if record is not None:
         unknown = edited(kept, record, now)
+        if of_code is not None:
+            unknown += odd_wiring(kept, record, now, of_code)
         drift = undetermined(drift) if unknown else drift
         findings += (*unknown, *changed_settings(model, record))
     return Checked(kept, model, record, now, drift, findings, code, today)

@@ -66,6 +66,8 @@ def _edited(kept: Kept, now: Standing, name: str) -> Iterator[Findings]:
         message += f": {found.diagnostics[0].message}"
         yield _finding(Source(path, ""), NOWHERE, message)
         return
+    if not _HEADER.match(name) and "int main(" not in base.text:
+        return  # a class with such a name
     span = _first_difference(base, source, _statements if _PROGRAM.match(name) else _tokens)
     if span is not None:
         yield _finding(source, span, "this is not as it was generated, and no model describes it")
