@@ -39,6 +39,7 @@ reactiveclass Robot(3) {
   msgsrv look() {
     x = (x + 1) % 4;
     self.look() after(e);
+    other.go(x);
   }
 
   msgsrv go(int n) {
@@ -134,7 +135,7 @@ def test_the_model_is_ahead(check: Check) -> None:
     status, shown = check()
     assert status == 1
     assert shown.startswith("patrol: the model is ahead")
-    assert "patrol.rebeca:24" in shown and "patrol/src/robot.cpp:" in shown
+    assert "patrol.rebeca:25" in shown and "patrol/src/robot.cpp:" in shown
     assert "msgsrv Robot.go: delay changed from 3 to 1  [model]" in shown
 
 
@@ -172,7 +173,8 @@ def test_both_changed_one_element(check: Check) -> None:
     assert shown.count("[both]") == 2
 
 
-def test_a_removed_class_and_a_change_in_it_are_a_conflict(check: Check) -> None:
+def test_a_removed_server_and_a_change_in_it_are_a_conflict(check: Check) -> None:
+    replace("patrol.rebeca", "    other.go(x);\n", "")
     replace("patrol.rebeca", "  msgsrv go(int n) {\n    delay(1);\n    on = n > 3;\n  }\n", "")
     replace(SOURCE, "mailbox_.delay(1)", "mailbox_.delay(3)")
     status, shown = check()
@@ -214,6 +216,17 @@ def test_what_cannot_be_read_is_undetermined(check: Check) -> None:
         ),
         ("patrol/src/robot_node.cpp", "  reception.start();\n", ""),
         ("patrol/src/robot_node.cpp", "  return 0;", "  rebec.go(4);\n  return 0;"),
+        (SOURCE, 'subscribe("go"', 'subscribe("look"'),
+        (SOURCE, 'Server kGo{"go", kNoPriority}', 'Server kGo{"go", 1}'),
+        (SOURCE, '>("other/go")', '>("other/went")'),
+        ("patrol/launch/patrol.launch", 'to="robot2/go"', 'to="robot1/go"'),
+        (
+            "patrol/launch/patrol.launch",
+            '<node name="robot1"',
+            '<node respawn="true" name="robot1"',
+        ),
+        ("patrol/launch/patrol.launch", "[robot1, robot2]", "[robot2]"),
+        ("patrol/msg/RobotGo.msg", "int32", "int16"),
     ],
 )
 def test_run_time_code_that_was_edited_is_undetermined(
@@ -230,6 +243,18 @@ def test_run_time_code_may_be_laid_out_anew(check: Check) -> None:
         text = Path(path).read_text()
         Path(path).write_text("// ours\n" + text.replace("  ", "    ").replace("{\n", "\n{\n"))
     replace("patrol/src/robot_node.cpp", "reception.start();", 'ROS_INFO("up"); reception.start();')
+    assert check() == (0, "patrol: in step\n")
+
+
+def test_wiring_follows_the_model(check: Check) -> None:
+    replace("patrol.rebeca", "robot1(robot2)", "robot1(robot1)")
+    assert main(["generate", "patrol.rebeca"]) == 0
+    assert check() == (0, "patrol: in step\n")
+    replace(
+        "patrol/launch/patrol.launch",
+        'to="robot1/go"/>\n  </node>',
+        'to="robot1/go"/>\n\n  </node>',
+    )
     assert check() == (0, "patrol: in step\n")
 
 
@@ -272,7 +297,7 @@ def test_a_model_elsewhere_is_found_again(check: Check, package: Path) -> None:
     assert check("ros") == (0, "ros/src/guard: in step\n")
     replace("models/guard.rebeca", "delay(1)", "delay(2)")
     status, shown = check("ros")
-    assert (status, "models/guard.rebeca:24" in shown) == (1, True)
+    assert (status, "models/guard.rebeca:25" in shown) == (1, True)
 
 
 # --- formats ------------------------------------------------------------------------------------
@@ -292,7 +317,7 @@ def test_json_has_everything(check: Check) -> None:
     (difference,) = told["differences"]
     assert difference["element"] == {"kind": "msgsrv", "path": "Robot.go"}
     assert (difference["moved"], difference["kind"]) == ("code", "changed")
-    assert difference["left"]["region"]["startLine"] == 24
+    assert difference["left"]["region"]["startLine"] == 25
     assert difference["right"]["path"] == SOURCE
 
 
@@ -341,7 +366,7 @@ def test_github_annotates_the_line(check: Check) -> None:
     replace("patrol.rebeca", "delay(1)", "delay(3)")
     status, shown = check("--format", "github")
     assert status == 1
-    assert shown.startswith("::error file=patrol.rebeca,line=24,")
+    assert shown.startswith("::error file=patrol.rebeca,line=25,")
     assert "title=RS951" in shown
 
 
@@ -393,7 +418,7 @@ WRONG: dict[str, tuple[Callable[[], object], int, str]] = {
     "model in conflict": (
         conflict_in("patrol.rebeca", "    delay(1);"),
         2,
-        "patrol.rebeca:24:1: RS966",
+        "patrol.rebeca:25:1: RS966",
     ),
     "code in conflict": (conflict_in(SOURCE, "  mailbox_.delay(1);"), 4, "RS966"),
     "model gone": (Path("patrol.rebeca").unlink, 2, "patrol: RS965 the model patrol.rebeca"),
