@@ -47,6 +47,12 @@ _SUBSCRIBED = re.compile(r'\b(subscribe\w*)\s*(?:<[^;()]*>\s*)?\(\s*("[^"]*")\s*
 _HANDLER = re.compile(r"&\s*(?:\w+::)+(\w+)|\b(k[A-Z]\w*)")
 _ADVERTISED = re.compile(r"\b(\w+)\s*=\s*mailbox_\s*\.\s*(advertise\w*\s*<[^;]*?\([^;]*\))\s*;")
 _SERVER = re.compile(r'\bServer\s+(\w+)\s*\{\s*("[^"]*")\s*,\s*([^}]*?)\s*\}')
+_ENTRY = re.compile(r"^([ \t]*)(\w+):[ \t]*([^\n#]*?)[ \t]*(?:#.*)?$", re.MULTILINE)
+_BEARING = {
+    "mailbox": ("time_unit", "settle"),
+    "drive": ("cell_size", "kind", "heading", "move_time"),
+}
+_PROGRAM = re.compile(r"\b(add_executable|set_target_properties)\s*\(\s*(\S+)\s+([^)]*)\)")
 _FAR = 400  # characters within which a subscription names its handler
 _POSTED = re.compile(r"\bk[A-Z]\w*")
 _TAG = re.compile(r"<(/?)([\w-]+)((?:\s+[\w-]+\s*=\s*(?:\"[^\"]*\"|'[^']*'))*)\s*(/?)>")
@@ -81,14 +87,16 @@ def odd_wiring(
     today = _facts({n: p for n, p in now.listing.files.items() if _is_wiring(n)})
     joined = {d.element.group or "" for d in of_code.differences if _joins(d)}
     found = list[Findings]()
+    files = {name.rpartition("/")[2] for name in now.listing.files}
     for key, facts in base.items():
-        if not _is_excused(facts[0], joined):
+        has_moved = facts[0].kind == "source of a program" and facts[0].name not in files
+        if not (has_moved or _is_excused(facts[0], joined)):
             found += _changes(kept, facts, today.get(key, []))
     return tuple(found)
 
 
 def _is_wiring(name: str) -> bool:
-    return name.endswith((".cpp", ".launch", ".msg"))
+    return name.endswith((".cpp", ".launch", ".msg", "CMakeLists.txt", "config/params.yaml"))
 
 
 def _joins(difference: Difference) -> bool:
@@ -103,7 +111,7 @@ def _joins(difference: Difference) -> bool:
 
 
 def _is_excused(fact: _Fact, joined: set[str]) -> bool:
-    if fact.kind in ("remap", "node", "parameter"):
+    if fact.kind in ("remap", "node", "parameter") or fact.kind.endswith(" program"):
         return bool(joined)
     if fact.kind == "field":
         return any(fact.owner.startswith(group) for group in joined)
@@ -116,7 +124,8 @@ def _changes(kept: Kept, before: list[_Fact], now: list[_Fact]) -> Iterator[Find
     if old == new:
         return
     first = before[0]
-    what = f"the {first.kind} {first.name} of {first.owner}" if first.owner else first.name
+    what = " ".join(filter(None, ("the", first.kind, first.name)))
+    what += f" of {first.owner}" if first.owner else ""
     is_now = " and ".join(sorted(new)) or "gone"
     message = f"{what} is {is_now}; generated was {' and '.join(sorted(old))}"
     place = next((f for f in now if f.value not in old), None)
@@ -147,6 +156,10 @@ def _facts(paths: Mapping[str, str]) -> Facts:
 def _of_file(name: str, source: Source) -> Iterable[_Fact]:
     if name.endswith(".msg"):
         return _fields(source)
+    if name.endswith(".yaml"):
+        return _settings(source)
+    if name.endswith(".txt"):
+        return _programs(source)
     blank = Source(source.path, _COMMENT.sub(lambda m: " " * len(m[0]), source.text))
     return _joints(source, blank.text) if name.endswith(".cpp") else _launched(source, blank.text)
 
@@ -215,6 +228,29 @@ def _fields(source: Source) -> Iterator[_Fact]:
     message = Path(source.path).stem
     for m in _FIELD.finditer(source.text):
         yield _Fact("field", message, m[2], m[1], source, Span(*m.span()))
+
+
+def _settings(source: Source) -> Iterator[_Fact]:
+    """What in the parameters of the run-time part has a bearing on what nodes do."""
+    section = ""
+    for m in _ENTRY.finditer(source.text):
+        if not m[1]:
+            section = m[2]
+        elif m[2] in _BEARING.get(section, ()):
+            yield _Fact("parameter", "", f"{section}/{m[2]}", m[3], source, Span(*m.span(2)))
+
+
+def _programs(source: Source) -> Iterator[_Fact]:
+    """The files that programs are made of, and what these are called."""
+    for m in _PROGRAM.finditer(source.text):
+        command, target, rest = m.groups()
+        span = Span(*m.span(2))
+        if command == "set_target_properties":
+            yield _Fact("name of a program", target, "", _squeezed(rest), source, span)
+            continue
+        for path in rest.split():
+            name = path.rpartition("/")[2]
+            yield _Fact("source of a program", target, name, "there", source, span)
 
 
 def _squeezed(text: str) -> str:

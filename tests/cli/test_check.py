@@ -227,6 +227,9 @@ def test_what_cannot_be_read_is_undetermined(check: Check) -> None:
         ),
         ("patrol/launch/patrol.launch", "[robot1, robot2]", "[robot2]"),
         ("patrol/msg/RobotGo.msg", "int32", "int16"),
+        ("patrol/config/params.yaml", "time_unit: 1.0", "time_unit: 2.0"),
+        ("patrol/CMakeLists.txt", "  src/robot_node.cpp\n", ""),
+        ("patrol/CMakeLists.txt", "OUTPUT_NAME robot_node", "OUTPUT_NAME robot"),
     ],
 )
 def test_run_time_code_that_was_edited_is_undetermined(
