@@ -38,7 +38,7 @@ class BodyPatch:
         """Whether two nodes, or two lists of nodes, say the same."""
         if isinstance(x, tuple) and isinstance(r, tuple):
             return len(x) == len(r) and all(map(self.same, x, r))
-        if x is None or r is None or isinstance(x, str):
+        if not (hasattr(x, "__dataclass_fields__") and hasattr(r, "__dataclass_fields__")):
             return x == r
         return bool(self.left.of(x) == self.right.of(r))
 
