@@ -8,48 +8,19 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
-from rebsync.records import dataclass
+from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.roundtrip.checked import Checked
+from rebsync.roundtrip.outcome import IN_STEP, Outcome, verdict_of
 from rebsync.source import NOWHERE, Source, Span
 
 if TYPE_CHECKING:
     from rebsync.roundtrip.difference import Difference
-    from rebsync.roundtrip.proof import Proof
     from rebsync.roundtrip.verdict import Mover
 
 Json: TypeAlias = dict[str, Any]
 Remark: TypeAlias = tuple[Source, Span, str]
 
-IN_STEP = "in step"
 _CODES = {"model": "RS951", "code": "RS952", "conflict": "RS953", "unknown": "RS954"}
-
-
-@dataclass(frozen=True, slots=True)
-class Outcome:
-    """What there is to say of a package: how it stands, or why that cannot be told."""
-
-    root: str
-    checked: Checked | None
-    error: RebsyncError | None = None
-    proof: Proof | None = None
-
-    @property
-    def findings(self) -> tuple[Findings, ...]:
-        """Everything with a place but for differences and runs."""
-        if self.error is not None:
-            return self.error.findings
-        return self.checked.findings if self.checked is not None else ()
-
-
-def verdict_of(outcome: Outcome) -> str:
-    """The verdict in a word or two; `unusable` where there is none."""
-    if outcome.checked is None:
-        return "unusable"
-    drift = outcome.checked.drift
-    verdict = drift.verdict.value if drift is not None else IN_STEP
-    has_old_settings = any(d.code == "RS955" for f in outcome.findings for d in f.diagnostics)
-    return "model ahead" if verdict == IN_STEP and has_old_settings else verdict
 
 
 def sentence(outcome: Outcome) -> str:
@@ -77,6 +48,37 @@ def sentence(outcome: Outcome) -> str:
 
 
 # --- text ---------------------------------------------------------------------------------------
+
+
+def as_text(outcomes: Sequence[Outcome], style: str) -> str:
+    """What there is to say of some packages, in one of the forms of the command."""
+    match style:
+        case "json":
+            return as_json(outcomes)
+        case "sarif":
+            return as_sarif(outcomes)
+        case "github":
+            return as_github(outcomes)
+        case "junit":
+            from rebsync.roundtrip.junit import as_junit
+
+            return as_junit(outcomes)
+        case _:
+            from rebsync.report import report
+
+            parts = (
+                "".join(f"{x}\n" for x in told_lines(o)) + report(o.findings) for o in outcomes
+            )
+            return "".join(parts)
+
+
+def told_lines(outcome: Outcome) -> Iterator[str]:
+    """Everything but findings, line by line."""
+    yield from lines(outcome)
+    if outcome.proof is not None:
+        from rebsync.roundtrip.proof_report import proof_lines
+
+        yield from proof_lines(outcome.proof, verdict_of(outcome) != IN_STEP)
 
 
 def differences(checked: Checked | None) -> Iterator[tuple[Difference, Mover]]:

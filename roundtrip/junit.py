@@ -8,7 +8,8 @@ from xml.sax.saxutils import escape, quoteattr
 from rebsync.records import dataclass
 from rebsync.report import report
 from rebsync.report_text import printable
-from rebsync.roundtrip.check_report import IN_STEP, Outcome, lines, verdict_of
+from rebsync.roundtrip.check_report import lines
+from rebsync.roundtrip.outcome import IN_STEP, Outcome, verdict_of
 
 _HEAD = '<?xml version="1.0" encoding="UTF-8"?>\n<testsuites name="rebsync">\n'
 

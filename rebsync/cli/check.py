@@ -3,33 +3,23 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
 from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from rebsync.cli.amounts import amount, duration
-from rebsync.cli.options import write_output
 from rebsync.cli.status import Status, status_of, worst
 from rebsync.diagnostics import RebsyncError
 from rebsync.records import dataclass
-from rebsync.report import FORMATS, print_report, report
-from rebsync.roundtrip.check_report import (
-    IN_STEP,
-    Outcome,
-    as_github,
-    as_json,
-    as_sarif,
-    lines,
-    verdict_of,
-)
 from rebsync.roundtrip.checked import Checked, check
+from rebsync.roundtrip.outcome import IN_STEP, Outcome, verdict_of
 from rebsync.roundtrip.packages import Kept, find
 
 if TYPE_CHECKING:
     from rebsync.roundtrip.proof import Proof
 
+FORMATS = ("text", "json", "sarif", "github", "junit")
 _PROVED = {
     "satisfied": Status.CLEAN,
     "violated": Status.VIOLATED,
@@ -55,7 +45,7 @@ _PROVED = {
 @click.option(
     "--format",
     "style",
-    type=click.Choice([*FORMATS, "junit"]),
+    type=click.Choice(FORMATS),
     default="text",
     show_default=True,
     help="How to print what was found.",
@@ -109,44 +99,26 @@ class _Told:
 
     def tell(self, outcome: Outcome) -> Status:
         """Prints it, or keeps it; gives its part of the exit status."""
-        if self.style == "text" and self.output == "-":
-            click.echo("".join(f"{line}\n" for line in _lines(outcome)), nl=False)
-            print_report(outcome.findings, sys.stdout)
-        else:
+        if self.style != "text" or self.output != "-":
             self.all.append(outcome)
+        elif outcome.is_plain:
+            click.echo(f"{outcome.root}: {IN_STEP}")
+        else:
+            from rebsync.report import print_report
+            from rebsync.roundtrip.check_report import told_lines
+
+            click.echo("".join(f"{line}\n" for line in told_lines(outcome)), nl=False)
+            print_report(outcome.findings, sys.stdout)
         return _status(outcome)
 
     def finish(self) -> Status:
         """Prints what was kept."""
-        if self.style == "text" and self.output == "-":
-            return Status.CLEAN
-        write_output(self.output, _text(self.all, self.style))
+        if self.style != "text" or self.output != "-":
+            from rebsync.cli.options import write_output
+            from rebsync.roundtrip.check_report import as_text
+
+            write_output(self.output, as_text(self.all, self.style))
         return Status.CLEAN
-
-
-def _text(outcomes: list[Outcome], style: str) -> str:
-    match style:
-        case "json":
-            return as_json(outcomes)
-        case "sarif":
-            return as_sarif(outcomes)
-        case "github":
-            return as_github(outcomes)
-        case "junit":
-            from rebsync.roundtrip.junit import as_junit
-
-            return as_junit(outcomes)
-        case _:
-            parts = ("".join(f"{x}\n" for x in _lines(o)) + report(o.findings) for o in outcomes)
-            return "".join(parts)
-
-
-def _lines(outcome: Outcome) -> Iterator[str]:
-    yield from lines(outcome)
-    if outcome.proof is not None:
-        from rebsync.roundtrip.proof_report import proof_lines
-
-        yield from proof_lines(outcome.proof, verdict_of(outcome) != IN_STEP)
 
 
 def _status(outcome: Outcome) -> Status:
