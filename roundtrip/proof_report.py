@@ -76,9 +76,8 @@ def _laid_out(row: tuple[str, ...], wide: list[int]) -> str:
 
 def _row(proof: Proof, step: TraceStep) -> tuple[str, ...]:
     both = proof.places.get(step.line, _NOWHERE)
-    places = (
-        str(p) if p is not None else "-" if step.line else "" for p in (both.model, both.code)
-    )
+    sides = both.model, both.code
+    places = (_shown(p) if p is not None else "-" if step.line else "" for p in sides)
     return (str(step.number), str(step.time), words.heading(step), *places)
 
 

@@ -39,6 +39,12 @@ _PROVED = {
 )
 @click.option("--verify", is_flag=True, help="Check the model that the code extracts to as well.")
 @click.option("--property", "property_file", metavar="FILE", help="The properties for --verify.")
+@click.option(
+    "--allow",
+    type=click.Choice(["deadlock"]),
+    multiple=True,
+    help="What is no mistake to --verify: systems that are meant to end.",
+)
 @click.option("--max-states", type=click.IntRange(1), metavar="N", help="Stop at N states.")
 @click.option("--max-time", callback=duration, metavar="TIME", help="Stop after 90, 90s, 5m or 1h.")
 @click.option("--memory", callback=amount, metavar="SIZE", help="Stop at 500M or 2G of memory.")
@@ -86,7 +92,8 @@ def _proof(checked: Checked, given: dict[str, Any]) -> Proof:
     code = checked.code or code_given(checked.kept, checked.standing)
     today = checked.today or model_given(checked.model)
     limits = Limits(given["max_states"], given["max_time"], given["memory"])
-    return prove(code, today, given["property_file"], Options(limits=limits))
+    options = Options(limits=limits, allowed=frozenset(given["allow"]))
+    return prove(code, today, given["property_file"], options)
 
 
 @dataclass(slots=True)

@@ -16,7 +16,8 @@ import pytest
 from jsonschema import validate  # type: ignore[import-untyped]
 
 from rebsync.cli import main
-from tests.cli.run import ROOT, environment
+from tests.cli.run import ROOT, environment, rebsync
+from tests.test_report import SCHEMA as SARIF
 
 MODEL = """\
 env int e = 2;
@@ -64,6 +65,7 @@ property {
 }
 """
 SOURCE = "patrol/src/robot.cpp"
+UNSAFE = r" \|\| \(next_r[12]_\[0\] == x && next_r[12]_\[1\] == y\)"
 
 
 @pytest.fixture(scope="module")
@@ -352,6 +354,7 @@ def test_junit_has_a_case_for_each_property(check: Check) -> None:
 def test_sarif_points_at_the_code(check: Check) -> None:
     replace(SOURCE, "mailbox_.delay(1)", "mailbox_.delay(3)")
     status, shown = check("--format", "sarif")
+    validate(json.loads(shown), SARIF)
     (run,) = json.loads(shown)["runs"]
     (result,) = run["results"]
     place = result["locations"][0]["physicalLocation"]
@@ -584,11 +587,13 @@ def test_drift_that_harms_nothing_is_told_from_drift_that_does(check: Check) -> 
 def test_a_violation_is_a_finding_in_the_code(check: Check) -> None:
     replace(SOURCE, "% 4", "% 6")
     status, shown = check("--verify", "--format", "sarif")
+    validate(json.loads(shown), SARIF)
     results = json.loads(shown)["runs"][0]["results"]
     assert status == 3
     found = next(r for r in results if r["ruleId"] == "RS957")
     assert "Stays_Small" in found["message"]["text"]
     assert found["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == SOURCE
+    assert "time 0: robot1.look()" in found["relatedLocations"][0]["message"]["text"]
     data = json.loads(check("--verify", "--format", "json")[1])["packages"][0]["verification"]
     assert data["verdict"] == "violated"
     assert data["broken"] == ["property Stays_Small"]
@@ -615,6 +620,21 @@ def test_properties_that_do_not_fit_are_undetermined(check: Check) -> None:
     status, shown = check("--verify")
     assert status == 4
     assert "the properties do not fit what the code says" in shown
+
+
+def test_a_collision_is_shown_in_model_and_code(tmp_path: Path) -> None:
+    """The drift that makes experiment 2 of the thesis unsafe."""
+    example = tmp_path / "experiment2"
+    shutil.copytree(ROOT / "examples/experiment2", example)
+    safe = example / "experiment2/src/control_node.cpp"
+    text, count = re.subn(UNSAFE, "", safe.read_text())
+    assert count == 2
+    safe.write_text(text)
+    done = rebsync("check", "experiment2", "--verify", cwd=tmp_path)
+    assert done.status == 3
+    assert "drifted, " in done.out and "Collision_Avoidance broken" in done.out
+    lines = [x for x in done.out.splitlines() if "experiment2.rebeca:" in x and ".cpp:" in x]
+    assert len(lines) > 5
 
 
 # --- speed --------------------------------------------------------------------------------------
