@@ -34,10 +34,18 @@ def outcome_of(proof: Proof, drifted: bool) -> str:
         case "satisfied":
             what = f"all properties {still}hold"
         case "violated":
-            what = f"{', '.join(proof.broken)} broken"
+            what = _broken(proof)
         case _:
             what = f"whether the properties hold is undetermined: {proof.reason}"
     return f"{head}, {what}"
+
+
+def _broken(proof: Proof) -> str:
+    """`property Small broken; deadlock`."""
+    names = [v.name for v in violations(proof) if v.kind == "property"]
+    others = [words.title(v) for v in violations(proof) if v.kind != "property"]
+    told = f"propert{'ies' if len(names) > 1 else 'y'} {', '.join(names)} broken" if names else ""
+    return "; ".join(filter(None, (told, ", ".join(others))))
 
 
 def proof_lines(proof: Proof, drifted: bool) -> Iterator[str]:

@@ -632,7 +632,8 @@ def test_a_collision_is_shown_in_model_and_code(tmp_path: Path) -> None:
     safe.write_text(text)
     done = rebsync("check", "experiment2", "--verify", cwd=tmp_path)
     assert done.status == 3
-    assert "drifted, " in done.out and "Collision_Avoidance broken" in done.out
+    broken = "properties Collision_Avoidance, Left_Before_Entered broken; deadlock"
+    assert f"drifted, {broken}" in done.out
     lines = [x for x in done.out.splitlines() if "experiment2.rebeca:" in x and ".cpp:" in x]
     assert len(lines) > 5
 
