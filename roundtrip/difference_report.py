@@ -8,6 +8,8 @@ from collections.abc import Iterator, Sequence
 
 from rebsync.diagnostics import Diagnostic, Findings, Severity
 from rebsync.report_data import Json, as_github, dump, region, sarif_log
+from rebsync.roundtrip.behaviour import Behaviour, RunStep
+from rebsync.roundtrip.behaviour import lines as behaviour_lines
 from rebsync.roundtrip.difference import (
     Added,
     Changed,
@@ -36,6 +38,7 @@ _CODES: dict[type[Difference], str] = {
     Changed: "RS977",
     Undetermined: "RS978",
 }
+_BEHAVIOUR = "0" * 32  # the fingerprint of what one side alone does
 _KINDS: dict[type[Difference], str] = {
     Added: "added",
     Removed: "removed",
@@ -74,7 +77,7 @@ def counted(comparison: Comparison) -> str:
 # --- text ---------------------------------------------------------------------------------------
 
 
-def lines(comparison: Comparison) -> Iterator[str]:
+def lines(comparison: Comparison, behaviour: Behaviour | None = None) -> Iterator[str]:
     """A line for each difference with both places, below the class that it is in."""
     rows = [
         (d.element.group or "system", *map(_shown, (d.left, d.right)), f"{d.element}: {explain(d)}")
@@ -87,6 +90,8 @@ def lines(comparison: Comparison) -> Iterator[str]:
             yield group
         last = group
         yield f"  {left:{wide[0]}}  {right:{wide[1]}}  {what}"
+    if behaviour is not None:
+        yield from behaviour_lines(behaviour)
 
 
 def _shown(place: Place | None) -> str:
@@ -96,24 +101,45 @@ def _shown(place: Place | None) -> str:
 # --- JSON ---------------------------------------------------------------------------------------
 
 
-def as_json(comparison: Comparison, left: str, right: str, depth: str, **more: object) -> str:
+def as_json(
+    comparison: Comparison, left: str, right: str, depth: str, behaviour: Behaviour | None = None
+) -> str:
     """One object (docs/diff.schema.json)."""
-    return dump(
-        {
-            "version": 1,
-            "left": left,
-            "right": right,
-            "depth": depth,
-            "verdict": verdict_of(comparison),
-            "differences": [
-                data_of(d, print_)
-                for d, print_ in zip(
-                    comparison.differences, fingerprints(comparison.differences), strict=True
-                )
-            ],
-            **more,
-        }
-    )
+    prints = fingerprints(comparison.differences)
+    data: Json = {
+        "version": 1,
+        "left": left,
+        "right": right,
+        "depth": depth,
+        "verdict": verdict_of(comparison),
+        "differences": [
+            data_of(d, print_) for d, print_ in zip(comparison.differences, prints, strict=True)
+        ],
+    }
+    if behaviour is not None:
+        data["behaviour"] = _behaviour(behaviour)
+    return dump(data)
+
+
+def _run_step(step: RunStep) -> Json:
+    return {
+        "time": step.time,
+        "text": step.text,
+        "left": _place(step.left),
+        "right": _place(step.right),
+    }
+
+
+def _behaviour(behaviour: Behaviour) -> Json:
+    instead = behaviour.instead
+    return {
+        "verdict": behaviour.verdict,
+        "reason": behaviour.reason or None,
+        "states": list(behaviour.states),
+        "only": behaviour.only,
+        "run": [_run_step(step) for step in behaviour.run],
+        "instead": _run_step(instead) if instead is not None else None,
+    }
 
 
 def data_of(difference: Difference, fingerprint: str) -> Json:
@@ -165,26 +191,49 @@ def _part(difference: Difference) -> str:
     return ""
 
 
-def findings(comparison: Comparison) -> tuple[Findings, ...]:
-    """Each difference as a finding on the right side; where there is nothing, on the left."""
-    return tuple(_finding(d) for d in comparison.differences)
+def findings(comparison: Comparison, behaviour: Behaviour | None = None) -> tuple[Findings, ...]:
+    """Each difference as a finding on the right side; where there is nothing, on the left.
+
+    Where both do the same, these are notes; what one alone does is a finding of its own.
+    """
+    same = behaviour is not None and behaviour.verdict == "same"
+    severity = Severity.NOTE if same else Severity.WARNING
+    found = [_finding(difference, severity) for difference in comparison.differences]
+    if behaviour is not None and behaviour.verdict != "same":
+        found.append(_of_behaviour(behaviour))
+    return tuple(found)
 
 
-def _finding(difference: Difference) -> Findings:
+def _of_behaviour(behaviour: Behaviour) -> Findings:
+    """The last step of the run that only one side has, with the run as a hint."""
+    last = behaviour.run[-1] if behaviour.run else None
+    place = (last.right or last.left) if last is not None else None
+    message, *rest = behaviour_lines(behaviour)
+    hint = "\n".join(rest) or None
+    source, span = (place.source, place.span) if place is not None else (Source("-", ""), NOWHERE)
+    found = Diagnostic("RS979", span, message, hint, severity=Severity.WARNING)
+    return Findings(source, (found,))
+
+
+def _finding(difference: Difference, severity: Severity) -> Findings:
     here, there = difference.right, difference.left
     if here is None or (here.span == NOWHERE and there is not None and there.span != NOWHERE):
         here, there = there, here
     hint = f"the other side is {there}" if there is not None else None
     source, span = (here.source, here.span) if here is not None else (Source("-", ""), NOWHERE)
     message = f"{difference.element}: {explain(difference)}"
-    found = Diagnostic(code_of(difference), span, message, hint, severity=Severity.WARNING)
+    found = Diagnostic(code_of(difference), span, message, hint, severity=severity)
     return Findings(source, (found,))
 
 
-def as_sarif(comparison: Comparison) -> str:
+def as_sarif(comparison: Comparison, behaviour: Behaviour | None = None) -> str:
     """A SARIF 2.1.0 log: each difference with both places, and a fingerprint that stays."""
     prints = [{"rebsyncElement/v1": p} for p in fingerprints(comparison.differences)]
-    return sarif_log(findings(comparison), prints, [both_places(d) for d in comparison.differences])
+    related = [both_places(d) for d in comparison.differences]
+    found = findings(comparison, behaviour)
+    if len(found) > len(prints):
+        prints.append({"rebsyncElement/v1": _BEHAVIOUR})
+    return sarif_log(found, prints, related)
 
 
 def both_places(difference: Difference) -> list[tuple[Source, Span, str]]:
@@ -193,6 +242,6 @@ def both_places(difference: Difference) -> list[tuple[Source, Span, str]]:
     return [(place.source, place.span, remark) for place, remark in pairs if place is not None]
 
 
-def as_commands(comparison: Comparison) -> str:
+def as_commands(comparison: Comparison, behaviour: Behaviour | None = None) -> str:
     """Workflow commands that GitHub shows beside the changed lines."""
-    return as_github(findings(comparison))
+    return as_github(findings(comparison, behaviour))

@@ -14,6 +14,8 @@ from importlib.resources import files
 from rebsync import model as m
 from rebsync.checker.show.markup import Markup, element, joined
 from rebsync.records import dataclass
+from rebsync.roundtrip.behaviour import Behaviour
+from rebsync.roundtrip.behaviour import lines as behaviour_lines
 from rebsync.roundtrip.difference import (
     Added,
     Comparison,
@@ -50,7 +52,9 @@ class _Pane:
         return f"{self.prefix}{paths.index(place.source.path)}-{place.line}"
 
 
-def sides_page(comparison: Comparison, left: Given, right: Given) -> str:
+def sides_page(
+    comparison: Comparison, left: Given, right: Given, behaviour: Behaviour | None = None
+) -> str:
     """The page of a comparison."""
     panes = _pane("L", left, comparison), _pane("R", right, comparison)
     title = f"{left.source.path} and {right.source.path}"
@@ -58,9 +62,7 @@ def sides_page(comparison: Comparison, left: Given, right: Given) -> str:
     body = element(
         "body",
         joined(
-            element(
-                "header", element("h1", title), _verdict(comparison), *_list(comparison, panes)
-            ),
+            element("header", element("h1", title), *_said(comparison, behaviour, panes)),
             element("main", *map(_texts, panes)),
             element("script", script),
         ),
@@ -93,6 +95,15 @@ def _verdict(comparison: Comparison) -> Markup:
     return element(
         "p", element("strong", verdict, class_=f"verdict {verdict}"), f": {counted(comparison)}"
     )
+
+
+def _said(
+    comparison: Comparison, behaviour: Behaviour | None, panes: tuple[_Pane, _Pane]
+) -> Iterator[Markup]:
+    yield _verdict(comparison)
+    yield from _list(comparison, panes)
+    if behaviour is not None:
+        yield element("pre", "\n".join(behaviour_lines(behaviour)))
 
 
 def _list(comparison: Comparison, panes: tuple[_Pane, _Pane]) -> Iterator[Markup]:

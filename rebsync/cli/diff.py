@@ -14,10 +14,16 @@ from rebsync.cli.status import Status
 
 if TYPE_CHECKING:
     from rebsync.diagnostics import Findings
+    from rebsync.roundtrip.behaviour import Behaviour
     from rebsync.roundtrip.difference import Comparison
     from rebsync.roundtrip.models import Code
 
 FORMATS = ("text", "json", "sarif", "github", "html")
+_DONE = {
+    "same": Status.CLEAN,
+    "different": Status.FINDINGS,
+    "undetermined": Status.UNDETERMINED,
+}
 
 
 @click.command("diff")
@@ -38,13 +44,26 @@ FORMATS = ("text", "json", "sarif", "github", "html")
     show_default=True,
     help="How to print the differences; html: a page with both sides.",
 )
+@click.option(
+    "--behaviour", is_flag=True, help="Compare what the two do: their state spaces, up to names."
+)
+@click.option(
+    "--max-states",
+    type=click.IntRange(1),
+    default=20_000,
+    show_default=True,
+    metavar="N",
+    help="States of each side that --behaviour looks at.",
+)
 @output_option
-def command(left: str, right: str, depth: str, style: str, output: str) -> Status:
+def command(
+    left: str, right: str, depth: str, style: str, behaviour: bool, max_states: int, output: str
+) -> Status:
     """Compare two models: element by element, statement by statement.
 
     A and B are models, packages of code, or REVISION:PATH of either in git, such as HEAD~3:robots.
     Exit status: 0 no difference, 1 differences, 4 where something of the code cannot be read, 2
-    nothing read.
+    nothing read. With --behaviour it is that of what the two do.
     """
     from rebsync.report import print_report
     from rebsync.roundtrip.difference import Depth
@@ -55,13 +74,16 @@ def command(left: str, right: str, depth: str, style: str, output: str) -> Statu
         raise click.UsageError("standard input can be one of the two only")
     sides = read_side(left), read_side(right)
     comparison = compare(sides[0].given, sides[1].given, Depth(depth))
-    write_output(output, _text(comparison, sides, (left, right), depth, style))
+    done = _behaviour(comparison, sides, max_states) if behaviour else None
+    write_output(output, _text(comparison, sides, (left, right), depth, style, done))
     loose = [found for side in sides for found in _loose(side)]
     if style == "text":
         print_report(loose, sys.stderr)
         sys.stdout.flush()
         if not comparison.is_empty:
             click.echo(_counted(comparison), err=True)
+    if done is not None:
+        return _DONE[done.verdict] if not loose else max(_DONE[done.verdict], Status.FINDINGS)
     if comparison.is_undetermined:
         return Status.UNDETERMINED
     return Status.CLEAN if comparison.is_empty and not loose else Status.FINDINGS
@@ -81,21 +103,35 @@ def _counted(comparison: Comparison) -> str:
     return counted(comparison)
 
 
+def _behaviour(comparison: Comparison, sides: tuple[Code, Code], most: int) -> Behaviour:
+    from rebsync.roundtrip.behaviour import SAME
+    from rebsync.roundtrip.bisimulation import compare_behaviour
+
+    if comparison.is_empty:
+        return SAME
+    return compare_behaviour(sides[0].given, sides[1].given, most)
+
+
 def _text(
-    comparison: Comparison, sides: tuple[Code, Code], names: tuple[str, str], depth: str, style: str
+    comparison: Comparison,
+    sides: tuple[Code, Code],
+    names: tuple[str, str],
+    depth: str,
+    style: str,
+    done: Behaviour | None,
 ) -> str:
     from rebsync.roundtrip import difference_report as report
 
     match style:
         case "json":
-            return report.as_json(comparison, *names, depth)
+            return report.as_json(comparison, *names, depth, done)
         case "sarif":
-            return report.as_sarif(comparison)
+            return report.as_sarif(comparison, done)
         case "github":
-            return report.as_commands(comparison)
+            return report.as_commands(comparison, done)
         case "html":
             from rebsync.roundtrip.sides_page import sides_page
 
-            return sides_page(comparison, sides[0].given, sides[1].given)
+            return sides_page(comparison, sides[0].given, sides[1].given, done)
         case _:
-            return "".join(f"{line}\n" for line in report.lines(comparison))
+            return "".join(f"{line}\n" for line in report.lines(comparison, done))

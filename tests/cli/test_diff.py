@@ -194,3 +194,55 @@ def test_standard_input(example: Path) -> None:
     text = (example / MODEL).read_bytes()
     assert rebsync("diff", "-", PACKAGE, cwd=example, stdin=text).status == 0
     assert rebsync("diff", "-", "-", cwd=example, stdin=text).status == 2
+
+
+# --- behaviour ----------------------------------------------------------------------------------
+
+
+def test_what_is_written_in_another_way_does_the_same(example: Path) -> None:
+    shutil.copy(example / MODEL, example / "other.rebeca")
+    edit(example / "other.rebeca", "self.current_segment < 10", "!(self.current_segment >= 10)")
+    assert rebsync("diff", MODEL, "other.rebeca", cwd=example).status == 1
+    done = rebsync("diff", MODEL, "other.rebeca", "--behaviour", cwd=example)
+    assert done.status == 0
+    assert done.out.endswith("behaviour: same (89 and 89 states)\n")
+
+
+def test_a_run_that_only_one_side_has(example: Path) -> None:
+    edit(example / CODE, *GUARD)
+    done = rebsync("diff", MODEL, PACKAGE, "--behaviour", cwd=example)
+    assert done.status == 1
+    lines = done.out.splitlines()
+    at = next(i for i, line in enumerate(lines) if line.startswith("behaviour: different ("))
+    assert lines[at + 1].startswith("  a shortest run that only the ")
+    steps = [line for line in lines[at + 2 :] if not line.startswith("  where")]
+    assert steps[0].endswith("the constructors run")
+    assert steps[-1].startswith("  > ")
+    assert "robot1 takes taskControl()" in steps[-1]
+    both = f"{MODEL}:{line_of(example / MODEL, 'msgsrv taskControl')}  {CODE}:"
+    assert any(both in step for step in steps)
+    done = rebsync("diff", MODEL, PACKAGE, "--behaviour", "--format", "json", cwd=example)
+    found = json.loads(done.out)
+    jsonschema.Draft202012Validator(SCHEMA).validate(found)
+    assert found["behaviour"]["verdict"] == "different"
+    assert len(found["behaviour"]["run"]) == len(steps)
+
+
+def test_more_states_than_the_bound(example: Path) -> None:
+    shutil.copy(example / MODEL, example / "other.rebeca")
+    edit(example / "other.rebeca", "self.current_segment < 10", "!(self.current_segment >= 10)")
+    bounded = ("--behaviour", "--max-states", "20")
+    done = rebsync("diff", MODEL, "other.rebeca", *bounded, cwd=example)
+    assert done.status == 4
+    assert "behaviour: undetermined: the bound of 20 states was reached" in done.out
+
+
+@pytest.mark.parametrize("style", ["sarif", "github", "html"])
+def test_behaviour_in_other_formats(example: Path, style: str) -> None:
+    edit(example / CODE, *GUARD)
+    done = rebsync("diff", MODEL, PACKAGE, "--behaviour", "--format", style, cwd=example)
+    assert (done.status, done.err) == (1, "")
+    assert "behaviour: different" in done.out
+    if style == "sarif":
+        rules = [result["ruleId"] for result in json.loads(done.out)["runs"][0]["results"]]
+        assert rules == ["RS977", "RS979"]

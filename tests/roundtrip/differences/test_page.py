@@ -47,7 +47,7 @@ def page_text(folder: Path) -> str:
         text = text.replace(old, new)
     code.write_text(text, encoding="utf-8")
     sides = [read_side(str(path)).given for path in (EXAMPLE / "experiment1.rebeca", package)]
-    return sides_page(compare(sides[0], sides[1]), *sides)
+    return sides_page(compare(sides[0], sides[1]), sides[0], sides[1])
 
 
 @pytest.fixture(scope="module")
