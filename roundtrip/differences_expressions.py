@@ -38,14 +38,15 @@ class _Two:
 
     def lists(self, x: m.Statement | None, r: m.Statement | None) -> tuple[Statements, Statements]:
         """The statements of two branches."""
-        return _list(x), _list(r)
+        return statements_of(x), statements_of(r)
 
     def name(self, expression: m.Expression) -> str:
         """An expression as it is written on the left."""
         return print_expression(self.left.written(expression))
 
 
-def _list(statement: m.Statement | None) -> Statements:
+def statements_of(statement: m.Statement | None) -> Statements:
+    """The statements of a branch or body."""
     if statement is None:
         return ()
     if isinstance(statement, m.Block) and not statement.annotations:
@@ -84,7 +85,23 @@ def parts_of(x: m.Statement, r: m.Statement, left: Tokens, right: Tokens) -> Par
 
 def _part(aspect: Aspect, of: str, x: object, r: object) -> Iterator[Part]:
     if x != r:
-        yield Part(aspect, of, x, r)
+        yield Part(aspect, of, *_narrowed(x, r))
+
+
+def _narrowed(x: object, r: object) -> tuple[object, object]:
+    """Of conditions that are put together in one way, the one that is different."""
+    while True:
+        match x, r:
+            case m.Paren(a), m.Paren(b):
+                x, r = a, b
+            case m.Unary("!", a), m.Unary("!", b):
+                x, r = a, b
+            case m.Binary("&&" | "||" as one, a, c), m.Binary(other, b, d) if one == other:
+                if a != b and c != d:
+                    return x, r
+                x, r = (a, b) if a != b else (c, d)
+            case _:
+                return x, r
 
 
 # --- expressions --------------------------------------------------------------------------------

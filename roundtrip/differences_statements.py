@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import field
@@ -24,13 +23,17 @@ from rebsync.roundtrip.difference import (
     Undetermined,
 )
 from rebsync.roundtrip.differences_expressions import Part, parts_of
+from rebsync.roundtrip.differences_likeness import (
+    are_akin,
+    head_of,
+    with_inner,
+    words_of,
+)
 from rebsync.roundtrip.sides import UNREADABLE, is_unreadable
 from rebsync.roundtrip.tokens import Tokens
 from rebsync.source import NOWHERE
 
 Statements: TypeAlias = tuple[m.Statement, ...]
-
-_WORD = re.compile(r"%?\w+|[^\w\s%(){},;.]+")
 
 
 @dataclass(slots=True, eq=False)
@@ -81,12 +84,44 @@ class Bodies:
         unread = [self._is_unread(self.left, lefts), self._is_unread(self.right, rights)]
         self._unread(self.left, unread[0], left, right)
         self._unread(self.right, unread[1], left, right)
-        for statement in lefts if not unread[1] else ():
-            if statement not in unread[0]:
-                self._only_left(statement, right)
-        for statement in rights if not unread[0] else ():
-            if statement not in unread[1]:
-                self._only_right(statement, left)
+        lefts = [s for s in lefts if s not in unread[0]] if not unread[1] else []
+        rights = [s for s in rights if s not in unread[1]] if not unread[0] else []
+        if self._wrapped(lefts, rights, left, right):
+            return
+        for statement in lefts:
+            self._only_left(statement, right)
+        for statement in rights:
+            self._only_right(statement, left)
+
+    def _wrapped(
+        self,
+        lefts: list[m.Statement],
+        rights: list[m.Statement],
+        left: Place | None,
+        right: Place | None,
+    ) -> bool:
+        """Whether a statement has come, or gone, around others that stayed; then it is told."""
+        if not lefts or not rights:
+            return False
+        around = next(
+            ((r, b) for r in rights for b in inner_lists(r) if have_common(lefts, b)), None
+        )
+        if around is not None:
+            outer, inner = around
+            self._only_right(outer, left, self._head_text(self.right, outer))
+            at = self._place(self.right, outer) or right
+            self._lists(tuple(lefts), with_inner(rights, outer, inner), left, at)
+            return True
+        around = next(
+            ((x, b) for x in lefts for b in inner_lists(x) if have_common(rights, b)), None
+        )
+        if around is None:
+            return False
+        outer, inner = around
+        self._only_left(outer, right, self._head_text(self.left, outer))
+        at = self._place(self.left, outer) or left
+        self._lists(with_inner(lefts, outer, inner), tuple(rights), at, right)
+        return True
 
     def _is_unread(self, tokens: Tokens, statements: list[m.Statement]) -> list[m.Statement]:
         return [s for s in statements if is_unreadable(tokens.written(s))]
@@ -107,19 +142,24 @@ class Bodies:
             places = (place or left, right) if tokens is self.left else (left, place or right)
             self.found.append(Undetermined(self.element, why, *places))
 
-    def _only_left(self, statement: m.Statement, right: Place | None) -> None:
-        self.removed.append((statement, len(self.found)))
+    def _only_left(self, statement: m.Statement, right: Place | None, head: str = "") -> None:
+        """`head` is what is told of a statement whose inside is compared."""
         place = self._place(self.left, statement)
-        text = self._text(self.left, statement)
+        text = head or self._text(self.left, statement)
+        if not head:
+            self.removed.append((statement, len(self.found)))
         self.found.append(StatementRemoved(self.element, text, place, right))
-        self._unread_inside(self.left, statement, place, right)
+        if not head:
+            self._unread_inside(self.left, statement, place, right)
 
-    def _only_right(self, statement: m.Statement, left: Place | None) -> None:
-        self.inserted.append((statement, len(self.found)))
+    def _only_right(self, statement: m.Statement, left: Place | None, head: str = "") -> None:
         place = self._place(self.right, statement)
-        text = self._text(self.right, statement)
+        text = head or self._text(self.right, statement)
+        if not head:
+            self.inserted.append((statement, len(self.found)))
         self.found.append(StatementInserted(self.element, text, left, place))
-        self._unread_inside(self.right, statement, left, place)
+        if not head:
+            self._unread_inside(self.right, statement, left, place)
 
     def _unread_inside(
         self, tokens: Tokens, statement: m.Statement, left: Place | None, right: Place | None
@@ -201,16 +241,22 @@ class Bodies:
         if type(x) is not type(r) or UNREADABLE in (_note(self.left, x), _note(self.right, r)):
             return 0.0
         whole = overlap(self._words(x), self._words(r))
-        heads = overlap(_words_of(_head(x)), _words_of(_head(r))) if _head(x) is not x else 0.0
-        return max(whole, heads * 0.95, ALIKE if _akin(x, r) else 0.0)
+        heads = overlap(words_of(head_of(x)), words_of(head_of(r))) if head_of(x) is not x else 0.0
+        return max(whole, heads * 0.95, ALIKE if are_akin(x, r) else 0.0)
 
     def _words(self, statement: m.Statement) -> Counter[str]:
         if id(statement) not in self.words:
-            self.words[id(statement)] = _words_of(statement)
+            self.words[id(statement)] = words_of(statement)
         return self.words[id(statement)]
 
     def _text(self, tokens: Tokens, statement: m.Statement) -> str:
         return " ".join(print_statement(tokens.written(statement)).split())
+
+    def _head_text(self, tokens: Tokens, statement: m.Statement) -> str:
+        written = tokens.written(statement)
+        if isinstance(written, m.Block):
+            return "{...}"
+        return " ".join(print_statement(head_of(written)).split()).replace("{}", "{...}")
 
     def _shown(self, tokens: Tokens, node: object) -> str:
         written = tokens.written(node)
@@ -264,40 +310,3 @@ def _declaration(statement: m.Node) -> m.Declaration | None:
             return declaration
         case _:
             return None
-
-
-def _words_of(statement: m.Statement) -> Counter[str]:
-    return Counter(_WORD.findall(print_statement(statement)))
-
-
-def _head(statement: m.Statement) -> m.Statement:
-    """A statement without what is inside of it."""
-    nothing = m.Block(())
-    match statement:
-        case m.If(condition):
-            return m.If(condition, nothing)
-        case m.While(condition):
-            return m.While(condition, nothing)
-        case m.For(initial, condition, updates):
-            return m.For(initial, condition, updates, nothing)
-        case m.Switch(subject):
-            return m.Switch(subject, ())
-        case _:
-            return statement
-
-
-def _akin(x: m.Statement, r: m.Statement) -> bool:
-    """Whether two statements do the same to the same, if perhaps with other values."""
-    match x, r:
-        case (m.Return(), m.Return()) | (m.Empty(), m.Empty()):
-            return True
-        case (m.ExpressionStatement(m.Call() as a), m.ExpressionStatement(m.Call() as b)):
-            return (a.name, a.target) == (b.name, b.target)
-        case (m.ExpressionStatement(m.Assign() as a), m.ExpressionStatement(m.Assign() as b)):
-            return a.target == b.target
-        case (m.Local(a), m.Local(b)):
-            return [d.name for d in a.declarators] == [d.name for d in b.declarators]
-        case (m.Switch(a), m.Switch(b)):
-            return a == b
-        case _:
-            return False
