@@ -103,18 +103,14 @@ class Bodies:
         """Whether a statement has come, or gone, around others that stayed; then it is told."""
         if not lefts or not rights:
             return False
-        around = next(
-            ((r, b) for r in rights for b in inner_lists(r) if have_common(lefts, b)), None
-        )
+        around = around_some(rights, lefts)
         if around is not None:
             outer, inner = around
             self._only_right(outer, left, self._head_text(self.right, outer))
             at = self._place(self.right, outer) or right
             self._lists(tuple(lefts), with_inner(rights, outer, inner), left, at)
             return True
-        around = next(
-            ((x, b) for x in lefts for b in inner_lists(x) if have_common(rights, b)), None
-        )
+        around = around_some(lefts, rights)
         if around is None:
             return False
         outer, inner = around
