@@ -16,8 +16,6 @@ from rebsync.roundtrip.settings import changed_settings
 from rebsync.source import NOWHERE, Source
 
 if TYPE_CHECKING:
-    from rebsync.roundtrip.models import Code
-    from rebsync.roundtrip.sides import Given
     from rebsync.roundtrip.verdict import Drift
 
 
@@ -35,8 +33,6 @@ class Checked:
     standing: Standing
     drift: Drift | None = None
     findings: tuple[Findings, ...] = field(default=())
-    code: Code | None = None
-    today: Given | None = None
 
 
 def check(kept: Kept, depth: str = "equal") -> Checked:
@@ -80,36 +76,19 @@ def _about_base(kept: Kept, record: Record) -> tuple[Findings, ...]:
 
 
 def _compared(kept: Kept, model: str, record: Record | None, now: Standing, depth: str) -> Checked:
-    from rebsync.roundtrip.difference import Depth
-    from rebsync.roundtrip.differences import compare
-    from rebsync.roundtrip.models import code_given, model_given
+    from rebsync.roundtrip.judged import judged
     from rebsync.roundtrip.runtime import edited
-    from rebsync.roundtrip.verdict import judge, undetermined
+    from rebsync.roundtrip.verdict import undetermined
     from rebsync.roundtrip.wiring import odd_wiring
 
-    today = model_given(model)
-    base, findings = _base(kept, record)
-    code = code_given(kept, now)
-    how = Depth(depth)
-    of_model = compare(base, today, how) if base is not None else None
-    of_code = compare(base, code.given, how) if base is not None else None
-    drift = judge(compare(today, code.given, how), of_model, of_code)
-    findings += code.findings
+    has_base = record is not None and is_base_whole(kept, record)
+    found = judged(kept, model, record.digest if record and has_base else None, now, depth)
+    drift, findings = found.drift, found.findings
     if record is not None:
         unknown = edited(kept, record, now)
-        if of_code is not None:
-            unknown += odd_wiring(kept, record, now, of_code)
+        if found.of_code is not None:
+            unknown += odd_wiring(kept, record, now, found.of_code)
         drift = undetermined(drift) if unknown else drift
-        findings += (*unknown, *changed_settings(model, record))
-    return Checked(kept, model, record, now, drift, findings, code, today)
-
-
-def _base(kept: Kept, record: Record | None) -> tuple[Given | None, tuple[Findings, ...]]:
-    """The model of last time, if it is there and as recorded; else what is to be said of that."""
-    if record is None:
-        return None, ()
-    if is_base_whole(kept, record):
-        from rebsync.roundtrip.models import model_given
-
-        return model_given(f"{kept.root}/{BASE_MODEL}"), ()
-    return None, _about_base(kept, record)
+        about = (*_about_base(kept, record), *changed_settings(model, record))
+        findings = (*about, *findings, *unknown)
+    return Checked(kept, model, record, now, drift, findings)

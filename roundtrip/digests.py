@@ -34,6 +34,13 @@ class Standing:
         """Whether all code is what was generated."""
         return not (self.changed or self.missing or self.listing.odd)
 
+    @property
+    def told(self) -> tuple[str, ...]:
+        """All that what the code says depends on, as texts."""
+        files = (f"{name} {digest}" for name, digest in sorted(self.digests.items()))
+        odd = (f"{name} {why}" for name, why in sorted(self.listing.odd.items()))
+        return (*files, "odd", *odd)
+
 
 def standing(kept: Kept, record: Record | None) -> Standing:
     """How a package stands against what its manifest records; without one, all is changed."""

@@ -28,7 +28,7 @@ _DIGEST = hashlib.sha256().digest_size
 _BUILTINS = frozenset({"frozenset", "set", "dict", "list", "tuple"})
 # What an entry holds follows from the texts and from the code that reads these.
 _READERS = (
-    *("", "grammars", "reverse", "static"),
+    *("", "grammars", "reverse", "roundtrip", "static"),
     *("checker", "checker/lowering", "checker/temporal"),
 )
 

@@ -57,10 +57,7 @@ def parsed(source: Source) -> m.Model:
 
 def code_given(package: Kept, standing: Standing) -> Code:
     """What the code of a package tells."""
-    listing = standing.listing
-    parts = [f"{name} {digest}" for name, digest in sorted(standing.digests.items())]
-    odd = [f"{name} {why}" for name, why in sorted(listing.odd.items())]
-    key = key_of("code", package.root, *parts, "odd", *odd)
+    key = key_of("code", package.root, *standing.told)
     code = kept(key, Code)
     if code is None:
         code = _extracted(standing)

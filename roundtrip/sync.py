@@ -78,8 +78,8 @@ class _Syncing:
 
     def result(self) -> Sync:
         """Merges the model, then the code, and proves that both say the same then."""
-        today = self.checked.today or model_given(self.checked.model)
-        code = self.checked.code or code_given(self.checked.kept, self.checked.standing)
+        today = model_given(self.checked.model)
+        code = code_given(self.checked.kept, self.checked.standing)
         left = [f for f in code.findings if any(d.code == "RS966" for d in f.diagnostics)]
         if left:
             raise RebsyncError(left)

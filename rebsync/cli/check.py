@@ -89,8 +89,8 @@ def _proof(checked: Checked, given: dict[str, Any]) -> Proof:
     from rebsync.roundtrip.models import code_given, model_given
     from rebsync.roundtrip.proof import prove
 
-    code = checked.code or code_given(checked.kept, checked.standing)
-    today = checked.today or model_given(checked.model)
+    code = code_given(checked.kept, checked.standing)
+    today = model_given(checked.model)
     limits = Limits(given["max_states"], given["max_time"], given["memory"])
     options = Options(limits=limits, allowed=frozenset(given["allow"]))
     return prove(code, today, given["property_file"], options)
