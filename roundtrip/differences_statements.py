@@ -25,6 +25,7 @@ from rebsync.roundtrip.difference import (
 from rebsync.roundtrip.differences_expressions import Part, parts_of
 from rebsync.roundtrip.differences_likeness import (
     are_akin,
+    around_some,
     head_of,
     with_inner,
     words_of,
