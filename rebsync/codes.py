@@ -190,6 +190,7 @@ STEP = {
     "RS956": "generated code that no model describes, and that was edited",
     "RS957": "something that goes wrong in what the code does",
     "RS958": "a verification of what the code does that has no answer",
+    "RS959": "an element that the code has changed, and that could not be read in whole",
     "RS960": "a path without a package that was made from a model",
     "RS961": "a package without the manifest of `.rebsync/`",
     "RS962": "a manifest that is damaged",
@@ -197,6 +198,9 @@ STEP = {
     "RS964": "a package without the model as of the last time in step",
     "RS965": "a package without the model that it was made from",
     "RS966": "a conflict that a merge left in a file",
+    "RS967": "changes of model and code that make no model together",
+    "RS968": "merged code that does not say what the merged model says",
+    "RS969": "a generated file that is edited or gone, and cannot be merged",
 }
 
 DIFFERENCES = {

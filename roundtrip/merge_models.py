@@ -62,9 +62,12 @@ def merged_model(base: Given | None, today: Given, code: Given, favour: Favour) 
 
 
 def as_code_says(today: Given, code: Given) -> str:
-    """The text of a model with everything as the code has it."""
+    """The text of a model with everything as the code has it, as far as it could be read."""
     comparison = compare(today, code)
-    movers = {_whole(d.element): {Mover.CODE} for d in comparison.differences}
+    unknown = {d.element for d in comparison.differences if isinstance(d, Undetermined)}
+    movers = {
+        _whole(d.element): {Mover.CODE} for d in comparison.differences if d.element not in unknown
+    }
     return _with_code(today, code, movers, {Mover.CODE})
 
 

@@ -21,14 +21,40 @@ class MergedText:
     conflicts: int = 0
 
 
-def merged_text(ours: str, base: str, theirs: str, labels: tuple[str, str]) -> MergedText:
-    """Both changes of a text; where they touch, both sides between conflict markers."""
+def merged_text(
+    ours: str, base: str, theirs: str, labels: tuple[str, str], favour: str = "markers"
+) -> MergedText:
+    """Both changes of a text; where they touch, both sides between conflict markers.
+
+    With the favour `ours` the model's side is taken there, which is `theirs` of the texts, and
+    with `theirs` that of the code.
+    """
     if theirs in (base, ours):
         return MergedText(ours)
     if ours == base:
         return MergedText(theirs)
     found = _by_git(ours, base, theirs, labels)
-    return found if found is not None else merged_lines(ours, base, theirs, labels)
+    merged = found if found is not None else merged_lines(ours, base, theirs, labels)
+    if not merged.conflicts or favour == "markers":
+        return merged
+    return MergedText(decided(merged.text, labels, favour == "theirs"))
+
+
+def decided(text: str, labels: tuple[str, str], first: bool) -> str:
+    """A merged text with the first or the second side of each conflict."""
+    out: list[str] = []
+    side = 0
+    for line in text.splitlines(keepends=True):
+        plain = line.rstrip("\r\n")
+        if plain == f"<<<<<<< {labels[0]}":
+            side = 1
+        elif side == 1 and plain == "=======":
+            side = 2
+        elif side == 2 and plain == f">>>>>>> {labels[1]}":
+            side = 0
+        elif not side or (side == 1) is first:
+            out.append(line)
+    return "".join(out)
 
 
 def both_sides(ours: str, theirs: str, our_label: str, their_label: str) -> str:

@@ -18,6 +18,7 @@ COMMANDS = {
     "lint": "Report mistakes in models and properties.",
     "new": "Begin a model from a conceptual model in TOML.",
     "simulate": "Make one run of a model, by chance or by hand.",
+    "sync": "Bring packages and their models in step.",
     "verify": "Check everything that can go wrong in a model, and its properties.",
 }
 
