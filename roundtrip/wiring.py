@@ -40,6 +40,8 @@ _JOINING = frozenset(
         *(Aspect.ABSTRACT, Aspect.ANNOTATION),
     }
 )
+# Without these extraction lists what they were for; and somebody may call them otherwise.
+_MISSED = frozenset({"subscription", "publisher", "priority"})
 _HINT = "take the edit back, or tell of it in the model"
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/|<!--.*?-->", re.DOTALL)
 _OWNER = re.compile(r"\b(\w+)::\1\s*\(")
@@ -57,6 +59,7 @@ _FAR = 400  # characters within which a subscription names its handler
 _POSTED = re.compile(r"\bk[A-Z]\w*")
 _TAG = re.compile(r"<(/?)([\w-]+)((?:\s+[\w-]+\s*=\s*(?:\"[^\"]*\"|'[^']*'))*)\s*(/?)>")
 _ATTRIBUTE = re.compile(r"([\w-]+)\s*=\s*(?:\"([^\"]*)\"|'([^']*)')")
+_STATE = re.compile(r"^string server\nstring arguments$", re.MULTILINE)
 _FIELD = re.compile(r"^[ \t]*([\w/\[\]]+)[ \t]+(\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
 
 
@@ -89,8 +92,7 @@ def odd_wiring(
     found = list[Findings]()
     files = {name.rpartition("/")[2] for name in now.listing.files}
     for key, facts in base.items():
-        has_moved = facts[0].kind == "source of a program" and facts[0].name not in files
-        if not (has_moved or _is_excused(facts[0], joined)):
+        if not (_has_moved(facts[0], files) or _is_excused(facts[0], joined)):
             found += _changes(kept, facts, today.get(key, []))
     return tuple(found)
 
@@ -110,6 +112,12 @@ def _joins(difference: Difference) -> bool:
             return False
 
 
+def _has_moved(fact: _Fact, files: set[str]) -> bool:
+    """Whether a fact is about a file that is somewhere else, or called otherwise."""
+    about = {"source of a program": fact.name, "field": f"{fact.owner}.msg"}.get(fact.kind)
+    return about is not None and about not in files
+
+
 def _is_excused(fact: _Fact, joined: set[str]) -> bool:
     if fact.kind in ("remap", "node", "parameter") or fact.kind.endswith(" program"):
         return bool(joined)
@@ -121,7 +129,7 @@ def _is_excused(fact: _Fact, joined: set[str]) -> bool:
 def _changes(kept: Kept, before: list[_Fact], now: list[_Fact]) -> Iterator[Findings]:
     """What of the facts of one key is not as it was."""
     old, new = {f.value for f in before}, {f.value for f in now}
-    if old == new:
+    if old == new or (not new and before[0].kind in _MISSED):
         return
     first = before[0]
     what = " ".join(filter(None, ("the", first.kind, first.name)))
@@ -226,6 +234,8 @@ def _launched(source: Source, text: str) -> Iterator[_Fact]:
 
 def _fields(source: Source) -> Iterator[_Fact]:
     message = Path(source.path).stem
+    if _STATE.search(source.text):
+        return  # what a node tells of itself, and no other takes
     for m in _FIELD.finditer(source.text):
         yield _Fact("field", message, m[2], m[1], source, Span(*m.span()))
 
