@@ -87,7 +87,8 @@ def _compared(kept: Kept, model: str, record: Record | None, now: Standing, dept
     if record is not None:
         unknown = edited(kept, record, now)
         if found.of_code is not None:
-            unknown += odd_wiring(kept, record, now, found.of_code)
+            odd = odd_wiring(kept, record, now, found.of_code)
+            unknown += tuple(f for f in odd if f.diagnostics[0].message not in record.accepted)
         drift = undetermined(drift) if unknown else drift
         about = (*_about_base(kept, record), *changed_settings(model, record))
         findings = (*about, *findings, *unknown)

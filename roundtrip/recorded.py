@@ -22,7 +22,8 @@ class Record:
 
     `model` is the name of the model's file; `path` leads to it from the package's folder, empty
     where that is not recorded. `digest` is that of the model's text, `files` those of the texts
-    that were generated.
+    that were generated. `accepted` is how nodes are joined otherwise than generated, as a change
+    of the code that is in the model since.
     """
 
     model: str
@@ -30,6 +31,7 @@ class Record:
     digest: str
     options: dict[str, Any]
     files: dict[str, str]
+    accepted: frozenset[str] = frozenset()
 
 
 def read_record(root: str) -> Record:
@@ -86,7 +88,7 @@ def _record(source: Source, data: object) -> Record:
             "options": dict(options),
             "files": dict(files),
         } if all(isinstance(k, str) and isinstance(v, str) for k, v in files.items()):
-            return Record(name, _path(data), digest, options, files)
+            return Record(name, _path(data), digest, options, files, _accepted(data))
         case _:
             raise _damaged(source, NOWHERE, "a part of it is missing or of the wrong kind")
 
@@ -97,3 +99,11 @@ def _path(data: object) -> str:
             return path
         case _:
             return ""
+
+
+def _accepted(data: object) -> frozenset[str]:
+    match data:
+        case {"accepted": [*told]}:
+            return frozenset(each for each in told if isinstance(each, str))
+        case _:
+            return frozenset()
