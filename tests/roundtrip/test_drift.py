@@ -7,13 +7,25 @@ from pathlib import Path
 
 import pytest
 
+from rebsync.reserved import RUNTIME_HEADERS
 from rebsync.roundtrip.checked import Checked, check
+from rebsync.roundtrip.markers import elements
 from rebsync.roundtrip.packages import find
 from rebsync.roundtrip.verdict import Verdict
 from tests.reverse.test_edits import BY_NAME, EDITS, LISTED, edited
 
 # These differ in parentheses without a meaning.
 SAME = frozenset({"constants_extracted"})
+
+
+def test_run_time_headers_are_known() -> None:
+    """The headers that are the same for every model, but for the name of the package."""
+    found = set()
+    for name, example in BY_NAME.items():
+        for path in (example / name / "include" / name).iterdir():
+            if not list(elements(path.read_text(encoding="utf-8"))):
+                found.add(path.stem)
+    assert found == set(RUNTIME_HEADERS)
 
 
 def checked(example: str, files: dict[str, str], folder: Path) -> Checked:
