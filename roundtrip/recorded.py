@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -107,3 +108,11 @@ def _accepted(data: object) -> frozenset[str]:
             return frozenset(each for each in told if isinstance(each, str))
         case _:
             return frozenset()
+
+
+def with_accepted(manifest: str, accepted: Iterable[str]) -> str:
+    """The text of a manifest that accepts how some nodes are joined."""
+    told = sorted(accepted)
+    data = {k: v for k, v in json.loads(manifest).items() if k != "accepted"}
+    whole = {**data, "accepted": told} if told else data
+    return json.dumps(whole, indent=2, ensure_ascii=False) + "\n"

@@ -25,12 +25,12 @@ from rebsync.roundtrip.difference import (
 )
 from rebsync.roundtrip.differences import compare
 from rebsync.roundtrip.digests import is_base_whole, is_text_of
-from rebsync.roundtrip.manifest import BASE, BASE_MODEL, FOLDER, with_manifest
+from rebsync.roundtrip.manifest import BASE, BASE_MODEL, FOLDER, MANIFEST, with_manifest
 from rebsync.roundtrip.merge_code import MergedCode, Stages, ancestors, merged_code, recorded_base
 from rebsync.roundtrip.merge_models import Favour, as_code_says, merged_model
 from rebsync.roundtrip.models import code_given, model_given, parsed
 from rebsync.roundtrip.packages import SETTINGS
-from rebsync.roundtrip.recorded import Record, conflict_in, read_record
+from rebsync.roundtrip.recorded import Record, conflict_in, read_record, with_accepted
 from rebsync.roundtrip.sides import Given
 from rebsync.roundtrip.verdict import Mover
 from rebsync.source import NOWHERE, Source, Span
@@ -239,6 +239,7 @@ class _Syncing:
         records: dict[str, str | None] = {
             name: text for name, text in whole.items() if name.startswith(f"{FOLDER}/")
         }
+        records[MANIFEST] = with_accepted(whole[MANIFEST], self.record.accepted)
         for name in recorded_base(root, BASE):
             records.setdefault(BASE + name, None)
         return records

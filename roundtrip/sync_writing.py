@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import subprocess
 from pathlib import Path
@@ -47,7 +46,7 @@ def _accept(sync: Sync) -> None:
         return
     from rebsync.roundtrip.difference import Comparison
     from rebsync.roundtrip.digests import standing
-    from rebsync.roundtrip.recorded import read_record
+    from rebsync.roundtrip.recorded import read_record, with_accepted
     from rebsync.roundtrip.wiring import odd_wiring
 
     record = read_record(kept.root)
@@ -55,10 +54,8 @@ def _accept(sync: Sync) -> None:
     told = {_subject(d.message) for f in sync.findings for d in f.diagnostics if d.code == "RS956"}
     messages = sorted({d.message for f in odd for d in f.diagnostics})
     accepted = [message for message in messages if _subject(message) not in told]
-    if accepted:
-        manifest = json.loads(sync.records[MANIFEST] or "{}")
-        text = json.dumps({**manifest, "accepted": accepted}, indent=2, ensure_ascii=False) + "\n"
-        replace_tree(kept.root, {MANIFEST: text})
+    manifest = with_accepted(sync.records[MANIFEST] or "{}", accepted)
+    replace_tree(kept.root, {MANIFEST: manifest})
 
 
 def _subject(message: str) -> str:
