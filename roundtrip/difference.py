@@ -13,6 +13,7 @@ from rebsync.source import NOWHERE, Source, SourceSpan, Span
 from rebsync.unions import assert_never
 
 _LONGEST = 72
+_AROUND = 20  # of what two long texts have in common before they differ
 
 
 class Depth(Enum):
@@ -255,7 +256,18 @@ def _change(change: Changed) -> str:
         return f"{what} added: {clipped(change.new)}"
     if not change.new:
         return f"{what} removed: {clipped(change.old)}"
-    return f"{what} changed from {clipped(change.old)} to {clipped(change.new)}"
+    old, new = _both_clipped(change.old, change.new)
+    return f"{what} changed from {old} to {new}"
+
+
+def _both_clipped(old: str, new: str) -> tuple[str, str]:
+    """Two texts, each on one line; of long ones the part where they begin to differ."""
+    first, second = " ".join(old.split()), " ".join(new.split())
+    same = next((i for i, (a, b) in enumerate(zip(first, second, strict=False)) if a != b), 0)
+    if same <= _AROUND or max(len(first), len(second)) <= _LONGEST:
+        return clipped(first), clipped(second)
+    start = same - _AROUND
+    return f"...{clipped(first[start:])}", f"...{clipped(second[start:])}"
 
 
 def clipped(text: str) -> str:

@@ -25,7 +25,7 @@ from rebsync.roundtrip.difference import (
 )
 from rebsync.roundtrip.differences_bodies import callable_differences
 from rebsync.roundtrip.matching import Matching, Pair, matched, names_of
-from rebsync.roundtrip.sides import Given, Item, Side, Unread, side
+from rebsync.roundtrip.sides import Given, Item, Side, Unread, side, too_deep
 from rebsync.roundtrip.tokens import Tokens
 
 _SYSTEM = ("env", "rebec")
@@ -39,8 +39,11 @@ def compare(left: Given, right: Given, depth: Depth = Depth.EQUAL) -> Comparison
 
     RebsyncError: something in a model nests too deeply.
     """
-    comparing = _Comparing.of(side(left, depth), side(right, depth))
-    return Comparison(tuple(comparing.all()))
+    sides = side(left, depth), side(right, depth)
+    try:
+        return Comparison(tuple(_Comparing.of(*sides).all()))
+    except RecursionError:
+        raise too_deep(left) from None
 
 
 @dataclass(slots=True, eq=False)

@@ -199,7 +199,7 @@ def _alike_uses(
     """Variables are alike that are used in the same way."""
     first, second = uses[0].get(_key(left), Counter()), uses[1].get(_key(right), Counter())
     if not first and not second:
-        return _like(left.name, right.name)
+        return _ENOUGH + 0.3 * _like(left.name, right.name)  # nothing tells them apart
     return overlap(first, second)
 
 

@@ -105,11 +105,16 @@ def side(given: Given, depth: Depth) -> Side:
         model = normal(given.model) if depth is Depth.EQUAL else given.model
         model = rewrite(model, lambda node: node)  # each node once: symbols go by identity
     except RecursionError:
-        message = "an expression or statement nests deeper than rebsync reads"
-        hint = "give parts of it names of their own"
-        raise RebsyncError.of(given.source.path, "RS111", message, hint) from None
+        raise too_deep(given) from None
     analysis = analyse(model, fragment=True, incomplete=True)
     return Side(model, analysis, given, depth, tuple(_items(model)))
+
+
+def too_deep(given: Given) -> RebsyncError:
+    """What is told of a model that nests deeper than Python can follow."""
+    message = "an expression or statement nests deeper than rebsync reads"
+    hint = "give parts of it names of their own"
+    return RebsyncError.of(given.source.path, "RS111", message, hint)
 
 
 # --- elements -----------------------------------------------------------------------------------
