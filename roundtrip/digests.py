@@ -45,6 +45,8 @@ class Standing:
 def standing(kept: Kept, record: Record | None) -> Standing:
     """How a package stands against what its manifest records; without one, all is changed."""
     listing = next(listings(kept.root, kept.tree), Listing(kept.root, {}))
+    if kept.root == ".":  # as servers name the files of a change
+        listing.files = {name: path.removeprefix("./") for name, path in listing.files.items()}
     wanted = record.files if record is not None else {}
     digests: dict[str, str] = {}
     changed = []

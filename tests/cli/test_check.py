@@ -290,6 +290,10 @@ def test_a_package_is_found_from_inside(
 ) -> None:
     monkeypatch.chdir(package / "src")
     assert check() == (0, "..: in step\n")
+    monkeypatch.chdir(package)
+    replace("src/robot.cpp", "mailbox_.delay(1)", "mailbox_.delay(3)")
+    shown = check("--format", "github")[1]
+    assert shown.startswith("::error file=src/robot.cpp,line=")
 
 
 def test_a_model_elsewhere_is_found_again(check: Check, package: Path) -> None:
