@@ -20,6 +20,8 @@ SECTIONS = (
     ("RS90x and RS91x: properties", codes.PROPERTIES),
     ("RS92x: runs and state spaces", codes.RUNS),
     ("RS94x: extraction", codes.EXTRACTION),
+    ("RS95x and RS96x: model and code in step", codes.STEP),
+    ("RS97x: differences between two models", codes.DIFFERENCES),
 )
 
 HEAD = """\

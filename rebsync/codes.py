@@ -3,7 +3,8 @@
 RS1xx syntax, RS2xx names, RS3xx types, RS4xx declarations and structure, RS5xx warnings about a
 model that is accepted, RS6xx warnings about robotic models (thesis, section 3.2), RS7xx what
 cannot be generated, RS8xx files, options and configuration, RS90x and RS91x properties, RS92x
-runs and state spaces, RS94x extraction.
+runs and state spaces, RS94x extraction, RS95x and RS96x model and code in step, RS97x
+differences between two models.
 """
 
 from __future__ import annotations
@@ -180,6 +181,40 @@ EXTRACTION = {
     "RS943": "code in which no class of a model was found",
 }
 
+STEP = {
+    "RS951": "a change of the model that the code does not have",
+    "RS952": "a change of the code that the model does not have",
+    "RS953": "an element that model and code have changed differently",
+    "RS954": "a difference of model and code of which it is not known who moved",
+    "RS955": "a setting that is another than when the code was generated",
+    "RS956": "generated code that no model describes, and that was edited",
+    "RS957": "something that goes wrong in what the code does",
+    "RS958": "a verification of what the code does that has no answer",
+    "RS959": "an element that the code has changed, and that could not be read in whole",
+    "RS960": "a path without a package that was made from a model",
+    "RS961": "a package without the manifest of `.rebsync/`",
+    "RS962": "a manifest that is damaged",
+    "RS963": "a manifest of a newer rebsync",
+    "RS964": "a package without the model as of the last time in step",
+    "RS965": "a package without the model that it was made from",
+    "RS966": "a conflict that a merge left in a file",
+    "RS967": "changes of model and code that make no model together",
+    "RS968": "merged code that does not say what the merged model says",
+    "RS969": "a generated file that is edited or gone, and cannot be merged",
+}
+
+DIFFERENCES = {
+    "RS971": "an element that only the second of two models has",
+    "RS972": "an element that only the first of two models has",
+    "RS973": "an element that has another name in the second of two models",
+    "RS974": "an element or a statement that is elsewhere in the second of two models",
+    "RS975": "a statement that only the second of two models has",
+    "RS976": "a statement that only the first of two models has",
+    "RS977": "a part of an element or a statement that is different in two models",
+    "RS978": "a place of which it is not known whether two models differ there",
+    "RS979": "a run that only one of two models has",
+}
+
 RUNS = {
     "RS921": "a text that is not JSON where a run is wanted",
     "RS922": "a part of a run that is missing or of the wrong kind",
@@ -203,4 +238,6 @@ CODES: dict[str, str] = {
     **PROPERTIES,
     **RUNS,
     **EXTRACTION,
+    **DIFFERENCES,
+    **STEP,
 }

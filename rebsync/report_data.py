@@ -24,24 +24,40 @@ _GITHUB = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: 
 def as_json(findings: Sequence[Findings]) -> str:
     """One object; its `findings` are flat, in the order in which the text prints them."""
     found = [_json_finding(source, diagnostic) for source, diagnostic in _flat(findings)]
-    return _dump({"version": 1, "findings": found})
+    return dump({"version": 1, "findings": found})
 
 
 def as_sarif(findings: Sequence[Findings]) -> str:
     """A SARIF 2.1.0 log with one run."""
+    return sarif_log(findings, [{"rebsyncFinding/v1": p} for p in fingerprints(findings)])
+
+
+def sarif_log(
+    findings: Sequence[Findings],
+    prints: Sequence[dict[str, str]],
+    related: Sequence[Sequence[tuple[Source, Span, str]]] = (),
+) -> str:
+    """The same with fingerprints of the caller's, and places in other texts with their remarks.
+
+    Both are for the diagnostics in the order in which they are told.
+    """
     used = sorted({diagnostic.code for _, diagnostic in _flat(findings)})
-    prints = _fingerprints(findings)
-    results = [
-        _sarif_result(source, diagnostic, used, next(prints))
-        for source, diagnostic in _flat(findings)
-    ]
+    results = []
+    for i, (source, diagnostic) in enumerate(_flat(findings)):
+        result = _sarif_result(source, diagnostic, used)
+        result["partialFingerprints"] = prints[i]
+        if i < len(related) and related[i]:
+            result["relatedLocations"] = [
+                _sarif_related(n, *r) for n, r in enumerate(related[i], 1)
+            ]
+        results.append(result)
     driver = {
         "name": "rebsync",
         "version": __version__,
         "rules": [{"id": c, "shortDescription": {"text": CODES.get(c, c)}} for c in used],
     }
     run = {"tool": {"driver": driver}, "columnKind": "unicodeCodePoints", "results": results}
-    return _dump({"$schema": _SARIF_SCHEMA, "version": "2.1.0", "runs": [run]})
+    return dump({"$schema": _SARIF_SCHEMA, "version": "2.1.0", "runs": [run]})
 
 
 def as_github(findings: Sequence[Findings]) -> str:
@@ -53,11 +69,13 @@ def _flat(findings: Sequence[Findings]) -> Iterator[tuple[Source, Diagnostic]]:
     return ((each.source, diagnostic) for each in findings for diagnostic in each.diagnostics)
 
 
-def _dump(value: Json) -> str:
+def dump(value: Json) -> str:
+    """One object, for people to look at, too."""
     return json.dumps(value, indent=2, ensure_ascii=False) + "\n"
 
 
-def _region(source: Source, span: Span) -> dict[str, int]:
+def region(source: Source, span: Span) -> dict[str, int]:
+    """Where a span starts and ends: lines and columns, counted from 1."""
     start, end = source.position(span.start), source.position(max(span.end, span.start))
     return {
         "startLine": start.line,
@@ -78,10 +96,10 @@ def _json_finding(source: Source, diagnostic: Diagnostic) -> Json:
         "message": diagnostic.message,
         "hint": diagnostic.hint,
         "path": source.path,
-        "region": None if diagnostic.span is NOWHERE else _region(source, diagnostic.span),
-        "fix": [{"region": _region(source, e.span), "text": e.text} for e in diagnostic.edits],
+        "region": None if diagnostic.span is NOWHERE else region(source, diagnostic.span),
+        "fix": [{"region": region(source, e.span), "text": e.text} for e in diagnostic.edits],
         "related": [
-            {"region": _region(source, span), "message": remark}
+            {"region": region(source, span), "message": remark}
             for span, remark in diagnostic.related
         ],
     }
@@ -90,7 +108,7 @@ def _json_finding(source: Source, diagnostic: Diagnostic) -> Json:
 # --- SARIF -------------------------------------------------------------------------------------
 
 
-def _sarif_result(source: Source, diagnostic: Diagnostic, used: list[str], print_: str) -> Json:
+def _sarif_result(source: Source, diagnostic: Diagnostic, used: list[str]) -> Json:
     message = diagnostic.message + (f" ({diagnostic.hint})" if diagnostic.hint else "")
     result: Json = {
         "ruleId": diagnostic.code,
@@ -98,11 +116,10 @@ def _sarif_result(source: Source, diagnostic: Diagnostic, used: list[str], print
         "level": diagnostic.severity.value,
         "message": {"text": message},
         "locations": [_sarif_location(source, diagnostic.span)],
-        "partialFingerprints": {"rebsyncFinding/v1": print_},
     }
     if diagnostic.related:
         result["relatedLocations"] = [
-            {"id": i, **_sarif_location(source, span), "message": {"text": remark}}
+            _sarif_related(i, source, span, remark)
             for i, (span, remark) in enumerate(diagnostic.related, start=1)
         ]
     if diagnostic.edits:
@@ -110,10 +127,14 @@ def _sarif_result(source: Source, diagnostic: Diagnostic, used: list[str], print
     return result
 
 
+def _sarif_related(number: int, source: Source, span: Span, remark: str) -> Json:
+    return {"id": number, **_sarif_location(source, span), "message": {"text": remark}}
+
+
 def _sarif_location(source: Source, span: Span) -> Json:
     place: Json = {"artifactLocation": _sarif_artifact(source)}
     if span is not NOWHERE:
-        place["region"] = _region(source, span)
+        place["region"] = region(source, span)
     return {"physicalLocation": place}
 
 
@@ -126,7 +147,7 @@ def _sarif_artifact(source: Source) -> Json:
 
 def _sarif_fix(source: Source, diagnostic: Diagnostic) -> Json:
     changes = [
-        {"deletedRegion": _region(source, e.span), "insertedContent": {"text": e.text}}
+        {"deletedRegion": region(source, e.span), "insertedContent": {"text": e.text}}
         for e in diagnostic.edits
     ]
     change = {"artifactLocation": _sarif_artifact(source), "replacements": changes}
@@ -136,7 +157,7 @@ def _sarif_fix(source: Source, diagnostic: Diagnostic) -> Json:
     return fix
 
 
-def _fingerprints(findings: Sequence[Findings]) -> Iterator[str]:
+def fingerprints(findings: Sequence[Findings]) -> Iterator[str]:
     """Codes of the findings that do not change when lines above them come or go."""
     seen: Counter[tuple[str, str, str, str]] = Counter()
     for source, diagnostic in _flat(findings):
@@ -154,11 +175,11 @@ def _fingerprints(findings: Sequence[Findings]) -> Iterator[str]:
 def _github_line(source: Source, diagnostic: Diagnostic) -> str:
     properties = {"file": source.path}
     if diagnostic.span is not NOWHERE:
-        region = _region(source, diagnostic.span)
-        properties |= {"line": str(region["startLine"]), "col": str(region["startColumn"])}
-        properties["endLine"] = str(region["endLine"])
-        if region["endLine"] == region["startLine"]:
-            properties["endColumn"] = str(region["endColumn"])
+        where = region(source, diagnostic.span)
+        properties |= {"line": str(where["startLine"]), "col": str(where["startColumn"])}
+        properties["endLine"] = str(where["endLine"])
+        if where["endLine"] == where["startLine"]:
+            properties["endColumn"] = str(where["endColumn"])
     properties["title"] = diagnostic.code
     listed = ",".join(f"{k}={_github_property(v)}" for k, v in properties.items())
     message = diagnostic.message + (f"\n{diagnostic.hint}" if diagnostic.hint else "")

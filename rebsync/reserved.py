@@ -69,3 +69,7 @@ def uncarry_local(carried: str, reserved: Collection[str], functions: Collection
         if carry_local(shorter, reserved, functions) == carried:
             return shorter
     return name
+
+
+# The headers of generated packages that are the same for every model.
+RUNTIME_HEADERS = ("mailbox", "startup", "values", "drive", "sensor")

@@ -63,3 +63,18 @@ class Source:
     def slice(self, span: Span) -> str:
         """The text that a span covers."""
         return self.text[span.start : span.end]
+
+    def within(self, span: Span) -> SourceSpan:
+        """A span of this text that tells whose it is."""
+        return SourceSpan(span.start, span.end, self)
+
+
+@dataclass(frozen=True, slots=True)
+class SourceSpan(Span):
+    """A range that knows its text, as in models that are read from several files."""
+
+    source: Source = field(compare=False, repr=False)
+
+    def to(self, other: Span) -> SourceSpan:
+        """The range from the start of this span to the end of `other`, in this text."""
+        return SourceSpan(self.start, other.end, self.source)

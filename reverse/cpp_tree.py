@@ -14,7 +14,7 @@ from tree_sitter import Language, Node, Parser, Query, QueryCursor
 from rebsync.records import dataclass
 from rebsync.reverse.cpp_depth import deep_parts, may_be_deep, without
 from rebsync.reverse.cpp_text import readable
-from rebsync.source import Source, Span
+from rebsync.source import Source, SourceSpan, Span
 
 _MOST_COMMENTS = 60  # each is looked for from the start of what is around it
 _NOT_ASCII = re.compile(r"[^\x00-\x7f]")
@@ -45,9 +45,8 @@ class Cpp:
 
     def span(self, node: Node) -> Span:
         """The characters that a node covers."""
-        if self.wide is None:
-            return Span(node.start_byte, node.end_byte)
-        return self.characters(node.start_byte, node.end_byte)
+        found = self.characters(node.start_byte, node.end_byte)
+        return SourceSpan(found.start, found.end, self.source)
 
     def characters(self, start: int, end: int) -> Span:
         """The characters that some bytes are."""

@@ -22,6 +22,7 @@ _IGNORING = frozenset({"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"})
 _BUILT = frozenset({"CMakeCache.txt", ".catkin", "_setup_util.py", "local_setup.sh", ".built_by"})
 _BUILDS = frozenset({"build", "devel", "install", "log"})
 _TESTS = frozenset({"test", "tests"})
+LEADS_OUT = "a link that leads out of the tree"
 
 
 @dataclass(slots=True)
@@ -41,17 +42,18 @@ class Listing:
     size: int = 0
 
 
-def listings(path: str) -> Iterator[Listing]:
+def listings(path: str, within: str | None = None) -> Iterator[Listing]:
     """The packages in a directory, one at a time; or a file with the package around it.
 
     A file belongs to the nearest package above it. Files outside of all packages come first, as
-    one listing. RebsyncError: there is no such path, or it may not be read.
+    one listing. What links lead to outside of the directory `within` is not read but listed as
+    odd. RebsyncError: there is no such path, or it may not be read.
     """
     with operating_on(path):
         if not stat.S_ISDIR(Path(path).stat().st_mode):
             yield _around(path)
             return
-    walk = _Walk()
+    walk = _Walk(os.path.realpath(within) if within is not None else None)
     waiting = [path]
     while waiting:
         listing, inner = walk.package(waiting.pop())
@@ -79,8 +81,12 @@ def _above(file: Path) -> Iterator[Path]:
 
 @dataclass(slots=True)
 class _Walk:
-    """Goes through directories, into each once, whatever links there are."""
+    """Goes through directories, into each once, whatever links there are.
 
+    What links lead to outside of the directory `within` is left out, if there is one.
+    """
+
+    within: str | None = None
     seen: set[tuple[int, int]] = field(default_factory=set)
 
     def package(self, root: str) -> tuple[Listing, list[str]]:
@@ -92,7 +98,10 @@ class _Walk:
             folder, inside = waiting.pop()
             folders = []
             for entry in self._entries(listing, folder, inside):
-                if _is_folder(entry):
+                if self._leads_out(entry):
+                    if _is_folder(entry) or is_read(entry.name, inside):
+                        listing.odd[inside + shown(entry.name)] = LEADS_OUT
+                elif _is_folder(entry):
                     folders.append(entry)
                 else:
                     _add(listing, entry, inside)
@@ -121,13 +130,32 @@ class _Walk:
             return []
         return [e for e in every if not e.name.startswith(".") and e.name != "node_modules"]
 
+    def _leads_out(self, entry: os.DirEntry[str]) -> bool:
+        if self.within is None or not entry.is_symlink():
+            return False
+        real = os.path.realpath(entry.path)
+        return real != self.within and not real.startswith(self.within.rstrip(os.sep) + os.sep)
+
+
+def is_read(name: str, inside: str) -> bool:
+    """Whether a file of this name in a directory (with a slash after it) is read at all."""
+    suffix = _suffix(name)
+    if suffix in CODE:
+        return True
+    return (suffix in _OTHERS or name in _NAMED) and not _TESTS & set(inside.split("/"))
+
+
+def _suffix(name: str) -> str:
+    """As that of a path: making one for each of many thousand files takes long."""
+    at = name.rfind(".")
+    return name[at:] if at > 0 and name != "." * len(name) else ""
+
 
 def _add(listing: Listing, entry: os.DirEntry[str], inside: str) -> None:
     """Puts a file among those to read, or those that cannot be."""
-    suffix = Path(entry.name).suffix
-    wanted = suffix in CODE or suffix in _OTHERS or entry.name in _NAMED
-    if not wanted or (suffix not in CODE and _TESTS & set(inside.split("/"))):
+    if not is_read(entry.name, inside):
         return
+    suffix = _suffix(entry.name)
     name = inside + shown(entry.name)
     try:
         found = entry.stat()

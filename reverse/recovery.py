@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import field
+from dataclasses import field, replace
 from fractions import Fraction
 
 from tree_sitter import Node
@@ -35,7 +35,7 @@ from rebsync.reverse.ros1_names import variable_name
 from rebsync.reverse.ros_calls import Asking
 from rebsync.reverse.unparsed import unparsed
 from rebsync.reverse.written import annotation
-from rebsync.source import Source
+from rebsync.source import NOWHERE, Source
 from rebsync.static.values import converted
 
 _ENV_MARKER = re.compile(r"# *rebsync: env (?P<type>[a-z]+)(?P<lengths>(?:\[\d+\])*) (?P<name>\S+)")
@@ -153,8 +153,9 @@ class _System:
             if type_ is None:
                 type_, name = _marked_type(given[key]) or (_type_of_value(value), "")
             initial = initial_of(_as(value, type_))
-            declarator = m.Declarator(name or uncarry(key, self._taken()), initial)
-            yield m.Env(m.Declaration(type_, (declarator,)))
+            span = given[key].source.within(given[key].span) if key in given else NOWHERE
+            declarator = m.Declarator(name or uncarry(key, self._taken()), initial, span)
+            yield m.Env(m.Declaration(type_, (declarator,), span=span), span)
 
     def _used(self) -> Iterator[tuple[str, tuple[m.Type, str, Value | None]]]:
         """The global parameters that classes read: type, name, and default."""
@@ -212,7 +213,7 @@ class _System:
             tuple(b for b in bindings if b is not None),
             tuple(a for a in arguments if a is not None),
             tuple(a for a in markers if a is not None),
-            node.span,
+            node.source.within(node.span),
         )
 
     def _lineage(self, name: str) -> list[m.ReactiveClass]:
@@ -240,16 +241,19 @@ class _System:
         parameter = node.parameter(key)
         if parameter is None or not isinstance(parameter.value, str):
             return None
-        return m.Name(uncarry(parameter.value, TAKEN_NODES), parameter.span)
+        span = parameter.source.within(parameter.span)
+        return m.Name(uncarry(parameter.value, TAKEN_NODES), span)
 
     def _argument(self, node: LaunchedNode, key: str, type_: m.Type) -> m.Expression | None:
         parameter = node.parameter(key)
         value = _plain(parameter) if parameter is not None else None
-        if value is None:
+        if parameter is None or value is None:
             return None
         if isinstance(value, str):
-            return m.Name(uncarry(value, TAKEN_NODES))
-        return literal_of(_as(value, type_))
+            read: m.Expression = m.Name(uncarry(value, TAKEN_NODES))
+        else:
+            read = literal_of(_as(value, type_))
+        return replace(read, span=parameter.source.within(parameter.span))
 
 
 def _made(function: CppFunction) -> Iterator[tuple[str, list[str]]]:

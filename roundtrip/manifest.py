@@ -6,10 +6,12 @@ import json
 from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rebsync import __version__
-from rebsync.config import Config
-from rebsync.roundtrip.markers import digest, elements
+
+if TYPE_CHECKING:
+    from rebsync.config import Config
 
 FOLDER = ".rebsync"
 MANIFEST = f"{FOLDER}/manifest.json"
@@ -28,13 +30,19 @@ def made_from(folder: Path) -> str | None:
 
 
 def with_manifest(
-    files: Mapping[str, str], model_name: str, model_text: str, config: Config
+    files: Mapping[str, str], model_name: str, model_text: str, config: Config, path: str = ""
 ) -> dict[str, str]:
-    """The files of a package together with its `.rebsync/`: manifest, base model, base texts."""
+    """The files of a package together with its `.rebsync/`: manifest, base model, base texts.
+
+    `path` leads from the package's folder to the model, empty where it lies beside that folder.
+    """
+    from rebsync.roundtrip.markers import digest, elements
+
+    model = {"name": model_name, "digest": digest(model_text)}
     record = {
         "format": FORMAT,
         "rebsync": __version__,
-        "model": {"name": model_name, "digest": digest(model_text)},
+        "model": {**model, "path": path} if path else model,
         "target": config.target,
         "options": asdict(config),
         "files": {path: digest(text) for path, text in sorted(files.items())},

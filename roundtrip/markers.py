@@ -67,11 +67,11 @@ def _block(lines: list[str], first: int) -> Iterator[str]:
             return
 
 
-_TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"|\w+|\S', re.DOTALL)
+TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"|\w+|\S', re.DOTALL)
 
 
 def _tokens(text: str) -> list[str]:
-    return [t for t in _TOKEN.findall(text) if not t.startswith(("//", "/*"))]
+    return [t for t in TOKEN.findall(text) if not t.startswith(("//", "/*"))]
 
 
 _USER = re.compile(

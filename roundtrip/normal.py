@@ -29,10 +29,12 @@ _Node = TypeVar("_Node")
 
 
 def normal(model: m.Model) -> m.Model:
-    """The normal form; the model must be free of errors."""
-    analysis = analyse(model)
-    heads = tuple(_heads(model, analysis))
+    """The normal form; in a model with errors, constants stay as they are written."""
+    analysis = analyse(model, fragment=True)
     classes = sorted((_class(c) for c in model.classes), key=lambda c: c.name)
+    if analysis.errors:
+        return m.Model(model.heads, tuple(classes), model.main)
+    heads = tuple(_heads(model, analysis))
     main = _main(model, analysis) if model.main is not None else None
     return m.Model(heads, tuple(classes), main)
 
@@ -72,8 +74,8 @@ def _heads(model: m.Model, analysis: Analysis) -> Iterator[m.Head]:
         type_ = head.declaration.type
         for declarator in head.declaration.declarators:
             value = initial_of(env_value(declarator, type_, _lookup(analysis)))
-            one = m.Declarator(declarator.name, value)
-            yield m.Env(m.Declaration(type_, (one,), head.declaration.annotations))
+            one = replace(declarator, initial=value)
+            yield replace(head, declaration=replace(head.declaration, declarators=(one,)))
 
 
 def _main(model: m.Model, analysis: Analysis) -> m.Main:
@@ -84,12 +86,12 @@ def _main(model: m.Model, analysis: Analysis) -> m.Main:
 def _rebec(rebec: m.Rebec, analysis: Analysis) -> m.Rebec:
     constructor = analysis.constructor_of(rebec)
     parameters = constructor.parameters if constructor is not None else ()
-    arguments = []
-    for argument, parameter in zip(rebec.arguments, parameters, strict=True):
+    arguments = list(rebec.arguments)
+    for i, (argument, parameter) in enumerate(zip(rebec.arguments, parameters, strict=False)):
         value = constant(argument, _lookup(analysis))
         if value is not None:
-            argument = literal_of(converted(value, parameter.type))
-        arguments.append(argument)
+            literal = literal_of(converted(value, parameter.type))
+            arguments[i] = replace(literal, span=argument.span)
     bindings = tuple(rewrite(b, _rule) for b in rebec.bindings)
     return replace(rebec, bindings=bindings, arguments=tuple(arguments))
 

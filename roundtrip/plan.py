@@ -12,6 +12,7 @@ from rebsync.files import read_source
 from rebsync.records import dataclass
 from rebsync.roundtrip.manifest import BASE, FOLDER
 from rebsync.roundtrip.markers import user_blocks, with_user_blocks
+from rebsync.roundtrip.text_merge import merged_text
 
 
 class Action(Enum):
@@ -23,6 +24,7 @@ class Action(Enum):
     KEEP = "keep"  # edited by hand, and nothing new is generated for it
     CONFLICT = "conflict"  # edited by hand, and something new is generated for it
     DELETE = "delete"
+    MERGE = "merge"  # edited by hand, and what is new goes in beside the edits
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +75,21 @@ def _step(folder: Path, path: str, text: str) -> Step:
         return Step(path, Action.UPDATE, old, new)
     if base == text:
         return Step(path, Action.KEEP, old, old)
+    return _merged(path, old, base, text)
+
+
+def _merged(path: str, old: str, base: str | None, text: str) -> Step:
+    """A file that was edited and is generated anew: both, where they do not touch."""
+    own = user_blocks(old)
+    new = with_user_blocks(text, own)
+    if base is not None:
+        ends = ("\n", "\r\n") if "\r\n" in old else ("", "")
+        theirs, last = (
+            with_user_blocks(each.replace(*ends) if ends[0] else each, own) for each in (text, base)
+        )
+        merged = merged_text(old, last, theirs, ("as edited", "as generated now"))
+        if not merged.conflicts:
+            return Step(path, Action.MERGE, old, merged.text)
     return Step(path, Action.CONFLICT, old, new)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,7 +18,7 @@ from rebsync.roundtrip.plan import Action, Step, name_to_keep, plan
 from rebsync.source import NOWHERE, Source
 from rebsync.writing import alone_in, replace_tree
 
-_SHOWN = (Action.CREATE, Action.UPDATE, Action.DELETE)
+_SHOWN = (Action.CREATE, Action.UPDATE, Action.MERGE, Action.DELETE)
 
 
 @click.command("generate")
@@ -44,8 +45,9 @@ def command(
     config = _config(model)
     if target is not None:
         config = replace(config, target=target)
-    name, files = package_files(read_source(model), config)
+    name, files = package_files(read_source(model), config, output)
     folder = Path(output) / name
+    files = _with_accepted(folder, files)
     if only_list:
         click.echo("".join(f"{folder / path}\n" for path in sorted(files)), nl=False)
         return Status.CLEAN
@@ -55,6 +57,17 @@ def command(
         if not force:
             _refuse_another_model(folder, f"{_stem(model)}.rebeca")
         return _write(folder, plan(folder, files), force)
+
+
+def _with_accepted(folder: Path, files: dict[str, str]) -> dict[str, str]:
+    """The files with what the manifest that is there accepts of edits by hand."""
+    from rebsync.roundtrip.manifest import MANIFEST
+    from rebsync.roundtrip.recorded import read_record, with_accepted
+
+    with suppress(RebsyncError):
+        if accepted := read_record(str(folder)).accepted:
+            return {**files, MANIFEST: with_accepted(files[MANIFEST], accepted)}
+    return files
 
 
 def _stem(path: str) -> str:
@@ -80,12 +93,16 @@ def _config(model: str) -> Config:
     return parse_config(read_source(str(path))) if path.is_file() else Config()
 
 
-def package_files(source: Source, config: Config) -> tuple[str, dict[str, str]]:
-    """The package's name and all its files, `.rebsync/` included; warnings go to stderr."""
+def package_files(source: Source, config: Config, output: str = ".") -> tuple[str, dict[str, str]]:
+    """The package's name and all its files, `.rebsync/` included; warnings go to stderr.
+
+    `output` is the directory that the package's folder goes to.
+    """
     from rebsync.forward.generate import generate, package_name
     from rebsync.forward.limits import limits
     from rebsync.grammars.parser import parse_model
     from rebsync.roundtrip.manifest import with_manifest
+    from rebsync.roundtrip.packages import path_to_model
     from rebsync.static import analyse
 
     parsed = parse_model(source)
@@ -100,7 +117,9 @@ def package_files(source: Source, config: Config) -> tuple[str, dict[str, str]]:
     if found:
         print_report([Findings(source, found)], sys.stderr)
     files = generate(parsed.model, parsed.comments, analysis, config, stem)
-    return package_name(stem, config), with_manifest(files, f"{stem}.rebeca", source.text, config)
+    name = package_name(stem, config)
+    path = path_to_model(source.path, str(Path(output, name)))
+    return name, with_manifest(files, f"{stem}.rebeca", source.text, config, path)
 
 
 def _show(steps: tuple[Step, ...]) -> Status:
@@ -131,6 +150,8 @@ def _write(folder: Path, steps: tuple[Step, ...], force: bool) -> Status:
     for step in steps:
         if step.action is Action.KEEP:
             click.echo(f"kept your edit of {folder / step.path}")
+        if step.action is Action.MERGE:
+            click.echo(f"merged with your edit of {folder / step.path}")
     for step in conflicts:
         click.echo(f"kept your edit as {folder / kept[step.path]}")
     return Status.CLEAN
@@ -142,6 +163,6 @@ def _refusal(folder: Path, step: Step) -> Findings:
         "RS701",
         NOWHERE,
         f"this file was edited by hand and is now {what}; nothing was written",
-        "see --diff; with --force it is kept as FILE.orig",
+        "see --diff; `rebsync sync` marks what touches; with --force it is kept as FILE.orig",
     )
     return Findings(Source(str(folder / step.path), ""), (diagnostic,))

@@ -9,6 +9,8 @@ import click
 from rebsync.diagnostics import did_you_mean
 
 COMMANDS = {
+    "check": "Tell whether packages and their models are in step.",
+    "diff": "Compare two models, packages of code, or revisions of either.",
     "export": "Print a model in the form that another tool accepts.",
     "extract": "Read the code of a package back into a model.",
     "fmt": "Bring models into the canonical layout.",
@@ -16,6 +18,7 @@ COMMANDS = {
     "lint": "Report mistakes in models and properties.",
     "new": "Begin a model from a conceptual model in TOML.",
     "simulate": "Make one run of a model, by chance or by hand.",
+    "sync": "Bring packages and their models in step.",
     "verify": "Check everything that can go wrong in a model, and its properties.",
 }
 

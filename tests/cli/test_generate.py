@@ -123,7 +123,7 @@ def test_an_edit_is_kept_while_nothing_new_is_generated(model: Path) -> None:
 def test_an_edited_file_is_not_overwritten(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
     generate()
     source = Path("patrol/src/robot.cpp")
-    edited = source.read_text() + "// mine\n"
+    edited = source.read_text().replace("mailbox_.delay(1)", "mailbox_.delay(2)")
     source.write_text(edited)
     model.write_text(MODEL.replace("delay(1)", "delay(3)"))
     before = tree(Path("patrol"))
@@ -136,6 +136,20 @@ def test_an_edited_file_is_not_overwritten(model: Path, capsys: pytest.CaptureFi
     assert generate("--force") == 0
     assert "mailbox_.delay(3)" in source.read_text()
     assert Path("patrol/src/robot.cpp.orig").read_text() == edited
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+def test_edits_elsewhere_in_a_file_are_merged(model: Path, end: str) -> None:
+    generate()
+    source = Path("patrol/src/robot.cpp")
+    mine = f"{source.read_text()}// mine\n".replace("\n", end)
+    source.write_bytes(mine.encode())
+    model.write_text(MODEL.replace("delay(1)", "delay(3)"))
+    assert generate() == 0
+    wanted = mine.replace("mailbox_.delay(1)", "mailbox_.delay(3)")
+    assert source.read_bytes() == wanted.encode() != mine.encode()
+    assert generate() == 0
+    assert source.read_bytes() == wanted.encode()
 
 
 def test_every_edit_that_was_forced_aside_is_kept(model: Path) -> None:

@@ -1,0 +1,144 @@
+"""`rebsync check`: have model and code drifted apart?"""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import field
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from rebsync.cli.amounts import amount, duration
+from rebsync.cli.status import Status, status_of, worst
+from rebsync.diagnostics import RebsyncError
+from rebsync.records import dataclass
+from rebsync.roundtrip.checked import Checked, check
+from rebsync.roundtrip.outcome import IN_STEP, Outcome, verdict_of
+from rebsync.roundtrip.packages import Kept, find
+
+if TYPE_CHECKING:
+    from rebsync.roundtrip.proof import Proof
+
+FORMATS = ("text", "json", "sarif", "github", "junit")
+_PROVED = {
+    "satisfied": Status.CLEAN,
+    "violated": Status.VIOLATED,
+    "undetermined": Status.UNDETERMINED,
+}
+
+
+@click.command("check")
+@click.argument("paths", metavar="[PATH...]", nargs=-1)
+@click.option("--model", metavar="FILE", help="The model, where it is not found by itself.")
+@click.option(
+    "--depth",
+    type=click.Choice(["identical", "equal"]),
+    default="equal",
+    show_default=True,
+    help="What counts as a difference; equal: not names of locals, order, parentheses.",
+)
+@click.option("--verify", is_flag=True, help="Check the model that the code extracts to as well.")
+@click.option("--property", "property_file", metavar="FILE", help="The properties for --verify.")
+@click.option(
+    "--allow",
+    type=click.Choice(["deadlock"]),
+    multiple=True,
+    help="What is no mistake to --verify: systems that are meant to end.",
+)
+@click.option("--max-states", type=click.IntRange(1), metavar="N", help="Stop at N states.")
+@click.option("--max-time", callback=duration, metavar="TIME", help="Stop after 90, 90s, 5m or 1h.")
+@click.option("--memory", callback=amount, metavar="SIZE", help="Stop at 500M or 2G of memory.")
+@click.option(
+    "--format",
+    "style",
+    type=click.Choice(FORMATS),
+    default="text",
+    show_default=True,
+    help="How to print what was found.",
+)
+@click.option("-o", "--output", default="-", metavar="FILE", help="Write the result to FILE.")
+@click.pass_context
+def command(ctx: click.Context, /, paths: tuple[str, ...], style: str, **_: object) -> Status:
+    """Tell whether packages and the models that they were made from are in step.
+
+    PATH is a package, a directory with several, a file in a package, or a model; the current
+    directory if none is given. Exit status: 0 in step, 1 not in step, 2 something cannot be read,
+    3 a property is violated, 4 undetermined.
+    """
+    given = ctx.params
+    packages = list(find(paths or (".",), given["model"]))
+    told = _Told(style, given["output"])
+    return worst([told.tell(_outcome(kept, given)) for kept in packages] + [told.finish()])
+
+
+def _outcome(kept: Kept, given: dict[str, Any]) -> Outcome:
+    try:
+        checked = check(kept, given["depth"])
+        proof = _proof(checked, given) if given["verify"] else None
+    except RebsyncError as error:
+        return Outcome(kept.root, None, error)
+    except RecursionError:
+        why = "something in it nests deeper than rebsync reads"
+        return Outcome(kept.root, None, RebsyncError.of(kept.root, "RS111", why))
+    return Outcome(kept.root, checked, proof=proof)
+
+
+def _proof(checked: Checked, given: dict[str, Any]) -> Proof:
+    from rebsync.checker.exploration import Limits
+    from rebsync.checker.problem import Options
+    from rebsync.roundtrip.models import code_given, model_given
+    from rebsync.roundtrip.proof import prove
+
+    code = code_given(checked.kept, checked.standing)
+    today = model_given(checked.model)
+    limits = Limits(given["max_states"], given["max_time"], given["memory"])
+    options = Options(limits=limits, allowed=frozenset(given["allow"]))
+    return prove(code, today, given["property_file"], options)
+
+
+@dataclass(slots=True)
+class _Told:
+    """Tells outcomes: text at once, the other forms when all are there."""
+
+    style: str
+    output: str
+    all: list[Outcome] = field(default_factory=list)
+
+    def tell(self, outcome: Outcome) -> Status:
+        """Prints it, or keeps it; gives its part of the exit status."""
+        if self.style != "text" or self.output != "-":
+            self.all.append(outcome)
+        elif outcome.is_plain:
+            click.echo(f"{outcome.root}: {IN_STEP}")
+        else:
+            from rebsync.report import print_report
+            from rebsync.roundtrip.check_report import told_lines
+
+            click.echo("".join(f"{line}\n" for line in told_lines(outcome)), nl=False)
+            print_report(outcome.findings, sys.stdout)
+        return _status(outcome)
+
+    def finish(self) -> Status:
+        """Prints what was kept."""
+        if self.style != "text" or self.output != "-":
+            from rebsync.cli.options import write_output
+            from rebsync.roundtrip.check_report import as_text
+
+            write_output(self.output, as_text(self.all, self.style))
+        return Status.CLEAN
+
+
+def _status(outcome: Outcome) -> Status:
+    if outcome.checked is None:
+        return Status.UNUSABLE
+    found = [status_of(outcome.checked.findings)]
+    if outcome.proof is not None:
+        found.append(_PROVED[outcome.proof.verdict])
+    match verdict_of(outcome):
+        case "in step":
+            found.append(Status.CLEAN)
+        case "undetermined":
+            found.append(Status.UNDETERMINED)
+        case _:
+            found.append(Status.FINDINGS)
+    return worst(found)

@@ -1,0 +1,227 @@
+"""Verdicts for people and programs: lines, one JSON object, or findings with places."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from rebsync.diagnostics import Diagnostic, Findings
+from rebsync.roundtrip.checked import Checked
+from rebsync.roundtrip.outcome import IN_STEP, Outcome, verdict_of
+from rebsync.source import NOWHERE, Source, Span
+
+if TYPE_CHECKING:
+    from rebsync.roundtrip.difference import Difference
+    from rebsync.roundtrip.verdict import Mover
+
+Json: TypeAlias = dict[str, Any]
+Remark: TypeAlias = tuple[Source, Span, str]
+
+_CODES = {"model": "RS951", "code": "RS952", "conflict": "RS953", "unknown": "RS954"}
+
+
+def sentence(outcome: Outcome) -> str:
+    """The verdict as people are told it."""
+    checked = outcome.checked
+    if checked is None:
+        return "cannot be checked"
+    match verdict_of(outcome):
+        case "model ahead":
+            return f"the model is ahead: `rebsync generate` takes {checked.model} into the code"
+        case "code ahead":
+            return f"the code is ahead: take its changes into {checked.model}"
+        case "both moved":
+            return "model and code both moved, apart: they can be merged"
+        case "conflict":
+            elements = checked.drift.conflicts if checked.drift is not None else ()
+            return f"conflict: model and code both changed {', '.join(map(str, elements))}"
+        case "apart":
+            return "model and code differ; who moved is not known"
+        case "undetermined":
+            return "undetermined: not all of the code can be told in a model"
+        case _:
+            inexact = any(d.code == "RS942" for f in checked.findings for d in f.diagnostics)
+            return "in step, as far as the code can be told" if inexact else IN_STEP
+
+
+# --- text ---------------------------------------------------------------------------------------
+
+
+def as_text(outcomes: Sequence[Outcome], style: str) -> str:
+    """What there is to say of some packages, in one of the forms of the command."""
+    match style:
+        case "json":
+            return as_json(outcomes)
+        case "sarif":
+            return as_sarif(outcomes)
+        case "github":
+            return as_github(outcomes)
+        case "junit":
+            from rebsync.roundtrip.junit import as_junit
+
+            return as_junit(outcomes)
+        case _:
+            from rebsync.report import report
+
+            parts = (
+                "".join(f"{x}\n" for x in told_lines(o)) + report(o.findings) for o in outcomes
+            )
+            return "".join(parts)
+
+
+def told_lines(outcome: Outcome) -> Iterator[str]:
+    """Everything but findings, line by line."""
+    yield from lines(outcome)
+    if outcome.proof is not None:
+        from rebsync.roundtrip.proof_report import proof_lines
+
+        yield from proof_lines(outcome.proof, verdict_of(outcome) != IN_STEP)
+
+
+def differences(checked: Checked | None) -> Iterator[tuple[Difference, Mover]]:
+    """What is different, but for places that are among the findings anyway."""
+    if checked is None or checked.drift is None:
+        return
+    from rebsync.roundtrip.difference import Undetermined
+
+    told = {(f.source.path, d.span.start) for f in checked.findings for d in f.diagnostics}
+    for difference, mover in checked.drift.differences:
+        place = difference.right
+        known = place is not None and (place.source.path, place.span.start) in told
+        if not (isinstance(difference, Undetermined) and known):
+            yield difference, mover
+
+
+def lines(outcome: Outcome) -> Iterator[str]:
+    """The verdict, and below it the differences with both places, by class."""
+    yield f"{outcome.root}: {sentence(outcome)}"
+    checked = outcome.checked
+    if checked is None or checked.drift is None:
+        return
+    from rebsync.roundtrip.difference import explain
+
+    rows = []
+    for difference, mover in differences(checked):
+        left, right = (str(p) if p else "-" for p in (difference.left, difference.right))
+        whose = {"unknown": "", "conflict": "  [both]"}.get(mover.value, f"  [{mover.value}]")
+        what = f"{difference.element}: {explain(difference)}{whose}"
+        rows.append((difference.element.group, left, right, what))
+    wide = [max((len(row[i]) for row in rows), default=0) for i in (1, 2)]
+    for group in dict.fromkeys(row[0] for row in rows):
+        yield f"  {group or 'system'}"
+        for row in rows:
+            if row[0] == group:
+                yield f"    {row[1]:{wide[0]}}  {row[2]:{wide[1]}}  {row[3]}"
+
+
+# --- findings -----------------------------------------------------------------------------------
+
+
+def as_sarif(outcomes: Sequence[Outcome]) -> str:
+    """A SARIF 2.1.0 log; a difference is known again by its element, wherever that is."""
+    from rebsync.report_data import fingerprints, sarif_log
+
+    found: list[Findings] = []
+    prints: list[dict[str, str]] = []
+    related: list[list[Remark]] = []
+    for outcome in outcomes:
+        for difference, mover, print_ in _printed(outcome):
+            assert outcome.checked is not None
+            found.append(_finding(outcome.checked, difference, mover))
+            prints.append({"rebsyncElement/v1": print_})
+            pairs = ((difference.left, "the model"), (difference.right, "the code"))
+            related.append([(p.source, p.span, remark) for p, remark in pairs if p is not None])
+        others = [(f, list[Remark]()) for f in outcome.findings] + _proofs(outcome)
+        prints += [{"rebsyncFinding/v1": p} for p in fingerprints([f for f, _ in others])]
+        found += [f for f, _ in others]
+        related += [places for f, places in others for _ in f.diagnostics]
+    return sarif_log(found, prints, related)
+
+
+def as_github(outcomes: Sequence[Outcome]) -> str:
+    """Workflow commands that GitHub shows beside the changed lines."""
+    from rebsync.report_data import as_github as commands
+
+    found: list[Findings] = []
+    for outcome in outcomes:
+        found += [_finding(outcome.checked, *d) for d in differences(outcome.checked)]
+        found += [*outcome.findings, *(f for f, _ in _proofs(outcome))]
+    return commands(found)
+
+
+def _printed(outcome: Outcome) -> Iterator[tuple[Difference, Mover, str]]:
+    """Each difference with its fingerprint, which is another one in each package."""
+    told = list(differences(outcome.checked))
+    if not told:
+        return
+    from rebsync.roundtrip.difference_report import fingerprints
+
+    prints = fingerprints([d for d, _ in told])
+    for (difference, mover), print_ in zip(told, prints, strict=True):
+        root = Path(outcome.root).as_posix()
+        yield difference, mover, hashlib.sha256(f"{root}\0{print_}".encode()).hexdigest()[:32]
+
+
+def _proofs(outcome: Outcome) -> list[tuple[Findings, list[Remark]]]:
+    if outcome.proof is None:
+        return []
+    from rebsync.roundtrip.proof_report import proof_findings
+
+    return list(proof_findings(outcome.proof))
+
+
+def _finding(checked: Checked | None, difference: Difference, mover: Mover) -> Findings:
+    """A difference at the place of whoever moved."""
+    from rebsync.roundtrip.difference import Undetermined, explain
+
+    by_model = mover.value == "model"
+    first, other = difference.left, difference.right
+    here, there = (first, other) if by_model and first is not None else (other, first)
+    if here is None:
+        here, there = there, None
+    what = f"{difference.element}: {explain(difference)}"
+    hint = f"the {'code' if by_model else 'model'} says this at {there}" if there else None
+    model = checked.model if checked is not None else "-"
+    source = here.source if here is not None else Source(model, "")
+    span = here.span if here is not None else NOWHERE
+    code = "RS978" if isinstance(difference, Undetermined) else _CODES[mover.value]
+    return Findings(source, (Diagnostic(code, span, what, hint),))
+
+
+# --- JSON ---------------------------------------------------------------------------------------
+
+
+def as_json(outcomes: Sequence[Outcome]) -> str:
+    """One object with all packages (docs/check.schema.json)."""
+    from rebsync.report_data import dump
+
+    return dump({"version": 1, "packages": [_package(outcome) for outcome in outcomes]})
+
+
+def _package(outcome: Outcome) -> Json:
+    from rebsync.report_data import as_json as findings_json
+    from rebsync.roundtrip.difference_report import data_of
+
+    return {
+        "path": outcome.root,
+        "model": outcome.checked.model if outcome.checked is not None else None,
+        "verdict": verdict_of(outcome),
+        "message": sentence(outcome),
+        "differences": [
+            {**data_of(difference, print_), "moved": mover.value}
+            for difference, mover, print_ in _printed(outcome)
+        ],
+        "findings": json.loads(findings_json(outcome.findings))["findings"],
+        "verification": _verification(outcome),
+    }
+
+
+def _verification(outcome: Outcome) -> Json | None:
+    if outcome.proof is None:
+        return None
+    from rebsync.roundtrip.proof_report import proof_data
+
+    return proof_data(outcome.proof)

@@ -1,0 +1,106 @@
+"""What in a package is not as it was generated, told from digests: nothing is parsed for this."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from pathlib import Path
+
+from rebsync.files import BOM
+from rebsync.records import dataclass
+from rebsync.reverse.packages import Listing, is_read, listings
+from rebsync.roundtrip.manifest import BASE_MODEL
+from rebsync.roundtrip.packages import Kept
+from rebsync.roundtrip.recorded import Record
+
+_PART = 1 << 20  # bytes that are read at once
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """How a package stands: the files that a model is read from, each with the digest it has.
+
+    `changed` are those that are not as generated, or that were not generated, `missing` those that
+    are no longer there. Line ends and byte order marks do not count.
+    """
+
+    listing: Listing
+    digests: dict[str, str]
+    changed: tuple[str, ...]
+    missing: tuple[str, ...]
+
+    @property
+    def is_as_generated(self) -> bool:
+        """Whether all code is what was generated."""
+        return not (self.changed or self.missing or self.listing.odd)
+
+    @property
+    def told(self) -> tuple[str, ...]:
+        """All that what the code says depends on, as texts."""
+        files = (f"{name} {digest}" for name, digest in sorted(self.digests.items()))
+        odd = (f"{name} {why}" for name, why in sorted(self.listing.odd.items()))
+        return (*files, "odd", *odd)
+
+
+def standing(kept: Kept, record: Record | None) -> Standing:
+    """How a package stands against what its manifest records; without one, all is changed."""
+    listing = next(listings(kept.root, kept.tree), Listing(kept.root, {}))
+    if kept.root == ".":  # as servers name the files of a change
+        listing.files = {name: path.removeprefix("./") for name, path in listing.files.items()}
+    wanted = record.files if record is not None else {}
+    digests: dict[str, str] = {}
+    changed = []
+    for name, path in listing.files.items():
+        try:
+            data = _content(path)
+        except OSError as error:
+            digests[name] = f"unreadable: {error.strerror}"
+            changed.append(name)
+            continue
+        digest = digests[name] = digest_of(data)
+        known = wanted.get(name, "")
+        if digest != known and not is_text_of(data, known):
+            changed.append(name)
+    missing = [name for name in wanted if name not in digests and _counts(name)]
+    return Standing(listing, digests, tuple(changed), tuple(missing))
+
+
+def _content(path: str) -> bytes:
+    """The bytes of a file, without the detour that a path object is for many thousand files."""
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        parts = [os.read(handle, _PART)]
+        while len(parts[-1]) == _PART:
+            parts.append(os.read(handle, _PART))
+        return b"".join(parts)
+    finally:
+        os.close(handle)
+
+
+def _counts(name: str) -> bool:
+    """Whether a file that was generated is one that a model is read from."""
+    parts = name.split("/")
+    if any(part.startswith(".") for part in parts):
+        return False
+    return is_read(parts[-1], "".join(f"{part}/" for part in parts[:-1]))
+
+
+def is_base_whole(kept: Kept, record: Record) -> bool:
+    """Whether the model as of the last time that both were in step is as it was recorded."""
+    try:
+        return is_text_of(Path(kept.root, BASE_MODEL).read_bytes(), record.digest)
+    except OSError:
+        return False
+
+
+def digest_of(data: bytes) -> str:
+    """The digest of a file's bytes."""
+    return hashlib.sha256(data).hexdigest()
+
+
+def is_text_of(data: bytes, digest: str) -> bool:
+    """Whether bytes are the text that has a digest, with whatever line ends."""
+    if digest_of(data) == digest:
+        return True
+    plain = data.removeprefix(BOM).replace(b"\r\n", b"\n")
+    return plain != data and digest_of(plain) == digest

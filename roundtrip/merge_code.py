@@ -1,0 +1,139 @@
+"""Merges generated code with what somebody has made of it, file by file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+from rebsync.diagnostics import Diagnostic, Findings
+from rebsync.files import read_source
+from rebsync.records import dataclass
+from rebsync.roundtrip.markers import user_blocks, with_user_blocks
+from rebsync.roundtrip.merge_models import Favour
+from rebsync.roundtrip.text_merge import merged_text
+from rebsync.source import NOWHERE, Source
+
+LABELS = ("as edited", "as generated now")
+
+
+@dataclass(frozen=True, slots=True)
+class Stages:
+    """The three texts of a conflict in a file: last time, and both of today."""
+
+    base: str
+    ours: str
+    theirs: str
+
+
+@dataclass(frozen=True, slots=True)
+class MergedCode:
+    """The files of a package that change, by path; a text of None: the file goes.
+
+    `conflicts` are those with conflict markers; `refused` says why others cannot be merged.
+    """
+
+    texts: dict[str, str | None]
+    conflicts: dict[str, Stages]
+    refused: tuple[Findings, ...] = ()
+
+
+def merged_code(
+    root: str, base: Mapping[str, str], theirs: Mapping[str, str], favour: Favour
+) -> MergedCode:
+    """The files of a package with what is generated now for today's model.
+
+    `base` is what would be generated for what the files say now, so that only what the model has
+    changed is different from it; the files are as people have left them.
+    """
+    texts: dict[str, str | None] = {}
+    conflicts: dict[str, Stages] = {}
+    refused: list[Findings] = []
+    for path in sorted({*base, *theirs}):
+        if base.get(path) == theirs.get(path):
+            continue
+        merged = _file(Path(root, path), base.get(path), theirs.get(path), favour)
+        match merged:
+            case Findings():
+                refused.append(merged)
+            case (str() as text, stages):
+                texts[path] = text
+                if isinstance(stages, Stages):
+                    conflicts[path] = stages
+            case _:
+                texts[path] = None
+    return MergedCode(texts, conflicts, tuple(refused))
+
+
+def _file(
+    path: Path, base: str | None, theirs: str | None, favour: Favour
+) -> tuple[str, Stages | None] | Findings | None:
+    """The text of one file, its conflict if there is one; None where it goes."""
+    if not path.is_file():
+        if theirs is None:
+            return None
+        if base is None or favour is Favour.MODEL:
+            return theirs, None
+        return _refusal(path, "this generated file is to change, and it is not there")
+    ours = read_source(str(path)).text
+    base, theirs = (_as_here(text, ours) for text in (base, theirs))
+    if theirs is None:
+        if ours == base or favour is Favour.MODEL:
+            return None
+        if favour is Favour.CODE:
+            return ours, None
+        return _refusal(path, "this file is generated no more, and it was edited by hand")
+    merged = merged_text(ours, base or "", theirs, LABELS, favour.value)
+    stages = Stages(base or "", ours, theirs) if merged.conflicts else None
+    return merged.text, stages
+
+
+def _as_here(text: str | None, ours: str) -> str | None:
+    """A generated text with the user's own blocks, and with the line ends of the file."""
+    if text is None:
+        return None
+    plain = text.replace("\n", "\r\n") if "\r\n" in ours else text
+    return with_user_blocks(plain, user_blocks(ours))
+
+
+_HINT = "`--conflict ours` takes the model's side, `--conflict theirs` that of the code"
+
+
+def _refusal(path: Path, message: str) -> Findings:
+    return Findings(Source(str(path), ""), (Diagnostic("RS969", NOWHERE, message, _HINT),))
+
+
+def ancestors(
+    recorded: Mapping[str, str], before: Mapping[str, str], now: Mapping[str, str]
+) -> dict[str, str]:
+    """What would have been generated last time for what the code says now.
+
+    `recorded` was generated last time, `before` is today's generation of the model of last time,
+    and `now` that of the model with the changes of the code. Where the first two differ, rebsync
+    or the settings have changed since: that is to come into the code as well.
+    """
+    return dict(_ancestors(recorded, before, now))
+
+
+def _ancestors(
+    recorded: Mapping[str, str], before: Mapping[str, str], now: Mapping[str, str]
+) -> Iterator[tuple[str, str]]:
+    for path in sorted({*recorded, *now}):
+        old, new = recorded.get(path), now.get(path)
+        if old is None or old == before.get(path):
+            if new is not None:
+                yield path, new
+        elif new is None or new == before.get(path):
+            yield path, old
+        else:
+            merged = merged_text(old, before.get(path, ""), new, LABELS)
+            yield path, new if merged.conflicts else merged.text
+
+
+def recorded_base(root: str, folder: str) -> dict[str, str]:
+    """The texts that were generated last time, as far as they are kept."""
+    base = Path(root, folder)
+    return {
+        path.relative_to(base).as_posix(): read_source(str(path)).text
+        for path in sorted(base.rglob("*"))
+        if path.is_file()
+    }

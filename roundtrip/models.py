@@ -1,0 +1,89 @@
+"""The three models of a verdict: the one of last time, today's, and the one that the code tells.
+
+What was read once is kept in the user's cache, so that only what has changed is read again.
+"""
+
+from __future__ import annotations
+
+from rebsync import model as m
+from rebsync.diagnostics import Findings, RebsyncError
+from rebsync.files import read_source
+from rebsync.records import dataclass
+from rebsync.roundtrip.difference import Place
+from rebsync.roundtrip.digests import Standing, digest_of
+from rebsync.roundtrip.extraction_cache import keep, kept, key_of
+from rebsync.roundtrip.packages import Kept
+from rebsync.roundtrip.recorded import conflict_in
+from rebsync.roundtrip.sides import Given, Unread
+from rebsync.source import Source
+
+
+@dataclass(frozen=True, slots=True)
+class Code:
+    """What the code of a package tells: a model, and what is not in it exactly.
+
+    `findings` are all these places, of which those in `given.unread` the model lacks.
+    """
+
+    given: Given
+    findings: tuple[Findings, ...]
+
+
+def model_given(path: str) -> Given:
+    """The model in a file. RebsyncError: it cannot be read, or has mistakes."""
+    source = read_source(path)
+    key = key_of("model", digest_of(source.text.encode("utf-8")))
+    model = kept(key, m.Model)
+    if model is None:
+        model = parsed(source)
+        keep(key, model)
+    return Given(model, source)
+
+
+def parsed(source: Source) -> m.Model:
+    """The model that a text is. RebsyncError: it has mistakes, or conflicts of a merge."""
+    if (found := conflict_in(source)) is not None:
+        raise RebsyncError([found])
+    from rebsync.grammars.parser import parse_model
+    from rebsync.static import analyse
+
+    parsed = parse_model(source)
+    analysis = analyse(parsed.model, incomplete=not parsed.ok)
+    findings = Findings(source, (*parsed.diagnostics, *analysis.diagnostics))
+    if findings.errors:
+        raise RebsyncError([Findings(source, tuple(dict.fromkeys(findings.errors)))])
+    return parsed.model
+
+
+def code_given(package: Kept, standing: Standing) -> Code:
+    """What the code of a package tells."""
+    key = key_of("code", package.root, *standing.told)
+    code = kept(key, Code)
+    if code is None:
+        code = _extracted(standing)
+        keep(key, code)
+    return code
+
+
+def _extracted(standing: Standing) -> Code:
+    from rebsync.reverse.findings import Grade
+    from rebsync.reverse.reading import read
+    from rebsync.reverse.recovery import extract
+    from rebsync.reverse.report import diagnostics
+
+    chosen = read(standing.listing)
+    conflicts = [c for s in chosen.files.values() if (c := conflict_in(s)) is not None]
+    extracted = extract(chosen.files)
+    findings = (*chosen.findings, *extracted.findings)
+    unread = [
+        Unread(Place(f.source, f.span), f.why, f.within)
+        for f in findings
+        if f.grade is Grade.UNREADABLE
+    ]
+    unread += [Unread(Place(c.source, c.diagnostics[0].span), _MERGE) for c in conflicts]
+    source = Source(standing.listing.root, "")
+    given = Given(extracted.model, source, tuple(unread))
+    return Code(given, (*conflicts, *diagnostics(findings)))
+
+
+_MERGE = "a merge left a conflict here"

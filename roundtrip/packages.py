@@ -1,0 +1,213 @@
+"""Finds the packages that are kept in step with models, and the model of each."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
+
+from rebsync.diagnostics import RebsyncError
+from rebsync.files import STANDARD_INPUT, operating_on, os_mistake
+from rebsync.records import dataclass
+from rebsync.roundtrip.manifest import FOLDER
+
+SUFFIX = ".rebeca"
+SETTINGS = "rebsync.toml"
+SKIPPED = frozenset({"node_modules", "__pycache__"})
+
+
+@dataclass(frozen=True, slots=True)
+class Kept:
+    """A package with a model; `model` is its path where a user or settings say it.
+
+    `tree` is the directory that holds all that belongs together: a repository, or else what is
+    around the package.
+    """
+
+    root: str
+    tree: str
+    model: str | None = None
+
+
+def find(paths: Iterable[str], model: str | None = None) -> Iterator[Kept]:
+    """The packages that paths stand for, each once: those in a directory, or around a file.
+
+    RebsyncError: there is no such path, or no package is there.
+    """
+    seen: set[tuple[int, int]] = set()
+    for path in paths:
+        found = list(_packages(path, model))
+        if not found:
+            message = "there is no package here that was made from a model"
+            hint = f"`rebsync generate` makes one, with a folder {FOLDER} that is to be committed"
+            raise RebsyncError.of(path, "RS960", message, hint)
+        if model is not None and len(found) > 1:
+            message = f"--model is for one package, and here are {len(found)}"
+            raise RebsyncError.of(path, "RS960", message, "name the package")
+        for kept in found:
+            with operating_on(kept.root):
+                status = Path(kept.root).stat()
+            if (status.st_dev, status.st_ino) not in seen:
+                seen.add((status.st_dev, status.st_ino))
+                yield kept
+
+
+def _packages(path: str, model: str | None) -> Iterator[Kept]:
+    with operating_on(path):
+        is_folder = Path(path or ".").is_dir()
+        if not is_folder:
+            Path(path).stat()
+    if path.endswith(SUFFIX) and not is_folder:
+        folder = str(Path(path).parent)
+        yield from (Kept(k.root, k.tree, path) for k in _below(folder) if _is_of(k, path))
+        return
+    around = _around(path)
+    if around is not None:
+        yield Kept(around, tree_of(around), model)
+    elif is_folder:
+        found = list(_below(path)) or list(_unrecorded_at(path, model))
+        yield from (Kept(k.root, k.tree, model or k.model) for k in found)
+
+
+def _unrecorded_at(path: str, model: str | None) -> Iterator[Kept]:
+    """A package without records of which a user or settings say what its model is."""
+    if not Path(path, "package.xml").is_file():
+        return
+    if model is not None:
+        yield Kept(path, tree_of(path), model)
+        return
+    above = Path(os.path.normpath(Path(path).absolute())).parent
+    if (above / SETTINGS).is_file():
+        for kept in _unrecorded(os.path.relpath(above), []):
+            if Path(kept.root).samefile(path):
+                yield Kept(path, kept.tree, kept.model)
+
+
+def _is_of(kept: Kept, model: str) -> bool:
+    if kept.model is not None:
+        return Path(kept.model).samefile(model)
+    from rebsync.roundtrip.model_file import model_of
+    from rebsync.roundtrip.recorded import read_record
+
+    try:
+        return Path(model_of(kept, read_record(kept.root))).samefile(model)
+    except (RebsyncError, OSError):
+        return False
+
+
+def _around(path: str) -> str | None:
+    """The nearest package above a path, or at it; the search ends with the repository."""
+    start = Path(os.path.normpath(Path(path).absolute()))
+    for each in (start, *start.parents):
+        if _is_kept(each):
+            shown = str(each) if Path(path).is_absolute() else os.path.relpath(each)
+            return path.rstrip("/") if each == start else shown
+        if (each / ".git").exists():
+            break
+    return None
+
+
+def _is_kept(folder: Path) -> bool:
+    return (folder / FOLDER).is_dir()
+
+
+# --- walking ------------------------------------------------------------------------------------
+
+
+def _below(path: str) -> Iterator[Kept]:
+    """The packages in a directory, in the order of their names; links are not followed."""
+    waiting = [path]
+    settings: list[str] = []
+    roots: list[str] = []
+    while waiting:
+        folder = waiting.pop()
+        names, folders = _entries(folder, top=folder == path)
+        if FOLDER in folders:
+            roots.append(folder)
+            continue
+        if SETTINGS in names and any(n.endswith(SUFFIX) for n in names):
+            settings.append(folder)
+        waiting += [_joined(folder, n) for n in reversed(folders)]
+    lost = [each for folder in settings for each in _unrecorded(folder, roots)]
+    kept = [*(Kept(root, tree_of(root)) for root in roots), *lost]
+    yield from sorted(kept, key=lambda k: k.root)
+
+
+def _entries(folder: str, top: bool) -> tuple[list[str], list[str]]:
+    """The files of a directory, and the directories in it that may hold packages."""
+    try:
+        with os.scandir(folder) as entries:
+            every = sorted(entries, key=lambda e: e.name)
+    except OSError as error:
+        if top:
+            raise os_mistake(folder, error) from None
+        return [], []
+    folders, names = [], []
+    for entry in every:
+        try:
+            is_folder = entry.is_dir(follow_symlinks=False)
+        except OSError:
+            continue
+        if not is_folder:
+            names.append(entry.name)
+        elif entry.name == FOLDER or (entry.name[0] != "." and entry.name not in SKIPPED):
+            folders.append(entry.name)
+    return names, folders
+
+
+def _joined(folder: str, name: str) -> str:
+    return name if folder == "." else f"{folder.rstrip('/')}/{name}"
+
+
+def _unrecorded(folder: str, roots: list[str]) -> Iterator[Kept]:
+    """The packages that settings and models in a directory stand for, without any records."""
+    prefix = "" if folder == "." else f"{folder.rstrip('/')}/"
+    if any(root.startswith(prefix) for root in roots):
+        return
+    from rebsync.config import Config, parse_config
+    from rebsync.files import read_source
+    from rebsync.forward.generate import package_name
+
+    config = Config()
+    with suppress(RebsyncError):
+        config = parse_config(read_source(f"{prefix}{SETTINGS}"))
+    for model in sorted(Path(folder).glob(f"*{SUFFIX}")):
+        root = f"{prefix}{package_name(model.stem, config)}"
+        if Path(root, "package.xml").is_file():
+            yield Kept(root, tree_of(root), f"{prefix}{model.name}")
+
+
+@cache
+def _repository(folder: str) -> str | None:
+    """The working tree of git that a directory is in."""
+    if (Path(folder) / ".git").exists():
+        return folder
+    above = str(Path(folder).parent)
+    return _repository(above) if above != folder else None
+
+
+def path_to_model(model: str, root: str) -> str:
+    """The path from a package's folder to its model, if that is worth recording.
+
+    Empty for a model that lies beside the folder, where it is found anyway, and for one that is
+    not kept together with it: neither in one repository nor below the current directory.
+    """
+    there, here = Path(os.path.realpath(model)), Path(os.path.realpath(root))
+    if model == STANDARD_INPUT or there.parent == here.parent:
+        return ""
+    tree = _repository(str(here)) or str(Path.cwd())
+    if _repository(str(there)) != _repository(str(here)) or not _are_below(tree, there, here):
+        return ""
+    return Path(os.path.relpath(there, here)).as_posix()
+
+
+def _are_below(tree: str, *paths: Path) -> bool:
+    return all(Path(tree) in path.parents for path in paths)
+
+
+def tree_of(root: str) -> str:
+    """The directory with all that belongs to a package."""
+    here = os.path.realpath(root)
+    return _repository(here) or str(Path(here).parent)

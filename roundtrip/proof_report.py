@@ -1,0 +1,171 @@
+"""What a verification of code says, with the model's line and the code's beside each step."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import PurePath
+from typing import Any, TypeAlias
+
+from rebsync.checker.result import Violation
+from rebsync.checker.show import words
+from rebsync.checker.show.data import result_json
+from rebsync.checker.show.flights import departures
+from rebsync.checker.trace import TraceStep
+from rebsync.diagnostics import Diagnostic, Findings
+from rebsync.roundtrip.correspondence import Both
+from rebsync.roundtrip.difference import Place
+from rebsync.roundtrip.proof import Proof
+from rebsync.source import NOWHERE, Source, Span
+
+Json: TypeAlias = dict[str, Any]
+Remark: TypeAlias = tuple[Source, Span, str]
+
+_HEAD = ("step", "time", "", "model", "code")
+_LONG = 30  # columns of a place that is told whole with every step
+_NOWHERE = Both(None, None)
+
+
+def outcome_of(proof: Proof, drifted: bool) -> str:
+    """The verdict in one line: `drifted, all properties still hold`."""
+    head = "drifted" if drifted else "in step"
+    still = "still " if drifted else ""
+    match proof.verdict:
+        case "satisfied":
+            what = f"all properties {still}hold"
+        case "violated":
+            what = _broken(proof)
+        case _:
+            what = f"whether the properties hold is undetermined: {proof.reason}"
+    return f"{head}, {what}"
+
+
+def _broken(proof: Proof) -> str:
+    """`property Small broken; deadlock`."""
+    names = [v.name for v in violations(proof) if v.kind == "property"]
+    others = [words.title(v) for v in violations(proof) if v.kind != "property"]
+    told = f"propert{'ies' if len(names) > 1 else 'y'} {', '.join(names)} broken" if names else ""
+    return "; ".join(filter(None, (told, ", ".join(others))))
+
+
+def proof_lines(proof: Proof, drifted: bool) -> Iterator[str]:
+    """The verdict; then each run in which something goes wrong, with both places of each step."""
+    yield f"  {outcome_of(proof, drifted)}"
+    if proof.verdict == "violated" and proof.reason:
+        yield f"  caveat: {proof.reason}"
+    if proof.result is None:
+        return
+    for caveat in proof.result.caveats:
+        yield f"  caveat: {caveat}"
+    for violation in proof.result.violations:
+        yield ""
+        yield f"  {words.title(violation)}: {violation.message}"
+        yield from run_lines(proof, violation)
+
+
+def run_lines(proof: Proof, violation: Violation) -> Iterator[str]:
+    """A run as a table: what happens in each step, and both places of it."""
+    rows = [_row(proof, step) for step in violation.trace.steps]
+    wide = [max(len(row[i]) for row in (_HEAD, *rows)) for i in range(5)]
+    yield _laid_out(_HEAD, wide)
+    for row, step in zip(rows, violation.trace.steps, strict=True):
+        yield _laid_out(row, wide)
+        for text in _details(step):
+            yield f"    {'':{wide[0]}}  {'':{wide[1]}}    {text}"
+        if step.number == violation.trace.loop:
+            yield "    from here on the run repeats for ever"
+
+
+def _laid_out(row: tuple[str, ...], wide: list[int]) -> str:
+    step, time, what, model, code = row
+    line = f"    {step:>{wide[0]}}  {time:>{wide[1]}}  {what:{wide[2]}}  {model:{wide[3]}}  {code}"
+    return line.rstrip()
+
+
+def _row(proof: Proof, step: TraceStep) -> tuple[str, ...]:
+    both = proof.places.get(step.line, _NOWHERE)
+    sides = both.model, both.code
+    places = (_shown(p) if p is not None else "-" if step.line else "" for p in sides)
+    return (str(step.number), str(step.time), words.heading(step), *places)
+
+
+def _shown(place: Place) -> str:
+    """A place as a step names it: where the path is long, by the name of the file."""
+    whole = str(place)
+    return whole if len(whole) <= _LONG else f"{PurePath(place.source.path).name}:{place.line}"
+
+
+def _details(step: TraceStep) -> Iterator[str]:
+    if step.choices:
+        yield f"chooses {', '.join(step.choices)}"
+    for message in departures(step):
+        yield f"sends {words.sending(message, step.time)}"
+    if step.kind != "start":
+        for change in step.changes:
+            whose = f"{change.rebec}." if change.rebec != step.rebec else ""
+            yield f"{whose}{words.difference(change)}"
+    if step.failure is not None:
+        yield step.failure
+
+
+# --- for other programs -------------------------------------------------------------------------
+
+
+def proof_findings(proof: Proof) -> Iterator[tuple[Findings, list[Remark]]]:
+    """What is violated, where in the code the run ends; with the places that it comes by."""
+    for remark in proof.remarks:
+        yield remark, [(remark.source, d.span, d.message) for d in remark.diagnostics]
+    if proof.verdict == "undetermined":
+        message = f"whether the properties hold is undetermined: {proof.reason}"
+        yield _finding("RS958", None, proof, message, None), []
+        return
+    for violation in violations(proof):
+        steps = list(_places(proof, violation))
+        end = steps[-1][0] if steps else None
+        told = f"{words.title(violation)}: {violation.message}"
+        hint = proof.reason or f"the run has {words.counted(len(violation.trace.steps), 'step')}"
+        remarks = [(place.source, place.span, what) for place, what in steps]
+        yield _finding("RS957", end, proof, told, hint), remarks
+
+
+def _places(proof: Proof, violation: Violation) -> Iterator[tuple[Place, str]]:
+    """The places that a run comes by, in the code where that is known, and what happens there."""
+    for step in violation.trace.steps:
+        both = proof.places.get(step.line, _NOWHERE)
+        place = both.code or both.model
+        if place is not None:
+            yield place, f"step {step.number}, time {step.time}: {words.heading(step)}"
+
+
+def _finding(
+    code: str, place: Place | None, proof: Proof, message: str, hint: str | None
+) -> Findings:
+    source = place.source if place is not None else Source(proof.path, "")
+    span = place.span if place is not None else NOWHERE
+    return Findings(source, (Diagnostic(code, span, message, hint),))
+
+
+def proof_data(proof: Proof) -> Json:
+    """The verdict and the whole result; `places` are those of the lines that its runs name."""
+    result = json.loads(result_json(proof.result)) if proof.result is not None else None
+    lines = {s.line for v in violations(proof) for s in v.trace.steps if s.line}
+    return {
+        "verdict": proof.verdict,
+        "reason": proof.reason or None,
+        "broken": list(proof.broken),
+        "extracted": proof.source.text,
+        "places": {str(n): _both(proof.places.get(n, _NOWHERE)) for n in sorted(lines)},
+        "result": result,
+    }
+
+
+def violations(proof: Proof) -> tuple[Violation, ...]:
+    """The runs in which something goes wrong."""
+    return proof.result.violations if proof.result is not None else ()
+
+
+def _both(both: Both) -> Json:
+    return {
+        name: {"path": place.source.path, "line": place.line} if place is not None else None
+        for name, place in (("model", both.model), ("code", both.code))
+    }

@@ -1,0 +1,118 @@
+"""What `.rebsync/` of a package says, read with care: it may be damaged, or from the future."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
+from rebsync.files import read_source
+from rebsync.records import dataclass
+from rebsync.roundtrip.manifest import FORMAT, MANIFEST
+from rebsync.source import NOWHERE, Source, Span
+
+_AGAIN = "`rebsync generate` writes it anew"
+_MARK = "<<<<<<< "
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """The manifest of a package: from which model it was made, how, and what was generated.
+
+    `model` is the name of the model's file; `path` leads to it from the package's folder, empty
+    where that is not recorded. `digest` is that of the model's text, `files` those of the texts
+    that were generated. `accepted` is how nodes are joined otherwise than generated, as a change
+    of the code that is in the model since.
+    """
+
+    model: str
+    path: str
+    digest: str
+    options: dict[str, Any]
+    files: dict[str, str]
+    accepted: frozenset[str] = frozenset()
+
+
+def read_record(root: str) -> Record:
+    """The manifest of a package.
+
+    RebsyncError: it is not there, damaged, or in a format of a newer rebsync.
+    """
+    path = f"{root}/{MANIFEST}"
+    if not Path(path).is_file():
+        message = "the manifest is missing: what the package was made from is not known"
+        raise RebsyncError.of(path, "RS961", message, _AGAIN)
+    source = read_source(path)
+    try:
+        data = json.loads(source.text)
+    except json.JSONDecodeError as error:
+        place = Span(error.pos, error.pos + 1)
+        raise _damaged(source, place, f"it is no JSON: {error.msg}") from None
+    except RecursionError:
+        raise _damaged(source, NOWHERE, "it is nested too deeply") from None
+    return _record(source, data)
+
+
+def _damaged(source: Source, span: Span, why: str) -> RebsyncError:
+    if (found := conflict_in(source)) is not None:
+        return RebsyncError([found])
+    message = f"the manifest is damaged: {why}"
+    return RebsyncError([Findings(source, (Diagnostic("RS962", span, message, _AGAIN),))])
+
+
+def conflict_in(source: Source) -> Findings | None:
+    """What a merge left in a text that people are to decide, if anything."""
+    text = source.text
+    at = 0 if text.startswith(_MARK) else text.find(f"\n{_MARK}") + 1
+    if not text.startswith(_MARK, at) or f"\n{'>' * 7}" not in text[at:]:
+        return None
+    message = "a merge left a conflict here"
+    hint = "decide which side is right, and take the markers out"
+    end = text.find("\n", at)
+    span = Span(at, end if end >= 0 else len(text))
+    return Findings(source, (Diagnostic("RS966", span, message, hint),))
+
+
+def _record(source: Source, data: object) -> Record:
+    match data:
+        case {"format": int(version), "rebsync": by_version} if version > FORMAT:
+            message = (
+                f"the manifest has format {version}; this rebsync knows formats up to {FORMAT}"
+            )
+            hint = f"install rebsync {by_version} or newer"
+            raise RebsyncError.of(source.path, "RS963", message, hint)
+        case {
+            "format": int(),
+            "model": {"name": str(name), "digest": str(digest)},
+            "options": dict(options),
+            "files": dict(files),
+        } if all(isinstance(k, str) and isinstance(v, str) for k, v in files.items()):
+            return Record(name, _path(data), digest, options, files, _accepted(data))
+        case _:
+            raise _damaged(source, NOWHERE, "a part of it is missing or of the wrong kind")
+
+
+def _path(data: object) -> str:
+    match data:
+        case {"model": {"path": str(path)}}:
+            return path
+        case _:
+            return ""
+
+
+def _accepted(data: object) -> frozenset[str]:
+    match data:
+        case {"accepted": [*told]}:
+            return frozenset(each for each in told if isinstance(each, str))
+        case _:
+            return frozenset()
+
+
+def with_accepted(manifest: str, accepted: Iterable[str]) -> str:
+    """The text of a manifest that accepts how some nodes are joined."""
+    told = sorted(accepted)
+    data = {k: v for k, v in json.loads(manifest).items() if k != "accepted"}
+    whole = {**data, "accepted": told} if told else data
+    return json.dumps(whole, indent=2, ensure_ascii=False) + "\n"

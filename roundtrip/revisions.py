@@ -1,0 +1,154 @@
+"""What a user names as one of two sides: a model, a package, or a revision of either in git."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from dataclasses import replace
+from itertools import islice
+from pathlib import Path, PurePosixPath
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+from rebsync.diagnostics import RebsyncError
+from rebsync.files import STANDARD_INPUT, decode, read_bytes
+from rebsync.roundtrip.difference import Place
+from rebsync.roundtrip.models import Code, model_given, parsed
+from rebsync.roundtrip.sides import Given, Unread
+from rebsync.source import Source
+
+if TYPE_CHECKING:
+    from rebsync.reverse.reading import Chosen
+
+MODEL = ".rebeca"
+_FORMS = "wanted is a model, a package, or REVISION:PATH as git has it, such as HEAD~3:robots"
+
+
+def read_side(name: str) -> Code:
+    """The model that a name stands for, with what of the code is not in it exactly.
+
+    RebsyncError: there is no such path or revision, it is not readable, or it has no model.
+    """
+    if name == STANDARD_INPUT:
+        return Code(model_given(name), ())
+    if os.path.lexists(name):
+        return _path(name, name)
+    revision, colon, path = name.partition(":")
+    if not colon or not revision:
+        raise RebsyncError.of(name, "RS801", "no such file or directory", _FORMS)
+    return _revision(name, revision, path)
+
+
+def _path(path: str, shown: str) -> Code:
+    if not Path(path).is_dir():
+        return _model(path, shown) if path.endswith(MODEL) else _code(path, shown)
+    models = sorted(p.name for p in Path(path).iterdir() if p.suffix == MODEL and p.is_file())
+    if models and not (Path(path) / "package.xml").is_file():
+        if len(models) == 1:
+            return _model(str(Path(path, models[0])), f"{shown.rstrip('/')}/{models[0]}")
+        hint = f"name one of them: {', '.join(models)}"
+        raise RebsyncError.of(shown, "RS943", "there are several models here", hint)
+    return _code(path, shown)
+
+
+def _model(path: str, shown: str) -> Code:
+    if path == shown:
+        return Code(model_given(path), ())
+    source = decode(shown, read_bytes(path))
+    return Code(Given(parsed(source), source), ())
+
+
+def _code(path: str, shown: str) -> Code:
+    """What the code of a package or of one file says."""
+    from rebsync.reverse.findings import Grade
+    from rebsync.reverse.recovery import extract
+    from rebsync.reverse.report import diagnostics
+
+    chosen = _chosen(path, shown)
+    extracted = extract(chosen.files, chosen.only)
+    if not extracted.model.classes:
+        raise RebsyncError.of(shown, "RS943", "no class of a model was found here")
+    findings = (*chosen.findings, *extracted.findings)
+    unread = tuple(
+        Unread(Place(f.source, f.span), f.why, f.within)
+        for f in findings
+        if f.grade is Grade.UNREADABLE
+    )
+    partial = chosen.only is not None and extracted.model.main is None
+    given = Given(extracted.model, Source(shown, ""), unread, partial)
+    return Code(given, diagnostics(findings))
+
+
+def _chosen(path: str, shown: str) -> Chosen:
+    """The files of the one package that a path stands for, under the names to be told."""
+    from rebsync.reverse.reading import packages
+
+    def named(source: Source) -> Source:
+        inside = source.path.removeprefix(path).lstrip("/")
+        return Source(f"{shown.rstrip('/')}/{inside}" if inside else shown, source.text)
+
+    found = list(islice(packages([path]), 2))
+    if not found:
+        raise RebsyncError.of(shown, "RS943", "no class of a model was found here")
+    if len(found) > 1:
+        roots = [f"{shown}{f.root.removeprefix(path)}" for f in found]
+        hint = f"name one of them, such as {' or '.join(roots)}"
+        raise RebsyncError.of(shown, "RS943", "there are several packages here", hint)
+    if path == shown:
+        return found[0]
+    files = {inside: named(source) for inside, source in found[0].files.items()}
+    findings = tuple(replace(f, source=named(f.source)) for f in found[0].findings)
+    return replace(found[0], files=files, findings=findings, root=shown)
+
+
+# --- revisions ----------------------------------------------------------------------------------
+
+
+def _revision(name: str, revision: str, path: str) -> Code:
+    """A model or package of a revision: `path` is from the top of the repository, or from here."""
+    if _git(name, "rev-parse", "--verify", "--quiet", f"{revision}^{{commit}}") is None:
+        message = f'no such file, and git knows no revision "{revision}" here'
+        raise RebsyncError.of(name, "RS801", message, _FORMS)
+    for tried in dict.fromkeys((path, f"./{path}")):
+        kind = _git(name, "cat-file", "-t", f"{revision}:{tried}")
+        if kind is not None:
+            return _object(name, f"{revision}:{tried}", path, kind.decode().strip())
+    raise RebsyncError.of(name, "RS801", f'the revision "{revision}" has no "{path}"')
+
+
+def _object(name: str, object_: str, path: str, kind: str) -> Code:
+    """The model or package that a blob or a tree of git holds."""
+    with TemporaryDirectory(prefix="rebsync-") as folder:
+        if kind == "tree":
+            _write_tree(name, object_, folder)
+            return _path(folder, name)
+        target = Path(folder, PurePosixPath(path).name)
+        target.write_bytes(_git(name, "cat-file", "blob", object_) or b"")
+        return _path(str(target), name)
+
+
+def _write_tree(name: str, object_: str, folder: str) -> None:
+    """Writes the regular files of a tree; links and submodules are left out."""
+    listed = _git(name, "ls-tree", "-r", "-z", "--full-tree", object_) or b""
+    lines = (line for line in listed.split(b"\0") if line.startswith(b"100"))
+    rows = [line.partition(b"\t") for line in lines]
+    hashes = b"".join(about.split()[2] + b"\n" for about, _, _ in rows)
+    data = _git(name, "cat-file", "--batch", given=hashes) or b""
+    at = 0
+    for _, _, path in rows:
+        end = data.index(b"\n", at)
+        size = int(data[at:end].split()[2])
+        target = Path(folder, os.fsdecode(path))
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_bytes(data[end + 1 : end + 1 + size])
+        at = end + size + 2
+
+
+def _git(name: str, *arguments: str, given: bytes = b"") -> bytes | None:
+    """What a command of git prints; None where it fails. RebsyncError: there is no git."""
+    try:
+        done = subprocess.run(["git", *arguments], input=given, capture_output=True, check=False)
+    except OSError as error:
+        message = f"git cannot be run: {error.strerror}"
+        raise RebsyncError.of(name, "RS806", message) from None
+    return done.stdout if done.returncode == 0 else None

@@ -1,0 +1,122 @@
+"""Generated code that no model describes: the run-time part, programs, stand-ins of sensors.
+
+What somebody has changed there is not in the model that is extracted, so that nothing can be said
+of the system. Layout and comments do not count, nor does another name of the package.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from itertools import zip_longest
+
+from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
+from rebsync.files import read_source
+from rebsync.records import dataclass
+from rebsync.reserved import RUNTIME_HEADERS
+from rebsync.roundtrip.digests import Standing
+from rebsync.roundtrip.manifest import BASE
+from rebsync.roundtrip.markers import TOKEN
+from rebsync.roundtrip.packages import Kept
+from rebsync.roundtrip.recorded import Record
+from rebsync.source import NOWHERE, Source, Span
+
+_HEADER = re.compile(rf"include/[^/]+/(?:{'|'.join(RUNTIME_HEADERS)})\.h\Z")
+_STAND_IN = re.compile(r"src/\w+_stand_in\.cpp\Z")
+_PROGRAM = re.compile(r"src/\w+_node\.cpp\Z")
+_OWN_NAME = re.compile(r'#include "(\w+)/|#ifndef (\w+)_\w+_H\b')
+# What a rebec is made of, extraction reads.
+_REBEC = re.compile(r"::\w+rebec\(node[,)]|.*(?:node\.param|readArray)\(")
+_LOGS = ("ROS_", "printf(", "std::cout", "std::cerr")
+_HINT = "take the edit back, or tell of it in the model; `rebsync generate --diff` shows it"
+
+
+@dataclass(frozen=True, slots=True)
+class _Piece:
+    """A token, or a statement without its layout, and its place."""
+
+    text: str
+    span: Span
+
+
+def edited(kept: Kept, record: Record | None, now: Standing) -> tuple[Findings, ...]:
+    """The places that are not as they were generated."""
+    if record is None:
+        return ()
+    names = sorted({*now.changed, *now.missing} & record.files.keys())
+    return tuple(f for name in names if _is_runtime(name) for f in _edited(kept, now, name))
+
+
+def _is_runtime(name: str) -> bool:
+    return bool(_HEADER.match(name) or _STAND_IN.match(name) or _PROGRAM.match(name))
+
+
+def _edited(kept: Kept, now: Standing, name: str) -> Iterator[Findings]:
+    path = now.listing.files.get(name) or _moved(now, name)
+    if path is None:
+        if _HEADER.match(name):
+            message = "generated code that the rest needs is gone"
+            yield _finding(Source(f"{kept.root}/{name}", ""), NOWHERE, message)
+        return
+    try:
+        source, base = read_source(path), read_source(f"{kept.root}/{BASE}{name}")
+    except RebsyncError as error:
+        found = error.findings[0]
+        message = f"generated code that no model describes cannot be compared with {BASE}{name}"
+        message += f": {found.diagnostics[0].message}"
+        yield _finding(Source(path, ""), NOWHERE, message)
+        return
+    if not _HEADER.match(name) and "int main(" not in base.text:
+        return  # a class with such a name
+    span = _first_difference(base, source, _statements if _PROGRAM.match(name) else _tokens)
+    if span is not None:
+        yield _finding(source, span, "this is not as it was generated, and no model describes it")
+
+
+def _finding(source: Source, span: Span, message: str) -> Findings:
+    return Findings(source, (Diagnostic("RS956", span, message, _HINT),))
+
+
+def _moved(now: Standing, name: str) -> str | None:
+    """The file of that name that is somewhere else, as in a package that was renamed."""
+    last = name.rpartition("/")[2]
+    same = [p for n, p in now.listing.files.items() if n.rpartition("/")[2] == last]
+    return same[0] if len(same) == 1 else None
+
+
+def _first_difference(
+    base: Source, source: Source, cut: Callable[[Source], Iterator[_Piece]]
+) -> Span | None:
+    """Where a text is not as another, the names of their packages apart."""
+    last = len(source.text.rstrip())
+    for old, new in zip_longest(cut(base), cut(source)):
+        if old is None or new is None or old.text != new.text:
+            return new.span if new is not None else Span(max(last - 1, 0), last)
+    return None
+
+
+def _tokens(source: Source) -> Iterator[_Piece]:
+    own = _OWN_NAME.search(source.text)
+    names = {form for n in own.groups() if n for form in (n.lower(), n.upper())} if own else ()
+    for found in TOKEN.finditer(source.text):
+        text = found[0]
+        if text.startswith(("//", "/*")):
+            continue
+        for name in names:
+            text = text.replace(name, "")
+        yield _Piece(text, Span(found.start(), found.end()))
+
+
+def _statements(source: Source) -> Iterator[_Piece]:
+    """The statements of a program but for what it logs, and what it makes its rebec of."""
+    held: list[_Piece] = []
+    depth = 0
+    for token in _tokens(source):
+        held.append(token)
+        depth += (token.text in ("(", "[")) - (token.text in (")", "]"))
+        if depth == 0 and token.text in (";", "{", "}"):
+            text = "".join(piece.text for piece in held)
+            if not text.startswith(_LOGS) and not _REBEC.match(text):
+                yield _Piece(text, Span(held[0].span.start, token.span.end))
+            held = []
+    yield from held

@@ -1,0 +1,48 @@
+"""Whether the settings are those with which the code of a package was generated."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import asdict
+from pathlib import Path
+
+from rebsync.config import Config, parse_config
+from rebsync.diagnostics import Diagnostic, Findings
+from rebsync.files import read_source
+from rebsync.roundtrip.packages import SETTINGS
+from rebsync.roundtrip.recorded import Record
+from rebsync.source import NOWHERE, Source, Span
+
+_HINT = "`rebsync generate` takes the setting into the code"
+_APART = frozenset({"target"})  # what the command line may say otherwise
+
+
+def changed_settings(model: str, record: Record) -> tuple[Findings, ...]:
+    """The settings beside a model that are not as recorded. RebsyncError: they are wrong."""
+    path = Path(model).parent / SETTINGS
+    source = Source(str(path), "")
+    config = Config()
+    if path.is_file():
+        source = read_source(str(path))
+        config = parse_config(source)
+    now = json.loads(json.dumps(asdict(config)))
+    found = tuple(
+        Diagnostic("RS955", _place(source, key), _message(key, record.options[key], value), _HINT)
+        for key, value in now.items()
+        if key not in _APART and key in record.options and record.options[key] != value
+    )
+    return (Findings(source, found),) if found else ()
+
+
+def _message(key: str, old: object, new: object) -> str:
+    if isinstance(new, list):
+        return f"`{key}` is not as it was when the code was generated"
+    return (
+        f"`{key}` was {json.dumps(old)} when the code was generated, and is {json.dumps(new)} now"
+    )
+
+
+def _place(source: Source, key: str) -> Span:
+    found = re.search(rf"^\s*\[*\s*({key})\b", source.text, re.MULTILINE)
+    return Span(found.start(1), found.end(1)) if found is not None else NOWHERE

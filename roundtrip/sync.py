@@ -1,0 +1,312 @@
+"""Brings a package and its model in step: what each has changed goes into the other.
+
+All is worked out in memory; nothing is written here.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import field
+from pathlib import Path
+
+from rebsync import model as m
+from rebsync.config import Config, Maintainer, SensorBinding, parse_config
+from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
+from rebsync.files import read_source
+from rebsync.records import dataclass
+from rebsync.roundtrip.checked import Checked
+from rebsync.roundtrip.difference import (
+    Comparison,
+    Difference,
+    Place,
+    Undetermined,
+    explain,
+)
+from rebsync.roundtrip.differences import compare
+from rebsync.roundtrip.digests import is_base_whole, is_text_of
+from rebsync.roundtrip.manifest import BASE, BASE_MODEL, FOLDER, MANIFEST, with_manifest
+from rebsync.roundtrip.merge_code import MergedCode, Stages, ancestors, merged_code, recorded_base
+from rebsync.roundtrip.merge_models import Favour, as_code_says, merged_model
+from rebsync.roundtrip.models import code_given, model_given, parsed
+from rebsync.roundtrip.packages import SETTINGS
+from rebsync.roundtrip.recorded import Record, conflict_in, read_record, with_accepted
+from rebsync.roundtrip.sides import Given
+from rebsync.roundtrip.verdict import Mover
+from rebsync.source import NOWHERE, Source, Span
+
+
+@dataclass(frozen=True, slots=True)
+class Sync:
+    """What is to be written so that a package and its model are in step.
+
+    `model_text` and `texts` are those that change (None: the file goes), `records` all of
+    `.rebsync/`. `conflicts` are left to decide, by path from the package or `""` for the model;
+    then both sides are in the texts, between markers. With `refused` nothing is to be written.
+    `findings` are places of the code that are not known exactly.
+    """
+
+    checked: Checked
+    model_text: str | None = None
+    texts: dict[str, str | None] = field(default_factory=dict)
+    records: dict[str, str | None] = field(default_factory=dict)
+    conflicts: dict[str, Stages] = field(default_factory=dict)
+    findings: tuple[Findings, ...] = ()
+    refused: tuple[Findings, ...] = ()
+    is_undetermined: bool = False
+
+    @property
+    def changes(self) -> bool:
+        """Whether a model or code is to change."""
+        return self.model_text is not None or bool(self.texts)
+
+
+def synced(checked: Checked, favour: Favour) -> Sync:
+    """What brings a package in step. RebsyncError: it cannot be worked out."""
+    record = checked.record or read_record(checked.kept.root)
+    asks_again = any(d.code in ("RS955", "RS964") for f in checked.findings for d in f.diagnostics)
+    if checked.drift is None and not asks_again:
+        return Sync(checked, findings=checked.findings)
+    return _Syncing(checked, record, favour).result()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Syncing:
+    checked: Checked
+    record: Record
+    favour: Favour
+
+    def result(self) -> Sync:
+        """Merges the model, then the code, and proves that both say the same then."""
+        today = model_given(self.checked.model)
+        code = code_given(self.checked.kept, self.checked.standing)
+        left = [f for f in code.findings if any(d.code == "RS966" for d in f.diagnostics)]
+        if left:
+            raise RebsyncError(left)
+        base = self._base(today)
+        if refused := tuple(self._unread(compare(today, code.given), code.given)):
+            return Sync(self.checked, refused=refused, is_undetermined=True)
+        merged = merged_model(base, today, code.given, self.favour)
+        told = _of_code(base or today, code.given)
+        if merged.conflicts:
+            return self._left_open(base, today, merged.text, told)
+        source = Source(today.source.path, merged.text)
+        model = Given(_parsed(source), source)
+        return self._with_code(today, model, base or today, told, code.given)
+
+    # --- what is known --------------------------------------------------------------------------
+
+    def _base(self, today: Given) -> Given | None:
+        """The model as of the last time in step, if it is still known."""
+        if is_base_whole(self.checked.kept, self.record):
+            return model_given(f"{self.checked.kept.root}/{BASE_MODEL}")
+        is_same = is_text_of(today.source.text.encode("utf-8"), self.record.digest)
+        return today if is_same else None
+
+    def _unread(self, apart: Comparison, code: Given) -> Iterator[Findings]:
+        """Elements that the code has changed, and of which not all could be read."""
+        drift = self.checked.drift
+        movers = dict(drift.differences) if drift is not None else {}
+        changed = {
+            d.element
+            for d in apart.differences
+            if not isinstance(d, Undetermined) and movers.get(d) is not Mover.MODEL
+        }
+        for difference in apart.differences:
+            if isinstance(difference, Undetermined) and difference.element in changed:
+                place = difference.right or Place(code.source, NOWHERE)
+                message = (
+                    f"{difference.element} was changed in the code and cannot be taken into the"
+                    f" model: {difference.why}"
+                )
+                yield _finding(place, "RS959", message, "write this in a way that extract reads")
+
+    # --- results --------------------------------------------------------------------------------
+
+    def _left_open(self, base: Given | None, today: Given, text: str, told: Given) -> Sync:
+        """The model with conflict markers; the code stays as it is.
+
+        What the code says is in the model then, so that it is what both are compared with next.
+        """
+        last = base.source.text if base is not None else ""
+        stages = {"": Stages(last, today.source.text, _theirs(text))}
+        records = self._records(told, self._generated(told, _config_of(self.record)))
+        return Sync(
+            self.checked,
+            text,
+            records=records,
+            conflicts=stages,
+            findings=self.checked.findings,
+        )
+
+    def _with_code(self, today: Given, model: Given, base: Given, told: Given, code: Given) -> Sync:
+        options = _config_of(self.record)
+        now = self._generated(model, self._config())
+        recorded = recorded_base(self.checked.kept.root, BASE)
+        before = self._generated(base, options)
+        is_as_base = told.source.text == base.source.text
+        of_code = before if is_as_base else self._generated(told, options)
+        last = ancestors(recorded, before, of_code)
+        merged = merged_code(self.checked.kept.root, last, now, self.favour)
+        findings = tuple(f for f in self.checked.findings if not _is_settled(f))
+        if merged.refused:
+            return Sync(self.checked, findings=findings, refused=merged.refused)
+        new_text = model.source.text if model.source.text != today.source.text else None
+        if merged.conflicts:
+            records = self._records(told, last)
+            return Sync(self.checked, new_text, merged.texts, records, merged.conflicts, findings)
+        proof = compare(model, self._read_again(merged, code))
+        unknown = proof.is_undetermined or _has_unknown(findings)
+        if wrong := tuple(_wrong(d) for d in proof.differences if not isinstance(d, Undetermined)):
+            return Sync(self.checked, findings=findings, refused=wrong)
+        texts = {path: text for path, text in merged.texts.items() if self._differs(path, text)}
+        records = self._records(model, now)
+        return Sync(self.checked, new_text, texts, records, {}, findings, (), unknown)
+
+    def _differs(self, path: str, text: str | None) -> bool:
+        file = Path(self.checked.kept.root, path)
+        if text is None or not file.is_file():
+            return text is not None or file.is_file()
+        return read_source(str(file)).text != text
+
+    def _read_again(self, merged: MergedCode, code: Given) -> Given:
+        """What the code says once it is merged."""
+        if not merged.texts:
+            return code
+        from rebsync.reverse.findings import Grade
+        from rebsync.reverse.packages import is_read
+        from rebsync.reverse.reading import read
+        from rebsync.reverse.recovery import extract
+        from rebsync.roundtrip.sides import Unread
+
+        chosen = read(self.checked.standing.listing)
+        files = dict(chosen.files)
+        for path, text in merged.texts.items():
+            folder, _, name = path.rpartition("/")
+            if text is None:
+                files.pop(path, None)
+            elif is_read(name, f"{folder}/" if folder else ""):
+                files[path] = Source(f"{self.checked.kept.root}/{path}", text)
+        extracted = extract(files)
+        unread = tuple(
+            Unread(Place(f.source, f.span), f.why, f.within)
+            for f in (*chosen.findings, *extracted.findings)
+            if f.grade is Grade.UNREADABLE
+        )
+        return Given(extracted.model, code.source, unread)
+
+    # --- generation -----------------------------------------------------------------------------
+
+    def _config(self) -> Config:
+        """Today's settings, for the dialect that the package is in."""
+        path = Path(self.checked.model).parent / SETTINGS
+        config = parse_config(read_source(str(path))) if path.is_file() else Config()
+        options = _config_of(self.record)
+        from rebsync.forward.generate import package_name
+
+        old, new = (package_name(self._stem, each) for each in (options, config))
+        if old != new:
+            message = f"the package was {old} when its code was generated, and is {new} now"
+            hint = "`rebsync generate` writes the new package beside the old one"
+            raise RebsyncError.of(str(path), "RS955", message, hint)
+        return config
+
+    @property
+    def _stem(self) -> str:
+        return Path(self.record.model).stem
+
+    def _generated(self, given: Given, config: Config) -> dict[str, str]:
+        """The files that are generated for a model. RebsyncError: it has no package."""
+        from rebsync.forward.generate import generate
+        from rebsync.forward.limits import limits
+        from rebsync.grammars.parser import parse_model
+        from rebsync.static import analyse
+
+        parsed_ = parse_model(given.source)
+        analysis = analyse(parsed_.model)
+        found = tuple(limits(parsed_.model, analysis, config, self._stem))
+        if analysis.errors or any(d.severity is Severity.ERROR for d in found):
+            raise RebsyncError([Findings(given.source, (*analysis.errors, *found))])
+        return generate(parsed_.model, parsed_.comments, analysis, config, self._stem)
+
+    def _records(self, given: Given, files: Mapping[str, str]) -> dict[str, str | None]:
+        """All of `.rebsync/` for a model and what was generated for it."""
+        from rebsync.roundtrip.packages import path_to_model
+
+        root = self.checked.kept.root
+        path = path_to_model(self.checked.model, root)
+        whole = with_manifest(files, self.record.model, given.source.text, self._config(), path)
+        records: dict[str, str | None] = {
+            name: text for name, text in whole.items() if name.startswith(f"{FOLDER}/")
+        }
+        records[MANIFEST] = with_accepted(whole[MANIFEST], self.record.accepted)
+        for name in recorded_base(root, BASE):
+            records.setdefault(BASE + name, None)
+        return records
+
+
+# --- parts --------------------------------------------------------------------------------------
+
+
+def _of_code(base: Given, code: Given) -> Given:
+    """The model of last time with all that the code has changed."""
+    text = as_code_says(base, code)
+    if text == base.source.text:
+        return base
+    source = Source(base.source.path, text)
+    return Given(_parsed(source), source)
+
+
+def _parsed(source: Source) -> m.Model:
+    if conflict_in(source) is not None:
+        return parsed(source)
+    from rebsync.roundtrip.merge_models import parsed_again
+
+    return parsed_again(source)
+
+
+def _theirs(text: str) -> str:
+    from rebsync.roundtrip.text_merge import decided
+
+    return decided(text, ("model", "code"), False)
+
+
+def _config_of(record: Record) -> Config:
+    """The settings with which a package was generated."""
+    known = {name: value for name, value in record.options.items() if name in _FIELDS}
+    people = tuple(Maintainer(**p) for p in known.pop("maintainers", ()))
+    sensors = tuple(SensorBinding(**s) for s in known.pop("sensors", ()))
+    return Config(**known, maintainers=people, sensors=sensors)
+
+
+_FIELDS = frozenset(Config.__dataclass_fields__)
+
+
+def _is_settled(found: Findings) -> bool:
+    """Whether a finding is about what is put right by this."""
+    return all(d.code in ("RS955", "RS964") for d in found.diagnostics)
+
+
+def _has_unknown(findings: tuple[Findings, ...]) -> bool:
+    return any(d.code in ("RS941", "RS956") for f in findings for d in f.diagnostics)
+
+
+def _wrong(difference: Difference) -> Findings:
+    place = difference.right or difference.left
+    message = (
+        f"merged, {difference.element} of the code would not say what the model says:"
+        f" {explain(difference)}"
+    )
+    hint = "bring this element in step by hand, or take one side with --conflict"
+    return _finding(place, "RS968", message, hint)
+
+
+def _finding(place: Place | None, code: str, message: str, hint: str) -> Findings:
+    source = place.source if place is not None else Source("", "")
+    span = place.span if place is not None else NOWHERE
+    return Findings(source, (Diagnostic(code, Span(span.start, span.end), message, hint),))
+
+
+def relative(path: str, root: str) -> str:
+    """A path from a package's folder."""
+    return Path(os.path.relpath(path, root)).as_posix()

@@ -1,0 +1,123 @@
+"""Writes what brings a package in step: model, code, and last of all the records."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from pathlib import Path
+
+from rebsync.diagnostics import RebsyncError
+from rebsync.files import BOM, read_bytes
+from rebsync.roundtrip.manifest import MANIFEST
+from rebsync.roundtrip.merge_code import Stages
+from rebsync.roundtrip.sync import Sync, relative
+from rebsync.writing import replace_tree
+
+
+def write(sync: Sync) -> tuple[str, ...]:
+    """Writes it all or nothing; gives the paths of model and code that are written.
+
+    RebsyncError: a file cannot be written, or a link leads out of what belongs together.
+    """
+    root = sync.checked.kept.root
+    texts: dict[str, str] = {}
+    if sync.model_text is not None:
+        texts[relative(sync.checked.model, root)] = sync.model_text
+    texts |= {p: t for p, t in sync.texts.items() if t is not None}
+    for path in texts:
+        _refuse_link(root, path, sync.checked.kept.tree)
+        texts[path] = _marked(Path(root, path), texts[path])
+    texts |= {p: t for p, t in sync.records.items() if t is not None}
+    gone = [p for each in (sync.texts, sync.records) for p, t in each.items() if t is None]
+    written = replace_tree(root, texts, remove=gone)
+    _accept(sync)
+    _tell_git(sync)
+    return tuple(os.path.normpath(Path(root, p)) for p in written if not p.startswith(".rebsync/"))
+
+
+def _accept(sync: Sync) -> None:
+    """Records how nodes are joined otherwise than would be generated now, but was told before.
+
+    Such is a server that somebody has written by hand: the model has it now, and the code is not
+    to be told of as edited once more.
+    """
+    kept = sync.checked.kept
+    if sync.conflicts or not sync.records:
+        return
+    from rebsync.roundtrip.difference import Comparison
+    from rebsync.roundtrip.digests import standing
+    from rebsync.roundtrip.recorded import read_record, with_accepted
+    from rebsync.roundtrip.wiring import odd_wiring
+
+    record = read_record(kept.root)
+    odd = odd_wiring(kept, record, standing(kept, record), Comparison(()))
+    told = {_subject(d.message) for f in sync.findings for d in f.diagnostics if d.code == "RS956"}
+    messages = sorted({d.message for f in odd for d in f.diagnostics})
+    accepted = [message for message in messages if _subject(message) not in told]
+    manifest = with_accepted(sync.records[MANIFEST] or "{}", accepted)
+    replace_tree(kept.root, {MANIFEST: manifest})
+
+
+def _subject(message: str) -> str:
+    """What a message is about, whatever it is now."""
+    return message.partition(" is ")[0]
+
+
+def _refuse_link(root: str, path: str, tree: str) -> None:
+    """What is behind a link that leads out of the tree is not ours to change."""
+    file = Path(root, path)
+    if file.is_symlink() and Path(tree).resolve() not in file.resolve().parents:
+        message = "this is a link that leads out of the tree, and it would have to change"
+        raise RebsyncError.of(str(file), "RS806", message, "put the file itself here")
+
+
+def _marked(path: Path, text: str) -> str:
+    """A text with the byte order mark that its file has."""
+    if path.is_file() and read_bytes(str(path)).startswith(BOM):
+        return BOM.decode("utf-8") + text
+    return text
+
+
+# --- git ----------------------------------------------------------------------------------------
+
+
+def _tell_git(sync: Sync) -> None:
+    """Puts conflicts into the index of a repository, as a merge of its own does.
+
+    So `git status` shows them and `git mergetool` opens them. Files that git does not know are
+    left alone.
+    """
+    root = sync.checked.kept.root
+    for path, stages in sync.conflicts.items():
+        file = Path(root, path) if path else Path(sync.checked.model)
+        _stage(file, stages)
+
+
+def _stage(file: Path, stages: Stages) -> None:
+    folder = str(file.parent)
+    listed = _git(folder, "ls-files", "--stage", "--full-name", "-z", "--", file.name)
+    if not listed:
+        return
+    about, _, name = listed.split(b"\0")[0].partition(b"\t")
+    mode = about.split()[0]
+    lines = [b"0 " + b"0" * 40 + b"\t" + name]
+    for number, text in enumerate((stages.base, stages.ours, stages.theirs), start=1):
+        made = _git(folder, "hash-object", "-w", "--stdin", given=text.encode("utf-8"))
+        if not made:
+            return
+        lines.append(b"%s %s %d\t%s" % (mode, made.strip(), number, name))
+    top = _git(folder, "rev-parse", "--show-toplevel")
+    if top:
+        given = b"\0".join([*lines, b""])
+        _git(os.fsdecode(top.rstrip(b"\n")), "update-index", "-z", "--index-info", given=given)
+
+
+def _git(folder: str, *arguments: str, given: bytes = b"") -> bytes | None:
+    """What a command of git prints; None where it fails, or there is no git."""
+    try:
+        done = subprocess.run(
+            ["git", *arguments], cwd=folder, input=given, capture_output=True, check=False
+        )
+    except OSError:
+        return None
+    return done.stdout if done.returncode == 0 else None

@@ -1,0 +1,146 @@
+"""Merges texts line by line, three ways, as `git merge-file` does."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Iterator
+from difflib import SequenceMatcher
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from rebsync.records import dataclass
+
+_CONFLICT = 128  # from this exit status on `git merge-file` has failed; below it counts conflicts
+
+
+@dataclass(frozen=True, slots=True)
+class MergedText:
+    """A merged text; with `conflicts` there are as many places in it with conflict markers."""
+
+    text: str
+    conflicts: int = 0
+
+
+def merged_text(
+    ours: str, base: str, theirs: str, labels: tuple[str, str], favour: str = "markers"
+) -> MergedText:
+    """Both changes of a text; where they touch, both sides between conflict markers.
+
+    With the favour `ours` the model's side is taken there, which is `theirs` of the texts, and
+    with `theirs` that of the code.
+    """
+    if theirs in (base, ours):
+        return MergedText(ours)
+    if ours == base:
+        return MergedText(theirs)
+    found = _by_git(ours, base, theirs, labels)
+    merged = found if found is not None else merged_lines(ours, base, theirs, labels)
+    if not merged.conflicts or favour == "markers":
+        return merged
+    return MergedText(decided(merged.text, labels, favour == "theirs"))
+
+
+def decided(text: str, labels: tuple[str, str], first: bool) -> str:
+    """A merged text with the first or the second side of each conflict."""
+    out: list[str] = []
+    side = 0
+    for line in text.splitlines(keepends=True):
+        plain = line.rstrip("\r\n")
+        if plain == f"<<<<<<< {labels[0]}":
+            side = 1
+        elif side == 1 and plain == "=======":
+            side = 2
+        elif side == 2 and plain == f">>>>>>> {labels[1]}":
+            side = 0
+        elif not side or (side == 1) is first:
+            out.append(line)
+    return "".join(out)
+
+
+def both_sides(ours: str, theirs: str, our_label: str, their_label: str) -> str:
+    """A text with both sides wherever two texts differ."""
+    first, second = (text.splitlines(keepends=True) for text in (ours, theirs))
+    out: list[str] = []
+    for tag, i, j, k, n in SequenceMatcher(None, first, second, autojunk=False).get_opcodes():
+        if tag == "equal":
+            out += first[i:j]
+        else:
+            out += _conflict(first[i:j], second[k:n], (our_label, their_label))
+    return "".join(out)
+
+
+def _by_git(ours: str, base: str, theirs: str, labels: tuple[str, str]) -> MergedText | None:
+    """The merge of git; None where there is no git, or it refuses."""
+    with TemporaryDirectory(prefix="rebsync-") as folder:
+        names = ("ours", "base", "theirs")
+        for name, text in zip(names, (ours, base, theirs), strict=True):
+            Path(folder, name).write_bytes(text.encode("utf-8"))
+        told = ("-L", labels[0], "-L", "as generated last time", "-L", labels[1])
+        try:
+            done = subprocess.run(
+                ["git", "merge-file", "-p", "-q", *told, *names],
+                cwd=folder,
+                capture_output=True,
+                check=False,
+            )
+        except OSError:
+            return None
+    if not 0 <= done.returncode < _CONFLICT:
+        return None
+    return MergedText(done.stdout.decode("utf-8"), done.returncode)
+
+
+# --- without git --------------------------------------------------------------------------------
+
+
+def merged_lines(ours: str, base: str, theirs: str, labels: tuple[str, str]) -> MergedText:
+    """The same without git: what both left alone divides the texts into parts that are merged."""
+    lines = [text.splitlines(keepends=True) for text in (ours, base, theirs)]
+    out: list[str] = []
+    conflicts = 0
+    for mine, old, new in _parts(*lines):
+        if mine == new or new == old:
+            out += mine
+        elif mine == old:
+            out += new
+        else:
+            out += _conflict(mine, new, labels)
+            conflicts += 1
+    return MergedText("".join(out), conflicts)
+
+
+def _parts(
+    ours: list[str], base: list[str], theirs: list[str]
+) -> Iterator[tuple[list[str], list[str], list[str]]]:
+    """Parts of three texts that belong together: in turn what all share, and what they do not."""
+    first, second = _places(base, ours), _places(base, theirs)
+    at = [0, 0, 0]
+    for line in range(len(base)):
+        if line not in first or line not in second:
+            continue
+        to = [first[line], line, second[line]]
+        if to != at:
+            yield ours[at[0] : to[0]], base[at[1] : to[1]], theirs[at[2] : to[2]]
+        yield [base[line]], [base[line]], [base[line]]
+        at = [n + 1 for n in to]
+    yield ours[at[0] :], base[at[1] :], theirs[at[2] :]
+
+
+def _places(base: list[str], text: list[str]) -> dict[int, int]:
+    """For lines of the base those of the text that are the same lines."""
+    blocks = SequenceMatcher(None, base, text, autojunk=False).get_matching_blocks()
+    return {i + k: j + k for i, j, size in blocks for k in range(size)}
+
+
+def _conflict(ours: list[str], theirs: list[str], labels: tuple[str, str]) -> Iterator[str]:
+    end = "\r\n" if any(line.endswith("\r\n") for line in (*ours, *theirs)) else "\n"
+    yield f"<<<<<<< {labels[0]}{end}"
+    yield from _ended(ours, end)
+    yield f"======={end}"
+    yield from _ended(theirs, end)
+    yield f">>>>>>> {labels[1]}{end}"
+
+
+def _ended(lines: list[str], end: str) -> Iterator[str]:
+    for line in lines:
+        yield line if line.endswith("\n") else line + end

@@ -1,0 +1,93 @@
+"""Drawn models: what is equal has no differences, what is changed has one, at the right place."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rebsync import model as m
+from rebsync.roundtrip.difference import Changed, Comparison, Depth, Renamed, line_of
+from rebsync.roundtrip.differences import compare
+from rebsync.roundtrip.normal import rewrite
+from rebsync.roundtrip.sides import Given
+from rebsync.source import Source
+from tests.roundtrip.differences.mutations import (
+    DIFFERENT,
+    EQUAL,
+    Mutated,
+    equal_form,
+    server_renamed,
+    statement_inserted,
+    statement_removed,
+    variable_renamed,
+)
+from tests.strategies import models
+
+Mutation: TypeAlias = "Callable[[st.DrawFn, m.Model], Mutated]"
+
+SOURCE = Source("drawn.rebeca", "")
+STATEMENTS = (statement_inserted, statement_removed)
+RENAMES = (server_renamed, variable_renamed)
+
+
+def compared(left: m.Model, right: m.Model, depth: Depth = Depth.EQUAL) -> Comparison:
+    return compare(Given(left, SOURCE), Given(right, SOURCE), depth)
+
+
+def told(comparison: Comparison) -> list[str]:
+    return [line_of(d) for d in comparison.differences]
+
+
+@given(models())
+def test_a_model_is_like_itself(model: m.Model) -> None:
+    copy = rewrite(model, lambda node: node)
+    for depth in Depth:
+        assert told(compared(model, copy, depth)) == []
+
+
+@given(st.data(), models())
+def test_what_is_equal(data: st.DataObject, model: m.Model) -> None:
+    changed = mutated(data, data.draw(st.sampled_from(EQUAL)), model)
+    assert told(compared(model, changed.model)) == []
+    assert told(compared(changed.model, model)) == []
+    identical = compared(model, changed.model, Depth.IDENTICAL)
+    assert identical.is_empty == (model == changed.model)
+
+
+@given(st.data(), models())
+def test_what_is_different(data: st.DataObject, model: m.Model) -> None:
+    mutation = data.draw(st.sampled_from(DIFFERENT))
+    changed = mutated(data, mutation, model)
+    for depth in Depth:
+        found = compared(model, changed.model, depth).differences
+        assert [str(d.element) for d in found] == [changed.element], list(map(line_of, found))
+        if mutation in RENAMES:
+            assert isinstance(found[0], Renamed)
+        elif mutation not in STATEMENTS:
+            assert isinstance(found[0], Changed)
+
+
+@given(st.data(), models())
+def test_nothing_is_told_where_and_only_where_models_are_equal(
+    data: st.DataObject, model: m.Model
+) -> None:
+    other = model
+    for _ in range(data.draw(st.integers(0, 4))):
+        other = mutated(data, data.draw(st.sampled_from((*EQUAL, *DIFFERENT))), other).model
+    found = compared(model, other)
+    assert found.is_empty == (equal_form(model) == equal_form(other)), told(found)
+    assert compared(model, other, Depth.IDENTICAL).is_empty == (model == other)
+
+
+@given(models(), models())
+def test_two_models_can_always_be_compared(left: m.Model, right: m.Model) -> None:
+    for depth in Depth:
+        for difference in compared(left, right, depth).differences:
+            assert "\n" not in line_of(difference)
+
+
+def mutated(data: st.DataObject, mutation: Mutation, model: m.Model) -> Mutated:
+    return data.draw(st.composite(lambda draw: mutation(draw, model))())

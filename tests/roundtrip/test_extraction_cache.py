@@ -1,0 +1,93 @@
+"""What was read is kept between runs; what is damaged, foreign or too much is not taken."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import pickle
+from pathlib import Path
+
+import pytest
+
+from rebsync import model as m
+from rebsync.grammars.parser import parse_model
+from rebsync.roundtrip import extraction_cache
+from rebsync.roundtrip.extraction_cache import keep, kept, key_of
+from rebsync.source import Source, Span
+
+MODEL = parse_model(Source("a.rebeca", "reactiveclass A(2) { A() { } } main { A a():(); }")).model
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("REBSYNC_CACHE", str(tmp_path))
+    return tmp_path / "check"
+
+
+def test_a_model_comes_back_with_its_places(folder: Path) -> None:
+    keep("a", MODEL)
+    found = kept("a", m.Model)
+    assert found == MODEL
+    assert found is not None
+    assert [c.span for c in found.classes] == [c.span for c in MODEL.classes]
+    assert [p.name for p in folder.iterdir()] == ["a"]
+    assert kept("b", m.Model) is None
+    assert kept("a", Source) is None
+
+
+def put(path: Path, body: bytes) -> None:
+    path.write_bytes(hashlib.sha256(body).digest() + body)
+
+
+class Evil:
+    """Something that runs a command when it is unpickled."""
+
+    def __reduce__(self) -> tuple[object, tuple[str]]:
+        return os.system, ("touch evil",)
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        pickle.dumps(Evil()),
+        pickle.dumps(MODEL)[:-7],
+        pickle.dumps(Path("a")),
+        b"",
+        b"\x80",
+        b"crebsync.files\nread_source\n(S'/etc/hostname'\ntR.",
+    ],
+)
+def test_what_is_not_ours_is_not_taken(
+    folder: Path, body: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    keep("a", MODEL)
+    monkeypatch.chdir(folder)
+    put(folder / "a", body)
+    assert kept("a", object) is None
+    assert not Path("evil").exists()
+
+
+def test_what_others_can_write_is_not_taken(folder: Path) -> None:
+    keep("a", MODEL)
+    (folder / "a").chmod(0o666)
+    assert kept("a", m.Model) is None
+
+
+def test_old_entries_go(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(extraction_cache, "_MOST", 10)
+    for number in range(25):
+        keep(f"{number}", Span(number, number))
+    assert len(list(folder.iterdir())) <= 11
+    assert kept("24", Span) == Span(24, 24)
+
+
+def test_without_a_place_nothing_is_kept(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    monkeypatch.setenv("REBSYNC_CACHE", str(tmp_path / "file"))
+    keep("a", MODEL)
+    assert kept("a", m.Model) is None
+
+
+def test_keys_tell_parts_apart() -> None:
+    assert key_of("a", "bc") != key_of("ab", "c")
+    assert key_of("a") == key_of("a")

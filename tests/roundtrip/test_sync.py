@@ -1,0 +1,108 @@
+"""Packages that people edit come in step with their models, and nothing else changes."""
+
+from __future__ import annotations
+
+import difflib
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from rebsync.cli import main
+from rebsync.roundtrip.checked import check
+from rebsync.roundtrip.packages import find
+from rebsync.roundtrip.verdict import Verdict
+from tests.reverse.test_edits import BY_NAME, EDITS, edited
+from tests.reverse.test_laws import package_of
+
+# Changes of models that concern nothing that the edits of code do.
+CHANGES = {
+    "experiment1": [("msgsrv moveBackward() {", "\n    delay(7);  // rest"), ("int e11 = ", "1")],
+    "experiment2": [("msgsrv MoveInX() {", "\n    delay(7);  // rest"), ("int e2 = ", "1")],
+}
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty directory, which is the current one, with a cache of its own."""
+    monkeypatch.setenv("REBSYNC_CACHE", str(tmp_path / ".cache"))
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.parametrize("name", EDITS)
+def test_edits_of_code_come_into_the_model(name: str, here: Path) -> None:
+    model, root = _made(EDITS[name]["example"], here)
+    before = model.read_text()
+    _edit(EDITS[name], root)
+    code = _files(root, records=False)
+    assert main(["sync", "."]) == 0
+    assert _is_in_step(root)
+    assert _files(root, records=False) == code, "the code has it already"
+    assert main(["check", "."]) == 0
+    assert _gone(before, model.read_text()) <= _most(EDITS[name], before)
+    after = _files(here)
+    assert main(["sync", "."]) == 0
+    assert _files(here) == after, "nothing is left to do"
+
+
+@pytest.mark.parametrize("name", EDITS)
+def test_changes_of_both_sides_are_merged(name: str, here: Path) -> None:
+    edit = EDITS[name]
+    model, root = _made(edit["example"], here)
+    _edit(edit, root)
+    text = model.read_text()
+    for old, new in CHANGES[edit["example"]]:
+        assert old in text
+        text = text.replace(old, old + new, 1)
+    model.write_text(text)
+    code = _files(root, records=False)
+    assert main(["sync", "."]) == 0
+    assert _is_in_step(root)
+    assert all(old + new in model.read_text() for old, new in CHANGES[edit["example"]])
+    for path, old in code.items():
+        assert _gone(old, (root / path).read_text()) <= 2, path
+    after = _files(here)
+    assert main(["sync", "."]) == 0
+    assert _files(here) == after, "nothing is left to do"
+
+
+def _made(example: str, here: Path) -> tuple[Path, Path]:
+    """A copy of an example: its model and its package."""
+    model = here / f"{example}.rebeca"
+    model.write_text((BY_NAME[example] / model.name).read_text())
+    assert main(["generate", model.name]) == 0
+    return model, here / example
+
+
+def _edit(edit: dict[str, Any], root: Path) -> None:
+    """Makes an edit by hand in a package."""
+    old = package_of(BY_NAME[edit["example"]])
+    for path, text in edited(edit).items():
+        if old.get(path) != text:
+            (root / path).parent.mkdir(parents=True, exist_ok=True)
+            (root / path).write_text(text)
+
+
+def _files(root: Path, records: bool = True) -> dict[str, str]:
+    return {
+        p.relative_to(root).as_posix(): p.read_text()
+        for p in sorted(root.rglob("*"))
+        if p.is_file() and ".cache" not in p.parts and (records or ".rebsync" not in p.parts)
+    }
+
+
+def _is_in_step(root: Path) -> bool:
+    (kept,) = find([str(root)])
+    drift = check(kept).drift
+    return drift is None or drift.verdict is Verdict.IN_STEP
+
+
+def _gone(old: str, new: str) -> int:
+    """How many lines of a text are gone."""
+    return sum(line.startswith("- ") for line in difflib.ndiff(old.split("\n"), new.split("\n")))
+
+
+def _most(edit: dict[str, Any], text: str) -> int:
+    """How many lines of a model an edit may change: those that it is in as it is written."""
+    return sum(text.count(old) * (old.count("\n") + 1) for old, *_ in edit["model"])
