@@ -45,8 +45,9 @@ class Cpp:
 
     def span(self, node: Node) -> Span:
         """The characters that a node covers."""
-        found = self.characters(node.start_byte, node.end_byte)
-        return SourceSpan(found.start, found.end, self.source)
+        if self.wide is None:
+            return SourceSpan(node.start_byte, node.end_byte, self.source)
+        return self.source.within(self.characters(node.start_byte, node.end_byte))
 
     def characters(self, start: int, end: int) -> Span:
         """The characters that some bytes are."""
