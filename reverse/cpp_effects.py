@@ -331,7 +331,7 @@ class Effects:
         of, meaning = self._root(target)
         match meaning:
             case None | Outside(reaches=False):
-                if name == "publish" and (meaning is not None or not of):
+                if name == "publish" and (meaning is not None or not of or of in self._inner):
                     raise self._touches(call.node, "what is published here is not known")
             case Outside():
                 raise self._touches(call.node, f'"{text_of(target)}" may act on the node')
