@@ -106,7 +106,7 @@ def _local_method(
     """The call of a local method."""
     if called.takes is None:
         return reader.calls(node, target, called.name, arguments)
-    values = cpp_idioms.passed(reader, node, called.takes, arguments)
+    values = cpp_idioms.passed(reader, node, called, arguments)
     return m.Call(target, called.name, values, span=reader.cpp.span(node))
 
 

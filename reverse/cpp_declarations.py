@@ -21,11 +21,15 @@ _DECLARATORS = frozenset({"pointer_declarator", "reference_declarator", "array_d
 
 @dataclass(frozen=True, slots=True)
 class CppParameter:
-    """A parameter; its name is empty where the code gives none."""
+    """A parameter; its name is empty where the code gives none.
+
+    `default` is what it is where a call leaves it out, with the file that says so.
+    """
 
     name: str
     type: Node
     node: Node
+    default: tuple[Cpp, Node] | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse import cpp_idioms
 from rebsync.reverse.building import is_calm
 from rebsync.reverse.cpp_declarations import CppParameter
 from rebsync.reverse.cpp_effects import Effects
@@ -43,11 +44,13 @@ def inlined(
     key = body.start_byte, inside.cpp.source.path
     if key in reader.shared.running or len(reader.shared.running) >= _DEEPEST:
         raise reader.unread(node, "a function that calls itself has no end here")
-    if len(arguments) != len(parameters):
-        raise reader.unread(node, "default arguments are not read")
+    if len(arguments) > len(parameters):
+        raise reader.unread(node, "there are more arguments here than parameters")
     needed, single = len(reader.before), _single(body)
-    for parameter, argument in zip(parameters, arguments, strict=True):
+    for parameter, argument in zip(parameters, arguments, strict=False):
         reader.before += _bound(reader, inside, parameter, argument, single is not None)
+    for parameter in parameters[len(arguments) :]:
+        reader.before += _left_out(reader, inside, parameter, node)
     reader.shared.running.append(key)
     try:
         if single is not None:
@@ -179,6 +182,23 @@ def _bound(
         inside.meaning(name, Outside())
         return
     yield from _valued(reader, inside, name, Variable("", kept.type, kept.bits), argument, once)
+
+
+def _left_out(
+    reader: CppStatements, inside: CppStatements, parameter: CppParameter, node: Node
+) -> Iterator[m.Statement]:
+    """A parameter that a call leaves out."""
+    if not parameter.name:
+        return
+    kept = carried(parameter.type, reader.scope.enums)
+    if kept is None or kept.type.dimensions:
+        raise reader.unread(node, "what is left out of this call is no value of the model")
+    place = Variable(parameter.name, kept.type, kept.bits)
+    value = cpp_idioms.left_out(reader.expressions, node, parameter, place)
+    local = replace(place, name=reader.fresh(parameter.name, inlining=True))
+    reader.shared.made.add(local.name)
+    inside.meaning(parameter.name, local, own=True)
+    yield reader.local(node, local, value)
 
 
 def _copied(
