@@ -14,12 +14,13 @@ from rebsync.reverse.building import is_calm
 from rebsync.reverse.cpp_declarations import CppParameter
 from rebsync.reverse.cpp_effects import Effects
 from rebsync.reverse.cpp_messages import declare, given, is_pointer, message_type, zero_of
-from rebsync.reverse.cpp_places import resolve
+from rebsync.reverse.cpp_places import is_this, resolve
 from rebsync.reverse.cpp_tree import named, part, text_of
 from rebsync.reverse.cpp_types import carried
 from rebsync.reverse.cpp_unknowns import Unknown
 from rebsync.reverse.scope import (
     Inline,
+    Itself,
     Lambda,
     Meaning,
     Outside,
@@ -170,6 +171,9 @@ def _bound(
     if isinstance(meaning, Publishes | TimerOf):
         inside.meaning(name, meaning)
         return
+    if is_this(argument) or isinstance(meaning, Itself):
+        inside.meaning(name, Itself())
+        return
     if type_ is not None:
         yield from _copied(reader, inside, name, type_, argument)
         return
@@ -178,7 +182,10 @@ def _bound(
         return
     kept = carried(parameter.type, reader.scope.enums)
     if (refers and not constant) or kept is None:
-        Effects(reader.cpp, reader.scope).check(argument)
+        effects = Effects(reader.cpp, reader.scope)
+        effects.check(argument)
+        if refers and not constant:
+            effects.refers(argument)
         inside.meaning(name, Outside())
         return
     yield from _valued(reader, inside, name, Variable("", kept.type, kept.bits), argument, once)
