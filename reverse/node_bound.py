@@ -2,18 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import replace
 
 from tree_sitter import Node
 
 from rebsync.reverse.cpp_declarations import CppField
+from rebsync.reverse.cpp_effects import Effects, Touches
 from rebsync.reverse.cpp_index import CppClass, CppFunction
 from rebsync.reverse.cpp_roots import is_modelled, root
 from rebsync.reverse.cpp_tree import Cpp, inside, named, text_of
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.node_bodies import Bodies
 from rebsync.reverse.node_units import Unit
-from rebsync.reverse.scope import Itself, Outside, Publishes, Scope, Variable
+from rebsync.reverse.scope import (
+    Called,
+    Function,
+    Inline,
+    Itself,
+    Outside,
+    Publishes,
+    Scope,
+    Variable,
+)
 
 _PLACES = frozenset(
     {"identifier", "this", "pointer_expression", "field_expression", "subscript_expression"}
@@ -32,6 +43,47 @@ def note_bound(bodies: Bodies) -> None:
                 bodies.findings.unreadable(
                     cpp.source, Unread(cpp.span(place), why), bodies.unit.name
                 )
+
+
+def note_helpers(bodies: Bodies, units: Collection[str]) -> None:
+    """Lists functions of other classes that act on what the model has outside of classes."""
+    unit, code = bodies.unit, bodies.code
+    above = {c.name for c in unit.lineage}
+    near = [
+        (owner, function)
+        for owner in code.classes.values()
+        if owner.name not in above and owner.name not in units
+        for function in code.functions_of(owner)
+        if function.body is not None and function.cpp.source.path in unit.files
+    ]
+    callers = (*unit.functions, *(f for _, f in near))
+    called = {c.name.rpartition("::")[2] for f in callers for c in code.calls_of(f)}
+    for owner, function in near:
+        touched = _touched(bodies, owner, function)
+        if touched is not None and function.name in called:
+            why = f'what "{owner.name}::{function.name}" does where it is called is not read'
+            unread = Unread(touched.span, f"{why}: {touched.why}")
+            bodies.findings.unreadable(function.cpp.source, unread, unit.name)
+
+
+def _touched(bodies: Bodies, owner: CppClass, function: CppFunction) -> Touches | None:
+    """What a function of another class does to the model, if it does anything."""
+    whole = bodies.scope(function.cpp, None)
+    own = {f.name for f in (*owner.fields, *owner.others)} | {p.name for p in function.parameters}
+    shared = whole.members.keys() & bodies.code.variables.keys() - own
+    members = {n: whole.members[n] for n in shared}
+    free = {n: f for n, f in whole.functions.items() if _is_free(f)}
+    scope = replace(whole, members=members, functions=free, calm={})
+    try:
+        Effects(function.cpp, scope, returning=True).check(function.body or function.node)
+    except Touches as touches:
+        return touches
+    return None
+
+
+def _is_free(function: Function) -> bool:
+    known = function.function if isinstance(function, Called | Inline) else None
+    return known is not None and not known.owner
 
 
 def _values(

@@ -17,7 +17,7 @@ from rebsync.reverse.graph import Fact, Graph, PublisherFact, SubscriptionFact
 from rebsync.reverse.launched import Launch
 from rebsync.reverse.message_types import MessageTypes
 from rebsync.reverse.node_bodies import Bodies, Common
-from rebsync.reverse.node_bound import note_bound
+from rebsync.reverse.node_bound import note_bound, note_helpers
 from rebsync.reverse.node_classes import NodeClass
 from rebsync.reverse.node_listing import Listing
 from rebsync.reverse.node_names import Names, class_word
@@ -188,6 +188,7 @@ class _Reader:
         read = NodeClass(name, bodies, [(n, c) for n, c, _ in known]).read()
         state.note(findings, unit.name)
         note_bound(bodies)
+        note_helpers(bodies, self.classes)
         state.names = before
         for index, instance in enumerate(alike):
             self._parameters[instance.name] = setup.parameters, index
