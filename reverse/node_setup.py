@@ -10,7 +10,6 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.package import Value
 from rebsync.records import dataclass
-from rebsync.reverse.cpp_calls import calls_in
 from rebsync.reverse.cpp_declarations import declared_name
 from rebsync.reverse.cpp_index import Code, CppFunction
 from rebsync.reverse.cpp_tree import inside, named, text_of
@@ -279,13 +278,13 @@ class Setup:
 
     def _waits(self, function: CppFunction) -> None:
         """What waits for messages, or lets ROS serve them, is nothing in the model."""
-        for call in calls_in(function.body):
+        for call in self.code.calls_of(function):
             name = call.name.rpartition("::")[2]
-            statement = statement_of(call.node)
             if name in _AUDIENCE and (loop := _loop_around(call.node)) is not None:
                 self.instead[loop.id] = ()
                 continue
-            if name not in _WAITS or statement is None or not _is_call(statement, call.node):
+            statement = statement_of(call.node) if name in _WAITS else None
+            if statement is None or not _is_call(statement, call.node):
                 continue
             own = call.target is None and "::" not in call.name
             if statement.type != "expression_statement" or own or statement.id in self.instead:

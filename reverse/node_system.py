@@ -236,7 +236,8 @@ class _Reader:
     def _known(self, unit: Unit, alike: list[Instance], names: Names) -> list[tuple[str, str, int]]:
         """Name, class and place among the slots of the rebecs that a class sends to."""
         slots = [self.wiring.known(i) for i in alike]
-        taken = {n for f in unit.functions if f.body is not None for n in declared(f.body)}
+        bodies = [(f.cpp, f.body) for f in unit.functions if f.body is not None]
+        taken = {n for cpp, body in bodies for n in declared(unit.code, cpp, body)}
         taken |= {p.name for s in self.wiring.servers[unit.name] for p in s.parameters}
         found = []
         for slot, several in enumerate(zip(*slots, strict=True)):
