@@ -17,6 +17,7 @@ from rebsync.reverse.graph import (
     PublisherFact,
     ServiceFact,
     SubscriptionFact,
+    TimerFact,
 )
 from rebsync.reverse.message_types import MessageTypes
 from rebsync.reverse.node_servers import Server
@@ -51,6 +52,9 @@ class Listing:
         served = {id(f) for s in servers for f in (*s.subscriptions, *s.timers, s.service)}
         for fact in unit.facts:
             self._fact(unit, fact, id(fact) in served)
+            if isinstance(fact, SubscriptionFact | TimerFact) and _is_lost(fact):
+                why = "nothing keeps what this gives: ROS ends it at once, the model does not"
+                self._approximated(fact.site.place, why, unit.name, "keep it in a member")
         for server in servers:
             self._wide(unit, server)
         for cpp, body in bodies(unit):
@@ -206,6 +210,12 @@ def _is_elsewhere(kept: str) -> bool:
     """Whether a variable is part of another object: `helper_->pub`."""
     own = kept.removeprefix("this->").partition("[")[0]
     return "." in own or "->" in own
+
+
+def _is_lost(fact: SubscriptionFact | TimerFact) -> bool:
+    above = fact.site.call.parent
+    single = isinstance(fact, SubscriptionFact) and fact.single
+    return not single and above is not None and above.type == "expression_statement"
 
 
 def _words(node: Node) -> Iterator[Node]:

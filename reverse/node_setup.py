@@ -43,6 +43,7 @@ _AUDIENCE = frozenset({"getNumSubscribers", "getNumPublishers", "waitForService"
 _ENDS = frozenset({"spin", "waitForShutdown"})
 _PLAIN = (NodeFact, PublisherFact, SubscriptionFact, ServiceFact, ClientFact, RateFact)
 _AGAIN = "a timer that is made again stops the one before; in the model both go on"
+_ROUND = "messages wait for the next round of this loop; in the model they are served at once"
 _NESTING = frozenset(
     {"if_statement", "while_statement", "for_statement", "switch_statement", "else_clause"}
 )
@@ -248,6 +249,9 @@ class Setup:
     def _loop(self, function: CppFunction, loop: Loop) -> None:
         parts = (*loop.first, *loop.rest)
         self.instead[loop.node.id] = ()
+        if loop.rate is not None and self.servers and b"spinOnce" in (loop.node.text or b""):
+            place = loop.rate.site.place
+            self.findings.approximated(place.source, place.span, _ROUND, within=self.within)
         if parts:
             mentioned = {text_of(n) for p in parts for n in _names(p)}
             self.instead |= self.state.outlive(function, mentioned, False, loop.node)
