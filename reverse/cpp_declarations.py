@@ -31,6 +31,12 @@ class CppParameter:
     node: Node
     default: tuple[Cpp, Node] | None = None
 
+    @property
+    def may_change(self) -> bool:
+        """Whether a function may change what it gets for it."""
+        text = text_of(self.node)
+        return ("&" in text or "*" in text) and "const" not in text
+
 
 @dataclass(frozen=True, slots=True)
 class CppFunction:
