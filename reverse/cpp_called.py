@@ -14,7 +14,7 @@ from rebsync.reverse.cpp_places import is_this
 from rebsync.reverse.cpp_tree import named, part, text_of
 from rebsync.reverse.cpp_types import class_name
 from rebsync.reverse.cpp_unknowns import Unknown
-from rebsync.reverse.scope import Called, Ignored, Inline, Itself, Lambda, Sends
+from rebsync.reverse.scope import Called, Function, Ignored, Inline, Itself, Lambda, Sends
 
 if TYPE_CHECKING:
     from rebsync.reverse.cpp_expressions import CppExpressions
@@ -106,7 +106,7 @@ def _local_method(
     """The call of a local method."""
     if called.takes is None:
         return reader.calls(node, target, called.name, arguments)
-    values = cpp_idioms.passed(reader, node, called.takes, arguments)
+    values = cpp_idioms.passed(reader, node, called, arguments)
     return m.Call(target, called.name, values, span=reader.cpp.span(node))
 
 
@@ -138,9 +138,19 @@ def _qualified(
     if owner in reader.scope.bases and isinstance(called, Called) and not called.server:
         return reader.calls(node, m.Super(reader.cpp.span(function)), called.name, arguments)
     if called is not None and owner not in ("std", "ros", "boost"):
+        if reader.scope.open and _is_another(called, owner):
+            why = f'the model has no "{owner}::{name}" beside its "{name}"'
+            raise reader.unread(node, why, "give it a name of its own")
         return by_name(reader, node, name, arguments, m.Self)
     why = f'the model has no function "{owner}::{name}"'
     return _other(reader, node, text_of(function), arguments, why)
+
+
+def _is_another(called: Function, owner: str) -> bool:
+    """Whether a name with its class before it means a function of another class."""
+    function = called.function if isinstance(called, Called | Inline) else None
+    last = owner.partition("<")[0].rpartition("::")[2]
+    return function is not None and function.owner not in ("", last)
 
 
 def _of_object(

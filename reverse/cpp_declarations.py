@@ -21,11 +21,21 @@ _DECLARATORS = frozenset({"pointer_declarator", "reference_declarator", "array_d
 
 @dataclass(frozen=True, slots=True)
 class CppParameter:
-    """A parameter; its name is empty where the code gives none."""
+    """A parameter; its name is empty where the code gives none.
+
+    `default` is what it is where a call leaves it out, with the file that says so.
+    """
 
     name: str
     type: Node
     node: Node
+    default: tuple[Cpp, Node] | None = None
+
+    @property
+    def may_change(self) -> bool:
+        """Whether a function may change what it gets for it."""
+        text = text_of(self.node)
+        return ("&" in text or "*" in text) and "const" not in text
 
 
 @dataclass(frozen=True, slots=True)

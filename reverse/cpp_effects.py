@@ -9,10 +9,10 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.cpp_calls import CppCall, call_of
-from rebsync.reverse.cpp_declarations import CppFunction, CppParameter
+from rebsync.reverse.cpp_declarations import CppFunction
 from rebsync.reverse.cpp_misread import first_of, is_misread
 from rebsync.reverse.cpp_places import is_this
-from rebsync.reverse.cpp_roots import identifiers_in, is_modelled, path_in, root
+from rebsync.reverse.cpp_roots import identifiers_in, is_element, is_modelled, path_in, root
 from rebsync.reverse.cpp_tree import Cpp, named, text_of
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.known_functions import ACTS, LOOKS, takes_values, type_takes_values
@@ -33,13 +33,12 @@ from rebsync.reverse.scope import (
     Variable,
 )
 
+_COROUTINES = ("co_await_expression", "co_yield_statement", "co_return_statement")
 _LEAVES = {
     "return_statement": "this leaves the function",
     "throw_statement": "an exception leaves the function",
     "goto_statement": "the model has no goto",
-    "co_await_expression": "the model has no coroutines",
-    "co_yield_statement": "the model has no coroutines",
-    "co_return_statement": "the model has no coroutines",
+    **dict.fromkeys(_COROUTINES, "the model has no coroutines"),
 }
 _LOOPS = frozenset({"for_statement", "while_statement", "do_statement", "for_range_loop"})
 _REPEATED = _LOOPS | {"switch_statement"}
@@ -158,8 +157,7 @@ class Effects:
     @property
     def _functions(self) -> Collection[str]:
         """The names of functions that may give a reference to a variable of the model."""
-        ignored = (n for n, f in self.scope.functions.items() if isinstance(f, Ignored))
-        return self.scope.functions.keys() - set(ignored)
+        return {n for n, f in self.scope.functions.items() if not isinstance(f, Ignored)}
 
     def _binary(self, node: Node) -> None:
         """An operator; of an object it may be a function: `stream >> count` changes `count`."""
@@ -182,11 +180,9 @@ class Effects:
 
     def _is_number(self, node: Node) -> bool:
         """Whether it is a literal or a variable of the model: no object with functions."""
-        if node.type == "number_literal":
-            return True
         if node.type in ("parenthesized_expression", "binary_expression"):
             return all(self._is_number(c) for c in named(node))
-        return isinstance(self._root(node)[1], Variable)
+        return node.type == "number_literal" or isinstance(self._root(node)[1], Variable)
 
     def _subscripts(self, node: Node) -> None:
         """What is evaluated to find the place that is written."""
@@ -304,7 +300,7 @@ class Effects:
 
     def _is_calm(self, function: CppFunction) -> bool:
         """Whether a body touches nothing but what it declares, or gets."""
-        if function.body is None or any(_changes(p) for p in function.parameters):
+        if function.body is None or any(p.may_change for p in function.parameters):
             return False
         key = function.body.id
         if key not in self.scope.calm:
@@ -331,7 +327,7 @@ class Effects:
         of, meaning = self._root(target)
         match meaning:
             case None | Outside(reaches=False):
-                if name == "publish" and (meaning is not None or not of):
+                if name == "publish" and (meaning is not None or not of or of in self._inner):
                     raise self._touches(call.node, "what is published here is not known")
             case Outside():
                 raise self._touches(call.node, f'"{text_of(target)}" may act on the node')
@@ -363,9 +359,9 @@ class Effects:
                 self._handed(argument)
                 continue
             name, meaning = self._root(argument)
-            if (
-                argument.type == "call_expression" and not _is_element(argument)
-            ) or not is_modelled(argument, meaning):
+            if (argument.type == "call_expression" and not is_element(argument)) or not is_modelled(
+                argument, meaning
+            ):
                 self.check(argument)
             elif isinstance(meaning, Record) and meaning.constant:
                 continue
@@ -374,8 +370,8 @@ class Effects:
             else:
                 if isinstance(meaning, Itself):
                     raise self._touches(argument, "what is done to the object itself is not known")
-                hint = "hand over a copy: +x, or a const local"
-                raise self._touches(argument, f'this may change "{text_of(argument)}"', hint)
+                why = f'this may change "{text_of(argument)}"'
+                raise self._touches(argument, why, "hand over a copy: +x, or a const local")
 
     def _handed(self, function: Node) -> None:
         """A function that is handed on: it may run at any time."""
@@ -393,18 +389,6 @@ class Effects:
             else:
                 self.check(child)
         self._inner, self._loops = outer, loops
-
-
-def _is_element(node: Node) -> bool:
-    """Whether a call gives a part of an array, which may be changed there."""
-    call = call_of(node)
-    return call is not None and call.name in ("at", "front", "back", "get", "move", "ref")
-
-
-def _changes(parameter: CppParameter) -> bool:
-    """Whether a function may change what it gets for a parameter."""
-    text = text_of(parameter.node)
-    return ("&" in text or "*" in text) and "const" not in text
 
 
 def is_outside(cpp: Cpp, scope: Scope, node: Node) -> bool:

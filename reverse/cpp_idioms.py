@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
@@ -11,13 +12,15 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.building import binary, cast, chosen, is_calm, tight
 from rebsync.reverse.cpp_conversions import as_number, operands, type_in
+from rebsync.reverse.cpp_declarations import CppParameter
 from rebsync.reverse.cpp_effects import Effects
 from rebsync.reverse.cpp_places import resolve
 from rebsync.reverse.cpp_time import time_called, to_seconds
 from rebsync.reverse.cpp_tree import named, text_of
 from rebsync.reverse.cpp_types import carried
 from rebsync.reverse.cpp_unknowns import Unknown
-from rebsync.reverse.scope import Record, Takes, Variable
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.scope import Called, Record, Variable
 from rebsync.source import Span
 from rebsync.static.constants import constant
 from rebsync.static.types import DOUBLE, is_floating, is_integer
@@ -195,16 +198,20 @@ def member_call(
 
 
 def passed(
-    reader: CppExpressions, node: Node, takes: Sequence[Takes], arguments: Sequence[Node]
+    reader: CppExpressions, node: Node, called: Called, arguments: Sequence[Node]
 ) -> tuple[m.Expression, ...]:
     """What a local method gets of the arguments of a call."""
     found: list[m.Expression] = []
+    takes = called.takes or ()
     if len(arguments) > len(takes):
         raise reader.unread(node, "there are more arguments here than parameters")
     for number, take in enumerate(takes):
         if number >= len(arguments):
-            if take is not None and take != ():
-                raise reader.unread(node, "default arguments are not read")
+            if isinstance(take, m.Type) and called.function is not None:
+                parameter = called.function.parameters[number]
+                found.append(left_out(reader, node, parameter, Variable("", take)))
+            elif take is not None and take != ():
+                raise reader.unread(node, "what is left out of this call is not known")
             continue
         argument = arguments[number]
         match take:
@@ -215,6 +222,22 @@ def passed(
             case paths:
                 found += fields_of(reader, argument, paths)
     return tuple(found)
+
+
+def left_out(
+    reader: CppExpressions, node: Node, parameter: CppParameter, place: Variable
+) -> m.Expression:
+    """What a parameter is that a call leaves out, where nothing of the caller's is in it."""
+    if parameter.default is None:
+        raise reader.unread(node, "what is left out of this call is not known")
+    cpp, value = parameter.default
+    scope = replace(reader.scope, locals={})
+    try:
+        return replace(reader, cpp=cpp, scope=scope, findings=None, inlines=None).stored(
+            value, place
+        )
+    except Unread as unread:
+        raise reader.unread(node, f"what is left out of this call: {unread.why}") from None
 
 
 def fields_of(reader: CppExpressions, argument: Node, paths: Sequence[str]) -> list[m.Expression]:

@@ -6,13 +6,14 @@ Header and source are read together: a function's body is looked for wherever it
 from __future__ import annotations
 
 import re
+from bisect import bisect_left
 from collections.abc import Iterable, Iterator
 from dataclasses import field
 
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.cpp_calls import CppCall, calls_in
+from rebsync.reverse.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.cpp_declarations import (
     TYPES,
     CppAlias,
@@ -33,7 +34,15 @@ from rebsync.reverse.cpp_declarations import (
     valued,
     whole_number,
 )
-from rebsync.reverse.cpp_tree import Cpp, markers_above, parse, part, text_of
+from rebsync.reverse.cpp_tree import (
+    Cpp,
+    by_types,
+    in_text_order,
+    markers_above,
+    parse,
+    part,
+    text_of,
+)
 from rebsync.source import Source
 
 __all__ = [
@@ -47,6 +56,11 @@ __all__ = [
     "function_of",
 ]
 
+# The types of nodes that `Code.inside` looks for.
+SOUGHT = (
+    *("call_expression", "declaration", "for_range_loop", "init_declarator"),
+    *("lambda_expression", "parameter_declaration", "type_identifier"),
+)
 _HEADERS = (".h", ".hh", ".hpp", ".hxx", ".cuh", ".ipp", ".tpp")
 _HANDED = re.compile(r"(?:->|\.)\s*(\w+)\s*\(|&\s*(?:\w+::)*(\w+)")
 _CONTAINERS = frozenset(
@@ -76,6 +90,10 @@ class Code:
     definitions: dict[tuple[str, str], list[CppFunction]] = field(default_factory=dict)
     constants: dict[tuple[str, str], tuple[Cpp, Node]] = field(default_factory=dict)
     _calls: dict[int, tuple[CppCall, ...]] = field(default_factory=dict)
+    _nodes: dict[int, dict[str, list[Node]]] = field(default_factory=dict)
+    _sorted: dict[tuple[int, tuple[str, ...]], tuple[list[int], list[Node]]] = field(
+        default_factory=dict
+    )
     _types: dict[int, tuple[str, ...]] = field(default_factory=dict)
     _visible: dict[str, dict[str, tuple[Cpp, Node]]] = field(default_factory=dict)
     _handed: frozenset[str] | None = None
@@ -105,13 +123,39 @@ class Code:
         for declared in owner.functions:
             yield self._defined(declared) or declared
 
+    def inside(self, cpp: Cpp, node: Node | None, *types: str) -> list[Node]:
+        """The nodes of some types in a node of a file, outer ones first, in the text's order.
+
+        A file is searched once for them all: with many functions that is much quicker. The types
+        are some of `SOUGHT`.
+        """
+        if node is None:
+            return []
+        key = id(cpp), types
+        if key not in self._sorted:
+            if id(cpp) not in self._nodes:
+                self._nodes[id(cpp)] = by_types(cpp.root, SOUGHT)
+            found = self._nodes[id(cpp)]
+            nodes = in_text_order(n for type_ in types for n in found.get(type_, ()))
+            self._sorted[key] = [n.start_byte for n in nodes], nodes
+        starts, nodes = self._sorted[key]
+        end = node.end_byte
+        first, behind = bisect_left(starts, node.start_byte), bisect_left(starts, end)
+        return [n for n in nodes[first:behind] if n.end_byte <= end]
+
     def calls_of(self, function: CppFunction) -> tuple[CppCall, ...]:
         """The calls in a function's body."""
-        if function.body is None:
-            return ()
-        if function.body.id not in self._calls:
-            self._calls[function.body.id] = tuple(calls_in(function.body))
-        return self._calls[function.body.id]
+        return self.calls_in(function.cpp, function.body) if function.body is not None else ()
+
+    def calls_in(self, cpp: Cpp, body: Node) -> tuple[CppCall, ...]:
+        """The calls in a body of a file, outer ones first, in the order of the text."""
+        if body.id not in self._calls:
+            if id(cpp) in self._nodes:
+                found = map(call_of, self.inside(cpp, body, "call_expression"))
+                self._calls[body.id] = tuple(c for c in found if c is not None)
+            else:
+                self._calls[body.id] = tuple(calls_in(body))
+        return self._calls[body.id]
 
     def handed_on(self) -> frozenset[str]:
         """The names of functions that some code calls on an object, or hands on."""

@@ -9,16 +9,18 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse import cpp_idioms
 from rebsync.reverse.building import is_calm
 from rebsync.reverse.cpp_declarations import CppParameter
 from rebsync.reverse.cpp_effects import Effects
 from rebsync.reverse.cpp_messages import declare, given, is_pointer, message_type, zero_of
-from rebsync.reverse.cpp_places import resolve
+from rebsync.reverse.cpp_places import is_this, resolve
 from rebsync.reverse.cpp_tree import named, part, text_of
 from rebsync.reverse.cpp_types import carried
 from rebsync.reverse.cpp_unknowns import Unknown
 from rebsync.reverse.scope import (
     Inline,
+    Itself,
     Lambda,
     Meaning,
     Outside,
@@ -43,11 +45,13 @@ def inlined(
     key = body.start_byte, inside.cpp.source.path
     if key in reader.shared.running or len(reader.shared.running) >= _DEEPEST:
         raise reader.unread(node, "a function that calls itself has no end here")
-    if len(arguments) != len(parameters):
-        raise reader.unread(node, "default arguments are not read")
+    if len(arguments) > len(parameters):
+        raise reader.unread(node, "there are more arguments here than parameters")
     needed, single = len(reader.before), _single(body)
-    for parameter, argument in zip(parameters, arguments, strict=True):
+    for parameter, argument in zip(parameters, arguments, strict=False):
         reader.before += _bound(reader, inside, parameter, argument, single is not None)
+    for parameter in parameters[len(arguments) :]:
+        reader.before += _left_out(reader, inside, parameter, node)
     reader.shared.running.append(key)
     try:
         if single is not None:
@@ -167,6 +171,9 @@ def _bound(
     if isinstance(meaning, Publishes | TimerOf):
         inside.meaning(name, meaning)
         return
+    if is_this(argument) or isinstance(meaning, Itself):
+        inside.meaning(name, Itself())
+        return
     if type_ is not None:
         yield from _copied(reader, inside, name, type_, argument)
         return
@@ -175,10 +182,30 @@ def _bound(
         return
     kept = carried(parameter.type, reader.scope.enums)
     if (refers and not constant) or kept is None:
-        Effects(reader.cpp, reader.scope).check(argument)
+        effects = Effects(reader.cpp, reader.scope)
+        effects.check(argument)
+        if refers and not constant:
+            effects.refers(argument)
         inside.meaning(name, Outside())
         return
     yield from _valued(reader, inside, name, Variable("", kept.type, kept.bits), argument, once)
+
+
+def _left_out(
+    reader: CppStatements, inside: CppStatements, parameter: CppParameter, node: Node
+) -> Iterator[m.Statement]:
+    """A parameter that a call leaves out."""
+    if not parameter.name:
+        return
+    kept = carried(parameter.type, reader.scope.enums)
+    if kept is None or kept.type.dimensions:
+        raise reader.unread(node, "what is left out of this call is no value of the model")
+    place = Variable(parameter.name, kept.type, kept.bits)
+    value = cpp_idioms.left_out(reader.expressions, node, parameter, place)
+    local = replace(place, name=reader.fresh(parameter.name, inlining=True))
+    reader.shared.made.add(local.name)
+    inside.meaning(parameter.name, local, own=True)
+    yield reader.local(node, local, value)
 
 
 def _copied(

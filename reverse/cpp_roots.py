@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterator
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.cpp_calls import call_of
 from rebsync.reverse.cpp_tree import named, text_of
 from rebsync.reverse.scope import Itself, Meaning, Outside, Record, Scope
 
@@ -78,3 +79,9 @@ def identifiers_in(node: Node) -> Iterator[Node]:
         if current.type == "identifier":
             yield current
         waiting += current.named_children
+
+
+def is_element(node: Node) -> bool:
+    """Whether a call gives a part of an array, which may be changed there."""
+    call = call_of(node)
+    return call is not None and call.name in ("at", "front", "back", "get", "move", "ref")

@@ -144,6 +144,21 @@ def inside(node: Node | None, *types: str) -> list[Node]:
     return found
 
 
+def by_types(node: Node, types: tuple[str, ...]) -> dict[str, list[Node]]:
+    """The nodes of each of some types in a node, in no order: one search finds them all."""
+    return QueryCursor(_named_query(types)).captures(node)
+
+
+def in_text_order(nodes: Iterable[Node]) -> list[Node]:
+    """Nodes of a tree as they begin in the text, outer ones first."""
+    return sorted(nodes, key=_in_text)
+
+
+@cache
+def _named_query(types: tuple[str, ...]) -> Query:
+    return Query(_language(), " ".join(f"({type_}) @{type_}" for type_ in types))
+
+
 @cache
 def _query(types: tuple[str, ...]) -> Query:
     return Query(_language(), " ".join(f"({type_}) @found" for type_ in types))

@@ -14,6 +14,7 @@ STREAMS = frozenset(
 # Functions that take time, end the node or run other callbacks, by their last name.
 ACTS = {
     **dict.fromkeys(("sleep", "usleep", "nanosleep", "sleep_for", "sleep_until"), "takes time"),
+    **dict.fromkeys(("sleepUntil", "clock_nanosleep"), "takes time"),
     **dict.fromkeys(("waitForService", "waitForExistence", "waitForServer"), "waits"),
     **dict.fromkeys(("waitForTransform", "waitForMessage", "waitForResult"), "waits"),
     **dict.fromkeys(("waitForValid", "sendGoalAndWait", "waitForShutdown", "join"), "waits"),
@@ -43,7 +44,6 @@ _VALUES = frozenset(
             "fclose",
             "ioctl",
             "open",
-            "read",
             "select",
             "setParam",
             "socket",

@@ -29,6 +29,7 @@ _BEAT = (
     "a timer that goes off while the node is busy keeps its beat;"
     " the model's goes on from when it is served"
 )
+_PACE = "a rate makes up for the time that its loop takes; the model's loop waits the whole period"
 
 
 @dataclass(slots=True)
@@ -116,6 +117,10 @@ class NodeClass:
             if isinstance(fact, TimerFact) and fact.one_shot is not True:
                 place, within = fact.site.place, self.bodies.setup.within
                 self.bodies.findings.approximated(place.source, place.span, _BEAT, within=within)
+        for loop, _ in self.bodies.setup.loops:
+            if loop.rate is not None:
+                place, within = loop.rate.site.place, self.bodies.setup.within
+                self.bodies.findings.approximated(place.source, place.span, _PACE, within=within)
 
     def _note_unreached(self) -> None:
         """Lists functions that act on what the model has, and that something not read calls."""

@@ -35,7 +35,8 @@ class Functions:
                 by_name.setdefault(declared.name, [])
         served = {s.body.id for s in self.bodies.servers}
         methods: dict[str, CppFunction] = {}
-        for name, found in by_name.items():
+        for name, all_of in by_name.items():
+            found = [self._with_defaults(f) for f in all_of]
             if name in self.bodies.unit.names or name.startswith("~") or name == "main":
                 continue
             if len(found) != 1 or found[0].body is None:  # nobody knows which, or what it does
@@ -46,6 +47,18 @@ class Functions:
                 self.bodies.functions[name] = method
                 methods[name] = found[0]
         self._try(methods)
+
+    def _with_defaults(self, function: CppFunction) -> CppFunction:
+        """A function with what its parameters are by default: its declaration says so."""
+        of_class = [f for c in self.bodies.unit.lineage for f in c.functions if function.owner]
+        same = [f for f in of_class if (f.name, f.types) == (function.name, function.types)]
+        parameters = list(function.parameters)
+        for known in (*same, function):
+            for number, parameter in enumerate(known.parameters):
+                default = parameter.node.child_by_field_name("default_value")
+                if default is not None:
+                    parameters[number] = replace(parameters[number], default=(known.cpp, default))
+        return replace(function, parameters=tuple(parameters))
 
     def _free(self) -> Iterator[CppFunction]:
         """The functions outside of classes that member functions can call."""

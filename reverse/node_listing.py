@@ -9,7 +9,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.cpp_tree import Cpp, text_of
-from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.findings import Findings, Grade, Unread
 from rebsync.reverse.graph import (
     ClientFact,
     Fact,
@@ -17,6 +17,7 @@ from rebsync.reverse.graph import (
     PublisherFact,
     ServiceFact,
     SubscriptionFact,
+    TimerFact,
 )
 from rebsync.reverse.message_types import MessageTypes
 from rebsync.reverse.node_servers import Server
@@ -51,6 +52,9 @@ class Listing:
         served = {id(f) for s in servers for f in (*s.subscriptions, *s.timers, s.service)}
         for fact in unit.facts:
             self._fact(unit, fact, id(fact) in served)
+            if isinstance(fact, SubscriptionFact | TimerFact) and _is_lost(fact):
+                why = "nothing keeps what this gives: ROS ends it at once, the model does not"
+                self._approximated(fact.site.place, why, unit.name, "keep it in a member")
         for server in servers:
             self._wide(unit, server)
         for cpp, body in bodies(unit):
@@ -67,6 +71,9 @@ class Listing:
                 self._unread(fact.site.place, why, unit.name)
             case PublisherFact(site) if not site.kept:
                 why = "it is not known what is published here: the publisher is in no variable"
+                self._unread(fact.site.place, why, unit.name)
+            case PublisherFact(site) if _is_elsewhere(site.kept):
+                why = "the publisher is kept in another object: what that publishes is not read"
                 self._unread(fact.site.place, why, unit.name)
             case ServiceFact() if served:
                 why = "a service is a message server to which nobody in the model sends"
@@ -185,7 +192,8 @@ class Listing:
     # --- once -----------------------------------------------------------------------------------
 
     def _unread(self, place: Place, why: str, within: str) -> None:
-        if not any(f.source is place.source and f.span == place.span for f in self.findings.all):
+        listed = [f for f in self.findings.all if f.grade is Grade.UNREADABLE]
+        if not any(f.source is place.source and f.span == place.span for f in listed):
             self.findings.unreadable(place.source, Unread(place.span, why), within)
 
     def _approximated(self, place: Place, why: str, within: str = "", hint: str = "") -> None:
@@ -196,6 +204,18 @@ class Listing:
 _OPEN = "add the package that has the receivers, if they matter"
 _CALLS = "add a class to the model that calls it, or message servers that send to it"
 _CLOSE = "add the package that publishes it, or a class to the model that sends what may come"
+
+
+def _is_elsewhere(kept: str) -> bool:
+    """Whether a variable is part of another object: `helper_->pub`."""
+    own = kept.removeprefix("this->").partition("[")[0]
+    return "." in own or "->" in own
+
+
+def _is_lost(fact: SubscriptionFact | TimerFact) -> bool:
+    above = fact.site.call.parent
+    single = isinstance(fact, SubscriptionFact) and fact.single
+    return not single and above is not None and above.type == "expression_statement"
 
 
 def _words(node: Node) -> Iterator[Node]:

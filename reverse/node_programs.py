@@ -112,12 +112,12 @@ class Objects:
     def made_by(self, program: Program) -> list[Made]:
         """The objects that `main` makes, and those that functions and classes it uses make."""
         self._seen = set()
-        found = list(self._in(program.main.body, True))
+        found = list(self._in(program.main, True))
         for (owner, name), functions in self.code.definitions.items():
             if not owner and name != "main":
                 for function in functions:
                     if program.has(function.cpp):
-                        found += self._in(function.body, False)
+                        found += self._in(function, False)
         for name, variables in self.code.variables.items():
             for variable in variables:
                 plain = variable.node.child_by_field_name("declarator")
@@ -131,11 +131,11 @@ class Objects:
     def made_by_class(self, owner: CppClass, entry: CppFunction | None) -> list[Made]:
         """The objects that a class makes, a nodelet's; `entry` is the function that starts it."""
         self._seen = {owner.name}
-        first = list(self._in(entry.body, True)) if entry is not None else []
+        first = list(self._in(entry, True)) if entry is not None else []
         return first + list(self._members(owner, entry))
 
-    def _in(self, body: Node | None, in_main: bool) -> Iterator[Made]:
-        for node in inside(body, "type_identifier"):
+    def _in(self, function: CppFunction, in_main: bool) -> Iterator[Made]:
+        for node in self.code.inside(function.cpp, function.body, "type_identifier"):
             name = text_of(node)
             if name in self.wanted and (made := _made(node, name, in_main)) is not None:
                 yield made
@@ -152,7 +152,7 @@ class Objects:
                         yield Made(name, None, member.name, ())
             for function in self.code.functions_of(above):
                 if entry is None or function.node.id != entry.node.id:
-                    yield from self._in(function.body, False)
+                    yield from self._in(function, False)
 
 
 def _types(node: Node) -> list[str]:

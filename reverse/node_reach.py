@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from rebsync.reverse.cpp_calls import calls_in
 from rebsync.reverse.cpp_index import Code, CppFunction
 from rebsync.reverse.cpp_tree import text_of
 from rebsync.reverse.node_servers import Server
@@ -37,8 +36,8 @@ def reached(
     for function in unit.functions:
         by_name.setdefault(function.name, []).append(function)
     found = {f.node.id for f in first}
-    bodies = [s.body for s in servers] + [f.body for f in first if f.body is not None]
-    names = {c.name.rpartition("::")[2] for body in bodies for c in calls_in(body)}
+    calls = [code.calls_in(s.cpp, s.body) for s in servers] + [code.calls_of(f) for f in first]
+    names = {c.name.rpartition("::")[2] for each in calls for c in each}
     waiting = [f for name in sorted(names) for f in by_name.get(name, ())]
     while waiting:
         function = waiting.pop()

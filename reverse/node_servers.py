@@ -12,8 +12,8 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.cpp_calls import calls_in
-from rebsync.reverse.cpp_index import CppFunction
-from rebsync.reverse.cpp_tree import Cpp, inside, named, text_of
+from rebsync.reverse.cpp_index import Code, CppFunction
+from rebsync.reverse.cpp_tree import Cpp, named, text_of
 from rebsync.reverse.graph import Callback, ServiceFact, SubscriptionFact, TimerFact
 from rebsync.reverse.message_types import Fields, MessageTypes
 from rebsync.reverse.node_names import Names
@@ -75,7 +75,7 @@ def servers(unit: Unit, types: MessageTypes, names: Names) -> tuple[Server, ...]
             key = body[1].id, given, _kind(fact, callback, types)
             known = found.get(key)
             if known is None:
-                found[key] = _server(fact, callback, body, types, names)
+                found[key] = _server(unit.code, fact, callback, body, types, names)
             elif isinstance(fact, SubscriptionFact):
                 found[key] = replace(known, subscriptions=(*known.subscriptions, fact))
             elif isinstance(fact, TimerFact):
@@ -102,6 +102,7 @@ def _body(callback: Callback, cpp: Cpp) -> tuple[Cpp, Node] | None:
 
 
 def _server(
+    code: Code,
     fact: Asking,
     callback: Callback,
     body: tuple[Cpp, Node],
@@ -117,7 +118,7 @@ def _server(
         return Server(name, callback, *body, message, bound, timers=(fact,))
     type_ = _type(fact, callback, types)
     fields = types.fields(type_) if type_ is not None else None
-    carried = tuple(_carried(fields or {}, message, body[1], names.used))
+    carried = tuple(_carried(code, fields or {}, message, body, names.used))
     return Server(name, callback, *body, message, bound, type_, carried, (fact,))
 
 
@@ -171,10 +172,12 @@ def _parameters(callback: Callback) -> list[tuple[str, str]]:
 # --- which fields are used ----------------------------------------------------------------------
 
 
-def _carried(fields: Fields, message: str, body: Node, taken: set[str]) -> Iterator[Carried]:
+def _carried(
+    code: Code, fields: Fields, message: str, body: tuple[Cpp, Node], taken: set[str]
+) -> Iterator[Carried]:
     """The fields of the model's types that a body uses, in the order of the message."""
-    used = set(used_paths(fields, message, [body]))
-    names = Names.beside(declared(body) | taken)
+    used = set(used_paths(fields, message, [body[1]]))
+    names = Names.beside(declared(code, *body) | taken)
     for path, type_ in fields.items():
         if path in used and type_ is not None:
             yield Carried(path, names.give(path.replace(".", "_")), type_)
@@ -229,10 +232,10 @@ def _path(node: Node) -> str:
     return ".".join(parts)
 
 
-def declared(body: Node) -> set[str]:
+def declared(code: Code, cpp: Cpp, body: Node) -> set[str]:
     """The names of the variables that a body declares."""
     found = set()
-    for node in inside(body, *_DECLARING):
+    for node in code.inside(cpp, body, *_DECLARING):
         for child in node.children_by_field_name("declarator"):
             found |= {text_of(n) for n in _identifiers(child)}
     return found

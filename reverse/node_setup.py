@@ -10,7 +10,6 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.package import Value
 from rebsync.records import dataclass
-from rebsync.reverse.cpp_calls import calls_in
 from rebsync.reverse.cpp_declarations import declared_name
 from rebsync.reverse.cpp_index import Code, CppFunction
 from rebsync.reverse.cpp_tree import inside, named, text_of
@@ -44,6 +43,7 @@ _AUDIENCE = frozenset({"getNumSubscribers", "getNumPublishers", "waitForService"
 _ENDS = frozenset({"spin", "waitForShutdown"})
 _PLAIN = (NodeFact, PublisherFact, SubscriptionFact, ServiceFact, ClientFact, RateFact)
 _AGAIN = "a timer that is made again stops the one before; in the model both go on"
+_ROUND = "messages wait for the next round of this loop; in the model they are served at once"
 _NESTING = frozenset(
     {"if_statement", "while_statement", "for_statement", "switch_statement", "else_clause"}
 )
@@ -249,6 +249,9 @@ class Setup:
     def _loop(self, function: CppFunction, loop: Loop) -> None:
         parts = (*loop.first, *loop.rest)
         self.instead[loop.node.id] = ()
+        if loop.rate is not None and self.servers and b"spinOnce" in (loop.node.text or b""):
+            place = loop.rate.site.place
+            self.findings.approximated(place.source, place.span, _ROUND, within=self.within)
         if parts:
             mentioned = {text_of(n) for p in parts for n in _names(p)}
             self.instead |= self.state.outlive(function, mentioned, False, loop.node)
@@ -279,13 +282,13 @@ class Setup:
 
     def _waits(self, function: CppFunction) -> None:
         """What waits for messages, or lets ROS serve them, is nothing in the model."""
-        for call in calls_in(function.body):
+        for call in self.code.calls_of(function):
             name = call.name.rpartition("::")[2]
-            statement = statement_of(call.node)
             if name in _AUDIENCE and (loop := _loop_around(call.node)) is not None:
                 self.instead[loop.id] = ()
                 continue
-            if name not in _WAITS or statement is None or not _is_call(statement, call.node):
+            statement = statement_of(call.node) if name in _WAITS else None
+            if statement is None or not _is_call(statement, call.node):
                 continue
             own = call.target is None and "::" not in call.name
             if statement.type != "expression_statement" or own or statement.id in self.instead:

@@ -12,7 +12,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.cpp_declarations import CppField, declared_name
 from rebsync.reverse.cpp_index import Code, CppFunction
 from rebsync.reverse.cpp_messages import zero_of
-from rebsync.reverse.cpp_tree import Cpp, inside, named, text_of
+from rebsync.reverse.cpp_tree import Cpp, named, text_of
 from rebsync.reverse.cpp_types import carried, is_time, wider
 from rebsync.reverse.cpp_unknowns import domain_near
 from rebsync.reverse.findings import Findings
@@ -64,7 +64,8 @@ class State:
     )
 
     def __post_init__(self) -> None:
-        taken = {n for f in self.unit.functions if f.body is not None for n in declared(f.body)}
+        bodies = [(f.cpp, f.body) for f in self.unit.functions if f.body is not None]
+        taken = {n for cpp, body in bodies for n in declared(self.code, cpp, body)}
         taken |= {p.name for f in self.unit.functions for p in f.parameters}
         taken |= {f.name for f in self.unit.functions}
         self.taken = taken
@@ -235,7 +236,7 @@ class State:
     ) -> dict[int, tuple[Stores, ...]]:
         instead: dict[int, tuple[Stores, ...]] = {}
         local = self.local.setdefault(function.node.id, {})
-        for node in _declarations(function.body):
+        for node in _declarations(self.code, function):
             if within is not None and within.start_byte <= node.start_byte < within.end_byte:
                 continue
             static = any(text_of(c) == "static" for c in node.named_children)
@@ -334,10 +335,10 @@ def _value(declarator: Node) -> Node | None:
     return value
 
 
-def _declarations(body: Node | None) -> Iterator[Node]:
+def _declarations(code: Code, function: CppFunction) -> Iterator[Node]:
     """Those of a body itself, not of lambdas in it."""
     end = -1
-    for node in inside(body, "declaration", "lambda_expression"):
+    for node in code.inside(function.cpp, function.body, "declaration", "lambda_expression"):
         if node.start_byte >= end:
             if node.type == "declaration":
                 yield node

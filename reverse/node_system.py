@@ -17,6 +17,7 @@ from rebsync.reverse.graph import Fact, Graph, PublisherFact, SubscriptionFact
 from rebsync.reverse.launched import Launch
 from rebsync.reverse.message_types import MessageTypes
 from rebsync.reverse.node_bodies import Bodies, Common
+from rebsync.reverse.node_bound import note_bound, note_helpers
 from rebsync.reverse.node_classes import NodeClass
 from rebsync.reverse.node_listing import Listing
 from rebsync.reverse.node_names import Names, class_word
@@ -186,6 +187,8 @@ class _Reader:
         name = self.kinds[self.wiring.kinds[alike[0].name]] if alike else self.classes[unit.name]
         read = NodeClass(name, bodies, [(n, c) for n, c, _ in known]).read()
         state.note(findings, unit.name)
+        note_bound(bodies)
+        note_helpers(bodies, self.classes)
         state.names = before
         for index, instance in enumerate(alike):
             self._parameters[instance.name] = setup.parameters, index
@@ -233,7 +236,8 @@ class _Reader:
     def _known(self, unit: Unit, alike: list[Instance], names: Names) -> list[tuple[str, str, int]]:
         """Name, class and place among the slots of the rebecs that a class sends to."""
         slots = [self.wiring.known(i) for i in alike]
-        taken = {n for f in unit.functions if f.body is not None for n in declared(f.body)}
+        bodies = [(f.cpp, f.body) for f in unit.functions if f.body is not None]
+        taken = {n for cpp, body in bodies for n in declared(unit.code, cpp, body)}
         taken |= {p.name for s in self.wiring.servers[unit.name] for p in s.parameters}
         found = []
         for slot, several in enumerate(zip(*slots, strict=True)):

@@ -247,7 +247,7 @@ class Scope:
         """The same with more locals, which hide what has their names."""
         whole = {**self.locals, **found}
         same = [getattr(self, name) for name in _OTHERS]  # asked for often: `replace` is slow
-        return Scope(*same[:_LOCALS], whole, *same[_LOCALS:])
+        return Scope(*(*same[:_LOCALS], whole, *same[_LOCALS:]))
 
     def without_constant(self, name: str) -> Scope:
         """What the value of a constant can name: all but itself."""

@@ -45,6 +45,7 @@ _MEMBERS: dict[str, Member] = {
     "kept_": Record(_KEPT, "std_msgs/Int32"),
     "pub_": Publishes((Target("other", "take", ("data",)),), "std_msgs/Int32"),
     "flag_pub_": Publishes((Target("other", "flag", ("data",)),), "std_msgs/Bool"),
+    "octet_pub_": Publishes((Target("other", "octet", ("data",)),), "std_msgs/UInt8"),
     "ping_pub_": Publishes((Target("other", "ping"), Target(None, "ping")), "std_msgs/Empty"),
     "twist_pub_": Publishes(
         (Target("other", "move", ("linear.x", "angular.z")),), "geometry_msgs/Twist"
@@ -59,17 +60,23 @@ _MEMBERS: dict[str, Member] = {
 _MESSAGES: dict[str, dict[str, m.Type | None]] = {
     "std_msgs/Int32": {"data": INT},
     "std_msgs/Bool": {"data": BOOLEAN},
+    "std_msgs/UInt8": {"data": _SHORT},
+    "std_msgs/Int64": {"data": INT},
     "std_msgs/Empty": {},
     "std_msgs/String": {"data": None},
     "geometry_msgs/Twist": {
         f"{part}.{axis}": DOUBLE for part in ("linear", "angular") for axis in "xyz"
     },
 }
+_WIDTHS = {
+    f"std_msgs/{name}": {"data": bits} for name, bits in (("Bool", 8), ("UInt8", 8), ("Int64", 64))
+}
 _OTHER = """
 reactiveclass Other(5) {
   knownrebecs {} statevars {}
   Other() {}
   msgsrv take(int data) {} msgsrv flag(boolean data) {} msgsrv ping() {}
+  msgsrv octet(short data) {}
   msgsrv move(double x, double z) {}
 }
 """
@@ -101,6 +108,7 @@ def read_case(source: Source) -> tuple[m.Model, Findings]:
         enumerators={"RED": 0, "GREEN": 1, "Mode::FAST": 7},
         enums=frozenset({"Mode"}),
         messages=_MESSAGES,
+        widths=_WIDTHS,
         open=True,
     )
     servers = tuple(_server(cpp, f, scope, findings) for f in functions if _is_served(f))

@@ -39,3 +39,23 @@ void Node::onLambdas() {
   const int most = [&] { return limit_ + 1; }();
   count_ = most;
 }
+void give(const ros::Publisher& p, int x) {
+  std_msgs::Int32 out;
+  out.data = x;
+  p.publish(out);
+}
+void poke(Node& node) { node.count_ += 2; }
+void prod(Node* node) { node->count_++; }
+void Node::onHandedPublisher() {
+  give(pub_, 3);
+}
+void Node::onHandedItself() {
+  poke(*this);
+  prod(this);
+}
+void Node::onEach() {
+  for (auto p : sensor_.publishers()) {
+    std_msgs::Int32 out;
+    p.publish(out);
+  }
+}

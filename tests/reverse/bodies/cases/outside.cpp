@@ -87,3 +87,6 @@ void Node::onReferences() {
   *sensor_.place() = count_;
   sensor_[count_].x++;
 }
+void Node::onRead() {
+  read(3, grid_, 12);
+}

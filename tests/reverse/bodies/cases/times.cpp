@@ -40,3 +40,6 @@ void Node::onSpans() {
   last_ = ros::Time(2, 0) + ros::Duration(1.0);
   if (last_.isZero()) count_ = close(count_);
 }
+void Node::onSleepUntil() {
+  ros::Time::sleepUntil(ros::Time::now() + ros::Duration(2));
+}

@@ -1,0 +1,37 @@
+// Fields of messages that are narrower, or wider, than what the model has for them.
+std_msgs::UInt8 made(int value) {
+  std_msgs::UInt8 m;
+  m.data = value;
+  return m;
+}
+void fill(std_msgs::UInt8& m, int value) { m.data = value; }
+void Node::onOctets() {
+  std_msgs::UInt8 m;
+  m.data = count_;
+  octet_pub_.publish(m);
+  std_msgs::UInt8 copy = m;
+  copy.data += limit_;
+  octet_pub_.publish(copy);
+  copy = m;
+  copy.data = small_;
+  copy.data--;
+  octet_pub_.publish(copy);
+  octet_pub_.publish(made(count_));
+  fill(m, limit_);
+  octet_pub_.publish(m);
+  m.data = on_;
+  octet_pub_.publish(m);
+}
+void Node::onTruths() {
+  std_msgs::Bool m;
+  m.data = count_;
+  flag_pub_.publish(m);
+  m.data = count_ > 2 ? 1 : 0;
+  flag_pub_.publish(m);
+}
+void Node::onWideFields() {
+  std_msgs::Int64 m;
+  m.data = count_;
+  m.data *= 3;
+  count_ = m.data;
+}
