@@ -237,9 +237,12 @@ class Bodies:
     def _similarity(self, x: m.Statement, r: m.Statement) -> float:
         if type(x) is not type(r) or UNREADABLE in (_note(self.left, x), _note(self.right, r)):
             return 0.0
+        nests = head_of(x) is not x
+        heads = overlap(words_of(head_of(x)), words_of(head_of(r))) * 0.95 if nests else 0.0
+        if heads > 0.9:
+            return heads  # what is inside need not be looked at
         whole = overlap(self._words(x), self._words(r))
-        heads = overlap(words_of(head_of(x)), words_of(head_of(r))) if head_of(x) is not x else 0.0
-        return max(whole, heads * 0.95, ALIKE if are_akin(x, r) else 0.0)
+        return max(whole, heads, ALIKE if are_akin(x, r) else 0.0)
 
     def _words(self, statement: m.Statement) -> Counter[str]:
         if id(statement) not in self.words:

@@ -1,0 +1,150 @@
+"""What `rebsync check` says of each mutant."""
+
+from __future__ import annotations
+
+import os
+import random
+import shutil
+import tempfile
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+
+from rebsync.cli.status import Status, status_of
+from rebsync.diagnostics import RebsyncError
+from rebsync.roundtrip.checked import Checked, check
+from rebsync.roundtrip.packages import find
+from rebsync.roundtrip.verdict import Verdict
+from tests.roundtrip.mutations.kinds import BY_NAME
+from tests.roundtrip.mutations.package import Kind, Mutant, Package
+
+
+class Said(Enum):
+    """What check says.
+
+    AT_ELEMENT: that the code moved, at the element that was changed. ELSEWHERE: the same, but at
+    other elements only. UNDETERMINED: that it cannot tell. NOISE: in step, but not without a
+    finding. BROKEN: that something cannot be read at all.
+    """
+
+    AT_ELEMENT = "at the element"
+    ELSEWHERE = "elsewhere"
+    UNDETERMINED = "undetermined"
+    IN_STEP = "in step"
+    NOISE = "noise"
+    BROKEN = "broken"
+
+
+@dataclass(frozen=True)
+class Result:
+    """What check said of one mutant."""
+
+    kind: str
+    example: str
+    place: str
+    said: Said
+    told: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        told = "; ".join(self.told[:2])
+        return f"{self.kind}, {self.example} {self.place}: {self.said.value} {told}".rstrip()
+
+
+@dataclass(frozen=True)
+class Task:
+    """All mutants of some kinds on one example; at most `most` of each, drawn by `seed`."""
+
+    example: str
+    kinds: tuple[str, ...]
+    most: int
+    seed: int
+
+
+def drawn(kind: Kind, package: Package, most: int, seed: int) -> list[Mutant]:
+    """Mutants of a kind; which ones depends on nothing but names and the seed."""
+    mutants = list(kind.mutants(package))
+    if len(mutants) <= most:
+        return mutants
+    return random.Random(f"{seed} {package.name} {kind.name}").sample(mutants, most)
+
+
+def results(tasks: Sequence[Task], jobs: int) -> Iterator[Result]:
+    """What check says of all mutants of all tasks."""
+    if jobs == 1:
+        for task in tasks:
+            yield from _done(task)
+        return
+    with ProcessPoolExecutor(jobs) as pool:
+        for found in pool.map(_done, tasks):
+            yield from found
+
+
+def _done(task: Task) -> list[Result]:
+    package = Package(task.example)
+    with tempfile.TemporaryDirectory() as folder, _cache(f"{folder}/cache"):
+        root = Path(folder, task.example)
+        shutil.copytree(package.example, root)
+        return [
+            told(package, name, mutant, root)
+            for name in task.kinds
+            for mutant in drawn(BY_NAME[name], package, task.most, task.seed)
+        ]
+
+
+@contextmanager
+def _cache(folder: str) -> Iterator[None]:
+    """A cache of its own, so that what others have read does not count."""
+    before = os.environ.get("REBSYNC_CACHE")
+    os.environ["REBSYNC_CACHE"] = folder
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ["REBSYNC_CACHE"]
+        else:
+            os.environ["REBSYNC_CACHE"] = before
+
+
+def told(package: Package, kind: str, mutant: Mutant, root: Path) -> Result:
+    """What check says of a mutant in a copy of its example, which is put back afterwards."""
+    home = root / package.name
+    try:
+        for path, text in mutant.files.items():
+            if text is None:
+                (home / path).unlink()
+            else:
+                (home / path).parent.mkdir(parents=True, exist_ok=True)
+                (home / path).write_bytes(text.encode("utf-8"))
+        (kept,) = find([str(root)])
+        try:
+            said, lines = _said(check(kept), mutant)
+        except RebsyncError as error:
+            said, lines = Said.BROKEN, [d.message for f in error.findings for d in f.diagnostics]
+        return Result(kind, package.name, mutant.place, said, tuple(lines))
+    finally:
+        for path in mutant.files:
+            (home / path).unlink(missing_ok=True)
+            if path in package.files:
+                (home / path).write_bytes(package.files[path].encode("utf-8"))
+
+
+def _said(found: Checked, mutant: Mutant) -> tuple[Said, list[str]]:
+    messages = [d.message for f in found.findings for d in f.diagnostics]
+    if found.drift is None or found.drift.verdict is Verdict.IN_STEP:
+        is_clean = status_of(found.findings) is Status.CLEAN
+        return Said.IN_STEP if is_clean else Said.NOISE, messages
+    differences = [d for d, _ in found.drift.differences]
+    lines = [f"{d.element}" for d in differences] + messages
+    paths = {d.element.path for d in differences}
+    if any(_is_at(path, element) for path in paths for element in mutant.elements):
+        return Said.AT_ELEMENT, lines
+    if found.drift.verdict is Verdict.UNDETERMINED:
+        return Said.UNDETERMINED, lines
+    return Said.ELSEWHERE if mutant.elements else Said.AT_ELEMENT, lines
+
+
+def _is_at(path: str, element: str) -> bool:
+    return path == element or path.startswith(f"{element}.")

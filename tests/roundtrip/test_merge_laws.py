@@ -1,0 +1,101 @@
+"""Laws of merging, on drawn models and drawn changes of both sides."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from rebsync import model as m
+from rebsync.diagnostics import RebsyncError
+from rebsync.printing import print_model
+from rebsync.roundtrip.differences import compare
+from rebsync.roundtrip.merge_models import Favour, merged_model
+from rebsync.roundtrip.models import parsed
+from rebsync.roundtrip.sides import Given
+from rebsync.source import Source
+from rebsync.static import analyse
+from tests.roundtrip.differences.mutations import DIFFERENT
+from tests.strategies import models
+
+FEW = settings(max_examples=settings().max_examples // 5)  # each is read several times
+
+
+def given_of(text: str) -> Given:
+    source = Source("drawn.rebeca", text)
+    return Given(parsed(source), source)
+
+
+def printed(model: m.Model) -> Given:
+    """A model as if it stood in a file, with a remark on each line."""
+    lines = print_model(model).split("\n")
+    return given_of("\n".join(f"{line}  // {i}" if line else line for i, line in enumerate(lines)))
+
+
+@st.composite
+def changed(draw: st.DrawFn, sides: int) -> tuple[m.Model, list[m.Model]]:
+    """A model, and as many changes of it as there are sides."""
+    model = draw(models())
+    news = [draw(st.sampled_from(DIFFERENT))(draw, model).model for _ in range(sides)]
+    assume(not any(analyse(new).errors for new in news))
+    return model, news
+
+
+@FEW
+@given(drawn=changed(1))
+def test_a_change_of_the_code_comes_into_the_text(drawn: tuple[m.Model, list[m.Model]]) -> None:
+    model, (new,) = drawn
+    base, code = printed(model), given_of(print_model(new))
+    merged = merged_model(base, base, code, Favour.MARKERS)
+    assert not merged.conflicts
+    assert compare(given_of(merged.text), code).is_empty
+
+
+@FEW
+@given(drawn=changed(1))
+def test_a_change_of_the_model_stays(drawn: tuple[m.Model, list[m.Model]]) -> None:
+    model, (new,) = drawn
+    base, today = given_of(print_model(model)), printed(new)
+    assert merged_model(base, today, base, Favour.MARKERS).text == today.source.text
+
+
+@FEW
+@given(drawn=changed(1))
+def test_the_same_change_of_both_is_no_conflict(drawn: tuple[m.Model, list[m.Model]]) -> None:
+    model, (new,) = drawn
+    base, today, code = given_of(print_model(model)), printed(new), given_of(print_model(new))
+    merged = merged_model(base, today, code, Favour.MARKERS)
+    assert not merged.conflicts
+    assert merged.text == today.source.text
+
+
+@FEW
+@given(drawn=changed(2))
+def test_it_does_not_matter_who_has_changed_what(drawn: tuple[m.Model, list[m.Model]]) -> None:
+    model, news = drawn
+    base = given_of(print_model(model))
+    one, other = (given_of(print_model(new)) for new in news)
+    first = merged_model(base, one, other, Favour.MARKERS)
+    second = merged_model(base, other, one, Favour.MARKERS)
+    assert bool(first.conflicts) == bool(second.conflicts)
+    if not first.conflicts:
+        assert compare(given_of(first.text), given_of(second.text)).is_empty
+
+
+@pytest.mark.parametrize("favour", [Favour.MODEL, Favour.CODE])
+@FEW
+@given(drawn=changed(2))
+def test_with_one_side_in_favour_all_is_decided(
+    favour: Favour, drawn: tuple[m.Model, list[m.Model]]
+) -> None:
+    model, news = drawn
+    base = given_of(print_model(model))
+    one, other = (given_of(print_model(new)) for new in news)
+    merged = merged_model(base, one, other, favour)
+    assert not merged.conflicts
+    try:
+        result = given_of(merged.text)
+    except RebsyncError:
+        assert merged_model(base, one, other, Favour.MARKERS).conflicts
+        return
+    assert not analyse(result.model).errors
