@@ -46,7 +46,7 @@ class NodeClass:
         functions = Functions(bodies)
         functions.choose()
         body = bodies.constructor()
-        methods = [functions.method(n, f) for n, f in functions.methods.items()]
+        methods = functions.read()
         served = self._servers(methods)
         body = self._begun(body, served, methods)
         arguments = tuple(m.Parameter(p.type, p.name) for p in setup.parameters)

@@ -24,6 +24,8 @@ class Functions:
 
     bodies: Bodies
     methods: dict[str, CppFunction] = field(default_factory=dict)
+    # As they were read when they were tried, if nothing that they call has changed since.
+    _tried: dict[str, tuple[m.Method, Findings]] = field(default_factory=dict)
 
     def choose(self) -> None:
         """Functions become methods where a method can say what they do; others are inlined."""
@@ -51,7 +53,7 @@ class Functions:
     def _with_defaults(self, function: CppFunction) -> CppFunction:
         """A function with what its parameters are by default: its declaration says so."""
         of_class = [f for c in self.bodies.unit.lineage for f in c.functions if function.owner]
-        same = [f for f in of_class if (f.name, f.types) == (function.name, function.types)]
+        same = [f for f in of_class if f.name == function.name and f.types == function.types]
         parameters = list(function.parameters)
         for known in (*same, function):
             for number, parameter in enumerate(known.parameters):
@@ -112,7 +114,7 @@ class Functions:
                 if name not in waiting:
                     continue
                 self.bodies.findings = Findings()
-                self.method(name, function)
+                self._tried[name] = self.method(name, function), self.bodies.findings
                 if self.bodies.findings.all:
                     failed.append(name)
             self.bodies.findings = findings
@@ -123,6 +125,21 @@ class Functions:
                 break
         for name in methods:
             self.methods[name] = methods[name]
+        self._tried = {n: t for n, t in self._tried.items() if n in methods and n not in waiting}
+
+    def read(self) -> list[m.Method]:
+        """The methods, and what has been counted in them."""
+        found = []
+        findings = self.bodies.findings
+        for name, function in self.methods.items():
+            method, told = self._tried.get(name, (None, None))
+            if method is None or told is None:
+                method = self.method(name, function)
+            else:
+                findings.statements.update(told.statements)
+                findings.open_members |= told.open_members
+            found.append(method)
+        return found
 
     def _affected(self, methods: dict[str, CppFunction], changed: set[str]) -> set[str]:
         """The methods that lead to some functions, by the names that bodies call."""

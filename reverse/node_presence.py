@@ -30,10 +30,8 @@ def may_have_nodes(code: Code, asking: Asking, programs: tuple[Program, ...]) ->
         return True
     nodes = [p for p in programs if not p.name.endswith(STAND_IN)]
     return any(
-        asked.ask.kind in _CONNECTING
-        and asked.site.owner not in code.classes
-        and any(p.has(asked.site.cpp) for p in nodes)
-        for asked in asking.calls()
+        asked.ask.kind in _CONNECTING and any(p.has(asked.site.cpp) for p in nodes)
+        for asked in asking.calls_outside(code.classes)
     )
 
 

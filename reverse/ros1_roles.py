@@ -110,7 +110,7 @@ def roles_of(code: Code, owner: CppClass) -> Roles:
         if constructor.name == owner.name:
             roles.queue_length = _queue_length(constructor) or roles.queue_length
     for function in functions:
-        for call in code.calls_of(function):
+        for call in code.calls_of(function) if _says(function, b"receive") else ():
             if call.name == "receive" and len(call.arguments) == 5:
                 _received(code, owner, roles, function, call)
     return roles
@@ -149,13 +149,18 @@ def _wired(roles: Roles, constructor: CppFunction) -> None:
     for member, value in assigned_in(constructor.body):
         for call in calls_in(value):
             _member(roles, member, call)
-    for call in calls_in(constructor.body):
+    for call in calls_in(constructor.body) if _says(constructor, b"readArray") else ():
         if call.name == "readArray" and len(call.arguments) == 3:
             key = string_of(call.arguments[1])
             if key is not None:
                 member = text_of(call.arguments[2])
                 values = dict(assigned_in(constructor.body))
                 roles.globals[member] = key, values.get(member, call.node)
+
+
+def _says(function: CppFunction, word: bytes) -> bool:
+    """Whether a word stands in a body at all, which is quickly told."""
+    return function.body is not None and word in (function.body.text or b"")
 
 
 def _member(roles: Roles, member: str, call: CppCall) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 
 from tree_sitter import Node
@@ -14,7 +14,7 @@ from rebsync.reverse.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.cpp_values import Values
 from rebsync.reverse.graph import Fact, Graph
 from rebsync.reverse.ros_calls_facts import Asked, Facts
-from rebsync.reverse.ros_calls_sites import site_of
+from rebsync.reverse.ros_calls_sites import owner_of, site_of
 from rebsync.reverse.roscpp_vocabulary import (
     FILTER_SCOPES,
     FILTERS,
@@ -39,25 +39,32 @@ class Asking:
     """What the files ask of ROS: the calls, and the graph that their arguments make of them."""
 
     code: Code
-    _facts: Facts | None = None
+    _values: Values | None = None
     _calls: list[Asked] | None = None
     _graph: Graph | None = None
 
     def calls(self) -> list[Asked]:
         """The calls, without those of the client library itself."""
         if self._calls is None:
-            self._facts = Facts(Values(self.code))
-            found = _calls_in(self.code, self._facts.values)
-            self._calls = [a for a in found if a.site.owner not in LIBRARY]
+            self._calls = list(_calls_in(self.code, self.values(), LIBRARY))
         return self._calls
+
+    def calls_outside(self, owners: Collection[str]) -> Iterator[Asked]:
+        """Those of the calls that do not stand in functions of some classes."""
+        return _calls_in(self.code, self.values(), LIBRARY.union(owners))
+
+    def values(self) -> Values:
+        """What finds the values of their arguments."""
+        if self._values is None:
+            self._values = Values(self.code)
+        return self._values
 
     @property
     def graph(self) -> Graph:
         """What is asked for, in the order of files and places: made when it is first wanted."""
         if self._graph is None:
-            calls = self.calls()
-            facts = self._facts or Facts(Values(self.code))
-            found = [fact for asked in calls for fact in facts.of(asked)]
+            facts = Facts(self.values())
+            found = [fact for asked in self.calls() for fact in facts.of(asked)]
             self._graph = Graph(tuple(sorted(found, key=_order)))
         return self._graph
 
@@ -67,14 +74,19 @@ def graph_of(code: Code) -> Graph:
     return Asking(code).graph
 
 
-def _calls_in(code: Code, values: Values) -> Iterator[Asked]:
+def _calls_in(code: Code, values: Values, without: Collection[str]) -> Iterator[Asked]:
+    """The calls but for those in functions of some classes, or of that name."""
     for cpp in code.files:
         data = values.texts.data(cpp)
         for match in WORDS.finditer(data):
             place = cpp.root.descendant_for_byte_range(match.start(), match.end())
             if place is None or place.start_byte != match.start() or place.named_child_count:
                 continue
-            yield from _asked(values, cpp, place, match.group().decode())
+            if owner_of(values, cpp, place) in without:
+                continue
+            for asked in _asked(values, cpp, place, match.group().decode()):
+                if asked.site.owner not in without:
+                    yield asked
 
 
 def _order(fact: Fact) -> tuple[str, int]:

@@ -15,10 +15,14 @@ from rebsync.reverse.graph import Site
 def site_of(values: Values, cpp: Cpp, place: Node, call: Node) -> Site:
     """The site of a call whose function's name stands at a place."""
     function = values.texts.function_around(cpp, place)
+    return Site(owner_of(values, cpp, place), function, cpp, call, at(cpp, place), kept(call))
+
+
+def owner_of(values: Values, cpp: Cpp, place: Node) -> str | None:
+    """The class whose function a place is in; the name of a function outside of classes."""
+    function = values.texts.function_around(cpp, place)
     owner = (function.owner or function.name) if function is not None else None
-    if owner in FIXTURES:
-        owner = None  # no function of that name
-    return Site(owner, function, cpp, call, at(cpp, place), kept(call))
+    return None if owner in FIXTURES else owner  # there is no function of that name
 
 
 def kept(call: Node) -> str:
