@@ -1,7 +1,7 @@
 """Trees in which a name stands for the element it refers to, so that two models compare by `==`.
 
 What a depth leaves out is not in the trees: parentheses, blocks and empty statements without
-meaning, `self.` before what is one's own.
+meaning, casts to the type that a value has, `self.` before what is one's own.
 """
 
 from __future__ import annotations
@@ -80,6 +80,8 @@ class Tokens:
         match node:
             case m.Paren(inner) if self._folds:
                 return self._copy(self.of(inner))
+            case m.Cast(type_, inner) if self._folds and self._is_of(inner, type_):
+                return self._copy(self.of(inner))
             case m.Name():
                 return replace(node, name=self._referred(node, node.name))
             case m.Member(m.Self()) if self._folds and isinstance(self._symbol(node), _OWN):
@@ -103,6 +105,10 @@ class Tokens:
                 return m.Empty((m.Annotation(f"{id(self)} {id(node)}"),))  # equal to nothing
             case _:
                 return self._parts(node)
+
+    def _is_of(self, expression: m.Expression, type_: m.Type) -> bool:
+        """Whether a cast to a type leaves an expression as it is."""
+        return str(self.side.analysis.type_of(expression)) == str(type_)
 
     def _symbol(self, node: object) -> object:
         return self.side.analysis.symbol_of(node)
