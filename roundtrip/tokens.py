@@ -99,8 +99,14 @@ class Tokens:
                 return m.FloatLiteral(_number(text))
             case m.If(otherwise=m.Block(inner, annotations=())) if self._folds and not inner:
                 return self._made(replace(node, otherwise=None))
+            case m.If(otherwise=m.Block((m.If() as inner,), annotations=())) if self._folds:
+                return self._made(replace(node, otherwise=inner))
+            case m.ExpressionStatement(m.Unary("++" | "--" as sign, inner)) if self._folds:
+                return self._made(replace(node, expression=m.Postfix(sign, inner)))
             case m.Block() | m.Case():
                 return replace(self._parts(node), statements=self._statements(node.statements))
+            case m.For() if self._folds:
+                return self._parts(self._updates(node))
             case m.Empty() if is_unreadable(node):
                 return m.Empty((m.Annotation(f"{id(self)} {id(node)}"),))  # equal to nothing
             case _:
@@ -149,6 +155,18 @@ class Tokens:
         if not self._folds:
             return tuple(self.of(s) for s in statements)
         return tuple(self.of(s) for s in _flat(statements))
+
+    def _updates(self, loop: m.For) -> m.For:
+        """A loop whose updates are told in one way, as nobody takes their values."""
+        return replace(
+            loop,
+            updates=tuple(
+                m.Postfix(u.operator, u.operand, u.span)
+                if isinstance(u, m.Unary) and u.operator in ("++", "--")
+                else u
+                for u in loop.updates
+            ),
+        )
 
 
 def _flat(statements: tuple[m.Statement, ...]) -> Iterator[m.Statement]:

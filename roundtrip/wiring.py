@@ -42,10 +42,16 @@ _JOINING = frozenset(
     }
 )
 # Without these extraction lists what they were for; and somebody may call them otherwise.
-_MISSED = frozenset({"subscription", "publisher", "priority", "usual time", "sending"})
+_MISSED = frozenset(
+    {"subscription", "publisher", "priority", "usual time", "sending", "sender", "parameter for"}
+)
 # What was not there when the code was generated makes a difference too.
 _UNWANTED = frozenset({"setting", "compiler option"})
 _HINT = "take the edit back, or tell of it in the model"
+_LAYOUT = re.compile(r" ?([^\w \"]) ?")
+_READ = re.compile(r"\b(\w+)\s*=\s*global\s*\.\s*param(?:<[^<>]*>)?\s*\(\s*(\"[^\"]*\")")
+_BEST = re.compile(r"\bmailbox_\s*\(\s*\w+\s*,[^,()]*(?:,\s*([^()]*?)\s*)?\)")
+_SENT_BY = re.compile(r"\bmailbox_\s*\.\s*receive\s*\(\s*(\w+)\s*,[^,]*,\s*([^,]*?)\s*,")
 _HASH = re.compile(r"#[^\n]*")
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/|<!--.*?-->", re.DOTALL)
 _OWNER = re.compile(r"\b(\w+)::\1\s*\(")
@@ -104,6 +110,7 @@ def odd_wiring(
     base = _facts({n: f"{kept.root}/{BASE}{n}" for n in record.files if _is_wiring(n)})
     today = _facts({n: p for n, p in now.listing.files.items() if _is_wiring(n)})
     joined = {d.element.group or "" for d in of_code.differences if _joins(d)}
+    joined |= {d.element.kind for d in of_code.differences if d.element.kind == "env"}
     base |= {
         key: [] for key, facts in today.items() if facts[0].kind in _UNWANTED and key not in base
     }
@@ -141,10 +148,10 @@ def _is_excused(fact: _Fact, joined: set[str]) -> bool:
     if fact.kind in _UNWANTED:
         return False
     if fact.kind in ("remap", "node", "parameter") or fact.kind.endswith(" program"):
-        return bool(joined)
+        return bool(joined - {"env"})
     if fact.kind == "field":
         return any(fact.owner.startswith(group) for group in joined)
-    return fact.owner in joined
+    return fact.owner in joined or (fact.kind == "parameter for" and "env" in joined)
 
 
 def _changes(kept: Kept, before: list[_Fact], now: list[_Fact]) -> Iterator[Findings]:
@@ -204,6 +211,13 @@ def _joints(source: Source, text: str) -> Iterator[_Fact]:
     for m in _SERVER.finditer(text):
         priority = _squeezed(m[3])
         yield _Fact("priority", owner[1], m[2].strip('"'), priority, source, Span(*m.span()))
+    for m in _READ.finditer(text):
+        yield _Fact("parameter for", owner[1], m[1], m[2], source, Span(*m.span()))
+    for m in _BEST.finditer(text):
+        yield _Fact("best priority", owner[1], "", m[1] or "none", source, Span(*m.span()))
+    for m in _SENT_BY.finditer(text):
+        name = servers.get(m[1], m[1])
+        yield _Fact("sender", owner[1], name, _squeezed(m[2]), source, Span(*m.span()))
     for m in _SUBSCRIBED.finditer(text):
         server = _server_of(text, m.end(), servers)
         yield _Fact("subscription", owner[1], server, f"{m[1]} {m[2]}", source, Span(*m.span()))
@@ -318,4 +332,5 @@ def _programs(source: Source) -> Iterator[_Fact]:
 
 
 def _squeezed(text: str) -> str:
-    return " ".join(text.split())
+    """A text without layout."""
+    return _LAYOUT.sub(r"\1", " ".join(text.split()))
