@@ -24,6 +24,9 @@ from rebsync.source import NOWHERE, Source, Span
 _HEADER = re.compile(rf"include/[^/]+/(?:{'|'.join(RUNTIME_HEADERS)})\.h\Z")
 _STAND_IN = re.compile(r"src/\w+_stand_in\.cpp\Z")
 _PROGRAM = re.compile(r"src/\w+_node\.cpp\Z")
+_INCLUDE = re.compile(
+    r'^[ \t]*#[ \t]*(?:include[ \t]*(?:<[^>\n]*>|("[^"\n]*"))|pragma once\b)', re.M
+)
 _OWN_NAME = re.compile(r'#include "(\w+)/|#ifndef (\w+)_\w+_H\b')
 # What a rebec is made of, extraction reads.
 _REBEC = re.compile(r"::\w+rebec\(node[,)]|.*(?:node\.param|readArray)\(")
@@ -96,15 +99,19 @@ def _first_difference(
 
 
 def _tokens(source: Source) -> Iterator[_Piece]:
+    """The tokens of a text: first its own headers, in whatever order; those of libraries, none."""
     own = _OWN_NAME.search(source.text)
     names = {form for n in own.groups() if n for form in (n.lower(), n.upper())} if own else ()
-    for found in TOKEN.finditer(source.text):
-        text = found[0]
-        if text.startswith(("//", "/*")):
+    headers = [_Piece(m[1] or "", Span(*m.span())) for m in _INCLUDE.finditer(source.text)]
+    rest = _INCLUDE.sub(lambda m: " " * len(m[0]), source.text)
+    tokens = [_Piece(m[0], Span(*m.span())) for m in TOKEN.finditer(rest)]
+    for piece in (*sorted(headers, key=lambda h: h.text.rpartition("/")[2]), *tokens):
+        text = piece.text
+        if not text or text.startswith(("//", "/*")):
             continue
         for name in names:
             text = text.replace(name, "")
-        yield _Piece(text, Span(found.start(), found.end()))
+        yield _Piece(text, piece.span)
 
 
 def _statements(source: Source) -> Iterator[_Piece]:

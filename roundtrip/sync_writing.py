@@ -19,20 +19,23 @@ def write(sync: Sync) -> tuple[str, ...]:
 
     RebsyncError: a file cannot be written, or a link leads out of what belongs together.
     """
-    root = sync.checked.kept.root
+    root = os.path.realpath(sync.checked.kept.root)
+    model = relative(os.path.realpath(sync.checked.model), root)
+    shown = {model: sync.checked.model}
     texts: dict[str, str] = {}
     if sync.model_text is not None:
-        texts[relative(sync.checked.model, root)] = sync.model_text
+        texts[model] = sync.model_text
     texts |= {p: t for p, t in sync.texts.items() if t is not None}
     for path in texts:
-        _refuse_link(root, path, sync.checked.kept.tree)
+        _refuse_link(Path(shown.get(path) or Path(root, path)), sync.checked.kept.tree)
         texts[path] = _marked(Path(root, path), texts[path])
     texts |= {p: t for p, t in sync.records.items() if t is not None}
     gone = [p for each in (sync.texts, sync.records) for p, t in each.items() if t is None]
     written = replace_tree(root, texts, remove=gone)
     _accept(sync)
     _tell_git(sync)
-    return tuple(os.path.normpath(Path(root, p)) for p in written if not p.startswith(".rebsync/"))
+    own = (path for path in written if not path.startswith(".rebsync/"))
+    return tuple(shown.get(p) or f"{sync.checked.kept.root}/{p}" for p in own)
 
 
 def _accept(sync: Sync) -> None:
@@ -63,9 +66,8 @@ def _subject(message: str) -> str:
     return message.partition(" is ")[0]
 
 
-def _refuse_link(root: str, path: str, tree: str) -> None:
+def _refuse_link(file: Path, tree: str) -> None:
     """What is behind a link that leads out of the tree is not ours to change."""
-    file = Path(root, path)
     if file.is_symlink() and Path(tree).resolve() not in file.resolve().parents:
         message = "this is a link that leads out of the tree, and it would have to change"
         raise RebsyncError.of(str(file), "RS806", message, "put the file itself here")

@@ -1,7 +1,7 @@
 """Trees in which a name stands for the element it refers to, so that two models compare by `==`.
 
 What a depth leaves out is not in the trees: parentheses, blocks and empty statements without
-meaning, `self.` before what is one's own.
+meaning, casts to the type that a value has, `self.` before what is one's own.
 """
 
 from __future__ import annotations
@@ -80,6 +80,8 @@ class Tokens:
         match node:
             case m.Paren(inner) if self._folds:
                 return self._copy(self.of(inner))
+            case m.Cast(type_, inner) if self._folds and self._is_of(inner, type_):
+                return self._copy(self.of(inner))
             case m.Name():
                 return replace(node, name=self._referred(node, node.name))
             case m.Member(m.Self()) if self._folds and isinstance(self._symbol(node), _OWN):
@@ -97,12 +99,22 @@ class Tokens:
                 return m.FloatLiteral(_number(text))
             case m.If(otherwise=m.Block(inner, annotations=())) if self._folds and not inner:
                 return self._made(replace(node, otherwise=None))
+            case m.If(otherwise=m.Block((m.If() as inner,), annotations=())) if self._folds:
+                return self._made(replace(node, otherwise=inner))
+            case m.ExpressionStatement(m.Unary("++" | "--" as sign, inner)) if self._folds:
+                return self._made(replace(node, expression=m.Postfix(sign, inner)))
             case m.Block() | m.Case():
                 return replace(self._parts(node), statements=self._statements(node.statements))
+            case m.For() if self._folds:
+                return self._parts(self._updates(node))
             case m.Empty() if is_unreadable(node):
                 return m.Empty((m.Annotation(f"{id(self)} {id(node)}"),))  # equal to nothing
             case _:
                 return self._parts(node)
+
+    def _is_of(self, expression: m.Expression, type_: m.Type) -> bool:
+        """Whether a cast to a type leaves an expression as it is."""
+        return str(self.side.analysis.type_of(expression)) == str(type_)
 
     def _symbol(self, node: object) -> object:
         return self.side.analysis.symbol_of(node)
@@ -143,6 +155,18 @@ class Tokens:
         if not self._folds:
             return tuple(self.of(s) for s in statements)
         return tuple(self.of(s) for s in _flat(statements))
+
+    def _updates(self, loop: m.For) -> m.For:
+        """A loop whose updates are told in one way, as nobody takes their values."""
+        return replace(
+            loop,
+            updates=tuple(
+                m.Postfix(u.operator, u.operand, u.span)
+                if isinstance(u, m.Unary) and u.operator in ("++", "--")
+                else u
+                for u in loop.updates
+            ),
+        )
 
 
 def _flat(statements: tuple[m.Statement, ...]) -> Iterator[m.Statement]:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
+from itertools import chain
 from pathlib import Path
 from typing import TypeAlias
 
@@ -41,8 +42,17 @@ _JOINING = frozenset(
     }
 )
 # Without these extraction lists what they were for; and somebody may call them otherwise.
-_MISSED = frozenset({"subscription", "publisher", "priority"})
+_MISSED = frozenset(
+    {"subscription", "publisher", "priority", "usual time", "sending", "sender", "parameter for"}
+)
+# What was not there when the code was generated makes a difference too.
+_UNWANTED = frozenset({"setting", "compiler option"})
 _HINT = "take the edit back, or tell of it in the model"
+_LAYOUT = re.compile(r" ?([^\w \"]) ?")
+_READ = re.compile(r"\b(\w+)\s*=\s*global\s*\.\s*param(?:<[^<>]*>)?\s*\(\s*(\"[^\"]*\")")
+_BEST = re.compile(r"\bmailbox_\s*\(\s*\w+\s*,[^,()]*(?:,\s*([^()]*?)\s*)?\)")
+_SENT_BY = re.compile(r"\bmailbox_\s*\.\s*receive\s*\(\s*(\w+)\s*,[^,]*,\s*([^,]*?)\s*,")
+_HASH = re.compile(r"#[^\n]*")
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/|<!--.*?-->", re.DOTALL)
 _OWNER = re.compile(r"\b(\w+)::\1\s*\(")
 _SUBSCRIBED = re.compile(r'\b(subscribe\w*)\s*(?:<[^;()]*>\s*)?\(\s*("[^"]*")\s*,')
@@ -55,6 +65,17 @@ _BEARING = {
     "drive": ("cell_size", "kind", "heading", "move_time"),
 }
 _PROGRAM = re.compile(r"\b(add_executable|set_target_properties)\s*\(\s*(\S+)\s+([^)]*)\)")
+_COMPILED = re.compile(
+    r"\b(?:add|target)_(?:compile_\w+|definitions)\s*\(([^)]*)\)|_FLAGS\s+([^)]*)\)"
+)
+_OPTION = re.compile(r"(?:^|[\s\"])((?:-D|-U|-f|-include)\s*[^\s\"]+)")
+_USUAL = re.compile(r"\b(\w+)\s*\([^;{}]*\bWhen\s*&\s*\w+\s*=\s*([^;]*?)\s*\)\s*;")
+_CLASS = re.compile(r"\bclass\s+(\w+)[^;{]*\{")
+_SENDER = re.compile(
+    r"\b(\w+)::(\w+)\s*\([^;{}]*\bWhen\s*&[^;{}]*\)\s*\{(.*?)^\}", re.M | re.DOTALL
+)
+_CALLED = re.compile(r"\bmailbox_\s*\.\s*(?:post|publish)\s*\(")
+_BRANCH = re.compile(r"\b(?:if|for|while|switch|return|throw)\b|&&|\|\|")
 _FAR = 400  # characters within which a subscription names its handler
 _POSTED = re.compile(r"\bk[A-Z]\w*")
 _TAG = re.compile(r"<(/?)([\w-]+)((?:\s+[\w-]+\s*=\s*(?:\"[^\"]*\"|'[^']*'))*)\s*(/?)>")
@@ -89,16 +110,21 @@ def odd_wiring(
     base = _facts({n: f"{kept.root}/{BASE}{n}" for n in record.files if _is_wiring(n)})
     today = _facts({n: p for n, p in now.listing.files.items() if _is_wiring(n)})
     joined = {d.element.group or "" for d in of_code.differences if _joins(d)}
+    joined |= {d.element.kind for d in of_code.differences if d.element.kind == "env"}
+    base |= {
+        key: [] for key, facts in today.items() if facts[0].kind in _UNWANTED and key not in base
+    }
     found = list[Findings]()
     files = {name.rpartition("/")[2] for name in now.listing.files}
     for key, facts in base.items():
-        if not (_has_moved(facts[0], files) or _is_excused(facts[0], joined)):
+        first = (facts or today[key])[0]
+        if not (_has_moved(first, files) or _is_excused(first, joined)):
             found += _changes(kept, facts, today.get(key, []))
     return tuple(found)
 
 
 def _is_wiring(name: str) -> bool:
-    return name.endswith((".cpp", ".launch", ".msg", "CMakeLists.txt", "config/params.yaml"))
+    return name.endswith((".cpp", ".h", ".launch", ".msg", "CMakeLists.txt", "config/params.yaml"))
 
 
 def _joins(difference: Difference) -> bool:
@@ -119,23 +145,25 @@ def _has_moved(fact: _Fact, files: set[str]) -> bool:
 
 
 def _is_excused(fact: _Fact, joined: set[str]) -> bool:
+    if fact.kind in _UNWANTED:
+        return False
     if fact.kind in ("remap", "node", "parameter") or fact.kind.endswith(" program"):
-        return bool(joined)
+        return bool(joined - {"env"})
     if fact.kind == "field":
         return any(fact.owner.startswith(group) for group in joined)
-    return fact.owner in joined
+    return fact.owner in joined or (fact.kind == "parameter for" and "env" in joined)
 
 
 def _changes(kept: Kept, before: list[_Fact], now: list[_Fact]) -> Iterator[Findings]:
     """What of the facts of one key is not as it was."""
     old, new = {f.value for f in before}, {f.value for f in now}
-    if old == new or (not new and before[0].kind in _MISSED):
+    first = (before or now)[0]
+    if old == new or (not new and first.kind in _MISSED):
         return
-    first = before[0]
     what = " ".join(filter(None, ("the", first.kind, first.name)))
     what += f" of {first.owner}" if first.owner else ""
     is_now = " and ".join(sorted(new)) or "gone"
-    message = f"{what} is {is_now}; generated was {' and '.join(sorted(old))}"
+    message = f"{what} is {is_now}; generated was {' and '.join(sorted(old)) or 'none'}"
     place = next((f for f in now if f.value not in old), None)
     if place is None:
         place = now[0] if now else None
@@ -169,7 +197,9 @@ def _of_file(name: str, source: Source) -> Iterable[_Fact]:
     if name.endswith(".txt"):
         return _programs(source)
     blank = Source(source.path, _COMMENT.sub(lambda m: " " * len(m[0]), source.text))
-    return _joints(source, blank.text) if name.endswith(".cpp") else _launched(source, blank.text)
+    if name.endswith(".launch"):
+        return _launched(source, blank.text)
+    return chain(_joints(source, blank.text), _sendings(source, blank.text))
 
 
 def _joints(source: Source, text: str) -> Iterator[_Fact]:
@@ -181,12 +211,30 @@ def _joints(source: Source, text: str) -> Iterator[_Fact]:
     for m in _SERVER.finditer(text):
         priority = _squeezed(m[3])
         yield _Fact("priority", owner[1], m[2].strip('"'), priority, source, Span(*m.span()))
+    for m in _READ.finditer(text):
+        yield _Fact("parameter for", owner[1], m[1], m[2], source, Span(*m.span()))
+    for m in _BEST.finditer(text):
+        yield _Fact("best priority", owner[1], "", m[1] or "none", source, Span(*m.span()))
+    for m in _SENT_BY.finditer(text):
+        name = servers.get(m[1], m[1])
+        yield _Fact("sender", owner[1], name, _squeezed(m[2]), source, Span(*m.span()))
     for m in _SUBSCRIBED.finditer(text):
         server = _server_of(text, m.end(), servers)
         yield _Fact("subscription", owner[1], server, f"{m[1]} {m[2]}", source, Span(*m.span()))
     for m in _ADVERTISED.finditer(text):
         value = _squeezed(m[2])
         yield _Fact("publisher", owner[1], m[1], value, source, Span(*m.span()))
+
+
+def _sendings(source: Source, text: str) -> Iterator[_Fact]:
+    """How functions that send do that: when, if not told, and how often."""
+    for m in _USUAL.finditer(text):
+        owners = [c[1] for c in _CLASS.finditer(text, 0, m.start())]
+        owner = owners[-1] if owners else ""
+        yield _Fact("usual time", owner, m[1], _squeezed(m[2]), source, Span(*m.span()))
+    for m in _SENDER.finditer(text):
+        value = f"{len(_CALLED.findall(m[3]))} sent, {len(_BRANCH.findall(m[3]))} branches"
+        yield _Fact("sending", m[1], m[2], value, source, Span(*m.span(2)))
 
 
 def _server_of(text: str, start: int, servers: Mapping[str, str]) -> str:
@@ -211,16 +259,22 @@ def _posted_in(text: str, handler: str, servers: Mapping[str, str]) -> str:
 def _launched(source: Source, text: str) -> Iterator[_Fact]:
     """Of each node its package, whether it is started again, and its remaps; lists of rebecs."""
     node = ""
+    spaces = list[str]()
     for m in _TAG.finditer(text):
         end, tag, rest, closed = m.groups()
         given = {a[1]: a[2] if a[2] is not None else a[3] for a in _ATTRIBUTE.finditer(rest)}
         span = Span(*m.span())
         match tag:
+            case "group" if end:
+                spaces = spaces[:-1]
+            case "group" if not closed:
+                spaces.append(given.get("ns", ""))
             case "node" if not end:
-                node = "" if closed else given.get("name", "")
+                name = given.get("name", "")
+                node = "" if closed else name
+                given["ns"] = "/".join(filter(None, (*spaces, given.get("ns"))))
                 for key in ("pkg", "respawn", "ns"):
-                    name = given.get("name", "")
-                    yield _Fact("node", name, key, given.get(key, "not given"), source, span)
+                    yield _Fact("node", name, key, given.get(key) or "not given", source, span)
             case "node":
                 node = ""
             case "remap" if node:
@@ -228,6 +282,12 @@ def _launched(source: Source, text: str) -> Iterator[_Fact]:
             case "rosparam" if not end and not closed and "param" in given:
                 value = _squeezed(text[m.end() : text.find("</rosparam>", m.end())])
                 yield _Fact("parameter", "", given["param"], value, source, span)
+            case "rosparam" if given.get("command") == "load":
+                value = given.get("file", "").rpartition("/")[2]
+                yield _Fact("parameter file", "", value, "loaded", source, span)
+            case "param" if not node and _has_bearing(given.get("name", "")):
+                name, value = given["name"].strip("/"), given.get("value", "")
+                yield _Fact("setting", "", name, value, source, span)
             case _:
                 pass
 
@@ -250,8 +310,16 @@ def _settings(source: Source) -> Iterator[_Fact]:
             yield _Fact("parameter", "", f"{section}/{m[2]}", m[3], source, Span(*m.span(2)))
 
 
+def _has_bearing(name: str) -> bool:
+    section, _, rest = name.strip("/").partition("/")
+    return rest in _BEARING.get(section, ())
+
+
 def _programs(source: Source) -> Iterator[_Fact]:
-    """The files that programs are made of, and what these are called."""
+    """The files that programs are made of, what these are called, how they are compiled."""
+    for m in _COMPILED.finditer(_HASH.sub(lambda m: " " * len(m[0]), source.text)):
+        for option in _OPTION.findall(m[1] or m[2] or ""):
+            yield _Fact("compiler option", "", _squeezed(option), "given", source, Span(*m.span()))
     for m in _PROGRAM.finditer(source.text):
         command, target, rest = m.groups()
         span = Span(*m.span(2))
@@ -264,4 +332,5 @@ def _programs(source: Source) -> Iterator[_Fact]:
 
 
 def _squeezed(text: str) -> str:
-    return " ".join(text.split())
+    """A text without layout."""
+    return _LAYOUT.sub(r"\1", " ".join(text.split()))

@@ -221,3 +221,24 @@ def test_without_the_model_of_last_time_all_is_a_conflict(sync: Run) -> None:
     assert sync("--conflict", "theirs")[0] == 0
     assert "n > 5" in Path("patrol.rebeca").read_text()
     assert main(["check"]) == 0
+
+
+def test_a_package_behind_a_link(sync: Run) -> None:
+    Path("elsewhere").mkdir()
+    Path("patrol").rename("elsewhere/patrol")
+    Path("patrol").symlink_to("elsewhere/patrol")
+    replace(SOURCE, "n > 3", "n > 5")
+    replace("patrol.rebeca", "% 4", "% 5")
+    assert sync("patrol", "--model", "patrol.rebeca")[0] == 0
+    assert "n > 5" in Path("patrol.rebeca").read_text()
+    assert "% 5" in Path(SOURCE).read_text()
+    assert [p.name for p in Path("elsewhere").iterdir()] == ["patrol"]
+
+
+def test_links_that_lead_out_are_not_followed(sync: Run, tmp_path: Path) -> None:
+    Path(SOURCE).rename(tmp_path / "robot.cpp")
+    Path(SOURCE).symlink_to(tmp_path / "robot.cpp")
+    replace("patrol.rebeca", "% 4", "% 5")
+    before = snapshot(tmp_path)
+    assert sync()[0] != 0
+    assert snapshot(tmp_path) == before

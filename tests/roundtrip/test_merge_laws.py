@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from rebsync import model as m
+from rebsync.cli import main
 from rebsync.diagnostics import RebsyncError
 from rebsync.printing import print_model
 from rebsync.roundtrip.differences import compare
@@ -15,6 +19,7 @@ from rebsync.roundtrip.models import parsed
 from rebsync.roundtrip.sides import Given
 from rebsync.source import Source
 from rebsync.static import analyse
+from tests.reverse.laws import generated
 from tests.roundtrip.differences.mutations import DIFFERENT
 from tests.strategies import models
 
@@ -99,3 +104,33 @@ def test_with_one_side_in_favour_all_is_decided(
         assert merged_model(base, one, other, Favour.MARKERS).conflicts
         return
     assert not analyse(result.model).errors
+
+
+@settings(max_examples=settings().max_examples // 10)
+@given(drawn=changed(2))
+def test_packages_of_drawn_models_come_in_step(drawn: tuple[m.Model, list[m.Model]]) -> None:
+    model, (mine, theirs) = drawn
+    with TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as patch:
+        patch.setenv("REBSYNC_CACHE", f"{folder}/.cache")
+        patch.chdir(folder)
+        text = Path("drawn.rebeca")
+        text.write_text(print_model(model))
+        assume(main(["generate", "drawn.rebeca"]) == 0)
+        for path, content in generated(theirs).items():
+            Path("drawn", path).parent.mkdir(parents=True, exist_ok=True)
+            Path("drawn", path).write_text(content)
+        text.write_text(print_model(mine))
+        status = main(["sync"])
+        if status == 1:
+            assert "<<<<<<< " in text.read_text() + "".join(_code(Path("drawn")))
+            assert main(["sync"]) == 2
+            return
+        assert status == 0
+        assert main(["check"]) == 0
+        before = [text.read_text(), *_code(Path("drawn"))]
+        assert main(["sync"]) == 0
+        assert [text.read_text(), *_code(Path("drawn"))] == before
+
+
+def _code(root: Path) -> list[str]:
+    return [p.read_text() for p in sorted(root.rglob("*")) if p.is_file()]

@@ -9,6 +9,7 @@ from tests.roundtrip.mutations.package import (
     Edit,
     Kind,
     Maker,
+    Mutant,
     Package,
     Part,
     Texts,
@@ -71,6 +72,20 @@ def _other_of(pattern: str, name: str) -> Texts:
         return whole[:start] + others[0] + whole[end:] if others else None
 
     return text
+
+
+def _other_parameter(package: Package) -> Iterator[Mutant]:
+    """A parameter of the model that has another value, in place of each that is read."""
+    values: dict[str, str] = {}
+    for path in package.paths("params.yaml"):
+        values |= dict(re.findall(r"^(\w+): (\d+)$", package.files[path], re.MULTILINE))
+    for part in (p for p in package.parts if p.kind == "setup"):
+        text = package.files[part.path]
+        for m in re.compile(r'(?<=global\.param\(")\w+').finditer(text, part.start, part.end):
+            other = next((n for n in values if values[n] != values.get(m[0])), None)
+            if other is not None:
+                made = package.mutant(Edit(part.path, *m.span(), other))
+                yield Mutant(made.files, made.place, (m[0], other))
 
 
 def _swapped_pair(package: Package, part: Part, found: re.Match[str]) -> str | None:
@@ -166,12 +181,7 @@ KINDS = (
     ),
     Kind(
         "another parameter read",
-        within(
-            r'global\.param\("(?P<k>\w+)"',
-            _other_of(r'global\.param\("(\w+)"', "k"),
-            _S,
-            strings=True,
-        ),
+        _other_parameter,
     ),
     Kind("parameter not read", within(r"^ *\w+ = (?:global|node)\.param[^\n]*\n", "", _S)),
     Kind(

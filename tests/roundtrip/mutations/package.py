@@ -208,7 +208,8 @@ def _replaced(package: Package, part: Part, found: re.Match[str], text: Texts) -
         whole = found
     new = whole.expand(text) if isinstance(text, str) else text(package, part, whole)
     if new is not None:
-        yield Edit(part.path, found.start(), found.end(), new, part.element)
+        element = part.element if part.kind in BODIES else part.owner
+        yield Edit(part.path, found.start(), found.end(), new, element)
 
 
 def in_files(suffix: str, pattern: str, text: str, *, comments: bool = False) -> Maker:

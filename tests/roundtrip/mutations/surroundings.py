@@ -14,7 +14,8 @@ def _nodes(package: Package) -> Iterator[tuple[str, re.Match[str]]]:
     """The nodes of launch files that are rebecs."""
     for path in package.paths(".launch"):
         for found in _NODE.finditer(package.files[path]):
-            yield path, found
+            if not found[1].endswith("_stand_in"):
+                yield path, found
 
 
 def _in_nodes(pattern: str, text: str) -> Maker:
