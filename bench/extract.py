@@ -28,9 +28,9 @@ import tree_sitter_cpp
 from ros_packages import write_packages
 from tree_sitter import Language, Parser
 
-from rebsync.reverse.packages import CODE
-from rebsync.reverse.parallel import each
-from rebsync.reverse.reading import Chosen, all_listings, packages
+from rebsync.reverse.files.packages import CODE
+from rebsync.reverse.files.parallel import each
+from rebsync.reverse.files.reading import Chosen, all_listings, packages
 from rebsync.reverse.recovery import extract
 
 

@@ -10,11 +10,11 @@ from rebsync import model as m
 from rebsync.diagnostics import Findings
 from rebsync.printing import print_model
 from rebsync.records import dataclass
+from rebsync.reverse.build.manifests import read_manifest
+from rebsync.reverse.files.packages import CODE
+from rebsync.reverse.files.reading import Chosen
 from rebsync.reverse.graph import Graph
 from rebsync.reverse.graph_json import graph_data
-from rebsync.reverse.manifests import read_manifest
-from rebsync.reverse.packages import CODE
-from rebsync.reverse.reading import Chosen
 from rebsync.reverse.recovery import Extracted, extract
 from rebsync.reverse.report import as_json, as_text, diagnostics, grade_of, report_data, summary
 

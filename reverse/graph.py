@@ -14,8 +14,8 @@ from typing import TypeAlias
 from tree_sitter import Node as SyntaxNode
 
 from rebsync.records import dataclass
-from rebsync.reverse.cpp_index import CppFunction
-from rebsync.reverse.cpp_tree import Cpp
+from rebsync.reverse.syntax.cpp_index import CppFunction
+from rebsync.reverse.syntax.cpp_tree import Cpp
 from rebsync.source import Source, Span
 
 

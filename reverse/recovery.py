@@ -15,26 +15,26 @@ from rebsync.names import TAKEN_NODES, graph_name, uncarry
 from rebsync.package import Value
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED_GLOBALS
-from rebsync.reverse.cpp_calls import calls_in, string_of
-from rebsync.reverse.cpp_index import Code, CppFunction
-from rebsync.reverse.cpp_tree import named, parse, part, text_of
-from rebsync.reverse.cpp_types import class_name, type_of
+from rebsync.reverse.bodies.cpp_types import class_name, type_of
+from rebsync.reverse.bodies.written import annotation
+from rebsync.reverse.build.manifests import read_manifest
+from rebsync.reverse.calls.ros_calls import Asking
+from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.findings import Finding, Findings
+from rebsync.reverse.generated.ros1_classes import Classes
+from rebsync.reverse.generated.ros1_messages import own_messages
+from rebsync.reverse.generated.ros1_names import variable_name
 from rebsync.reverse.graph import Graph
-from rebsync.reverse.launched import Launch, LaunchedNode
-from rebsync.reverse.manifests import read_manifest
-from rebsync.reverse.node_launch import is_launch, system_of
-from rebsync.reverse.node_presence import is_generated, may_have_nodes
-from rebsync.reverse.node_programs import Program, programs, with_nodes
-from rebsync.reverse.node_system import Nodes, NodeSystem
-from rebsync.reverse.packages import CODE
-from rebsync.reverse.parameters import Parameter
-from rebsync.reverse.ros1_classes import Classes
-from rebsync.reverse.ros1_messages import own_messages
-from rebsync.reverse.ros1_names import variable_name
-from rebsync.reverse.ros_calls import Asking
-from rebsync.reverse.unparsed import unparsed
-from rebsync.reverse.written import annotation
+from rebsync.reverse.launch.launched import Launch, LaunchedNode
+from rebsync.reverse.launch.parameters import Parameter
+from rebsync.reverse.nodes.node_launch import is_launch, system_of
+from rebsync.reverse.nodes.node_presence import is_generated, may_have_nodes
+from rebsync.reverse.nodes.node_programs import Program, programs, with_nodes
+from rebsync.reverse.nodes.node_system import Nodes, NodeSystem
+from rebsync.reverse.syntax.cpp_calls import calls_in, string_of
+from rebsync.reverse.syntax.cpp_index import Code, CppFunction
+from rebsync.reverse.syntax.cpp_tree import named, parse, part, text_of
+from rebsync.reverse.syntax.unparsed import unparsed
 from rebsync.source import NOWHERE, Source
 from rebsync.static.values import converted
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from rebsync.files import BOM
 from rebsync.records import dataclass
-from rebsync.reverse.packages import Listing, is_read, listings
+from rebsync.reverse.files.packages import Listing, is_read, listings
 from rebsync.roundtrip.manifest import BASE_MODEL
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record

@@ -66,8 +66,8 @@ def code_given(package: Kept, standing: Standing) -> Code:
 
 
 def _extracted(standing: Standing) -> Code:
+    from rebsync.reverse.files.reading import read
     from rebsync.reverse.findings import Grade
-    from rebsync.reverse.reading import read
     from rebsync.reverse.recovery import extract
     from rebsync.reverse.report import diagnostics
 

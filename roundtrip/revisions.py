@@ -18,7 +18,7 @@ from rebsync.roundtrip.sides import Given, Unread
 from rebsync.source import Source
 
 if TYPE_CHECKING:
-    from rebsync.reverse.reading import Chosen
+    from rebsync.reverse.files.reading import Chosen
 
 MODEL = ".rebeca"
 _FORMS = "wanted is a model, a package, or REVISION:PATH as git has it, such as HEAD~3:robots"
@@ -81,7 +81,7 @@ def _code(path: str, shown: str) -> Code:
 
 def _chosen(path: str, shown: str) -> Chosen:
     """The files of the one package that a path stands for, under the names to be told."""
-    from rebsync.reverse.reading import packages
+    from rebsync.reverse.files.reading import packages
 
     def named(source: Source) -> Source:
         inside = source.path.removeprefix(path).lstrip("/")

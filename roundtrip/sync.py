@@ -173,9 +173,9 @@ class _Syncing:
         """What the code says once it is merged."""
         if not merged.texts:
             return code
+        from rebsync.reverse.files.packages import is_read
+        from rebsync.reverse.files.reading import read
         from rebsync.reverse.findings import Grade
-        from rebsync.reverse.packages import is_read
-        from rebsync.reverse.reading import read
         from rebsync.reverse.recovery import extract
         from rebsync.roundtrip.sides import Unread
 

@@ -54,7 +54,7 @@ def command(paths: tuple[str, ...], form: str, style: str | None, output: str) -
     unreadable, 2 nothing read.
     """
     from rebsync.reverse.answer import answer
-    from rebsync.reverse.parallel import each
+    from rebsync.reverse.files.parallel import each
 
     if style is not None and form == "json":
         raise click.UsageError("--format json has the report in it: leave out --report")

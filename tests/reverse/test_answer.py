@@ -9,7 +9,7 @@ from typing import Any
 import jsonschema  # type: ignore[import-untyped]
 
 from rebsync.reverse.answer import answer
-from rebsync.reverse.reading import packages
+from rebsync.reverse.files.reading import packages
 from tests.consoles import ROOT
 
 SCHEMA = json.loads((ROOT / "docs" / "extract.schema.json").read_text(encoding="utf-8"))

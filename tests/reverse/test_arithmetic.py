@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rebsync.reverse.arithmetic import Scalar, evaluate
+from rebsync.reverse.launch.arithmetic import Scalar, evaluate
 from rebsync.reverse.unknowns import Open
 
 _NUMBERS = st.integers(-9, 9).map(str) | st.sampled_from(["0.5", "1e2", "True", "'a'", "x"])

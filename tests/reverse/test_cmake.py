@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rebsync.reverse.build_files import BuildFiles
-from rebsync.reverse.cmake import read_build
-from rebsync.reverse.cmake_targets import Folder
+from rebsync.reverse.build.build_files import BuildFiles
+from rebsync.reverse.build.cmake import read_build
+from rebsync.reverse.build.cmake_targets import Folder
 from rebsync.reverse.unknowns import Open
 from rebsync.source import Source
 

@@ -8,7 +8,6 @@ from typing import Any
 import jsonschema  # type: ignore[import-untyped]
 import pytest
 
-from rebsync.reverse.cpp_tree import parse
 from rebsync.reverse.graph import (
     Access,
     Callback,
@@ -31,6 +30,7 @@ from rebsync.reverse.graph import (
     Unresolved,
 )
 from rebsync.reverse.graph_json import fact_data, graph_data, value_data
+from rebsync.reverse.syntax.cpp_tree import parse
 from rebsync.source import Source, Span
 from tests.consoles import ROOT
 

@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rebsync.reverse.launch import read_launch
-from rebsync.reverse.launch_values import Surroundings
-from rebsync.reverse.launched import Launch, LaunchedNode, Nodelet
-from rebsync.reverse.parameters import ParameterValue
+from rebsync.reverse.launch.launch_files import read_launch
+from rebsync.reverse.launch.launch_values import Surroundings
+from rebsync.reverse.launch.launched import Launch, LaunchedNode, Nodelet
+from rebsync.reverse.launch.parameters import ParameterValue
 from rebsync.reverse.unknowns import Open
 from rebsync.source import Source
 

@@ -13,10 +13,10 @@ from typing import Any
 
 import pytest
 
-from rebsync.reverse.launch import read_launch
-from rebsync.reverse.launch_values import Surroundings
-from rebsync.reverse.launched import Launch
-from rebsync.reverse.parameters import ParameterValue, Struct
+from rebsync.reverse.launch.launch_files import read_launch
+from rebsync.reverse.launch.launch_values import Surroundings
+from rebsync.reverse.launch.launched import Launch
+from rebsync.reverse.launch.parameters import ParameterValue, Struct
 from rebsync.reverse.unknowns import Open
 from rebsync.source import Source
 from tests.reverse.random_launch import Writer

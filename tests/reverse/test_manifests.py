@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rebsync.package import Maintainer
-from rebsync.reverse.manifests import read_manifest
+from rebsync.reverse.build.manifests import read_manifest
 from rebsync.source import Source
 
 _PARTS = """

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rebsync.reverse.messages import full_type, plain_type, read_message
+from rebsync.reverse.build.messages import full_type, plain_type, read_message
 from rebsync.source import Source
 
 _TEXT = """# The state of a robot.

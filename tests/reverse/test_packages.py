@@ -12,13 +12,13 @@ from rebsync.forward.view import view
 from rebsync.grammars.parser import parse_model
 from rebsync.package import NodeClass, Package
 from rebsync.printing import print_line
-from rebsync.reverse.build_files import BuildFiles
-from rebsync.reverse.cmake import read_build
-from rebsync.reverse.launch import read_launch
-from rebsync.reverse.launch_values import Surroundings
-from rebsync.reverse.launched import Launch
-from rebsync.reverse.manifests import read_manifest
-from rebsync.reverse.messages import read_message
+from rebsync.reverse.build.build_files import BuildFiles
+from rebsync.reverse.build.cmake import read_build
+from rebsync.reverse.build.manifests import read_manifest
+from rebsync.reverse.build.messages import read_message
+from rebsync.reverse.launch.launch_files import read_launch
+from rebsync.reverse.launch.launch_values import Surroundings
+from rebsync.reverse.launch.launched import Launch
 from rebsync.source import Source
 from rebsync.static import analyse
 from tests.regenerate import EXAMPLES, models

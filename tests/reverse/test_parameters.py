@@ -9,7 +9,7 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rebsync.reverse.parameters import ParameterValue, Struct, read_parameters
+from rebsync.reverse.launch.parameters import ParameterValue, Struct, read_parameters
 from rebsync.reverse.unknowns import Open
 from rebsync.source import Source
 

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from rebsync.diagnostics import RebsyncError
-from rebsync.reverse import reading
+from rebsync.reverse.files import reading
+from rebsync.reverse.files.reading import Chosen, chosen, packages
 from rebsync.reverse.findings import Grade
-from rebsync.reverse.reading import Chosen, chosen, packages
 
 NODE = '#include <ros/ros.h>\nint main() { ros::init("x"); }\n'
 PLAIN = "int twice(int x) { return 2 * x; }\n"

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from rebsync.reverse.macros import hides
 from rebsync.reverse.recovery import extract
+from rebsync.reverse.syntax.macros import hides
 from rebsync.source import Source
 
 NODE = """\

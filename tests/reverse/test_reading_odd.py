@@ -6,11 +6,11 @@ from time import process_time
 
 import pytest
 
-from rebsync.reverse.cpp_tree import parse, text_of
+from rebsync.reverse.files.relevance import relevant
 from rebsync.reverse.findings import Grade
 from rebsync.reverse.recovery import extract
-from rebsync.reverse.relevance import relevant
-from rebsync.reverse.unparsed import unparsed
+from rebsync.reverse.syntax.cpp_tree import parse, text_of
+from rebsync.reverse.syntax.unparsed import unparsed
 from rebsync.source import Source
 
 NODE = """\

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from rebsync.diagnostics import RebsyncError
-from rebsync.reverse import parallel
-from rebsync.reverse.parallel import each
-from rebsync.reverse.reading import Chosen
+from rebsync.reverse.files import parallel
+from rebsync.reverse.files.parallel import each
+from rebsync.reverse.files.reading import Chosen
 
 NODE = '#include <ros/ros.h>\nint main() { ros::init("x"); }\n'
 COUNT = 24

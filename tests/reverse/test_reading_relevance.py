@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from rebsync.reverse import relevance
-from rebsync.reverse.relevance import relevant
+from rebsync.reverse.files import relevance
+from rebsync.reverse.files.relevance import relevant
 
 NODE = b'#include "node.h"\nvoid Node::f() { ros::spin(); gain(2); }\n'
 CASES: dict[str, tuple[dict[str, bytes], set[str]]] = {

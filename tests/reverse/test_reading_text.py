@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from rebsync.reverse.cpp_conditions import blank, conditionals
-from rebsync.reverse.cpp_text import readable
-from rebsync.reverse.cpp_tree import parse, text_of
 from rebsync.reverse.findings import Grade
-from rebsync.reverse.unparsed import unparsed
+from rebsync.reverse.syntax.cpp_conditions import blank, conditionals
+from rebsync.reverse.syntax.cpp_text import readable
+from rebsync.reverse.syntax.cpp_tree import parse, text_of
+from rebsync.reverse.syntax.unparsed import unparsed
 from rebsync.source import Source
 
 # `~` stands for a blank that was made.

@@ -8,11 +8,8 @@ from pathlib import Path
 from rebsync import model as m
 from rebsync.grammars.parser import parse_model
 from rebsync.printing import print_model
-from rebsync.reverse.cpp_index import Code, CppFunction
-from rebsync.reverse.cpp_statements import CppStatements
-from rebsync.reverse.cpp_tree import Cpp, parse, text_of
-from rebsync.reverse.findings import Findings
-from rebsync.reverse.scope import (
+from rebsync.reverse.bodies.cpp_statements import CppStatements
+from rebsync.reverse.bodies.scope import (
     Called,
     Inline,
     Member,
@@ -24,6 +21,9 @@ from rebsync.reverse.scope import (
     TimerOf,
     Variable,
 )
+from rebsync.reverse.findings import Findings
+from rebsync.reverse.syntax.cpp_index import Code, CppFunction
+from rebsync.reverse.syntax.cpp_tree import Cpp, parse, text_of
 from rebsync.source import Source
 from rebsync.static import analyse
 from rebsync.static.types import BOOLEAN, DOUBLE, INT

@@ -9,12 +9,12 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from rebsync.records import dataclass
-from rebsync.reverse.cpp_index import Code
-from rebsync.reverse.cpp_tree import parse
+from rebsync.reverse.calls.ros_calls import graph_of
+from rebsync.reverse.files.packages import CODE
+from rebsync.reverse.files.reading import Chosen, packages
 from rebsync.reverse.graph_json import graph_data
-from rebsync.reverse.packages import CODE
-from rebsync.reverse.reading import Chosen, packages
-from rebsync.reverse.ros_calls import graph_of
+from rebsync.reverse.syntax.cpp_index import Code
+from rebsync.reverse.syntax.cpp_tree import parse
 from tests.reverse.corpus.compare import Comparison, answers_of, compare
 from tests.reverse.corpus.packages import PACKAGES, facts_of
 from tests.reverse.corpus.values import Json

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from rebsync.reverse.cpp_index import Code
-from rebsync.reverse.cpp_tree import parse
-from rebsync.reverse.ros_calls import graph_of
+from rebsync.reverse.calls.ros_calls import graph_of
+from rebsync.reverse.syntax.cpp_index import Code
+from rebsync.reverse.syntax.cpp_tree import parse
 from rebsync.source import Source
 from tests.reverse.graph.notation import noted
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from rebsync.reverse.cpp_index import Code
-from rebsync.reverse.cpp_tree import parse, text_of
+from rebsync.reverse.syntax.cpp_index import Code
+from rebsync.reverse.syntax.cpp_tree import parse, text_of
 from rebsync.source import Source
 
 _TEXT = """

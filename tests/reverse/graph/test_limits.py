@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from rebsync.reverse.cpp_index import Code
-from rebsync.reverse.cpp_tree import parse
+from rebsync.reverse.calls.ros_calls import graph_of
 from rebsync.reverse.graph import PublisherFact, Unresolved
-from rebsync.reverse.ros_calls import graph_of
+from rebsync.reverse.syntax.cpp_index import Code
+from rebsync.reverse.syntax.cpp_tree import parse
 from rebsync.source import Source
 
 _LONG = 400

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from rebsync.reverse.cpp_values_names import name_under, one_of, tidy
-from rebsync.reverse.cpp_values_numbers import added, computed, converted
 from rebsync.reverse.graph import FromParameter, OneOf, Place, Plain, Resolved, Under, Unresolved
+from rebsync.reverse.values.cpp_values_names import name_under, one_of, tidy
+from rebsync.reverse.values.cpp_values_numbers import added, computed, converted
 from rebsync.source import Source, Span
 
 HERE = Place(Source("a.cpp", "x"), Span(0, 1))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from rebsync import model as m
-from rebsync.reverse.reading import chosen
+from rebsync.reverse.files.reading import chosen
 from rebsync.reverse.recovery import Extracted, extract
 from tests.reverse.laws import assert_says
 from tests.reverse.nodes.cases import CASES

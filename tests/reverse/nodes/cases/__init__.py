@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from rebsync.printing import print_model
-from rebsync.reverse.reading import chosen
+from rebsync.reverse.files.reading import chosen
 from rebsync.reverse.recovery import Extracted, extract
 
 CASES = sorted(p for p in Path(__file__).parent.iterdir() if (p / "package").is_dir())

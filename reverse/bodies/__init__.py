@@ -1,0 +1,1 @@
+"""Bodies of functions as statements of the model."""

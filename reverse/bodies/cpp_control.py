@@ -1,0 +1,173 @@
+"""Branches, counted loops, switches and returns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.bodies import cpp_locals, cpp_plain_locals, cpp_special
+from rebsync.reverse.bodies.cpp_effects import Effects
+from rebsync.reverse.bodies.scope import Outside, Record, Variable
+from rebsync.reverse.syntax.cpp_tree import named, part
+
+if TYPE_CHECKING:
+    from rebsync.reverse.bodies.cpp_statements import CppStatements
+
+
+def branches(
+    reader: CppStatements, node: Node, annotations: tuple[m.Annotation, ...]
+) -> Iterator[m.Statement]:
+    """`if`, with what its head declares before it."""
+    outside, clause = reader.scope, part(node, "condition")
+    initial = clause.child_by_field_name("initializer")
+    inner = named(initial) if initial is not None else []
+    declared = [s for n in inner for s in reader.declaration(n, (), False)]
+    tested = part(clause, "value")
+    if tested.type == "declaration":
+        declared += cpp_locals.tested(reader, tested)
+        tested = part(tested, "declarator")
+    condition = reader.expressions.condition(tested)
+    then = reader.branch(part(node, "consequence"))
+    otherwise: m.Statement | None = None
+    alternative = node.child_by_field_name("alternative")
+    if alternative is not None:
+        (body,) = named(alternative)
+        otherwise = _else(reader, body)
+    reader.scope = outside
+    read = m.If(condition, then, otherwise, annotations, reader.cpp.span(node))
+    if declared:
+        yield m.Block((*declared, read))
+    else:
+        yield read
+
+
+def _else(reader: CppStatements, body: Node) -> m.Statement:
+    """The other branch; `else if` goes on without braces where nothing stands before it."""
+    if body.type != "if_statement":
+        return reader.branch(body)
+    around, reader.before = reader.before, []
+    read = list(branches(reader, body, ()))
+    needed, reader.before = reader.before, around
+    if needed or len(read) != 1:
+        return m.Block((*needed, *read), span=reader.cpp.span(body))
+    return read[0]
+
+
+def counted(reader: CppStatements, node: Node, annotations: tuple[m.Annotation, ...]) -> m.For:
+    """`for` with its three parts."""
+    outside = reader.scope
+    first = node.child_by_field_name("initializer")
+    initial: m.Declaration | tuple[m.Expression, ...] = ()
+    if first is not None and first.type == "declaration":
+        initial = _counter(reader, first)
+    elif first is not None:
+        initial = tuple(_listed(reader, first))
+    tested = node.child_by_field_name("condition")
+    condition = reader.loop_condition(tested) if tested is not None else None
+    update = node.child_by_field_name("update")
+    updates = tuple(_listed(reader, update)) if update is not None else ()
+    body = reader.branch(part(node, "body"))
+    reader.scope = outside
+    return m.For(initial, condition, updates, body, annotations, reader.cpp.span(node))
+
+
+def _counter(reader: CppStatements, node: Node) -> m.Declaration:
+    """The declaration at the head of a loop."""
+    if not reader.scope.open and cpp_plain_locals.is_plain(node):
+        return cpp_plain_locals.declared(reader, node)
+    read = [s.declaration for s in reader.declaration(node, (), False) if isinstance(s, m.Local)]
+    if not read or any(d.type != read[0].type for d in read):
+        raise reader.unread(node, "the model has no such loop")
+    declarators = tuple(d for each in read for d in each.declarators)
+    return m.Declaration(read[0].type, declarators, span=reader.cpp.span(node))
+
+
+def _listed(reader: CppStatements, node: Node) -> Iterator[m.Expression]:
+    """The expressions that commas part."""
+    if node.type == "comma_expression":
+        for child in named(node):
+            yield from _listed(reader, child)
+    else:
+        yield reader.effect(node)
+
+
+def switched(reader: CppStatements, node: Node, annotations: tuple[m.Annotation, ...]) -> m.Switch:
+    """`switch`."""
+    clause = part(node, "condition")
+    subject = cpp_special.subject(reader, part(clause, "value"), part(node, "body"))
+    outside = reader.scope
+    cases = [_case(reader, c) for c in named(part(node, "body"))]
+    reader.scope = outside
+    if reader.scope.open:
+        cases = _default_last(reader, node, cases)
+    return m.Switch(subject, tuple(cases), annotations, reader.cpp.span(node))
+
+
+def _default_last(reader: CppStatements, node: Node, cases: list[m.Case]) -> list[m.Case]:
+    """The cases with `default` at the end, where the model wants it, if nothing falls through."""
+    places = [index for index, case in enumerate(cases) if case.value is None]
+    if not places or places[0] == len(cases) - 1:
+        return cases
+    at, last = places[0], cases[-1]
+    before = at == 0 or _leaves(cases[at - 1])
+    if not before or not _leaves(cases[at]):
+        raise reader.unread(node, "a default in the middle falls through", "put it last")
+    if not _leaves(last):
+        last = replace(last, statements=(*last.statements, m.Break()))
+    return [*cases[:at], *cases[at + 1 : -1], last, cases[at]]
+
+
+def _leaves(case: m.Case) -> bool:
+    """Whether a case ends with leaving the switch."""
+    return bool(case.statements) and isinstance(
+        case.statements[-1], m.Break | m.Return | m.Continue
+    )
+
+
+def _case(reader: CppStatements, node: Node) -> m.Case:
+    """One case with its statements."""
+    if node.type != "case_statement":
+        raise reader.unread(node, "this stands before the first case")
+    value = node.child_by_field_name("value")
+    read = reader.expressions.read(value) if value is not None else None
+    body = [c for c in node.named_children if value is None or c.start_byte >= value.end_byte]
+    inside = [c for c in body if c.type != "comment"]
+    if len(inside) == 1 and inside[0].type == "compound_statement":
+        statements = reader.inner(inside[0]).statements
+    else:
+        statements = tuple(reader.statements(body))
+    return m.Case(read, statements, span=reader.cpp.span(node))
+
+
+def returned(
+    reader: CppStatements, node: Node, annotations: tuple[m.Annotation, ...]
+) -> Iterator[m.Statement]:
+    """`return`: its value goes where the function's value is kept."""
+    values = named(node)
+    if values and values[0].type == "initializer_list" and not named(values[0]):
+        return  # what C++ wants behind the last statement of a method
+    span = reader.cpp.span(node)
+    if not values:
+        yield m.Return(None, annotations, span)
+        return
+    match reader.returns:
+        case Record() as record:
+            yield from cpp_special.returned(reader, values[0], record)
+            yield m.Return(None, annotations, span)
+        case Variable() as place:
+            yield m.Return(reader.expressions.stored(values[0], place), annotations, span)
+        case Outside():
+            Effects(reader.cpp, reader.scope).check(values[0])
+            yield m.Return(None, annotations, span)
+        case None if reader.scope.returns is not None:
+            place = Variable("", reader.scope.returns)
+            yield m.Return(reader.expressions.stored(values[0], place), annotations, span)
+        case _ if reader.scope.server is not None and reader.scope.open:
+            Effects(reader.cpp, reader.scope).check(values[0])
+            yield m.Return(None, annotations, span)
+        case _:
+            yield m.Return(reader.expressions.read(values[0]), annotations, span)

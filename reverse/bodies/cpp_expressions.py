@@ -1,0 +1,398 @@
+"""Expressions of C++ as expressions of the model (mapping, "Behaviour", from right to left)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync import precedence
+from rebsync.records import dataclass
+from rebsync.reverse.bodies import cpp_called, cpp_idioms, cpp_mailbox
+from rebsync.reverse.bodies.building import bare, binary, is_calm, is_place, tight
+from rebsync.reverse.bodies.cpp_conversions import (
+    alternatives,
+    as_number,
+    converted_to,
+    operands,
+    type_in,
+    variable_of,
+)
+from rebsync.reverse.bodies.cpp_effects import Effects
+from rebsync.reverse.bodies.cpp_literals import literal
+from rebsync.reverse.bodies.cpp_misread import Chain, Operand, Operation, chain_of, is_misread
+from rebsync.reverse.bodies.cpp_places import is_this, resolve
+from rebsync.reverse.bodies.cpp_stores import kept
+from rebsync.reverse.bodies.cpp_types import carried, type_of
+from rebsync.reverse.bodies.cpp_unknowns import Unknown, choice, domain_near
+from rebsync.reverse.bodies.scope import (
+    Inline,
+    Itself,
+    Lambda,
+    Meaning,
+    Outside,
+    Publishes,
+    Record,
+    Runtime,
+    Scope,
+    TimerOf,
+    Variable,
+)
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+from rebsync.static.types import BOOLEAN, INT, converts, is_boolean, is_floating, is_integer
+
+_PREFIX = frozenset({"+", "-", "!", "~"})
+_WORDS = {"and": "&&", "or": "||", "not": "!", "not_eq": "!=", "bitand": "&", "bitor": "|"}
+_TRUTH = Variable("", BOOLEAN)
+MOVE = cpp_mailbox.MOVE
+
+# Reads the call of a function whose body stands in its place: what the call gives, if anything.
+Inlines = Callable[[Node, Inline | Lambda, Sequence[Node]], Meaning | None]
+
+
+@dataclass(frozen=True, slots=True)
+class CppExpressions:
+    """Reads the expressions of one body. What has no meaning in the model raises `Unread`.
+
+    A value that the model cannot know raises `Unknown`, unless its place allows for a choice:
+    that is listed in `findings`. Without `inlines` no function's body can stand for its call.
+    """
+
+    cpp: Cpp
+    scope: Scope
+    findings: Findings | None = None
+    within: str = ""
+    inlines: Inlines | None = None
+
+    def read(self, node: Node) -> m.Expression:
+        """The expression, with parentheses where the code has them or the model needs them."""
+        span = self.cpp.span(node)
+        if node.id in self.scope.values:
+            return self.scope.values[node.id]
+        match node.type:
+            case "identifier" | "qualified_identifier":
+                return self._name(node)
+            case "this":
+                return m.Self(span)
+            case "parenthesized_expression":
+                return m.Paren(self.read(self.only(node)), span)
+            case "field_expression" | "pointer_expression":
+                return self._field(node)
+            case "subscript_expression":
+                return self.index(node, named(part(node, "indices")))
+            case "unary_expression":
+                return self._unary(node)
+            case "update_expression":
+                return self._update(node)
+            case "binary_expression" | "cast_expression" if is_misread(self.scope, node):
+                return self._joined(node, chain_of(self.cpp, self.scope, node))
+            case "binary_expression":
+                return self._computed(node)
+            case "assignment_expression":
+                return self.assign(node, self._operator(node), named(node))
+            case "conditional_expression":
+                condition, then, otherwise = named(node)
+                tested = tight(self.condition(condition), precedence.CHAIN)
+                ways = alternatives(self.scope, self.read(then), self.read(otherwise))
+                return m.Conditional(tested, *ways, span)
+            case "cast_expression":
+                return self.cast(part(node, "type"), part(node, "value"), node)
+            case "compound_literal_expression" if len(named(part(node, "value"))) == 1:
+                return self.cast(part(node, "type"), named(part(node, "value"))[0], node)
+            case "call_expression":
+                return cpp_called.called(self, node)
+            case _:
+                return self._literal(node)
+
+    def condition(self, node: Node, place: Variable | None = None) -> m.Expression:
+        """An expression as a truth value that `place` holds; of what is not known a choice."""
+        span = self.cpp.span(node)
+        match node.type:
+            case "parenthesized_expression":
+                return m.Paren(self.condition(self.only(node), place), span)
+            case "unary_expression" if self._sign(node) == "!":
+                inner = tight(self.condition(part(node, "argument")), precedence.PREFIX)
+                return inner if isinstance(inner, m.Choice) else m.Unary("!", inner, span)
+            case "binary_expression" if self._sign(node) in ("&&", "||"):
+                return self.binary(node, self._sign(node), named(node))
+        try:
+            read = self.read(node)
+        except Unread as unread:
+            if not isinstance(unread, Unknown) and not self.scope.open:
+                raise
+            self.approximate(node, unread)
+            return m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)), span)
+        return kept(self, node, read, place or _TRUTH)
+
+    def stored(self, node: Node, place: Variable) -> m.Expression:
+        """A value as `place` holds it; where a hint says what it can be, a choice of that."""
+        try:
+            if place.type is not None and is_boolean(place.type):
+                return self.condition(node, place)
+            return converted_to(self.scope, self.read(node), place)
+        except Unread as unread:
+            values = domain_near(node) or place.domain
+            if not values or not (self.scope.open or isinstance(unread, Unknown)):
+                raise
+            why = f"{unread.why}: it is one of the values in the comment"
+            self.approximate(node, Unread(unread.span, why))
+            pinned = tuple(converted_to(self.scope, v, place) for v in values)
+            return choice(tuple(dict.fromkeys(pinned)))
+
+    def approximate(self, node: Node, unread: Unread) -> None:
+        """Lists that a choice stands for an expression, which must touch nothing of the model."""
+        if self.findings is None:
+            raise Unread(unread.span, f"how often this is done again is not known: {unread.why}")
+        if not self.scope.chooses:
+            why = f"{unread.why}, and only a message server can choose"
+            raise Unread(unread.span, why, unread.hint)
+        Effects(self.cpp, self.scope).check(node)
+        source = self.cpp.source
+        self.findings.approximated(source, unread.span, unread.why, unread.hint, self.within)
+
+    def operand(self, node: Node, binding: int) -> m.Expression:
+        """An operand that binds at least so tightly, in parentheses if it does not."""
+        expression = self.read(node)
+        if precedence.binding(expression) < binding:
+            return m.Paren(expression, self.cpp.span(node))
+        return expression
+
+    def unread(self, node: Node, why: str, hint: str = "") -> Unread:
+        """What to raise where a node has no meaning in the model."""
+        return Unread(self.cpp.span(node), why, hint)
+
+    def unknown(self, node: Node, why: str) -> Unread:
+        """What to raise for a value that the model cannot know, where there can be such values."""
+        kind = Unknown if self.scope.open else Unread
+        return kind(self.cpp.span(node), why)
+
+    def only(self, node: Node) -> Node:
+        """The one expression in a node."""
+        children = named(node)
+        if len(children) != 1:
+            raise self.unread(node, "this is not one expression")
+        return children[0]
+
+    # --- names ----------------------------------------------------------------------------------
+
+    def _literal(self, node: Node) -> m.Expression:
+        try:
+            return literal(self.cpp, node)
+        except Unread as unread:
+            if node.type in ("string_literal", "raw_string_literal", "null", "sizeof_expression"):
+                raise self.unknown(node, unread.why) from None
+            raise
+
+    def _name(self, node: Node) -> m.Expression:
+        name, span = text_of(node), self.cpp.span(node)
+        last = name.rpartition("::")[2]
+        match resolve(self.scope, node):
+            case Variable(of_model):
+                return m.Name(of_model, span)
+            case Runtime():
+                raise self.unread(node, f'"{name}" belongs to the run-time part')
+            case Outside():
+                raise Unknown(span, f'the model cannot know "{name}"')
+            case Record() | Publishes() | TimerOf() | Lambda() | Itself():
+                raise self.unread(node, f'"{name}" is no value of the model')
+            case None:
+                pass
+            case expression:
+                return expression
+        for spelled in (name, *(n for n in (last,) if n != name)):
+            if spelled in self.scope.enumerators:
+                return cpp_idioms.whole(self.scope.enumerators[spelled], span)
+            if spelled in self.scope.constants:
+                cpp, value = self.scope.constants[spelled]
+                scope = self.scope.without_constant(spelled)
+                return CppExpressions(cpp, scope, self.findings, self.within).read(value)
+        if (known := cpp_idioms.constant_named(name, span)) is not None:
+            return known
+        if self.scope.open:
+            raise Unknown(span, f'the model cannot know "{name}"')
+        return literal(self.cpp, node)
+
+    def _field(self, node: Node) -> m.Expression:
+        span, meaning = self.cpp.span(node), resolve(self.scope, node)
+        if text_of(node).startswith("&"):
+            raise self.unread(node, "the model has no pointers and references")
+        match meaning:
+            case Variable(of_model):
+                target = node.child_by_field_name("argument")
+                if node.type == "field_expression" and target is not None and is_this(target):
+                    self_ = m.Self(self.cpp.span(target))
+                    return m.Member(self_, of_model, span, self.cpp.span(part(node, "field")))
+                return m.Name(of_model, span)
+            case Outside():
+                raise Unknown(span, f'the model cannot know "{text_of(node)}"')
+            case Runtime() | Record() | Publishes() | TimerOf() | Lambda() | Itself():
+                raise self.unread(node, f'"{text_of(node)}" is no value of the model')
+            case None:
+                raise self.unknown(node, f'"{text_of(node)}" is no variable of the model')
+            case expression:
+                return expression
+
+    # --- operators ------------------------------------------------------------------------------
+
+    def _sign(self, node: Node) -> str:
+        operator = self.cpp.operator(node)
+        return _WORDS.get(operator, operator)
+
+    def _operator(self, node: Node) -> str:
+        operator = self._sign(node)
+        if operator not in precedence.BINARY and not operator.endswith("="):
+            raise self.unread(node, f'the model has no operator "{operator}"')
+        return operator
+
+    def index(self, node: Node, indices: Sequence[Node]) -> m.Expression:
+        array = self.operand(part(node, "argument"), precedence.PRIMARY)
+        if len(indices) != 1:
+            raise self.unread(node, "an array of the model has one index at a time")
+        index = as_number(self.scope, self.read(indices[0]))
+        return m.Index(array, index, self.cpp.span(node))
+
+    def _unary(self, node: Node) -> m.Expression:
+        operator = self._sign(node)
+        if operator not in _PREFIX:
+            raise self.unread(node, f'the model has no operator "{operator}"')
+        if operator == "!":
+            return self.condition(node)
+        operand = self.operand(part(node, "argument"), precedence.PREFIX)
+        operand = tight(as_number(self.scope, operand), precedence.PREFIX)
+        return m.Unary(operator, operand, self.cpp.span(node))
+
+    def _update(self, node: Node) -> m.Expression:
+        operator, span = text_of(part(node, "operator")), self.cpp.span(node)
+        argument = part(node, "argument")
+        before = argument.start_byte != node.start_byte
+        counted = self.read(argument)
+        if not is_place(counted):
+            raise self.unread(argument, "what is changed here is only known when it runs")
+        place = self.place(counted)
+        real = place.type is not None and is_floating(place.type)
+        if place.bits or real:
+            if not before and node.parent is not None and node.parent.type.endswith("expression"):
+                why = "the model counts only whole numbers" if real else "this wraps sooner"
+                raise self.unread(node, why, "count in a statement of its own")
+            target = self.read(argument)
+            value = binary(*operands(self.scope, operator[0], target, m.IntLiteral(1)))
+            return m.Assign("=", target, kept(self, node, value, place), span)
+        if before:
+            return m.Unary(operator, self.operand(argument, precedence.PREFIX), span)
+        return m.Postfix(operator, self.operand(argument, precedence.POSTFIX), span)
+
+    def _joined(self, whole: Node, chain: Chain) -> m.Expression:
+        """A chain of operators of which the grammar took a part for a cast."""
+        match chain:
+            case Operand(cpp, node) if cpp is self.cpp:
+                return self.read(node)
+            case Operand(cpp, node):
+                try:
+                    value = replace(self, cpp=cpp).read(node)
+                except Unread as unread:
+                    span = self.cpp.span(whole)
+                    raise type(unread)(span, unread.why, unread.hint) from None
+                return value if self.scope.open else m.Paren(value)
+            case Operation(operator, left, right):
+                sides = self._joined(whole, left), self._joined(whole, right)
+                return binary(*operands(self.scope, operator, *sides))
+
+    def _computed(self, node: Node) -> m.Expression:
+        operator = self._operator(node)
+        if operator == "%" and (drawn := cpp_idioms.drawn(self, node, named(node))) is not None:
+            return drawn
+        return self.binary(node, operator, named(node))
+
+    def binary(self, node: Node, operator: str, sides: Sequence[Node]) -> m.Expression:
+        reads = self.condition if operator in ("&&", "||") else self.read
+        left, right = (reads(side) for side in sides)
+        operator, left, right = operands(self.scope, operator, left, right)
+        return binary(operator, left, right, self.cpp.span(node))
+
+    def assign(self, node: Node, operator: str, sides: Sequence[Node]) -> m.Expression:
+        target, value = sides
+        written = self.operand(target, precedence.CHAIN)
+        if not is_place(written):
+            raise self.unread(target, "what is changed here is only known when it runs")
+        place, span = self.place(written), self.cpp.span(node)
+        if operator == "=":
+            return m.Assign("=", written, self.stored(value, place), span)
+        right = self.read(value)
+        done, left, right = operands(self.scope, operator[:-1], written, right)
+        result = type_in(self.scope, binary(done, left, right))
+        if place.type is None or result is None or not is_calm(written):
+            return m.Assign(operator, written, right, span)
+        if place.bits or left is not written or not converts(result, place.type, {}):
+            whole = kept(self, node, binary(done, left, right), place)
+            return m.Assign("=", written, whole, span)
+        return m.Assign(operator, written, right, span)
+
+    def place(self, target: m.Expression) -> Variable:
+        """What is known of a place that is written."""
+        match target:
+            case m.Name(name) | m.Member(m.Self(), name):
+                return variable_of(self.scope, name) or Variable(name)
+            case m.Paren(inner):
+                return self.place(inner)
+            case m.Index(array):
+                whole = self.place(array)
+                if whole.type is None or not whole.type.dimensions:
+                    return Variable(whole.name)
+                of = m.Type(whole.type.name, whole.type.dimensions[1:])
+                return Variable(whole.name, of, whole.bits, whole.domain)
+            case _:
+                return Variable("")
+
+    def cast(self, to: Node, operand: Node, node: Node) -> m.Expression:
+        """A value that is converted by a cast of whatever kind."""
+        plain = type_of(to)
+        if plain is not None and not plain.dimensions and not self.scope.open:
+            return m.Cast(plain, self.operand(operand, precedence.CAST), self.cpp.span(node))
+        kept = carried(to, self.scope.enums)
+        if kept is None or kept.type.dimensions:
+            raise self.unread(node, f'the model has no type "{text_of(to)}"')
+        if kept.type == BOOLEAN:
+            return self.condition(operand)
+        value = self.read(operand)
+        of = type_in(self.scope, value)
+        if of is not None and is_boolean(of):
+            return as_number(self.scope, value)
+        if of is not None and kept.bits:
+            return converted_to(self.scope, value, Variable("", kept.type, kept.bits))
+        if of is not None and is_integer(of) and (_holds(value, of, kept.type) or kept.why):
+            return value
+        return m.Cast(kept.type, tight(value, precedence.CAST), self.cpp.span(node))
+
+    # --- calls ----------------------------------------------------------------------------------
+
+    def inlined(
+        self, node: Node, function: Inline | Lambda, arguments: Sequence[Node]
+    ) -> m.Expression:
+        """What a call gives for which the function's body stands."""
+        if self.inlines is None:
+            raise self.unread(node, "the model cannot run this function inside an expression")
+        match self.inlines(node, function, arguments):
+            case Variable(name):
+                return m.Name(name, self.cpp.span(node))
+            case Outside():
+                raise Unknown(self.cpp.span(node), "the model cannot know what this gives")
+            case None | Record() | Runtime() | Publishes() | TimerOf() | Lambda() | Itself():
+                raise self.unread(node, "what this gives is no value of the model")
+            case expression:
+                return expression
+
+    def calls(
+        self, node: Node, target: m.Expression | None, name: str, arguments: Sequence[Node]
+    ) -> m.Call:
+        """A call with all arguments as they are."""
+        values = tuple(self.read(a) for a in arguments)
+        return m.Call(target, name, values, span=self.cpp.span(node))
+
+
+def _holds(value: m.Expression, of: m.Type, type_: m.Type) -> bool:
+    """Whether a value is in the range of a type: what is computed is as wide as an int."""
+    stored = isinstance(bare(value), m.Name | m.Member | m.Index | m.Cast | m.IntLiteral)
+    return of == type_ and (type_ == INT or stored)

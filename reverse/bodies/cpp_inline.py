@@ -1,0 +1,342 @@
+"""Functions whose bodies stand in the place of their calls."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.bodies import cpp_idioms
+from rebsync.reverse.bodies.building import is_calm
+from rebsync.reverse.bodies.cpp_effects import Effects
+from rebsync.reverse.bodies.cpp_messages import declare, given, is_pointer, message_type, zero_of
+from rebsync.reverse.bodies.cpp_places import is_this, resolve
+from rebsync.reverse.bodies.cpp_types import carried
+from rebsync.reverse.bodies.cpp_unknowns import Unknown
+from rebsync.reverse.bodies.scope import (
+    Inline,
+    Itself,
+    Lambda,
+    Meaning,
+    Outside,
+    Publishes,
+    Record,
+    TimerOf,
+    Variable,
+)
+from rebsync.reverse.syntax.cpp_declarations import CppParameter
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+
+if TYPE_CHECKING:
+    from rebsync.reverse.bodies.cpp_statements import CppStatements
+
+_DEEPEST = 8
+_GUARDED = frozenset({"conditional_expression", "while_statement", "for_statement", "do_statement"})
+
+
+def inlined(
+    reader: CppStatements, node: Node, function: Inline | Lambda, arguments: Sequence[Node]
+) -> Meaning | None:
+    """Puts the statements of a function before the one that is read; what the call gives."""
+    inside, body, parameters, result = _entered(reader, function)
+    key = body.start_byte, inside.cpp.source.path
+    if key in reader.shared.running or len(reader.shared.running) >= _DEEPEST:
+        raise reader.unread(node, "a function that calls itself has no end here")
+    if len(arguments) > len(parameters):
+        raise reader.unread(node, "there are more arguments here than parameters")
+    needed, single = len(reader.before), _single(body)
+    for parameter, argument in zip(parameters, arguments, strict=False):
+        reader.before += _bound(reader, inside, parameter, argument, single is not None)
+    for parameter in parameters[len(arguments) :]:
+        reader.before += _left_out(reader, inside, parameter, node)
+    reader.shared.running.append(key)
+    try:
+        if single is not None:
+            found: Meaning | None = _value(inside, single, result)
+            reader.before += inside.before
+        else:
+            found = _body(reader, inside, body, result)
+    finally:
+        reader.shared.running.pop()
+    if len(reader.before) > needed:
+        _check_place(reader, node)
+    return found
+
+
+def _single(body: Node) -> Node | None:
+    """The value of a function that does nothing but give it."""
+    statements = named(body)
+    if len(statements) == 1 and statements[0].type == "return_statement":
+        values = named(statements[0])
+        return values[0] if values and values[0].type != "initializer_list" else None
+    return None
+
+
+def _value(inside: CppStatements, node: Node, result: Node | None) -> Meaning:
+    """What such a function gives: the value itself, where it is called."""
+    text = text_of(result) if result is not None else "auto"
+    if message_type(inside.scope, text) is not None:
+        return given(inside, node)[0]
+    kept = carried(result, inside.scope.enums) if result is not None else None
+    if kept is None and text not in ("auto", "const auto"):
+        raise Unknown(inside.cpp.span(node), "the model cannot know what this gives")
+    place = Variable("", kept.type if kept is not None else None, kept.bits if kept else 0)
+    inside.findings.statements[inside.within] += 1
+    return inside.expressions.stored(node, place)
+
+
+def _entered(
+    reader: CppStatements, function: Inline | Lambda
+) -> tuple[CppStatements, Node, Sequence[CppParameter], Node | None]:
+    """A reader for the body of a function, the body, its parameters and the type of its result."""
+    match function:
+        case Inline(called, constants):
+            if called.body is None:
+                raise reader.unread(called.node, "this function has no body here")
+            known = reader.scope.constants if constants is None else constants
+            scope = replace(reader.scope, locals={}, constants=known)
+            inside = reader.inside(called.cpp, scope, frozenset())
+            return inside, called.body, called.parameters, called.result
+        case Lambda(node, scope):
+            captures = text_of(part(node, "captures")).strip("[] ")
+            if captures not in ("", "&", "this", "&, this", "=, this", "this, &"):
+                raise reader.unread(node, f"what [{captures}] keeps may change before the call")
+            around = {n: x for n, x in scope.locals.items() if n in reader.scope.locals}
+            inside = reader.inside(reader.cpp, replace(scope, locals=around), reader.own)
+            declarator = node.child_by_field_name("declarator")
+            return inside, part(node, "body"), _parameters(declarator), _trailing(declarator)
+
+
+def _parameters(declarator: Node | None) -> tuple[CppParameter, ...]:
+    if declarator is None:
+        return ()
+    found = []
+    for parameter in named(part(declarator, "parameters")):
+        name = parameter.child_by_field_name("declarator")
+        while name is not None and name.type in ("reference_declarator", "pointer_declarator"):
+            name = name.named_children[-1] if name.named_children else None
+        text = text_of(name) if name is not None else ""
+        found.append(CppParameter(text, part(parameter, "type"), parameter))
+    return tuple(found)
+
+
+def _trailing(declarator: Node | None) -> Node | None:
+    for child in named(declarator) if declarator is not None else ():
+        if child.type == "trailing_return_type":
+            return named(child)[0]
+    return None
+
+
+def _check_place(reader: CppStatements, node: Node) -> None:
+    """Raises `Unread` where the call is not run once, and first of all in its statement."""
+    below, above = node, node.parent
+    while above is not None and not below.type.endswith(("_statement", "declaration")):
+        if above.type == "binary_expression" and text_of(part(above, "operator")) in ("&&", "||"):
+            guarded = part(above, "right").id == below.id
+        elif above.type == "conditional_expression":
+            guarded = part(above, "condition").id != below.id
+        else:
+            guarded = above.type in _GUARDED and below.type != "compound_statement"
+        if guarded:
+            why = "the body of this function cannot stand here"
+            raise reader.unread(node, why, "call it in a statement of its own")
+        below, above = above, above.parent
+
+
+# --- parameters ---------------------------------------------------------------------------------
+
+
+def _bound(
+    reader: CppStatements,
+    inside: CppStatements,
+    parameter: CppParameter,
+    argument: Node,
+    once: bool,
+) -> Iterator[m.Statement]:
+    """What a parameter stands for in the body."""
+    name, text = parameter.name, text_of(parameter.node)
+    if not name:
+        Effects(reader.cpp, reader.scope).check(argument)
+        return
+    constant = any(text_of(c) == "const" for c in parameter.node.named_children)
+    refers = "&" in text or "*" in text or is_pointer(text_of(parameter.type))
+    type_ = message_type(reader.scope, text_of(parameter.type))
+    meaning = resolve(reader.scope, argument)
+    if isinstance(meaning, Record) and (refers or constant or meaning.constant):
+        inside.meaning(name, replace(meaning, constant=constant or meaning.constant))
+        return
+    if isinstance(meaning, Publishes | TimerOf):
+        inside.meaning(name, meaning)
+        return
+    if is_this(argument) or isinstance(meaning, Itself):
+        inside.meaning(name, Itself())
+        return
+    if type_ is not None:
+        yield from _copied(reader, inside, name, type_, argument)
+        return
+    if refers and not constant and isinstance(meaning, Variable):
+        inside.meaning(name, meaning)
+        return
+    kept = carried(parameter.type, reader.scope.enums)
+    if (refers and not constant) or kept is None:
+        effects = Effects(reader.cpp, reader.scope)
+        effects.check(argument)
+        if refers and not constant:
+            effects.refers(argument)
+        inside.meaning(name, Outside())
+        return
+    yield from _valued(reader, inside, name, Variable("", kept.type, kept.bits), argument, once)
+
+
+def _left_out(
+    reader: CppStatements, inside: CppStatements, parameter: CppParameter, node: Node
+) -> Iterator[m.Statement]:
+    """A parameter that a call leaves out."""
+    if not parameter.name:
+        return
+    kept = carried(parameter.type, reader.scope.enums)
+    if kept is None or kept.type.dimensions:
+        raise reader.unread(node, "what is left out of this call is no value of the model")
+    place = Variable(parameter.name, kept.type, kept.bits)
+    value = cpp_idioms.left_out(reader.expressions, node, parameter, place)
+    local = replace(place, name=reader.fresh(parameter.name, inlining=True))
+    reader.shared.made.add(local.name)
+    inside.meaning(parameter.name, local, own=True)
+    yield reader.local(node, local, value)
+
+
+def _copied(
+    reader: CppStatements, inside: CppStatements, name: str, type_: str, argument: Node
+) -> Iterator[m.Statement]:
+    before = reader.scope
+    yield from declare(reader, argument, name, type_, argument, pointer=False, inlining=True)
+    inside.meaning(name, reader.scope.locals[name], own=True)
+    reader.scope = before
+
+
+def _valued(
+    reader: CppStatements,
+    inside: CppStatements,
+    name: str,
+    place: Variable,
+    argument: Node,
+    once: bool,
+) -> Iterator[m.Statement]:
+    try:
+        value = reader.expressions.stored(argument, place)
+    except Unknown:
+        Effects(reader.cpp, reader.scope).check(argument)
+        inside.meaning(name, Outside(place.type))
+        return
+    if once and is_calm(value):
+        inside.meaning(name, value)
+        return
+    if name in reader.shared.demoted or place.type is None:
+        inside.meaning(name, Outside(place.type))
+        return
+    local = replace(place, name=reader.fresh(name, inlining=True))
+    reader.shared.made.add(local.name)
+    inside.meaning(name, local, own=True)
+    yield reader.local(argument, local, value)
+
+
+# --- the body -----------------------------------------------------------------------------------
+
+
+def _body(
+    reader: CppStatements, inside: CppStatements, body: Node, result: Node | None
+) -> Meaning | None:
+    place = _result(reader, inside, body, result)
+    statements = inside.read(body.named_children)
+    if isinstance(place, Variable) and place.type is not None:
+        reader.shared.made.add(place.name)
+        reader.before.append(reader.local(body, place, zero_of(place.type)))
+        reader.scope.results[place.name] = place
+    target = m.Name(place.name) if isinstance(place, Variable) else None
+    reader.before += without_returns(inside, body, statements, target)
+    return place
+
+
+def _result(
+    reader: CppStatements, inside: CppStatements, body: Node, result: Node | None
+) -> Meaning | None:
+    """Where the value that a function returns is kept; sets what `return` does in it."""
+    if result is None or text_of(result) in ("auto", ""):
+        if any(named(n) for n in _returned(body)):
+            raise reader.unread(body, "the type of what this gives is not written")
+        return None
+    if text_of(result) == "void":
+        return None
+    type_ = message_type(reader.scope, text_of(result))
+    if type_ is not None:
+        before, name = reader.scope, reader.fresh("result", inlining=True)
+        reader.before += declare(reader, body, name, type_, None, pointer=False, inlining=True)
+        record = reader.scope.locals[name]
+        reader.scope = before
+        inside.returns = record if isinstance(record, Record) else None
+        return record
+    kept = carried(result, reader.scope.enums)
+    if kept is None:
+        inside.returns = Outside()
+        return Outside()
+    inside.returns = Variable("", kept.type, kept.bits)
+    return Variable(reader.fresh("result", inlining=True), kept.type, kept.bits)
+
+
+def _returned(body: Node) -> Iterator[Node]:
+    waiting = [body]
+    while waiting:
+        current = waiting.pop()
+        if current.type == "return_statement":
+            yield current
+        elif current.type != "lambda_expression":
+            waiting += current.named_children
+
+
+def without_returns(
+    reader: CppStatements,
+    node: Node,
+    statements: Sequence[m.Statement],
+    result: m.Expression | None,
+) -> tuple[m.Statement, ...]:
+    """The same without leaving: what follows a return stands in the other branch."""
+    done: list[m.Statement] = []
+    for index, statement in enumerate(statements):
+        rest = statements[index + 1 :]
+        if not _leaves(statement):
+            done.append(statement)
+            continue
+        match statement:
+            case m.Return(value):
+                if value is not None and result is not None:
+                    done.append(m.ExpressionStatement(m.Assign("=", result, value)))
+            case m.Block(inner):
+                done += without_returns(reader, node, (*inner, *rest), result)
+            case m.If(condition, then, otherwise, annotations, span):
+                ways = [
+                    m.Block(without_returns(reader, node, (*_inner(way), *rest), result))
+                    for way in (then, otherwise)
+                ]
+                last = ways[1] if ways[1].statements else None
+                done.append(m.If(condition, ways[0], last, annotations, span))
+            case _:
+                raise reader.unread(node, "a return in a loop has no place in another body")
+        break
+    return tuple(done)
+
+
+def _inner(statement: m.Statement | None) -> tuple[m.Statement, ...]:
+    match statement:
+        case None:
+            return ()
+        case m.Block(statements):
+            return statements
+        case _:
+            return (statement,)
+
+
+def _leaves(statement: m.Statement) -> bool:
+    return any(isinstance(n, m.Return) for n in m.walk(statement))

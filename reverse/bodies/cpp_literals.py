@@ -1,0 +1,81 @@
+"""Literals of C++ as literals of the model."""
+
+from __future__ import annotations
+
+import re
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.syntax.cpp_calls import string_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
+
+_INTEGER = re.compile(r"(0[xX][0-9a-fA-F]+|0[bB][01]+|[0-9]+)(?:[uU]?[lL]{0,2}|[lL]{1,2}[uU])\Z")
+_FLOAT = re.compile(r"((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)([fFlL]?)\Z")
+
+_ESCAPES = {"\\n": 10, "\\t": 9, "\\r": 13, "\\0": 0, "\\\\": 92, "\\'": 39, "\\e": 27}
+
+
+def literal(cpp: Cpp, node: Node) -> m.Expression:
+    """The literal; `Unread` where a node is none, or one that the model cannot say."""
+    text, span = text_of(node), cpp.span(node)
+    match node.type:
+        case "number_literal":
+            return _number(text.replace("'", ""), cpp, node)
+        case "true" | "false":
+            return m.BoolLiteral(text == "true", span)
+        case "char_literal" if (code := _character(text)) is not None:
+            return m.IntLiteral(code, span)
+        case "string_literal" if text.startswith('"'):
+            return m.StringLiteral(text.replace("?\\?", "??"), span)
+        case "concatenated_string":
+            whole = string_of(node)
+            if whole is not None:
+                return m.StringLiteral(f'"{whole}"'.replace("?\\?", "??"), span)
+            raise Unread(span, "the model has no such texts")
+        case "identifier" if text == "kNull":
+            return m.NullLiteral(span)
+        case "identifier" if text == "INT32_MIN":
+            return m.Unary("-", m.IntLiteral(0x80000000, span), span)
+        case "identifier":
+            raise Unread(span, f'"{text}" is no variable of the model')
+        case _:
+            raise Unread(span, f"the model cannot say this: {node.type.replace('_', ' ')}")
+
+
+def _character(text: str) -> int | None:
+    """The number that a character stands for."""
+    inner = text[1:-1]
+    if len(inner) == 1 and inner.isascii():
+        return ord(inner)
+    return _ESCAPES.get(inner)
+
+
+def _number(text: str, cpp: Cpp, node: Node) -> m.Expression:
+    span = cpp.span(node)
+    if text[0] in "+-":  # the parser takes a sign before a digit as part of the number
+        return m.Unary(text[0], _number(text[1:].lstrip(), cpp, node), span)
+    whole = _INTEGER.match(text)
+    if whole is not None:
+        digits = whole[1]
+        octal = len(digits) > 1 and digits.isdecimal() and digits.startswith("0")
+        return m.IntLiteral(int(digits, 8 if octal else 0), span)
+    real = _FLOAT.match(text)
+    if real is None:
+        raise Unread(span, f'the model has no number "{text}"')
+    return m.FloatLiteral(model_float(real[1], real[2]), span)
+
+
+def model_float(digits: str, suffix: str) -> str:
+    """A literal of the model, which is float unless it says double: the other way than in C++.
+
+    `1.0F` is one that says float in the model as well, `1.0f` one that says nothing.
+    """
+    match suffix:
+        case "f":
+            return digits
+        case "F":
+            return f"{digits}f"
+        case _:
+            return f"{digits}d"

@@ -1,0 +1,390 @@
+"""Local variables that people declare: typed, `auto`, references, arrays, messages."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.bodies import cpp_messages, cpp_plain_locals
+from rebsync.reverse.bodies.building import is_calm
+from rebsync.reverse.bodies.cpp_conversions import type_in
+from rebsync.reverse.bodies.cpp_effects import Effects, Touches
+from rebsync.reverse.bodies.cpp_places import is_this, resolve
+from rebsync.reverse.bodies.cpp_types import Carried, carried
+from rebsync.reverse.bodies.known_functions import type_takes_values
+from rebsync.reverse.bodies.scope import Itself, Lambda, Meaning, Outside, Record, Variable
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.static.constants import constant
+from rebsync.static.types import BYTE, INT, SHORT
+
+if TYPE_CHECKING:
+    from rebsync.reverse.bodies.cpp_statements import CppStatements
+
+_VECTOR = re.compile(r"(?:std::)?vector<(.*)>\Z")
+_RESIZES = ("push_back", "emplace_back", "resize", "insert", "erase", "clear", "assign", "swap")
+_REFERS = ("reference_declarator", "pointer_declarator")
+
+
+@dataclass(frozen=True, slots=True)
+class _Declared:
+    """One declarator of a declaration, taken apart."""
+
+    node: Node
+    type: Node
+    name: str
+    kind: str
+    value: Node | None
+    length: Node | None
+    constant: bool
+
+    @property
+    def text(self) -> str:
+        return text_of(self.type)
+
+
+def declarations(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
+    """The locals of a declaration; what the model has nothing like is outside from here on."""
+    if reader.scope.meaning(text_of(part(node, "type"))) is not None:
+        why = "this looks like a declaration, but starts with a variable"
+        raise reader.unread(node, why, "put it in parentheses")
+    kept_elsewhere = any(text_of(c) == "static" for c in node.named_children)
+    for declarator in node.children_by_field_name("declarator"):
+        declared = _taken_apart(node, declarator)
+        if declared.kind == "reference_declarator" and declared.value is None:
+            why = "this looks like a declaration, but it is none"
+            raise reader.unread(node, why, "put it in parentheses")
+        if kept_elsewhere and not declared.constant:
+            _static(reader, declared)
+            continue
+        try:
+            yield from _declared(reader, declared)
+        except Unread as unread:
+            if not reader.scope.open:
+                raise
+            _outside(reader, declared, unread)
+
+
+def tested(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
+    """`if (int x = f())`: the local that the condition declares."""
+    declarator, value = part(node, "declarator"), part(node, "value")
+    if declarator.type != "identifier":
+        raise reader.unread(node, "the model has no pointers and references")
+    type_ = part(node, "type")
+    declared = _Declared(node, type_, text_of(declarator), "identifier", value, None, False)
+    try:
+        yield from _declared(reader, declared)
+    except Unread as unread:
+        _outside(reader, declared, unread)
+
+
+def _taken_apart(node: Node, declarator: Node) -> _Declared:
+    value, target = None, declarator
+    if declarator.type == "init_declarator":
+        target, value = part(declarator, "declarator"), part(declarator, "value")
+    kind, length = target.type, None
+    while target.type not in ("identifier", "structured_binding_declarator", "operator_name"):
+        if target.type == "array_declarator":
+            length = target.child_by_field_name("size")
+        inner = target.child_by_field_name("declarator")
+        if inner is None and not named(target):
+            break
+        target = inner if inner is not None else named(target)[-1]
+    constant_ = any(text_of(c) in ("const", "constexpr") for c in node.named_children)
+    type_ = part(node, "type")
+    return _Declared(declarator, type_, text_of(target), kind, value, length, constant_)
+
+
+def _static(reader: CppStatements, declared: _Declared) -> None:
+    """A local that keeps its value: a state variable, or a value that nobody knows."""
+    if isinstance(reader.scope.members.get(declared.name), Variable | Record):
+        return
+    if not reader.scope.open:
+        why = "this local keeps its value from call to call"
+        raise reader.unread(declared.node, why, "make it a member")
+    reader.meaning(declared.name, Outside(_type(reader, declared)))
+
+
+def _type(reader: CppStatements, declared: _Declared) -> m.Type | None:
+    kept = carried(declared.type, reader.scope.enums)
+    return kept.type if kept is not None else None
+
+
+def _outside(reader: CppStatements, declared: _Declared, unread: Unread) -> None:
+    """A local of which the model knows no value: only what sets it may matter."""
+    try:
+        if declared.value is not None:
+            effects = Effects(reader.cpp, reader.scope, frozenset(reader.own))
+            _check_value(reader, effects, declared)
+            reader.demote(effects.written, unread)
+    except Touches as touches:
+        reader.meaning(declared.name, Outside(_type(reader, declared)))
+        raise touches from None
+    if declared.kind == "structured_binding_declarator":
+        for name in re.findall(r"\w+", declared.name):
+            reader.meaning(name, Outside())
+        return
+    reader.meaning(declared.name, Outside(_type(reader, declared)))
+
+
+def _check_value(reader: CppStatements, effects: Effects, declared: _Declared) -> None:
+    value = declared.value
+    assert value is not None
+    meaning = resolve(reader.scope, value)
+    refers = declared.kind != "identifier" and not declared.constant
+    if refers and isinstance(meaning, Variable | Record) and not getattr(meaning, "constant", 0):
+        raise Touches(reader.cpp.span(value), "the model has no pointers and references")
+    if refers:
+        effects.refers(value)
+    elif value.type == "argument_list" and type_takes_values(declared.text):
+        for argument in named(value):
+            effects.check(argument)
+    else:
+        effects.check(value)
+
+
+def _declared(reader: CppStatements, declared: _Declared) -> Iterator[m.Statement]:
+    if declared.name in reader.shared.demoted:
+        raise reader.unread(declared.node, "the model cannot know its values")
+    value = _only_value(declared)
+    if value is not None and is_this(value) and (declared.kind in _REFERS or _is_auto(declared)):
+        reader.meaning(declared.name, Itself())
+        return
+    if declared.kind in _REFERS:
+        yield from _reference(reader, declared, value)
+        return
+    if declared.kind == "function_declarator":
+        yield from _called_or_made(reader, declared)
+        return
+    type_ = cpp_messages.message_type(reader.scope, declared.text)
+    if type_ is not None and declared.kind == "identifier":
+        yield from _message(reader, declared, type_, value)
+        return
+    if _is_auto(declared):
+        yield from _inferred(reader, declared, value)
+        return
+    array = _array(reader, declared)
+    kept = array or carried(declared.type, reader.scope.enums)
+    if kept is None:
+        raise reader.unread(declared.node, f'the model has no type "{declared.text}"')
+    yield from _typed(reader, declared, kept, value)
+
+
+def _is_auto(declared: _Declared) -> bool:
+    return declared.text in ("auto", "const auto") or declared.type.type.startswith("placeholder")
+
+
+def _only_value(declared: _Declared) -> Node | None:
+    """The initial value: `= e`, `(e)` or `{e}`."""
+    value = declared.value
+    if value is not None and value.type == "argument_list":
+        return named(value)[0] if len(named(value)) == 1 else None
+    return value
+
+
+# --- kinds of locals ----------------------------------------------------------------------------
+
+
+def _typed(
+    reader: CppStatements, declared: _Declared, kept: Carried, value: Node | None
+) -> Iterator[m.Statement]:
+    local = Variable(reader.fresh(declared.name), kept.type, kept.bits)
+    initial: m.Initializer | None = None
+    if value is not None and value.type == "initializer_list" and not kept.type.dimensions:
+        value = named(value)[0] if named(value) else None
+    if value is not None and value.type == "initializer_list":
+        initial = cpp_plain_locals.braces(reader, value, kept.type)
+    elif value is not None and kept.type.dimensions:
+        if declared.value is not None and declared.value.type != "argument_list":
+            initial = reader.expressions.read(value)
+    elif value is not None:
+        initial = reader.expressions.stored(value, local)
+    if kept.why and not _counts(declared) and not _is_small(initial):
+        span = reader.cpp.span(declared.node)
+        reader.findings.approximated(reader.cpp.source, span, kept.why, "", reader.within)
+    reader.meaning(declared.name, local, own=True)
+    yield reader.local(declared.node, local, initial)
+
+
+def _is_small(initial: m.Initializer | None) -> bool:
+    return isinstance(initial, m.BoolLiteral)
+
+
+def _counts(declared: _Declared) -> bool:
+    """Whether it is the variable of a loop that counts up to some bound."""
+    above = declared.node.parent
+    loop = above.parent if above is not None else None
+    if loop is None or loop.type != "for_statement":
+        return False
+    condition, update = loop.child_by_field_name("condition"), loop.child_by_field_name("update")
+    if condition is None or update is None:
+        return False
+    return "<" in text_of(condition) and "++" in text_of(update)
+
+
+def _array(reader: CppStatements, declared: _Declared) -> Carried | None:
+    """The array that `int a[3]` or a vector of fixed size is."""
+    if declared.kind == "array_declarator":
+        inner = carried(declared.type, reader.scope.enums)
+        if inner is None or declared.length is None:
+            raise reader.unread(declared.node, "the length of this array is not known")
+        return replace(inner, type=m.Type(inner.type.name, (_length(reader, declared.length),)))
+    vector = _VECTOR.match(declared.text)
+    if vector is None or declared.value is None:
+        return None
+    if any(re.search(rf"\b{declared.name}\s*\.\s*{f}\b", reader.text()) for f in _RESIZES):
+        raise reader.unread(declared.node, "the length of this vector changes")
+    values = named(declared.value)
+    (inner_node,) = named(part(_template(declared.type), "arguments"))
+    inner = carried(inner_node, reader.scope.enums)
+    if inner is None or not values:
+        return None
+    if declared.value.type == "initializer_list":
+        return replace(inner, type=m.Type(inner.type.name, (len(values),)))
+    if len(values) == 2 and constant(reader.expressions.read(values[1])) not in (0, False):
+        raise reader.unread(declared.node, "the model fills no array with a value")
+    return replace(inner, type=m.Type(inner.type.name, (_length(reader, values[0]),)))
+
+
+def _template(type_: Node) -> Node:
+    while type_.type != "template_type":
+        type_ = part(type_, "name")
+    return type_
+
+
+def _length(reader: CppStatements, node: Node) -> int:
+    value = constant(reader.expressions.read(node))
+    if not isinstance(value, int) or isinstance(value, bool) or not 0 < value <= 4096:
+        raise reader.unread(node, "the length of this array is not known")
+    return value
+
+
+def _message(
+    reader: CppStatements, declared: _Declared, type_: str, value: Node | None
+) -> Iterator[m.Statement]:
+    pointer = cpp_messages.is_pointer(declared.text)
+    if value is not None and value.type in ("null", "initializer_list"):
+        value = None
+    yield from cpp_messages.declare(reader, declared.node, declared.name, type_, value, pointer)
+
+
+def _inferred(
+    reader: CppStatements, declared: _Declared, value: Node | None
+) -> Iterator[m.Statement]:
+    if value is None:
+        raise reader.unread(declared.node, "the type of this is not written")
+    if value.type == "lambda_expression":
+        reader.meaning(declared.name, Lambda(value, reader.scope))
+        return
+    if (type_ := _message_of(reader, value)) is not None:
+        pointer = _is_made_pointer(reader, value)
+        yield from cpp_messages.declare(reader, declared.node, declared.name, type_, value, pointer)
+        return
+    read = reader.expressions.read(value)
+    of = type_in(reader.scope, read)
+    if of is None:
+        if reader.scope.open:
+            raise reader.unread(declared.node, "the type of this is not known")
+        reader.meaning(declared.name, read if is_calm(read) and _lasts(reader, read) else Outside())
+        return
+    whole = INT if of in (BYTE, SHORT) else of
+    local = Variable(reader.fresh(declared.name), whole)
+    reader.meaning(declared.name, local, own=True)
+    yield reader.local(declared.node, local, read)
+
+
+def _lasts(reader: CppStatements, read: m.Expression) -> bool:
+    """Whether nothing that a value is made of is written in the body."""
+    names = {n.name for n in m.walk(read) if isinstance(n, m.Name | m.Member)}
+    return not any(
+        re.search(rf"\b{n}_?\s*(?:[-+*/%&|^]?=[^=]|\+\+|--)", reader.text()) for n in names
+    )
+
+
+def _message_of(reader: CppStatements, value: Node) -> str | None:
+    """The type of message that an expression is, if it is one that the model knows."""
+    match resolve(reader.scope, value):
+        case Record(type=type_) if type_:
+            return type_
+    if value.type == "call_expression" or value.type.endswith(
+        ("literal_expression", "new_expression")
+    ):
+        text = (
+            text_of(value.children_by_field_name("function")[0])
+            if value.type == ("call_expression")
+            else text_of(part(value, "type"))
+        )
+        made = re.match(r"(?:boost|std)::make_\w+<(.*)>\Z", text)
+        return cpp_messages.message_type(reader.scope, made[1] if made else text)
+    return None
+
+
+def _is_made_pointer(reader: CppStatements, value: Node) -> bool:
+    if value.type == "new_expression" or "::make_shared<" in text_of(value).partition("(")[0]:
+        return True
+    meaning = resolve(reader.scope, value)
+    return isinstance(meaning, Record) and meaning.pointer and value.type == "identifier"
+
+
+def _reference(
+    reader: CppStatements, declared: _Declared, value: Node | None
+) -> Iterator[m.Statement]:
+    """`auto& x = member_;`: another name of a place."""
+    if value is None:
+        raise reader.unread(declared.node, "the model has no pointers and references")
+    meaning: Meaning | None = resolve(reader.scope, value)
+    if declared.kind == "pointer_declarator":
+        if isinstance(meaning, Record):
+            reader.meaning(declared.name, replace(meaning, pointer=True))
+            return
+        raise reader.unread(declared.node, "the model has no pointers and references")
+    if isinstance(meaning, Variable | Record | Outside):
+        reader.meaning(declared.name, meaning)
+        return
+    if value.type == "subscript_expression":
+        place = reader.expressions.read(value)
+        if is_calm(place) and _stays(reader, place, declared):
+            reader.meaning(declared.name, place)
+            return
+    if declared.constant:
+        plain = replace(declared, kind="identifier")
+        yield from _declared(reader, plain)
+        return
+    raise reader.unread(declared.node, "the model has no pointers and references")
+
+
+def _stays(reader: CppStatements, place: m.Expression, declared: _Declared) -> bool:
+    """Whether the index of an element is the same wherever the reference is used."""
+    if not isinstance(place, m.Index):
+        return False
+    names = {n.name for n in m.walk(place.index) if isinstance(n, m.Name | m.Member)}
+    block = declared.node.parent
+    while block is not None and block.type != "compound_statement":
+        block = block.parent
+    text = text_of(block) if block is not None else ""
+    return not any(re.search(rf"\b{n}_?\s*(?:[-+*/%&|^]?=[^=]|\+\+|--)", text) for n in names)
+
+
+def _called_or_made(reader: CppStatements, declared: _Declared) -> Iterator[m.Statement]:
+    """`int k(other);`, which the grammar takes for a function: an object made from names."""
+    declarator = declared.node
+    arguments = [text_of(c) for c in named(part(declarator, "parameters"))]
+    kept = carried(declared.type, reader.scope.enums)
+    meanings = [reader.scope.meaning(a) for a in arguments]
+    if kept is not None and len(meanings) == 1 and isinstance(meanings[0], Variable):
+        local = Variable(reader.fresh(declared.name), kept.type, kept.bits)
+        reader.meaning(declared.name, local, own=True)
+        yield reader.local(declared.node, local, m.Name(meanings[0].name))
+        return
+    if not type_takes_values(declared.text):
+        for argument, meaning in zip(arguments, meanings, strict=True):
+            if isinstance(meaning, Variable | Record):
+                why = f'this may change "{argument}"'
+                raise Touches(reader.cpp.span(declared.node), why)
+    raise reader.unread(declared.node, f'the model has no type "{declared.text}"')

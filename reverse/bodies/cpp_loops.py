@@ -1,0 +1,128 @@
+"""Loops of C++ that the model writes differently: over arrays, and with the test at the end."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.bodies.building import binary, negated
+from rebsync.reverse.bodies.cpp_conversions import type_in
+from rebsync.reverse.bodies.cpp_types import carried
+from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.static.types import BOOLEAN
+
+if TYPE_CHECKING:
+    from rebsync.reverse.bodies.cpp_statements import CppStatements
+
+_ONE, _ZERO = m.IntLiteral(1), m.IntLiteral(0)
+
+
+def range_loop(
+    reader: CppStatements, node: Node, annotations: tuple[m.Annotation, ...]
+) -> Iterator[m.Statement]:
+    """`for (auto x : array)` as a loop over the indices."""
+    span, over = reader.cpp.span(node), part(node, "right")
+    outside = reader.scope
+    if over.type == "initializer_list":
+        array, before = _listed(reader, node, over)
+        yield before
+    else:
+        array = reader.expressions.read(over)
+    whole = type_in(reader.scope, array)
+    if whole is None or not whole.dimensions:
+        raise reader.unread(over, "how many elements this has is not known")
+    index = Variable(reader.fresh("i"), m.Type("int"))
+    reader.meaning(f"for {node.start_byte}", index)
+    counter = m.Name(index.name)
+    element = m.Index(array, counter, reader.cpp.span(over))
+    first = _element(reader, node, element, m.Type(whole.name, whole.dimensions[1:]))
+    body = reader.branch(part(node, "body"))
+    initial = m.Declaration(m.Type("int"), (m.Declarator(index.name, _ZERO),))
+    bound = m.Binary("<", counter, m.IntLiteral(whole.dimensions[0]))
+    inner = m.Block((*first, *body.statements), (), body.span)
+    reader.scope = outside
+    yield m.For(initial, bound, (m.Postfix("++", counter),), inner, annotations, span)
+
+
+def _listed(reader: CppStatements, node: Node, over: Node) -> tuple[m.Expression, m.Statement]:
+    """The array that holds the values of `for (int x : {1, 2, 3})`."""
+    values = named(over)
+    kept = carried(part(node, "type"), reader.scope.enums)
+    of = kept.type if kept is not None else m.Type("int")
+    local = Variable(reader.fresh("values"), m.Type(of.name, (len(values),)))
+    reader.meaning(f"in {node.start_byte}", local)
+    initial = m.ArrayInitializer(tuple(reader.expressions.read(v) for v in values))
+    return m.Name(local.name), reader.local(over, local, initial)
+
+
+def _element(
+    reader: CppStatements, node: Node, element: m.Expression, of: m.Type
+) -> tuple[m.Statement, ...]:
+    """What the name of the element stands for: the place itself, or a copy."""
+    declarator = part(node, "declarator")
+    if declarator.type == "reference_declarator":
+        reader.meaning(text_of(named(declarator)[-1]), element)
+        return ()
+    if declarator.type != "identifier":
+        raise reader.unread(declarator, "the model has no such element")
+    name = text_of(declarator)
+    kept = carried(part(node, "type"), reader.scope.enums)
+    local = Variable(reader.fresh(name), kept.type if kept is not None else of)
+    reader.meaning(name, local, own=True)
+    return (reader.local(declarator, local, element),)
+
+
+def do_loop(
+    reader: CppStatements, node: Node, annotations: tuple[m.Annotation, ...]
+) -> Iterator[m.Statement]:
+    """`do { ... } while (c);`: the test ends a loop that has none at its start."""
+    span, body, condition = reader.cpp.span(node), part(node, "body"), part(node, "condition")
+    once = text_of(condition).strip("() ") in ("0", "false")
+    if once and (_goes_on(body) or _breaks(body)):
+        raise reader.unread(node, "the model has no such loop with continue or break")
+    if _goes_on(body):
+        yield _first_time(reader, node, annotations)
+        return
+    block = reader.branch(body)
+    if once:
+        yield m.Block(block.statements, annotations, span)
+        return
+    ends = negated(reader.loop_condition(condition))
+    last = m.If(ends, m.Block((m.Break(),)), None)
+    yield m.While(m.BoolLiteral(True), m.Block((*block.statements, last)), annotations, span)
+
+
+def _first_time(
+    reader: CppStatements, node: Node, annotations: tuple[m.Annotation, ...]
+) -> m.Statement:
+    """`for (boolean first = true; first || c; first = false)`: `continue` goes to the test."""
+    outside = reader.scope
+    first = Variable(reader.fresh("first"), BOOLEAN)
+    reader.meaning(f"do {node.start_byte}", first)
+    body = reader.branch(part(node, "body"))
+    reader.scope = outside
+    name = m.Name(first.name)
+    again = binary("||", name, reader.loop_condition(part(node, "condition")))
+    initial = m.Declaration(BOOLEAN, (m.Declarator(first.name, m.BoolLiteral(True)),))
+    done = m.Assign("=", name, m.BoolLiteral(False))
+    return m.For(initial, again, (done,), body, annotations, reader.cpp.span(node))
+
+
+def _goes_on(node: Node) -> bool:
+    """Whether a `continue` in the body is one of this loop."""
+    if node.type == "continue_statement":
+        return True
+    inner = ("for_statement", "while_statement", "do_statement", "for_range_loop")
+    return any(_goes_on(c) for c in named(node) if c.type not in (*inner, "lambda_expression"))
+
+
+def _breaks(node: Node) -> bool:
+    if node.type == "break_statement":
+        return True
+    inner = ("for_statement", "while_statement", "do_statement", "for_range_loop")
+    others = (*inner, "switch_statement", "lambda_expression")
+    return any(_breaks(c) for c in named(node) if c.type not in others)

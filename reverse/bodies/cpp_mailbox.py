@@ -1,0 +1,130 @@
+"""Calls of the run-time part of generated code: the mailbox, the drive, sends with their times."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync import precedence
+from rebsync.names import original
+from rebsync.reverse.bodies.scope import Runtime, Sends
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+
+if TYPE_CHECKING:
+    from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+
+_CLOCK = {
+    "now": "now",
+    "arrival": "currentMessageArrival",
+    "expiry": "currentMessageDeadline",
+    "waitingTime": "currentMessageWaitingTime",
+    "sender": "sender",
+}
+# The function under which a statement of `@Move` is read, until it is one.
+MOVE = "@Move"
+
+
+def is_runtime(reader: CppExpressions, node: Node) -> bool:
+    """Whether an expression names a member of the run-time part."""
+    name = text_of(node)
+    member = reader.scope.members.get(name)
+    return name not in reader.scope.locals and isinstance(member, Runtime)
+
+
+def built_in(
+    reader: CppExpressions, node: Node, target: Node, name: Node, arguments: Sequence[Node]
+) -> m.Expression:
+    """A call of a function of the run-time part."""
+    member, span = reader.scope.members[text_of(target)], reader.cpp.span(node)
+    function = text_of(part(name, "name") if name.type == "template_method" else name)
+    if isinstance(member, Runtime) and member.kind == "drive" and function == "move":
+        return reader.calls(node, None, MOVE, arguments)
+    if not isinstance(member, Runtime) or member.kind != "mailbox":
+        raise reader.unread(node, f'the model cannot call "{text_of(target)}.{function}"')
+    match function, len(arguments):
+        case "self", 0:
+            return m.Self(span)
+        case "choose", 1 | 2:
+            return m.Choice(tuple(reader.read(o) for o in named(arguments[0])), span)
+        case "isA", 2:
+            operand = reader.operand(arguments[0], precedence.BINARY["instanceof"])
+            return m.InstanceOf(operand, m.Type(_class_named(reader, arguments[1])), span)
+        case _, 0 if function in _CLOCK:
+            return m.Name(_CLOCK[function], span)
+        case "delay" | "assertion", _:
+            return reader.calls(node, None, function, arguments)
+        case _:
+            raise reader.unread(node, f'the model has no function "{function}"')
+
+
+def _class_named(reader: CppExpressions, node: Node) -> str:
+    """The class whose name a literal holds."""
+    if node.type != "string_literal":
+        raise reader.unread(node, "this class is not known before the node runs")
+    return original(text_of(node)[1:-1])
+
+
+def in_order(reader: CppExpressions, function: Node) -> m.Expression:
+    """`[&] { const auto op1_ = a; return f(op1_); }()`: operands in the order of the model."""
+    at, values = reader, []
+    *stores, result = named(part(function, "body"))
+    for store in stores:
+        declarator = part(store, "declarator") if store.type == "declaration" else store
+        if declarator.type != "init_declarator" or result.type != "return_statement":
+            raise reader.unread(function, "the model has no functions inside expressions")
+        values.append(at.read(part(declarator, "value")))
+        name = text_of(part(declarator, "declarator")).lstrip("& ")
+        at = replace(at, scope=at.scope.with_locals({name: values[-1]}))
+    read = at.read(at.only(result))
+    match values, read:
+        case [target, read_first, value], m.Assign("=", written, m.Cast(_, computed)) if (
+            target == read_first == written
+        ):
+            inner = computed.inner if isinstance(computed, m.Paren) else computed
+            if isinstance(inner, m.Binary):
+                return m.Assign(f"{inner.operator}=", target, value, reader.cpp.span(function))
+    return read
+
+
+# --- sends --------------------------------------------------------------------------------------
+
+
+def send(
+    reader: CppExpressions, node: Node, sends: Sends, arguments: Sequence[Node], implicit: bool
+) -> m.Expression:
+    """The call of a function that sends."""
+    expected = sends.arguments + (sends.known is None)
+    if not expected <= len(arguments) <= expected + 1:
+        raise reader.unread(node, f"this sends with {expected} arguments")
+    target: m.Expression | None
+    if sends.known is None:
+        target = reader.operand(arguments[0], precedence.PRIMARY)
+    elif sends.known == "self":
+        target = None if implicit else m.Self(reader.cpp.span(node))
+    else:
+        target = m.Name(sends.known, reader.cpp.span(node))
+    values = tuple(reader.read(a) for a in arguments[expected - sends.arguments : expected])
+    last = times(reader, arguments[expected]) if len(arguments) > expected else {}
+    after, deadline = last.get("after"), last.get("deadline")
+    return m.Call(target, sends.server, values, after, deadline, reader.cpp.span(node))
+
+
+def times(reader: CppExpressions, node: Node) -> dict[str, m.Expression]:
+    """`after(a).deadline(d)`; `When()` is neither."""
+    if node.type != "call_expression":
+        raise reader.unread(node, "this is no time of a send")
+    function, arguments = part(node, "function"), named(part(node, "arguments"))
+    found: dict[str, m.Expression] = {}
+    name = function
+    if function.type == "field_expression":
+        found = times(reader, part(function, "argument"))
+        name = part(function, "field")
+    elif text_of(name) == "When" and not arguments:
+        return {}
+    if text_of(name) not in ("after", "deadline") or len(arguments) != 1:
+        raise reader.unread(node, "this is no time of a send")
+    return found | {text_of(name): reader.read(arguments[0])}

@@ -1,0 +1,79 @@
+"""What an expression of C++ that names a place stands for: a variable, a message, a field of it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from tree_sitter import Node
+
+from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Scope
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+
+_SAME = frozenset({"std::move", "std::ref", "std::cref", "boost::ref", "boost::cref"})
+
+
+def resolve(scope: Scope, node: Node) -> Meaning | None:
+    """What a place stands for; None for one whose name is not known, and for other expressions."""
+    match node.type:
+        case "identifier":
+            return scope.meaning(text_of(node))
+        case "qualified_identifier":
+            return scope.members.get(text_of(node).rpartition("::")[2])
+        case "parenthesized_expression" if len(named(node)) == 1:
+            return resolve(scope, named(node)[0])
+        case "pointer_expression":
+            return resolve(scope, part(node, "argument"))
+        case "field_expression":
+            return _field(scope, node)
+        case "call_expression":
+            return _handed_on(scope, node)
+        case _:
+            return None
+
+
+def _field(scope: Scope, node: Node) -> Meaning | None:
+    target, name = part(node, "argument"), text_of(part(node, "field"))
+    if is_this(target):
+        return scope.members.get(name)
+    match resolve(scope, target):
+        case Itself():
+            return scope.members.get(name)
+        case Record() as record:
+            return field_of(record, name)
+        case Outside():
+            return Outside()
+        case _:
+            return None
+
+
+def is_this(node: Node) -> bool:
+    """Whether it is `this` or `(*this)`."""
+    while node.type == "parenthesized_expression" and len(named(node)) == 1:
+        node = named(node)[0]
+    if node.type == "pointer_expression":
+        return is_this(part(node, "argument"))
+    return node.type == "this"
+
+
+def _handed_on(scope: Scope, node: Node) -> Meaning | None:
+    """`pointer.get()`, `std::move(message)`."""
+    function, arguments = part(node, "function"), named(part(node, "arguments"))
+    if function.type == "field_expression" and not arguments:
+        if text_of(part(function, "field")) == "get":
+            return resolve(scope, part(function, "argument"))
+        return None
+    if len(arguments) == 1 and text_of(function) in _SAME:
+        return resolve(scope, arguments[0])
+    return None
+
+
+def field_of(record: Record, name: str) -> Meaning:
+    """A field of a message: a variable, a part of the message, or something outside."""
+    if name in record.fields:
+        return record.fields[name]
+    inner = {
+        path.removeprefix(f"{name}."): variable
+        for path, variable in record.fields.items()
+        if path.startswith(f"{name}.")
+    }
+    return replace(record, fields=inner, type="") if inner else Outside()

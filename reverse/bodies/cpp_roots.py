@@ -1,0 +1,87 @@
+"""The variable that a piece of C++ is, or is part of."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Scope
+from rebsync.reverse.syntax.cpp_calls import call_of
+from rebsync.reverse.syntax.cpp_tree import named, text_of
+
+
+def root(scope: Scope, inner: Collection[str], node: Node) -> tuple[str, Meaning | None]:
+    """The variable that an expression is, or is part of."""
+    match node.type:
+        case "identifier":
+            name = text_of(node)
+            return name, None if name in inner else scope.meaning(name)
+        case "field_expression":
+            target = node.children_by_field_name("argument")[0]
+            of = root(scope, inner, target)
+            if isinstance(of[1], Itself):
+                name = text_of(node.children_by_field_name("field")[0])
+                return name, scope.members.get(name)
+            return of
+        case "subscript_expression" | "pointer_expression":
+            return root(scope, inner, node.children_by_field_name("argument")[0])
+        case "parenthesized_expression" if len(named(node)) == 1:
+            return root(scope, inner, named(node)[0])
+        case "qualified_identifier":
+            name = text_of(node).rpartition("::")[2]
+            return name, scope.members.get(name)
+        case "this":
+            return "this", Itself()
+        case "call_expression":
+            target = node.children_by_field_name("function")[0]
+            if target.type == "field_expression":
+                return root(scope, inner, target)
+    return "", None
+
+
+def is_modelled(node: Node, meaning: Meaning | None) -> bool:
+    """Whether a change of the variable is one of the model."""
+    match meaning:
+        case None | Outside(reaches=False) | m.StringLiteral() | m.IntLiteral():
+            return False
+        case m.BoolLiteral() | m.FloatLiteral():
+            return False
+        case Record(fields):
+            path = path_in(node)
+            return any(p == path or not path or p.startswith(f"{path}.") for p in fields)
+        case _:
+            return True
+
+
+def path_in(node: Node) -> str:
+    """The path of a field in its message: `linear.x` of `m.linear.x`; empty for all of it."""
+    if node.type == "parenthesized_expression" and len(named(node)) == 1:
+        return path_in(named(node)[0])
+    if node.type == "subscript_expression":
+        return path_in(node.children_by_field_name("argument")[0])
+    if node.type != "field_expression":
+        return ""
+    target = node.children_by_field_name("argument")[0]
+    if target.type == "this":
+        return ""
+    before = path_in(target)
+    own = text_of(node.children_by_field_name("field")[0])
+    return f"{before}.{own}" if before else own
+
+
+def identifiers_in(node: Node) -> Iterator[Node]:
+    """All names in a place."""
+    waiting = [node]
+    while waiting:
+        current = waiting.pop()
+        if current.type == "identifier":
+            yield current
+        waiting += current.named_children
+
+
+def is_element(node: Node) -> bool:
+    """Whether a call gives a part of an array, which may be changed there."""
+    call = call_of(node)
+    return call is not None and call.name in ("at", "front", "back", "get", "move", "ref")

@@ -1,0 +1,394 @@
+"""Statements of C++ that mean more to a node than the expression that they are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.bodies import cpp_messages, cpp_plain_locals
+from rebsync.reverse.bodies.building import bare, negated
+from rebsync.reverse.bodies.cpp_conversions import as_boolean, as_number, converted_to
+from rebsync.reverse.bodies.cpp_effects import Effects, Touches, is_outside
+from rebsync.reverse.bodies.cpp_places import is_this, resolve
+from rebsync.reverse.bodies.cpp_time import pause, units
+from rebsync.reverse.bodies.cpp_unknowns import Unknown
+from rebsync.reverse.bodies.known_functions import ASSERTS, STREAMS
+from rebsync.reverse.bodies.scope import (
+    Inline,
+    Itself,
+    Lambda,
+    Publishes,
+    Record,
+    Scope,
+    Stores,
+    TimerOf,
+    Variable,
+)
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.syntax.cpp_calls import call_of
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.static.constants import constant
+
+if TYPE_CHECKING:
+    from rebsync.reverse.bodies.cpp_statements import CppStatements
+
+_TRUTH = m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)))
+# Words of the model that are none of C++.
+_WORDS = frozenset(
+    {
+        *("abstract", "after", "deadline", "env", "extends", "featurevar", "implements", "import"),
+        *("instanceof", "interface", "knownrebecs", "main", "msgsrv", "null", "package", "byte"),
+        *("reactiveclass", "record", "self", "sender", "statevars", "super", "boolean", "now"),
+        *("delay", "assertion", "currentMessageArrival", "currentMessageDeadline", "String"),
+        *("currentMessageWaitingTime", "Timer", "ArrayList", "ReactiveClass"),
+    }
+)
+
+
+def taken(scope: Scope) -> set[str]:
+    """The names of the model that mean something at a place."""
+    found = set(_WORDS)
+    for meaning in (*scope.members.values(), *scope.locals.values()):
+        match meaning:
+            case Variable(name) | m.Name(name):
+                found.add(name)
+            case Record(fields):
+                found |= {v.name for v in fields.values()}
+            case Publishes(targets):
+                found |= {t.known for t in targets if t.known is not None}
+    return found
+
+
+# --- statements ---------------------------------------------------------------------------------
+
+
+def read(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
+    """The statements that stand for an expression; None for one that stands for itself."""
+    match node.type:
+        case "comma_expression" if reader.scope.open:
+            return _each(reader, node)
+        case "conditional_expression" if reader.scope.open:
+            return _either(reader, node)
+        case "binary_expression" if reader.scope.open and _joins(node):
+            return _guarded(reader, node)
+        case "parenthesized_expression" if reader.scope.open:
+            return read(reader, named(node)[0])
+        case "assignment_expression" if text_of(part(node, "operator")) == "=":
+            target, value = part(node, "left"), part(node, "right")
+            if (timer := _timer(reader, value)) is not None:
+                return _starts(reader, value, timer)
+            if value.type == "assignment_expression" and _is_message(reader, target):
+                raise reader.unread(node, "messages are copied one at a time")
+            return cpp_messages.assign(reader, target, value)
+        case "binary_expression" if _streams(node):
+            Effects(reader.cpp, reader.scope).check(node)
+            return iter(())
+        case "call_expression":
+            return _called(reader, node)
+        case _:
+            return None
+
+
+def _is_message(reader: CppStatements, node: Node) -> bool:
+    return isinstance(resolve(reader.scope, node), Record)
+
+
+def _each(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
+    for child in named(node):
+        inner = read(reader, child)
+        if inner is not None:
+            yield from inner
+        elif not is_outside(reader.cpp, reader.scope, child):
+            yield m.ExpressionStatement(reader.expressions.read(child), (), reader.cpp.span(child))
+
+
+def _either(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
+    """`c ? f() : g();`."""
+    condition, then, otherwise = named(node)
+    test = reader.expressions.condition(condition)
+    yield m.If(test, _way(reader, then), _way(reader, otherwise), (), reader.cpp.span(node))
+
+
+def _joins(node: Node) -> bool:
+    return text_of(part(node, "operator")) in ("&&", "||", "and", "or")
+
+
+def _guarded(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
+    """`c && f();`, and `c || f();`."""
+    test = reader.expressions.condition(part(node, "left"))
+    if text_of(part(node, "operator")) in ("||", "or"):
+        test = negated(test)
+    yield m.If(test, _way(reader, part(node, "right")), None, (), reader.cpp.span(node))
+
+
+def _way(reader: CppStatements, node: Node) -> m.Block:
+    """What one branch of an expression does, and what must run before that only there."""
+    around, reader.before = reader.before, []
+    inner = read(reader, node)
+    if inner is not None:
+        done = list(inner)
+    elif not is_outside(reader.cpp, reader.scope, node):
+        done = list(reader.done(node, reader.effect(node)))
+    else:
+        done = []
+    needed, reader.before = reader.before, around
+    return m.Block((*needed, *done), span=reader.cpp.span(node))
+
+
+def _streams(node: Node) -> bool:
+    """Whether it writes to the console: `std::cout << x << std::endl`."""
+    while node.type == "binary_expression" and text_of(part(node, "operator")) == "<<":
+        node = part(node, "left")
+    return text_of(node) in STREAMS
+
+
+def _called(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
+    function = part(node, "function")
+    name = text_of(function)
+    if (sends := cpp_messages.published(reader, node)) is not None:
+        return sends
+    if (length := pause(reader.expressions, node)) is not None:
+        return _statement(reader, node, m.Call(None, "delay", (length,)))
+    if name == "ROS_BREAK":
+        return _statement(reader, node, m.Call(None, "assertion", (m.BoolLiteral(False),)))
+    if name in ASSERTS and name not in reader.scope.functions:
+        condition = _checked(reader, named(part(node, "arguments"))[0])
+        checked = m.Call(None, "assertion", (as_boolean(reader.scope, condition),))
+        return _statement(reader, node, checked)
+    if (inline := _inline(reader, function)) is not None:
+        reader.inlined(node, inline, named(part(node, "arguments")))
+        return iter(())
+    if (timer := _timer(reader, node)) is not None:
+        return _starts(reader, node, timer)
+    if (stored := _from_seconds(reader, node)) is not None:
+        return _statement(reader, node, stored)
+    if function.type == "field_expression" and not is_this(part(function, "argument")):
+        _check_timer(reader, node, function)
+    return None
+
+
+def _inline(reader: CppStatements, function: Node) -> Inline | Lambda | None:
+    """The function that is called for what it does, if its body stands in here."""
+    if function.type == "lambda_expression":
+        return Lambda(function, reader.scope) if reader.scope.open else None
+    name = text_of(function)
+    if function.type == "field_expression":
+        target = part(function, "argument")
+        if not is_this(target) and not isinstance(resolve(reader.scope, target), Itself):
+            return None
+        name = text_of(part(function, "field"))
+    elif isinstance(held := reader.scope.locals.get(name), Lambda):
+        return held
+    elif function.type not in ("identifier", "qualified_identifier"):
+        return None
+    found = reader.scope.functions.get(name.rpartition("::")[2])
+    return found if isinstance(found, Inline) else None
+
+
+def _checked(reader: CppStatements, node: Node) -> m.Expression:
+    """What is asserted; a choice would be an assertion that fails."""
+    try:
+        return reader.expressions.read(node)
+    except Unknown as unknown:
+        why = f"whether this holds is not known: {unknown.why}"
+        raise Unread(unknown.span, why, unknown.hint) from None
+
+
+def _from_seconds(reader: CppStatements, node: Node) -> m.Expression | None:
+    """`duration.fromSec(2.0)`: a variable gets a span of time."""
+    function, arguments = part(node, "function"), named(part(node, "arguments"))
+    if function.type != "field_expression" or len(arguments) != 1:
+        return None
+    variable = resolve(reader.scope, part(function, "argument"))
+    if text_of(part(function, "field")) != "fromSec" or not isinstance(variable, Variable):
+        return None
+    value = units(reader.expressions, arguments[0], Fraction(1))
+    return m.Assign("=", m.Name(variable.name), value, reader.cpp.span(node))
+
+
+def _statement(
+    reader: CppStatements, node: Node, expression: m.Expression
+) -> Iterator[m.Statement]:
+    yield m.ExpressionStatement(expression, (), reader.cpp.span(node))
+
+
+# --- timers -------------------------------------------------------------------------------------
+
+
+def _timer(reader: CppStatements, node: Node) -> TimerOf | None:
+    """The timer that a call makes."""
+    call = call_of(node)
+    if call is None or call.name not in ("createTimer", "createWallTimer", "createSteadyTimer"):
+        return None
+    made = reader.scope.timers.get(node.id)
+    if made is not None:
+        return made
+    above = node.parent
+    if above is not None and above.type == "assignment_expression":
+        kept = resolve(reader.scope, part(above, "left"))
+        if isinstance(kept, TimerOf):
+            once = any(text_of(a) == "true" for a in call.arguments)
+            return TimerOf(kept.server, not once)
+    return None
+
+
+def _starts(reader: CppStatements, node: Node, timer: TimerOf) -> Iterator[m.Statement]:
+    """`timer = createTimer(Duration(e), callback, this, true)`: `self.callback() after(e)`."""
+    if timer.periodic:
+        hint = "create it in the constructor, or one-shot timers one after the other"
+        raise reader.unread(node, "this starts a periodic timer in the middle of a run", hint)
+    length = reader.expressions.read(named(part(node, "arguments"))[0])
+    span = reader.cpp.span(node)
+    if reader.scope.server != timer.server:
+        why = "a timer that still runs is stopped by this; the model lets it go off as well"
+        reader.findings.unreadable(reader.cpp.source, Unread(span, why), reader.within)
+    yield m.ExpressionStatement(m.Call(m.Self(), timer.server, (), length, None, span), (), span)
+
+
+def _check_timer(reader: CppStatements, node: Node, function: Node) -> None:
+    meaning = resolve(reader.scope, part(function, "argument"))
+    name = text_of(part(function, "field"))
+    if isinstance(meaning, TimerOf) and name in ("start", "stop", "setPeriod"):
+        why = "the model cannot stop, start or change what it sent itself for later"
+        hint = "let the callback look at a variable that says whether it is wanted"
+        raise reader.unread(node, why, hint)
+
+
+# --- exceptions ---------------------------------------------------------------------------------
+
+
+def tried(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
+    """`try`: what is outside may throw; what the model has does not.
+
+    So nothing has happened in the model where a handler starts, if all that may throw is first.
+    """
+    body, span = part(node, "body"), reader.cpp.span(node)
+    handlers = [c for c in named(node) if c.type == "catch_clause"]
+    statements = named(body)
+    risky = [is_outside(reader.cpp, reader.scope, s) or _unknown(s) for s in statements]
+    last = max((i for i, r in enumerate(risky) if r), default=-1)
+    if not all(risky[: last + 1]):
+        why = "an exception may leave this half done"
+        raise reader.unread(node, why, "do what may throw first, in a try of its own")
+    inside = reader.branch(body)
+    if last < 0:
+        yield m.Block(inside.statements, (), span)
+        return
+    ways = [reader.branch(part(h, "body")) for h in handlers]
+    unread = Unknown(span, "the model cannot know whether this throws")
+    if not inside.statements and not any(w.statements for w in ways):
+        return
+    if not reader.scope.chooses:
+        raise Unread(span, f"{unread.why}, and only a message server can choose")
+    reader.findings.approximated(reader.cpp.source, span, unread.why, "", reader.within)
+    chosen: m.Statement = ways[-1] if ways else m.Block(())
+    for way in reversed(ways[:-1]):
+        chosen = m.If(_TRUTH, way, chosen)
+    yield m.If(_TRUTH, inside, chosen, (), span)
+
+
+def _unknown(node: Node) -> bool:
+    """Whether it declares something: reading it says whether the model has it."""
+    return node.type == "declaration"
+
+
+# --- switch -------------------------------------------------------------------------------------
+
+
+def subject(reader: CppStatements, node: Node, body: Node) -> m.Expression:
+    """What a switch looks at; one of the cases, or another value, where that is not known."""
+    expressions = reader.expressions
+    try:
+        return as_number(reader.scope, expressions.read(node))
+    except Unread as unread:
+        if not reader.scope.open:
+            raise
+        values = []
+        for case in named(body):
+            value = case.child_by_field_name("value")
+            known = constant(expressions.read(value)) if value is not None else None
+            if isinstance(known, int):
+                values.append(int(known))
+        expressions.approximate(node, unread)
+        other = max(values, default=0) + 1
+        options = tuple(_literal(v) for v in dict.fromkeys([*values, other]))
+        return m.Choice(options, reader.cpp.span(node)) if len(options) > 1 else options[0]
+
+
+def _literal(value: int) -> m.Expression:
+    return m.IntLiteral(value) if value >= 0 else m.Unary("-", m.IntLiteral(-value))
+
+
+# --- the rest -----------------------------------------------------------------------------------
+
+
+def stores(reader: CppStatements, node: Node, known: Stores) -> Iterator[m.Statement]:
+    """A value that is stored, as is known from elsewhere; nothing where it is stored outside."""
+    expressions, span = reader.expressions, reader.cpp.span(node)
+    target, value = known.target, known.value
+    try:
+        written = expressions.read(target) if isinstance(target, Node) else target
+    except Unread:
+        return
+    place = expressions.place(written)
+    listed = isinstance(value, Node) and value.type == "initializer_list"
+    if listed and isinstance(value, Node) and place.type is not None and place.type.dimensions:
+        initial = cpp_plain_locals.braces(reader, value, place.type)
+        yield from cpp_plain_locals.elements(written, initial, span)
+        return
+    if isinstance(value, Node):
+        read_ = expressions.stored(value, place)
+    else:
+        read_ = converted_to(reader.scope, value, place)
+    yield m.ExpressionStatement(m.Assign("=", written, read_, span), (), span)
+
+
+def without_ok(condition: m.Expression) -> m.Expression:
+    """`true && c` as `c`: what is left of `ros::ok() && c`."""
+    match bare(condition):
+        case m.Binary("&&", left, right):
+            if bare(left) == m.BoolLiteral(True):
+                return bare(right)
+            if bare(right) == m.BoolLiteral(True):
+                return bare(left)
+    return condition
+
+
+def returned(reader: CppStatements, node: Node, record: Record) -> Iterator[m.Statement]:
+    """`return message;` where the caller has a message for it."""
+    source, fresh = cpp_messages.given(reader, node)
+    span = reader.cpp.span(node)
+    for path, variable in record.fields.items():
+        held = source.fields.get(path)
+        zero = cpp_messages.zero_of(variable.type) if fresh and variable.type is not None else None
+        value = m.Name(held.name) if held is not None else zero
+        if value is None:
+            raise Unknown(span, f'the model cannot know "{text_of(node)}.{path}"')
+        yield m.ExpressionStatement(m.Assign("=", m.Name(variable.name), value), (), span)
+
+
+def opened(reader: CppStatements, node: Node, unread: Unread) -> set[str]:
+    """The members that a statement gives a value that the model cannot know."""
+    if not isinstance(unread, Unknown | Touches) or node.type != "expression_statement":
+        return set()
+    found = set()
+    for child in named(node):
+        effects = Effects(reader.cpp, reader.scope, everything=True)
+        try:
+            effects.check(child)
+        except Touches:
+            return set()
+        found |= effects.written
+    return {name for name in found if name.partition(".")[0] in reader.scope.members}
+
+
+def says_more(node: Node, unread: Unread) -> bool:
+    """Whether what a statement touches is a better reason than that its value is not known."""
+    if not isinstance(unread, Unknown):
+        return False
+    inner = named(node) if node.type == "expression_statement" else []
+    return bool(inner) and inner[0].type == "call_expression"

@@ -1,0 +1,399 @@
+"""Statements of C++ as statements of the model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import field, replace
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.bodies import (
+    cpp_control,
+    cpp_inline,
+    cpp_locals,
+    cpp_loops,
+    cpp_plain_locals,
+    cpp_special,
+)
+from rebsync.reverse.bodies.building import bare, is_calm, is_effect
+from rebsync.reverse.bodies.cpp_effects import Effects, Touches, is_outside
+from rebsync.reverse.bodies.cpp_expressions import MOVE, CppExpressions
+from rebsync.reverse.bodies.cpp_unknowns import Demote
+from rebsync.reverse.bodies.known_functions import LOGGING
+from rebsync.reverse.bodies.made_locals import tidied
+from rebsync.reverse.bodies.scope import Inline, Lambda, Meaning, Scope, Stores, Variable
+from rebsync.reverse.bodies.written import annotation
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.syntax.cpp_tree import Cpp, markers_in, named, part, text_of
+
+_NOTHING = frozenset(
+    {"using_declaration", "alias_declaration", "type_definition", "static_assert_declaration"}
+)
+
+
+@dataclass(slots=True)
+class Shared:
+    """What the readers of a body share with those of the bodies that stand in it.
+
+    `demoted` are locals, or fields of local messages, whose values the model cannot know;
+    `names` are the names of the model that all locals got, `kept` those that no other may have,
+    `made` those of locals that the code does not have; `running` are the functions that are read.
+    """
+
+    demoted: set[str] = field(default_factory=set)
+    names: set[str] = field(default_factory=set)
+    kept: set[str] = field(default_factory=set)
+    made: set[str] = field(default_factory=set)
+    running: list[tuple[int, str]] = field(default_factory=list)
+
+
+@dataclass(slots=True)
+class CppStatements:
+    """Reads one body. A statement without a meaning in the model is listed in `findings`.
+
+    `hoisted` are locals that C++ declares before a switch and the model in one of its cases.
+    `own` are the locals that the body declares, by their names in C++; `before` is what must run
+    before the statement that is read; `returns` is where the value of a `return` goes.
+    """
+
+    cpp: Cpp
+    scope: Scope
+    findings: Findings
+    within: str
+    hoisted: dict[str, m.Type] = field(default_factory=dict)
+    own: set[str] = field(default_factory=set)
+    shared: Shared = field(default_factory=Shared)
+    before: list[m.Statement] = field(default_factory=list)
+    returns: Meaning | None = None
+    _depth: int = 0
+    _root: Node | None = None
+
+    def block(self, node: Node) -> m.Block:
+        """A body in braces; its locals end with it."""
+        outside = self.scope
+        statements = self.read(node.named_children)
+        self.scope = outside
+        return m.Block(statements, span=self.cpp.span(node))
+
+    def read(self, nodes: Sequence[Node]) -> tuple[m.Statement, ...]:
+        """Statements that follow each other; their locals stay in `scope`."""
+        if self._depth or self.shared.running or not self.scope.open:
+            return tuple(self.statements(nodes))
+        self._root = nodes[0].parent if nodes else None
+        self._depth += 1
+        try:
+            return self._read_again(nodes)
+        finally:
+            self._depth -= 1
+
+    def _read_again(self, nodes: Sequence[Node]) -> tuple[m.Statement, ...]:
+        """Reads until it is known which locals get values that the model cannot know."""
+        scope, listed = self.scope, len(self.findings.all)
+        counted = self.findings.statements[self.within]
+        while True:
+            try:
+                return tidied(tuple(self.statements(nodes)), self.shared.made)
+            except Demote as demote:
+                self.shared.demoted |= demote.names
+                self.scope, self.before = scope, []
+                for names in (self.own, self.shared.names, self.shared.kept, self.shared.made):
+                    names.clear()
+                del self.findings.all[listed:]
+                self.findings.statements[self.within] = counted
+
+    def _known(
+        self, node: Node, known: Sequence[m.Statement | Stores | Node]
+    ) -> Iterator[m.Statement]:
+        """What stands for a statement whose meaning is known from elsewhere."""
+        for each in known:
+            match each:
+                case Stores():
+                    yield from cpp_special.stores(self, node, each)
+                case Node():
+                    yield from self._statement(each, (), False)
+                case _:
+                    yield each
+
+    def statements(self, nodes: Sequence[Node]) -> Iterator[m.Statement]:
+        comments: list[str] = []
+        for node in nodes:
+            if node.type == "comment":
+                comments.append(text_of(node))
+                continue
+            markers = markers_in(comments)
+            annotations = tuple(
+                a for text in markers if (a := annotation(text, self.cpp.span(node))) is not None
+            )
+            local = any(text.startswith("local ") for text in markers)
+            comments = []
+            self.findings.statements[self.within] += 1
+            if node.id in self.scope.instead or not self._is_outside(node):
+                yield from self._one(node, annotations, local)
+
+    def _is_outside(self, node: Node) -> bool:
+        """Whether a statement that people wrote touches nothing of the model."""
+        if not self.scope.open or node.type == "declaration":
+            return node.type in _NOTHING
+        return is_outside(self.cpp, self.scope, node)
+
+    def _one(
+        self, node: Node, annotations: tuple[m.Annotation, ...], local: bool
+    ) -> Iterator[m.Statement]:
+        """What stands for a statement: before it what its expressions need."""
+        around, self.before = self.before, []
+        try:
+            known = self.scope.instead.get(node.id)
+            if known is None:
+                read = list(self._statement(node, annotations, local))
+            else:
+                read = list(self._known(node, known))
+            yield from self.before
+            yield from read
+        except Unread as unread:
+            yield from self._unreadable(node, unread)
+        except ValueError:
+            yield from self._unreadable(node, self.unread(node, "this does not parse as C++"))
+        finally:
+            self.before = around
+
+    def _unreadable(self, node: Node, unread: Unread) -> Iterator[m.Statement]:
+        """What stands in the model for a statement that it lacks; nothing for what is outside.
+
+        One that only gives locals values that the model cannot know makes these outside as well.
+        """
+        if self.scope.open and node.id not in self.scope.instead:
+            effects = Effects(self.cpp, self.scope, frozenset(self.own))
+            try:
+                effects.check(node)
+                self.demote(effects.written, unread)
+                return
+            except Touches as touches:
+                self.findings.open_members |= cpp_special.opened(self, node, unread)
+                unread = touches if cpp_special.says_more(node, unread) else unread
+            except Unread:
+                pass
+        self.findings.unreadable(self.cpp.source, unread, self.within)
+        yield m.Empty((m.Annotation("Unreadable"),), self.cpp.span(node))
+
+    def demote(self, names: set[str], unread: Unread) -> None:
+        """Has the body read again without these locals, if there are any."""
+        if names - self.shared.demoted:
+            raise Demote(names)
+        if names:
+            raise unread
+
+    def _statement(
+        self, node: Node, annotations: tuple[m.Annotation, ...], local: bool
+    ) -> Iterator[m.Statement]:
+        span = self.cpp.span(node)
+        match node.type:
+            case "expression_statement":
+                yield from self._expression_statement(node, annotations)
+            case "declaration":
+                yield from self.declaration(node, annotations, local)
+            case "compound_statement" | "initializer_list":
+                block = self.inner(node)
+                if self._is_hoisting(node):
+                    yield from block.statements
+                else:
+                    yield m.Block(block.statements, annotations, span)
+            case "if_statement":
+                yield from cpp_control.branches(self, node, annotations)
+            case "while_statement":
+                condition = self.loop_condition(part(node, "condition"))
+                yield m.While(condition, self.branch(part(node, "body")), annotations, span)
+            case "for_statement":
+                yield cpp_control.counted(self, node, annotations)
+            case "for_range_loop":
+                yield from cpp_loops.range_loop(self, node, annotations)
+            case "do_statement":
+                yield from cpp_loops.do_loop(self, node, annotations)
+            case "switch_statement":
+                yield cpp_control.switched(self, node, annotations)
+            case "try_statement":
+                yield from cpp_special.tried(self, node)
+            case "return_statement":
+                yield from cpp_control.returned(self, node, annotations)
+            case "throw_statement":
+                raise self.unread(node, "an exception leaves the function")
+            case "break_statement":
+                yield m.Break(annotations, span)
+            case "continue_statement":
+                yield m.Continue(annotations, span)
+            case kind if kind.startswith("preproc_"):
+                raise self.unread(node, "which of these alternatives counts is not known")
+            case "ERROR":
+                raise self.unread(node, "this does not parse as C++")
+            case kind:
+                raise self.unread(node, f"the model has no {kind.replace('_', ' ')}")
+
+    # --- what others read with ------------------------------------------------------------------
+
+    def unread(self, node: Node, why: str, hint: str = "") -> Unread:
+        """What to raise where a node has no meaning in the model."""
+        return Unread(self.cpp.span(node), why, hint)
+
+    @property
+    def expressions(self) -> CppExpressions:
+        """The reader of expressions with the names of this place."""
+        return CppExpressions(self.cpp, self.scope, self.findings, self.within, self.inlined)
+
+    def inlined(
+        self, node: Node, function: Inline | Lambda, arguments: Sequence[Node]
+    ) -> Meaning | None:
+        """What a call gives for which the function's body stands, now in `before`."""
+        return cpp_inline.inlined(self, node, function, arguments)
+
+    def inside(self, cpp: Cpp, scope: Scope, own: set[str] | frozenset[str]) -> CppStatements:
+        """A reader for a body that stands in this one."""
+        within, shared = self.within, self.shared
+        return CppStatements(cpp, scope, self.findings, within, own=set(own), shared=shared)
+
+    def text(self) -> str:
+        """The text of the whole body."""
+        return text_of(self._root) if self._root is not None else self.cpp.source.text
+
+    def meaning(self, name: str, meaning: Meaning, own: bool = False) -> None:
+        """Says what a name stands for from here on; `own` for a variable of the body."""
+        self.scope = self.scope.with_locals({name: meaning})
+        if own:
+            self.own.add(name)
+
+    def fresh(self, name: str, inlining: bool = False) -> str:
+        """A name of the model for a local of that name: another one where it is taken.
+
+        One of a body that stands in another is taken from there to the end of that.
+        """
+        inlining = inlining or bool(self.shared.running)
+        taken = cpp_special.taken(self.scope) | self.shared.kept
+        if inlining:
+            taken |= self.shared.names
+        plain = self.scope.local(name)
+        free, number = plain, 2
+        while free in taken:
+            free, number = f"{plain}_{number}", number + 1
+        self.shared.names.add(free)
+        if inlining:
+            self.shared.kept.add(free)
+        return free
+
+    def local(self, node: Node, variable: Variable, initial: m.Initializer | None) -> m.Local:
+        """The declaration of a local."""
+        span = self.cpp.span(node)
+        declarator = m.Declarator(variable.name, initial, span)
+        return m.Local(m.Declaration(variable.type or m.Type("int"), (declarator,), span=span))
+
+    # --- expressions and declarations -----------------------------------------------------------
+
+    def _expression_statement(
+        self, node: Node, annotations: tuple[m.Annotation, ...]
+    ) -> Iterator[m.Statement]:
+        span, children = self.cpp.span(node), named(node)
+        if not children:
+            yield m.Empty(annotations, span)
+            return
+        expression = children[0]
+        if _calls(expression, "unused") or _logs(expression):
+            if self.scope.open:  # then it is not outside
+                raise self.unread(node, "what is logged here changes what the model has")
+            return
+        if declared := cpp_plain_locals.late(self, expression):
+            yield m.Local(declared, annotations, span)
+            return
+        if (special := cpp_special.read(self, expression)) is not None:
+            yield from special
+            return
+        read = self.effect(expression)
+        if isinstance(read, m.Call) and read.name == MOVE:
+            cells = zip(("X", "Y"), read.arguments, strict=False)
+            move = m.Annotation("Move", tuple(_cell(axis, offset) for axis, offset in cells))
+            yield m.Empty((*annotations, move), span)
+            return
+        yield from self.done(node, read, annotations)
+
+    def done(
+        self, node: Node, read: m.Expression, annotations: tuple[m.Annotation, ...] = ()
+    ) -> Iterator[m.Statement]:
+        """The statement of an expression, if it does anything."""
+        span = self.cpp.span(node)
+        if is_effect(read) or not self.scope.open:
+            yield m.ExpressionStatement(bare(read) if self.scope.open else read, annotations, span)
+        elif not is_calm(read):
+            raise self.unread(node, "what this changes stands within an expression")
+
+    def effect(self, node: Node) -> m.Expression:
+        """An expression for what it does; generated code says of one without effect that it is."""
+        if node.type == "call_expression":
+            function = part(node, "function")
+            if text_of(function) == "static_cast<void>":
+                return self.expressions.read(named(part(node, "arguments"))[0])
+        if node.type == "cast_expression" and text_of(part(node, "type")) == "void":
+            return self.effect(part(node, "value"))
+        return self.expressions.read(node)
+
+    def declaration(
+        self, node: Node, annotations: tuple[m.Annotation, ...], hoisted: bool
+    ) -> Iterator[m.Statement]:
+        if self.scope.open or not cpp_plain_locals.is_plain(node):
+            yield from cpp_locals.declarations(self, node)
+            return
+        declaration = cpp_plain_locals.declared(self, node)
+        if hoisted:
+            for name in cpp_plain_locals.declared_names(node):
+                self.hoisted[name] = declaration.type
+            return
+        yield m.Local(declaration, annotations, self.cpp.span(node))
+
+    # --- control --------------------------------------------------------------------------------
+
+    def loop_condition(self, node: Node) -> m.Expression:
+        """The condition of a loop, which the model must know."""
+        value = part(node, "value") if node.type == "condition_clause" else node
+        while self.scope.open and value.type == "parenthesized_expression":
+            value = self.expressions.only(value)
+        if value.type == "declaration":
+            raise self.unread(node, "the model has no declarations in conditions")
+        read = replace(self.expressions, findings=None, inlines=None).condition(value)
+        return cpp_special.without_ok(read) if self.scope.open else read
+
+    def branch(self, node: Node) -> m.Block:
+        """The body of a branch or loop, in braces or not."""
+        if node.type == "compound_statement":
+            return self.inner(node)
+        outside = self.scope
+        statements = tuple(self.statements([node]))
+        self.scope = outside
+        return m.Block(statements, span=self.cpp.span(node))
+
+    def inner(self, node: Node) -> m.Block:
+        outside = self.scope
+        statements = tuple(self.statements(node.named_children))
+        self.scope = outside
+        return m.Block(statements, span=self.cpp.span(node))
+
+    def _is_hoisting(self, node: Node) -> bool:
+        """Whether a block only holds locals of a switch, and the switch."""
+        comments = [text_of(c) for c in node.named_children if c.type == "comment"]
+        return any(t.startswith("local ") for t in markers_in(comments))
+
+
+def _calls(node: Node, function: str) -> bool:
+    return node.type == "call_expression" and text_of(part(node, "function")) == function
+
+
+def _logs(node: Node) -> bool:
+    called = node.type == "call_expression" and part(node, "function").type == "identifier"
+    return called and text_of(part(node, "function")).startswith(LOGGING)
+
+
+def _cell(axis: str, offset: m.Expression) -> m.Expression:
+    """`X`, `X + 1`, `X - 1` for an offset."""
+    match offset:
+        case m.IntLiteral(0):
+            return m.Name(axis)
+        case m.Unary("-", operand):
+            return m.Binary("-", m.Name(axis), operand)
+        case _:
+            return m.Binary("+", m.Name(axis), offset)

@@ -1,0 +1,137 @@
+"""Times and durations of ROS and C++ as whole numbers of the model's unit of time."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.bodies.building import binary, cast
+from rebsync.reverse.bodies.cpp_conversions import type_in
+from rebsync.reverse.bodies.cpp_places import resolve
+from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.static.constants import constant
+from rebsync.static.types import DOUBLE, is_integer
+
+if TYPE_CHECKING:
+    from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+
+_SECOND = Fraction(1)
+# What constructs a span of time or a point in it, with the seconds that a number in it means.
+_SPANS = {
+    **dict.fromkeys(("ros::Duration", "ros::WallDuration", "ros::Time", "ros::WallTime"), _SECOND),
+    **{"hours": Fraction(3600), "minutes": Fraction(60), "seconds": _SECOND},
+    **{"milliseconds": Fraction(1, 10**3), "microseconds": Fraction(1, 10**6)},
+    **{"nanoseconds": Fraction(1, 10**9)},
+}
+_SLEEPS = {"sleep": _SECOND, "usleep": Fraction(1, 10**6)}
+_CLOCKS = frozenset({"ros::Time::now", "ros::WallTime::now", "ros::SteadyTime::now"})
+
+
+def time_called(
+    reader: CppExpressions, node: Node, name: str, arguments: list[Node]
+) -> m.Expression | None:
+    """`ros::Time::now()`, `ros::Duration(0.5)`, `std::chrono::milliseconds(20)`."""
+    if name in _CLOCKS and not arguments:
+        return m.Name("now", reader.cpp.span(node))
+    seconds = seconds_of(name)
+    if seconds is None:
+        return None
+    match arguments:
+        case []:
+            return m.IntLiteral(0, reader.cpp.span(node))
+        case [only]:
+            return units(reader, only, seconds)
+        case [whole, nanoseconds] if seconds == _SECOND:
+            of_two = (
+                units(reader, whole, seconds),
+                units(reader, nanoseconds, _SPANS["nanoseconds"]),
+            )
+            return binary("+", *of_two)
+        case _:
+            return None
+
+
+def seconds_of(name: str) -> Fraction | None:
+    """The seconds that a number in a span of time means, by the name of the span's type."""
+    if "chrono" in name:
+        return _SPANS.get(name.rpartition("::")[2])
+    return _SPANS.get(name.removeprefix("::"))
+
+
+def units(reader: CppExpressions, node: Node, seconds: Fraction) -> m.Expression:
+    """So many seconds, times the number that a node is, in units of the model's time."""
+    value = reader.read(node)
+    whole = in_units(reader, value, seconds)
+    if whole is None:
+        span, unit = reader.cpp.span(node), reader.scope.unit
+        why = f"this is no whole number of units of {float(unit):g} s that the model's time has"
+        raise Unread(span, why, "choose a time_unit in rebsync.toml of which it is a multiple")
+    return whole
+
+
+def in_units(reader: CppExpressions, value: m.Expression, seconds: Fraction) -> m.Expression | None:
+    """The same for a value of the model; None where it need not be whole."""
+    factor = seconds / reader.scope.unit
+    number = constant(value)
+    if number is not None:
+        if number != number or abs(number) > 10**15:
+            return None
+        exact = Fraction(str(number)) * factor if not isinstance(number, bool) else Fraction(number)
+        return _whole(exact)
+    of = type_in(reader.scope, value)
+    if isinstance(value, m.Cast) and value.type == DOUBLE:
+        return in_units(reader, value.operand, seconds)
+    if of is None or not is_integer(of) or factor.denominator != 1:
+        return None
+    return value if factor == 1 else binary("*", value, m.IntLiteral(int(factor)))
+
+
+def _whole(number: Fraction) -> m.Expression | None:
+    if number.denominator != 1 or abs(number) >= 2**31:
+        return None
+    return m.IntLiteral(int(number)) if number >= 0 else m.Unary("-", m.IntLiteral(-int(number)))
+
+
+def to_seconds(reader: CppExpressions, target: Node) -> m.Expression | None:
+    """`duration.toSec()`: units of the model's time as seconds; None for what is no time."""
+    value = reader.read(target)
+    of = type_in(reader.scope, value)
+    if of is None or not is_integer(of):
+        return None
+    unit = reader.scope.unit
+    if unit == 1:
+        return cast(DOUBLE, value)
+    if unit.numerator == 1:
+        return binary("/", cast(DOUBLE, value), m.FloatLiteral(f"{unit.denominator}.0d"))
+    return binary("*", cast(DOUBLE, value), m.FloatLiteral(f"{float(unit)}d"))
+
+
+def pause(reader: CppExpressions, call: Node) -> m.Expression | None:
+    """How long a call sleeps: `ros::Duration(1.0).sleep()`; None for one that does not."""
+    if call.type != "call_expression":
+        return None
+    function, arguments = part(call, "function"), named(part(call, "arguments"))
+    if function.type == "field_expression":
+        return _own_pause(reader, part(function, "argument"), text_of(part(function, "field")))
+    name = text_of(function).rpartition("::")[2]
+    if len(arguments) != 1:
+        return None
+    if name == "sleep_for":
+        return reader.read(arguments[0])
+    if name in _SLEEPS and text_of(function) not in reader.scope.functions:
+        return units(reader, arguments[0], _SLEEPS[name])
+    return None
+
+
+def _own_pause(reader: CppExpressions, target: Node, name: str) -> m.Expression | None:
+    if name != "sleep":
+        return None
+    if target.type == "call_expression":
+        return reader.read(target)
+    meaning = resolve(reader.scope, target)
+    return reader.read(target) if isinstance(meaning, Variable) else None

@@ -1,0 +1,128 @@
+"""The types of C++ as types of the model."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection
+
+from tree_sitter import Node
+
+from rebsync.model import Type
+from rebsync.names import uncarry
+from rebsync.records import dataclass
+from rebsync.reserved import NO_CLASSES
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+
+_INTEGERS = {
+    "byte": ("int8_t", "signed char"),
+    "short": ("int16_t", "short", "short int"),
+    "int": ("int32_t", "int", "signed", "signed int"),
+}
+_PLAIN = {spelled: name for name, all_of in _INTEGERS.items() for spelled in all_of}
+_PLAIN |= {"bool": "boolean", "float": "float", "double": "double", "void": "void"}
+_UNSIGNED = {
+    **dict.fromkeys(("uint8_t", "unsigned char", "u_char", "u_int8_t"), ("short", 8)),
+    **dict.fromkeys(("uint16_t", "unsigned short", "unsigned short int"), ("int", 16)),
+}
+_WIDE = frozenset(
+    {
+        *("int64_t", "uint32_t", "uint64_t", "size_t", "ssize_t", "ptrdiff_t", "intptr_t"),
+        *("uint", "unsigned", "unsigned int", "long", "long int", "long long", "long long int"),
+        *("unsigned long", "unsigned long int", "unsigned long long", "unsigned long long int"),
+        *("int_fast8_t", "int_fast16_t", "int_fast32_t", "int_fast64_t"),
+    }
+)
+_TIMES = frozenset({"Time", "Duration", "WallTime", "WallDuration", "SteadyTime"})
+_SCOPES = re.compile(r"^(?:::)?(?:std::)?")
+
+
+def type_of(node: Node) -> Type | None:
+    """The model's type for a C++ type, or None where it has none: `Rebec<C>` is C."""
+    match node.type:
+        case "type_descriptor":
+            return type_of(part(node, "type"))
+        case "qualified_identifier":
+            return type_of(part(node, "name"))
+        case "template_type":
+            return _of_template(node)
+        case _:
+            name = _PLAIN.get(_SCOPES.sub("", text_of(node)))
+            return Type(name) if name else None
+
+
+def _of_template(node: Node) -> Type | None:
+    arguments = named(part(node, "arguments"))
+    match text_of(part(node, "name")), len(arguments):
+        case "array", 2:
+            inner = type_of(arguments[0])
+            length = text_of(arguments[1])
+            if inner is None or not length.isdecimal():
+                return None
+            return Type(inner.name, (int(length), *inner.dimensions))
+        case "Rebec", 1:
+            return Type(class_name(text_of(arguments[0])))
+        case _:
+            return None
+
+
+def class_name(text: str) -> str:
+    """The reactive class of a C++ class."""
+    return uncarry(text.rpartition("::")[2], NO_CLASSES)
+
+
+# --- types that people write --------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Carried:
+    """What the model keeps of the values of a type of C++.
+
+    `bits` is the width of an unsigned type that wraps sooner than `type`; `why` says what gets
+    lost, empty if nothing does.
+    """
+
+    type: Type
+    bits: int = 0
+    why: str = ""
+
+
+def carried(node: Node, enums: Collection[str] = ()) -> Carried | None:
+    """What the model keeps of a type that a person wrote, or None if it has nothing like it.
+
+    Times and durations of ROS are whole numbers of the model's unit of time.
+    """
+    if node.type == "type_descriptor":
+        return carried(part(node, "type"), enums)
+    if node.type == "template_type" or (
+        node.type == "qualified_identifier" and "<" in text_of(node)
+    ):
+        array = type_of(node)
+        return Carried(array) if array is not None else None
+    text = " ".join(text_of(node).split())
+    name = _SCOPES.sub("", text)
+    words = set(name.split())
+    if "unsigned" in words and "char" not in words and "short" not in words:
+        name = "unsigned"
+    last = text.rpartition("::")[2]
+    if name in _PLAIN and name != "void":
+        return Carried(Type(_PLAIN[name]))
+    if name == "char":
+        return Carried(Type("byte"))
+    if name in _UNSIGNED:
+        return Carried(Type(_UNSIGNED[name][0]), _UNSIGNED[name][1])
+    if name in _WIDE or (words and words <= {"long", "int", "unsigned", "signed"}):
+        return Carried(Type("int"), why=wider(text))
+    if is_time(node):
+        return Carried(Type("int"))
+    return Carried(Type("int")) if text in enums or last in enums else None
+
+
+def is_time(node: Node) -> bool:
+    """Whether a type is a time or a duration of ROS."""
+    scope, _, last = text_of(node).strip().rpartition("::")
+    return last in _TIMES and scope.strip(":") == "ros"
+
+
+def wider(what: str) -> str:
+    """What is said of a type, or of a field of a message, that is wider than the model's."""
+    return f'"{what}" holds more than the model\'s int does'

@@ -1,0 +1,102 @@
+"""Functions of C++'s and ROS's libraries that are known by what they do to a node."""
+
+from __future__ import annotations
+
+import re
+
+from rebsync.reverse.syntax.cpp_calls import CppCall
+from rebsync.reverse.syntax.cpp_tree import text_of
+
+LOGGING = ("ROS_DEBUG", "ROS_INFO", "ROS_WARN", "ROS_ERROR", "ROS_FATAL", "NODELET_", "ROS_LOG")
+STREAMS = frozenset(
+    {"std::cout", "std::cerr", "std::clog", "cout", "cerr", "clog", "std::endl", "endl"}
+)
+# Functions that take time, end the node or run other callbacks, by their last name.
+ACTS = {
+    **dict.fromkeys(("sleep", "usleep", "nanosleep", "sleep_for", "sleep_until"), "takes time"),
+    **dict.fromkeys(("sleepUntil", "clock_nanosleep"), "takes time"),
+    **dict.fromkeys(("waitForService", "waitForExistence", "waitForServer"), "waits"),
+    **dict.fromkeys(("waitForTransform", "waitForMessage", "waitForResult"), "waits"),
+    **dict.fromkeys(("waitForValid", "sendGoalAndWait", "waitForShutdown", "join"), "waits"),
+    **dict.fromkeys(("wait", "wait_for", "wait_until", "timed_wait", "call"), "waits"),
+    **dict.fromkeys(("shutdown", "requestShutdown", "exit", "_exit", "abort"), "ends the node"),
+    **dict.fromkeys(("quick_exit", "terminate", "kill", "raise"), "ends the node"),
+    **dict.fromkeys(("spin", "spinOnce", "callAvailable", "callOne"), "runs other callbacks"),
+    **dict.fromkeys(("longjmp", "fork", "execv", "execvp"), "leaves the function"),
+    **dict.fromkeys(("subscribe", "createTimer", "createWallTimer"), "asks for callbacks"),
+    **dict.fromkeys(("advertiseService", "createSteadyTimer"), "asks for callbacks"),
+}
+ASSERTS = frozenset({"ROS_ASSERT", "ROS_ASSERT_MSG", "assert", "BOOST_ASSERT", "ROS_BREAK"})
+ACTS |= dict.fromkeys(ASSERTS, "checks")
+# Member functions that only look at an array, a number, a publisher or a timer.
+LOOKS = frozenset(
+    {
+        *("at", "back", "count", "empty", "front", "getNumSubscribers", "getTopic", "hasPending"),
+        *("hasStarted", "isLatched", "isValid", "isZero", "length", "max_size", "size", "toNSec"),
+        *("toSec", "c_str", "str", "cbegin", "cend"),
+    }
+)
+_VALUES = frozenset(
+    {
+        *(
+            "close",
+            "fcntl",
+            "fclose",
+            "ioctl",
+            "open",
+            "select",
+            "setParam",
+            "socket",
+            "write",
+        ),
+        *("abs", "acos", "asin", "atan", "atan2", "atof", "atoi", "cbrt", "ceil", "clamp", "cos"),
+        *("cosh", "defined", "exp", "exp2", "expm1", "fabs", "fabsf", "floor", "fmax", "fmin"),
+        *("fmod", "fprintf", "hypot", "isfinite", "isinf", "isnan", "isnormal", "labs", "log"),
+        *("log10", "log1p", "log2", "lround", "max", "min", "mod", "pow", "printf", "puts"),
+        *("rand", "remainder", "rint", "round", "roundf", "signbit", "sin", "sinh", "sqrt"),
+        *("sqrtf", "tan", "tanh", "to_string", "trunc", "toSec", "fromSec"),
+        *("static_cast", "narrow_cast", "numeric_cast", "normalize_angle", "from_degrees"),
+        *("shortest_angular_distance", "to_degrees", "createQuaternionMsgFromYaw"),
+        *("createQuaternionFromYaw", "createQuaternionFromRPY", "getYaw", "quatToRPY"),
+        *("setRPY", "setOrigin", "setRotation", "setX", "setY", "setZ", "setValue"),
+    }
+)
+# Member functions of containers, which copy what they get.
+_COPIES = frozenset(
+    {
+        *("push_back", "push", "push_front", "reserve", "resize", "insert", "assign", "at"),
+        *("count", "find", "erase", "substr", "append"),
+    }
+)
+_CONVERSION = re.compile(
+    r"(?:::)?(?:u?int(?:8|16|32|64)?(?:_t)?|float|double|bool|char|long|short|unsigned|size_t)\Z"
+)
+_LIBRARIES = re.compile(r"(?:::)?(?:std|boost|ros|tf2?|tf2_ros|Eigen|cv|pcl|\w+_msgs|\w+_srvs)::")
+
+
+def takes_values(call: CppCall) -> bool:
+    """Whether a function is known to change none of its arguments."""
+    plain = call.name.rpartition("::")[2].partition("<")[0]
+    if call.name.startswith(LOGGING) or plain in _VALUES or _CONVERSION.match(call.name):
+        return True
+    if call.target is not None and plain in _COPIES:
+        return True
+    return call.target is None and plain[:1].isupper() and type_takes_values(call.name)
+
+
+def type_takes_values(name: str) -> bool:
+    """Whether constructors of a type are known to change none of their arguments."""
+    return bool(_CONVERSION.match(name) or _LIBRARIES.match(name))
+
+
+def logs(call: CppCall) -> bool:
+    """Whether a call writes a log, and nothing else."""
+    plain = call.name.rpartition("::")[2]
+    if call.target is None and call.name.startswith(LOGGING):
+        return True
+    if plain in ("printf", "puts", "perror"):
+        return True
+    outputs = ("stdout", "stderr")
+    return plain in ("fprintf", "fputs", "fflush") and any(
+        text_of(a) in outputs for a in call.arguments
+    )

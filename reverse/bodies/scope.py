@@ -1,0 +1,268 @@
+"""What the names in the body of a C++ function stand for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import field, fields, replace
+from fractions import Fraction
+from typing import Literal, TypeAlias
+
+from tree_sitter import Node
+
+from rebsync.model import Expression, Name, Statement, Type
+from rebsync.records import dataclass
+from rebsync.reserved import RESERVED, uncarry_local
+from rebsync.reverse.syntax.cpp_index import CppFunction
+from rebsync.reverse.syntax.cpp_tree import Cpp
+
+WIDE = 32  # bits, from which on unsigned numbers hold more than the model's `int`
+
+# --- variables ----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Variable:
+    """A state variable, a known rebec, a constant, a parameter or a local of the model.
+
+    With `type` None nothing is converted when it is read or written: the code says it all.
+    `bits` is the width of an unsigned type that `type` holds but that wraps sooner (8 or 16). A
+    truth value with bits is a number in the code, which can hold others than 0 and 1.
+    `domain` are the values that a hint beside its declaration gives it.
+    """
+
+    name: str
+    type: Type | None = None
+    bits: int = 0
+    domain: tuple[Expression, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Runtime:
+    """A member through which a class talks to the run-time part of generated code."""
+
+    kind: Literal["mailbox", "drive", "sensor"]
+
+
+@dataclass(frozen=True, slots=True)
+class Outside:
+    """What the model does not have: reading it gives a value that the model cannot know.
+
+    Writing it changes nothing of the model. `type` is what its values would be in the model, if
+    that is known. `reaches` says that its member functions may act on what the model has.
+    """
+
+    type: Type | None = None
+    reaches: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """A message whose fields are variables of the model, each by its path: `linear.x`.
+
+    Fields that are not named here are outside. `type` is `package/Type` where it is known.
+    A `constant` one cannot be changed through its name; a `pointer` is copied by its name alone.
+    """
+
+    fields: Mapping[str, Variable]
+    type: str = ""
+    constant: bool = False
+    pointer: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """A receiver of what a publisher sends: a known rebec (None: the class itself) and its server.
+
+    `fields` are the paths of the message's fields that the server's parameters get, in their order.
+    """
+
+    known: str | None
+    server: str
+    fields: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Publishes:
+    """A publisher; without targets nobody in the model receives what it sends.
+
+    With `timed` a message gets its times from the mailbox: without, its receiver drops it.
+    """
+
+    targets: tuple[Target, ...]
+    type: str = ""
+    timed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class TimerOf:
+    """A timer whose callback is a server."""
+
+    server: str
+    periodic: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Lambda:
+    """A local that holds a function: its body reads what the names around it stood for."""
+
+    node: Node
+    scope: Scope
+
+
+@dataclass(frozen=True, slots=True)
+class Itself:
+    """The object whose class is read, under the name that `main` has for it."""
+
+
+Member: TypeAlias = Itself | Variable | Runtime | Outside | Record | Publishes | TimerOf | Lambda
+Meaning: TypeAlias = Member | Expression
+
+# --- functions ----------------------------------------------------------------------------------
+
+# What is passed on for a parameter: its value, those fields of a message, or nothing.
+Takes: TypeAlias = Type | tuple[str, ...] | None
+
+
+@dataclass(frozen=True, slots=True)
+class Called:
+    """A local method, or a message server, by its name in the model.
+
+    `takes` says what the method gets for each parameter of the function (None: each as it is).
+    `function` is the one in the code, if it is known.
+    A callback that other bodies call is `Called` with the method that the model has for its body.
+    """
+
+    name: str
+    server: bool = False
+    takes: tuple[Takes, ...] | None = None
+    returns: Type | None = None
+    function: CppFunction | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Inline:
+    """A function whose body stands in the place of its call: it takes or returns messages or
+    references, or it chooses, which no method of a model can.
+
+    `constants` are those that its file can name; None where these are the caller's.
+    """
+
+    function: CppFunction
+    constants: Mapping[str, tuple[Cpp, Node]] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Sends:
+    """A function that fills a message from its arguments and sends it.
+
+    To the known rebec `known`; or to itself, `known` being "self"; or, `known` being None, to the
+    rebec that the first argument names. The last argument, if there is one more, is the time.
+    """
+
+    known: str | None
+    server: str
+    arguments: int
+
+
+@dataclass(frozen=True, slots=True)
+class Ignored:
+    """A function that touches nothing of the model and whose result it cannot know."""
+
+    returns: Type | None = None
+
+
+Function: TypeAlias = Called | Inline | Sends | Ignored
+
+# --- set-up -------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Stores:
+    """A value that is stored where `target` says, as `getParam("x", x_)` does.
+
+    Nothing where that is outside.
+    """
+
+    target: Node | Expression
+    value: Node | Expression
+
+
+# --- scopes -------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Scope:
+    """The names of one class, those of its ancestors included, and the locals of one body.
+
+    `constants` are those of C++ that the body's file can name: their values stand for them.
+    """
+
+    members: Mapping[str, Member]
+    functions: Mapping[str, Function]
+    bases: Mapping[str, str]
+    types: frozenset[str] = frozenset()
+    callable: frozenset[str] = frozenset()
+    locals: Mapping[str, Meaning] = field(default_factory=dict)
+    constants: Mapping[str, tuple[Cpp, Node]] = field(default_factory=dict)
+    # Of enumerations the values by name (`RED`, `Color::RED`), and the names of the types.
+    enumerators: Mapping[str, int] = field(default_factory=dict)
+    enums: frozenset[str] = frozenset()
+    # The fields of message types (`std_msgs/Int32`) by their paths; None where the model has no
+    # such type.
+    messages: Mapping[str, Mapping[str, Type | None]] = field(default_factory=dict)
+    # The widths in bits of their fields where these are not the model's type's: narrow ones wrap
+    # sooner, wide ones hold more.
+    widths: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
+    # The servers of callbacks that calls (`createTimer`), by the id of the call's node, set timers
+    # for.
+    timers: Mapping[int, TimerOf] = field(default_factory=dict)
+    # What whole statements of the code stand for, by the ids of their nodes, and expressions:
+    # what sets a node up is known from elsewhere. A node among them is read as it is.
+    instead: Mapping[int, tuple[Statement | Stores | Node, ...]] = field(default_factory=dict)
+    values: Mapping[int, Expression] = field(default_factory=dict)
+    # Whether names that are not known are outside: so it is in what people wrote.
+    open: bool = False
+    # Whether `?(...)` may stand here: only in the body of a message server.
+    chooses: bool = True
+    # The server whose body this is, if it is one.
+    server: str | None = None
+    # Seconds that a unit of the model's time takes.
+    unit: Fraction = Fraction(1)
+    # The type of what the method gives whose body this is, if it is one.
+    returns: Type | None = None
+    # Locals that hold what the functions give whose bodies stand in this one, by their names.
+    results: dict[str, Variable] = field(default_factory=dict, compare=False, repr=False)
+    # Whether functions, by the ids of their bodies, touch nothing: what has been found out.
+    calm: dict[int, bool] = field(default_factory=dict, compare=False, repr=False)
+
+    def width(self, type_: str, path: str) -> int:
+        """The width of a field of a message type; 0 where it is that of the model's type."""
+        return self.widths.get(type_, {}).get(path, 0)
+
+    def meaning(self, name: str) -> Meaning | None:
+        """What a name stands for: a local hides a member."""
+        return self.locals.get(name) or self.members.get(name)
+
+    def with_locals(self, found: Mapping[str, Meaning]) -> Scope:
+        """The same with more locals, which hide what has their names."""
+        whole = {**self.locals, **found}
+        same = [getattr(self, name) for name in _OTHERS]  # asked for often: `replace` is slow
+        return Scope(*(*same[:_LOCALS], whole, *same[_LOCALS:]))
+
+    def without_constant(self, name: str) -> Scope:
+        """What the value of a constant can name: all but itself."""
+        others = {n: v for n, v in self.constants.items() if n != name}
+        return replace(self, constants=others, locals={})
+
+    def local(self, name: str) -> str:
+        """The model's name of a local variable or parameter."""
+        return uncarry_local(name, RESERVED | self.types | self.callable, self.callable)
+
+    def declare(self, *names: str) -> Scope:
+        """The same with these local variables."""
+        return self.with_locals({n: Name(self.local(n)) for n in names})
+
+
+_ALL = tuple(f.name for f in fields(Scope))
+_LOCALS = _ALL.index("locals")
+_OTHERS = tuple(name for name in _ALL if name != "locals")

@@ -1,0 +1,1 @@
+"""CMakeLists, package.xml and message files."""

@@ -1,0 +1,137 @@
+"""The message types of a package: which of their fields the model has, and as what."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import field
+
+from rebsync.model import Type
+from rebsync.records import dataclass
+from rebsync.reverse.bodies.scope import WIDE, Variable
+from rebsync.reverse.build.common_messages import COMMON
+from rebsync.reverse.build.messages import plain_type, read_message
+from rebsync.reverse.syntax.cpp_tree import Cpp
+from rebsync.source import Source
+
+# What the model keeps of a field's values. Wider integers are taken for `int`.
+_TYPES = {
+    **{"bool": "boolean", "int8": "byte", "int16": "short", "uint8": "short", "int32": "int"},
+    **{"uint16": "int", "uint32": "int", "int64": "int", "uint64": "int"},
+    **{"float32": "float", "float64": "double"},
+}
+# In bits: narrow ones wrap sooner than the model's type, others hold more than its `int`. A truth
+# value is a byte in the code.
+_WIDTHS = {"bool": 8, "uint8": 8, "uint16": 16, "uint32": 32, "int64": 64, "uint64": 64}
+_DEEPEST = 8
+_POINTERS = re.compile(r"(::)?(Const)?(Shared|Unique|Weak)?Ptr$")
+_WORD = re.compile(r"[A-Z]\w*")
+_MESSAGE = re.compile(r"/?msg/([^/]+)\.msg\Z")
+
+Fields = Mapping[str, Type | None]
+
+
+@dataclass(slots=True)
+class MessageTypes:
+    """The types that the files of a package declare, and those that come with ROS.
+
+    `widths` are those of fields, by type and path, that are not the model's type's: 8 and 16 bits
+    wrap sooner, 32 and 64 hold more than its `int`.
+    """
+
+    own: dict[str, list[tuple[str, str, int | None]]]
+    package: str
+    widths: dict[str, dict[str, int]] = field(default_factory=dict)
+    _constants: dict[str, int] = field(default_factory=dict)
+    _fields: dict[str, Fields] = field(default_factory=dict)
+
+    @staticmethod
+    def of(files: Mapping[str, Source], package: str) -> MessageTypes:
+        """The types that a package declares, and those that come with ROS."""
+        own = {}
+        constants: dict[str, int] = {}
+        for path, source in sorted(files.items()):
+            found = _MESSAGE.search(f"/{path}")
+            if found is not None:
+                read = read_message(source, package, found[1])
+                own[read.full_name] = [(f.name, f.type, f.length) for f in read.fields]
+                for constant in read.constants:
+                    if isinstance(constant.value, int):
+                        for scope in (read.name, f"{package}::{read.name}"):
+                            constants[f"{scope}::{constant.name}"] = int(constant.value)
+        return MessageTypes(own, package, {}, constants)
+
+    def constants(self) -> dict[str, int]:
+        """The whole numbers that messages of the package give names, as the code has them."""
+        return self._constants
+
+    def fields(self, type_: str) -> Fields | None:
+        """The fields of a type by their paths, inner ones too; None for a type that is not known.
+
+        The model's type of a field is None where the model has none.
+        """
+        if type_ not in self._fields:
+            if self._declared(type_) is None:
+                return None
+            self._fields[type_] = dict(self._flat(type_, "", type_, 0))
+        return self._fields[type_]
+
+    def variable(self, type_: str, path: str, name: str, of: Type) -> Variable:
+        """A variable of the model for a field of a type."""
+        width = self.widths.get(type_, {}).get(path, 0)
+        return Variable(name, of, width if width < WIDE else 0)
+
+    def holds_more(self, type_: str, path: str) -> bool:
+        """Whether a field holds more than the model's `int` does."""
+        return self.widths.get(type_, {}).get(path, 0) >= WIDE
+
+    def all_fields(self, types: set[str]) -> dict[str, Fields]:
+        """The fields of several types, of those that are known."""
+        found = {t: self.fields(t) for t in sorted(types)}
+        return {t: f for t, f in found.items() if f is not None}
+
+    def mentioned(self, files: Iterable[Cpp]) -> set[str]:
+        """The types that some code may use: of each the name stands in it."""
+        words = {w for cpp in files for w in set(_WORD.findall(cpp.source.text))}
+        return {t for t in (*self.own, *COMMON) if t.partition("/")[2] in words}
+
+    def named(self, text: str) -> str | None:
+        """The message type of a type of C++: `const std_msgs::Int32::ConstPtr&` is one."""
+        plain = "".join(text.replace("const ", "").split()).rstrip("&*").removeprefix("::")
+        inner = re.fullmatch(r"(?:boost|std)::shared_ptr<(.*)>", plain)
+        if inner is not None:
+            return self.named(inner[1].removesuffix("const"))
+        plain = _POINTERS.sub("", plain).removesuffix("_<std::allocator<void>>")
+        package, _, name = plain.rpartition("::")
+        if package:
+            full = f"{package}/{name}"
+            return full if self._declared(full) is not None else None
+        same = [t for t in (*self.own, *COMMON) if t.partition("/")[2] == name]
+        return same[0] if len(same) == 1 else None
+
+    def _declared(self, type_: str) -> list[tuple[str, str, int | None]] | None:
+        if type_ in self.own:
+            return self.own[type_]
+        text = COMMON.get(type_)
+        return list(map(_field, text.split(", "))) if text else ([] if text == "" else None)
+
+    def _flat(
+        self, type_: str, path: str, whole: str, depth: int
+    ) -> Iterator[tuple[str, Type | None]]:
+        for name, inner, length in self._declared(type_) or ():
+            at, plain = f"{path}{name}", plain_type(inner)
+            if plain in _WIDTHS:
+                self.widths.setdefault(whole, {})[at] = _WIDTHS[plain]
+            if plain in _TYPES:
+                dimensions = () if length is None else (length,)
+                yield at, Type(_TYPES[plain], dimensions) if length != 0 else None
+            elif length is None and depth < _DEEPEST and self._declared(inner) is not None:
+                yield from self._flat(inner, f"{at}.", whole, depth + 1)
+            else:
+                yield at, None
+
+
+def _field(text: str) -> tuple[str, str, int | None]:
+    name, _, type_ = text.partition(" ")
+    plain, bracket, length = type_.partition("[")
+    return name, plain, int(length.rstrip("]") or 0) if bracket else None

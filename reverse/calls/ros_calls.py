@@ -1,0 +1,266 @@
+"""All that the code of nodes asks ROS for: each call with its names and numbers as far as known."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from dataclasses import replace
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reverse.calls.ros_calls_facts import Asked, Facts
+from rebsync.reverse.calls.ros_calls_sites import owner_of, site_of
+from rebsync.reverse.graph import Fact, Graph
+from rebsync.reverse.roscpp_vocabulary import (
+    FILTER_SCOPES,
+    FILTERS,
+    FUNCTIONS,
+    HANDLE,
+    HANDLE_TYPE,
+    LEAST,
+    LIBRARY,
+    NODELETS,
+    RATES,
+    TRANSPORTS,
+    WORDS,
+    Ask,
+)
+from rebsync.reverse.syntax.cpp_index import Code
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+from rebsync.reverse.values.cpp_flow import declaration_of, made_of
+from rebsync.reverse.values.cpp_values import Values
+
+_TEMPLATES = ("template_type", "template_function", "template_method")
+_CALLED = frozenset({"template_method", "template_function", "dependent_name"})
+
+
+@dataclass(slots=True, eq=False)
+class Asking:
+    """What the files ask of ROS: the calls, and the graph that their arguments make of them."""
+
+    code: Code
+    _values: Values | None = None
+    _calls: list[Asked] | None = None
+    _graph: Graph | None = None
+
+    def calls(self) -> list[Asked]:
+        """The calls, without those of the client library itself."""
+        if self._calls is None:
+            self._calls = list(_calls_in(self.code, self.values(), LIBRARY))
+        return self._calls
+
+    def calls_outside(self, owners: Collection[str]) -> Iterator[Asked]:
+        """Those of the calls that do not stand in functions of some classes."""
+        return _calls_in(self.code, self.values(), LIBRARY.union(owners))
+
+    def values(self) -> Values:
+        """What finds the values of their arguments."""
+        if self._values is None:
+            self._values = Values(self.code)
+        return self._values
+
+    @property
+    def graph(self) -> Graph:
+        """What is asked for, in the order of files and places: made when it is first wanted."""
+        if self._graph is None:
+            facts = Facts(self.values())
+            found = [fact for asked in self.calls() for fact in facts.of(asked)]
+            self._graph = Graph(tuple(sorted(found, key=_order)))
+        return self._graph
+
+
+def graph_of(code: Code) -> Graph:
+    """What the files ask of ROS, in the order of files and places."""
+    return Asking(code).graph
+
+
+def _calls_in(code: Code, values: Values, without: Collection[str]) -> Iterator[Asked]:
+    """The calls but for those in functions of some classes, or of that name."""
+    for cpp in code.files:
+        data = values.texts.data(cpp)
+        for match in WORDS.finditer(data):
+            place = cpp.root.descendant_for_byte_range(match.start(), match.end())
+            if place is None or place.start_byte != match.start() or place.named_child_count:
+                continue
+            if owner_of(values, cpp, place) in without:
+                continue
+            for asked in _asked(values, cpp, place, match.group().decode()):
+                if asked.site.owner not in without:
+                    yield asked
+
+
+def _order(fact: Fact) -> tuple[str, int]:
+    return fact.site.place.source.path, fact.site.place.span.start
+
+
+def _asked(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
+    """What a word of the vocabulary asks for where it stands, if anything."""
+    if name in NODELETS:
+        yield from _nodelet(values, cpp, place, name)
+        return
+    if name in RATES or name in FILTERS:
+        found = list(_object(values, cpp, place, name))
+        yield from found
+        if found:
+            return
+    node, above = place, place.parent
+    while above is not None and above.type in _CALLED:
+        node, above = above, above.parent
+    if above is None:
+        return
+    if above.type == "field_expression" and part(above, "field") == node:
+        call = above.parent
+        if call is None or call.type != "call_expression" or part(call, "function") != above:
+            return
+        yield from _of_method(values, cpp, place, call, node, part(above, "argument"), name)
+    else:
+        yield from _of_function(values, cpp, place, node, above, name)
+
+
+def _of_function(
+    values: Values, cpp: Cpp, place: Node, node: Node, above: Node, name: str
+) -> Iterator[Asked]:
+    scope = ""
+    last = node
+    while above.type == "qualified_identifier" and part(above, "name") == node:
+        if not scope:
+            written = above.child_by_field_name("scope")
+            scope = text_of(written) if written is not None else ""
+        if above.parent is None:
+            return
+        node, above = above, above.parent
+    if above.type != "call_expression" or part(above, "function") != node:
+        return
+    ask = FUNCTIONS.get((scope, name))
+    if ask is None:
+        return
+    given = tuple(named(part(above, "arguments")))
+    if scope or (len(given) >= len(ask.arguments) - 1 and not values.calls.functions(cpp, above)):
+        yield Asked(ask, site_of(values, cpp, place, above), given, _types(last))
+
+
+def _of_method(
+    values: Values, cpp: Cpp, place: Node, call: Node, called: Node, target: Node, name: str
+) -> Iterator[Asked]:
+    """What a method asks for, by the class of the object that it is called on."""
+    given = tuple(named(part(call, "arguments")))
+    type_ = values.types.type_of(cpp, target).rpartition("::")[2]
+    site = site_of(values, cpp, place, call)
+    if type_ in FILTERS and name == "subscribe":
+        variable = values.types.variable(cpp, target)
+        types = _types(variable.type) if variable is not None else ()
+        site = replace(site, kept=text_of(target))
+        yield Asked(FILTERS[type_], site, given, types)
+        return
+    ask = None
+    if type_ == HANDLE_TYPE:
+        ask = HANDLE.get(name)
+    elif type_ in TRANSPORTS:
+        ask = TRANSPORTS[type_].get(name)
+    elif type_ and (class_ := values.texts.class_near(type_, cpp)) is not None:
+        descends = any(HANDLE_TYPE in c.bases for c in values.texts.lineage(class_))
+        ask = HANDLE.get(name) if descends else None
+    elif not type_ and _is_undeclared(values, cpp, target) and len(given) >= LEAST.get(name, 9):
+        ask = HANDLE[name]
+    if ask is not None:
+        yield Asked(ask, site, given, _types(called), target)
+
+
+def _is_undeclared(values: Values, cpp: Cpp, target: Node) -> bool:
+    """Whether a name comes from outside of the files, as members of other packages' classes do."""
+    if target.type == "pointer_expression":
+        target = part(target, "argument")
+    if target.type == "parenthesized_expression":
+        return _is_undeclared(values, cpp, named(target)[-1])
+    return target.type == "identifier" and values.types.variable(cpp, target) is None
+
+
+def _types(node: Node | None) -> tuple[Node, ...]:
+    """The arguments of the template that a name, or the last of several, is one of."""
+    while node is not None and node.type == "qualified_identifier":
+        node = part(node, "name")
+    if node is None or node.type not in _TEMPLATES:
+        return ()
+    return tuple(named(part(node, "arguments")))
+
+
+def _nodelet(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
+    call = place.parent
+    if call is not None and call.type == "call_expression":
+        given = tuple(named(part(call, "arguments")))
+        yield Asked(NODELETS[name], site_of(values, cpp, place, call), given)
+
+
+# --- objects that ask when they are made --------------------------------------------------------
+
+
+def _object(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
+    """`ros::Rate r(10)`, `new message_filters::Subscriber<T>(nh, "x", 1)`."""
+    node, above = place, place.parent
+    types: tuple[Node, ...] = ()
+    scope = ""
+    while above is not None and above.type in (*_TEMPLATES, "qualified_identifier"):
+        if above.type != "qualified_identifier":
+            types = _types(above)
+        elif not scope:
+            written = above.child_by_field_name("scope")
+            scope = text_of(written) if written is not None else ""
+        node, above = above, above.parent
+    wanted = FILTER_SCOPES.get(name, "ros")
+    if above is None or scope not in ("", wanted) or (name in FILTERS and not scope):
+        return
+    if above.type == "field_declaration" and name in FILTERS:
+        yield from _initialised(values, above, FILTERS[name], types)
+        return
+    ask = RATES.get(name) or FILTERS[name]
+    for call, given in _objects(node, above):
+        if given and not (name in RATES and _handed_on(call)):
+            yield Asked(ask, site_of(values, cpp, place, call), given, types)
+
+
+def _initialised(
+    values: Values, declaration: Node, ask: Ask, types: tuple[Node, ...]
+) -> Iterator[Asked]:
+    """Members that constructors make with arguments."""
+    for declarator in declaration.children_by_field_name("declarator"):
+        for other, place in values.texts.everywhere(text_of(declarator)):
+            above = place.parent
+            if above is None or above.type != "field_initializer":
+                continue
+            variable = values.types.variable(other, place)
+            lists = [n for n in above.named_children if n.type.endswith("_list")]
+            if variable is None or variable.name != declaration or not lists:
+                continue
+            if given := tuple(named(lists[-1])):
+                site = replace(site_of(values, other, place, above), kept=text_of(place))
+                yield Asked(ask, site, given, types)
+
+
+def _objects(node: Node, above: Node) -> Iterator[tuple[Node, tuple[Node, ...]]]:
+    """The objects that are made where a type is named, with their arguments."""
+    match above.type:
+        case "declaration":
+            for declarator in above.children_by_field_name("declarator"):
+                name = declarator
+                while name.type not in ("identifier", "field_identifier"):
+                    inner = name.child_by_field_name("declarator")
+                    if inner is None:
+                        break
+                    name = inner
+                if declaration_of(name) is not None and (given := made_of(name)):
+                    yield declarator, given
+        case "call_expression" if part(above, "function") == node:
+            yield above, tuple(named(part(above, "arguments")))
+        case "new_expression":
+            arguments = above.child_by_field_name("arguments")
+            yield above, tuple(named(arguments)) if arguments is not None else ()
+        case _:
+            return
+
+
+def _handed_on(call: Node) -> bool:
+    """Whether an object is only the argument of a call, or of a declaration."""
+    above = call.parent
+    if above is None or call.type == "init_declarator" or above.type == "declaration":
+        return False
+    return above.type in ("argument_list", "init_declarator", "optional_parameter_declaration")

@@ -1,0 +1,1 @@
+"""Which files belong to a package, and what of them matters."""

@@ -1,0 +1,117 @@
+"""Does something with each of many packages, in several processes where that is worth while."""
+
+from __future__ import annotations
+
+import gc
+import os
+import signal
+import sys
+import threading
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Future, ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from functools import partial
+from itertools import chain
+from multiprocessing import get_context
+from typing import TypeVar
+
+from rebsync.diagnostics import RebsyncError
+from rebsync.reverse.files.packages import Listing
+from rebsync.reverse.files.reading import Chosen, all_listings, read
+
+T = TypeVar("T")
+
+_ENOUGH = 100_000  # bytes, from which on starting processes is paid back
+_AHEAD = 4  # packages for each process that are handed out before their turn
+
+
+def each(paths: Iterable[str], work: Callable[[Chosen], T]) -> Iterator[T]:
+    """What `work` makes of each package in some paths, in their order.
+
+    `work` and what it gives must be fit for another process: a function of a module, and values
+    that can be pickled. RebsyncError: there is no such path, or it may not be read.
+    """
+    listings = all_listings(paths)
+    first = _first(listings)
+    every = chain(first, listings)
+    if len(first) < 2:
+        yield from (work(read(listing)) for listing in first)
+    elif sum(listing.size for listing in first) < _ENOUGH or _processors() < 2:
+        yield from (_done(work, listing) for listing in every)
+    else:
+        yield from _in_processes(every, partial(_done, work))
+
+
+def _first(listings: Iterator[Listing]) -> list[Listing]:
+    """So many listings that it can be told whether they are much work."""
+    found: list[Listing] = []
+    size = 0
+    for listing in listings:
+        found.append(listing)
+        size += listing.size
+        if len(found) > 1 and size >= _ENOUGH:
+            break
+    return found
+
+
+def _done(work: Callable[[Chosen], T], listing: Listing) -> T:
+    try:
+        return work(read(listing))
+    finally:
+        gc.collect()  # commands run without it, but this one may take long
+
+
+# --- processes ----------------------------------------------------------------------------------
+
+
+def _in_processes(listings: Iterator[Listing], task: Callable[[Listing], T]) -> Iterator[T]:
+    processes = _processors()
+    waiting: deque[tuple[Listing, Future[T]]] = deque()
+    pool = _pool(processes)
+    try:
+        for listing in listings:
+            waiting.append((listing, pool.submit(task, listing)))
+            if len(waiting) >= processes * _AHEAD:
+                yield waiting[0][1].result()
+                waiting.popleft()
+        while waiting:
+            yield waiting[0][1].result()
+            waiting.popleft()
+    except BrokenProcessPool:
+        lost = [listing for listing, _ in waiting]
+        yield from (_alone(listing, task) for listing in chain(lost, listings))
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _alone(listing: Listing, task: Callable[[Listing], T]) -> T:
+    """Does it in a process of its own, as one of several packages has ended the process it was in.
+
+    RebsyncError: this package did.
+    """
+    with _pool(1) as pool:
+        try:
+            return pool.submit(task, listing).result()
+        except BrokenProcessPool:
+            why = "reading this package ended the process that read it; memory may be short"
+            raise RebsyncError.of(listing.root, "RS806", why) from None
+
+
+def _pool(processes: int) -> ProcessPoolExecutor:
+    """Processes that are copies of this one where that is safe, which is quicker."""
+    safe = sys.platform.startswith("linux") and threading.active_count() == 1
+    context = get_context("fork" if safe else "spawn")
+    return ProcessPoolExecutor(processes, context, initializer=_begin)
+
+
+def _begin() -> None:
+    """Leaves an interrupt to the first process, and what is there already out of collections."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    gc.freeze()
+
+
+def _processors() -> int:
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1

@@ -1,0 +1,164 @@
+"""Reads what belongs to what a user names: a file, a directory, one package or many."""
+
+from __future__ import annotations
+
+import codecs
+import re
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from rebsync.diagnostics import RebsyncError
+from rebsync.files import BOM, read_bytes
+from rebsync.records import dataclass
+from rebsync.reverse.files.packages import CODE, Listing, listings, shown
+from rebsync.reverse.files.relevance import relevant
+from rebsync.reverse.findings import Finding, Grade
+from rebsync.source import NOWHERE, Source, Span
+
+_MUCH = 4 << 20
+_LATIN = "rebsync-latin-1"
+_HINT = "save the file as UTF-8"
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True)
+class Chosen:
+    """The files of a package or directory by path in it, and the one that is asked for, if one.
+
+    Code that has nothing to do with ROS, and that nothing else needs, is left out: so many files
+    are `skipped`. `findings` are the files that could not be read as they are.
+    """
+
+    files: dict[str, Source]
+    only: str | None
+    root: str = "."
+    findings: tuple[Finding, ...] = ()
+    skipped: int = 0
+
+
+def chosen(path: str) -> Chosen:
+    """What a path stands for, if it is not several packages: of these the first.
+
+    RebsyncError: there is no such path, or it may not be read.
+    """
+    return next(packages([path]), Chosen({}, None, path))
+
+
+def packages(paths: Iterable[str]) -> Iterator[Chosen]:
+    """What paths stand for: each package in turn, so that one at a time is in memory.
+
+    RebsyncError: there is no such path, or it may not be read.
+    """
+    for listing in all_listings(paths):
+        yield read(listing)
+
+
+def all_listings(paths: Iterable[str]) -> Iterator[Listing]:
+    """The packages that paths stand for, not yet read; files outside of packages if they matter."""
+    for path in paths:
+        found = listings(path)
+        first = next(found, None)
+        second = next(found, None)
+        if first is not None and (second is None or first.is_package or _has_code(first)):
+            yield first
+        if second is not None:
+            yield second
+        yield from found
+
+
+def _has_code(listing: Listing) -> bool:
+    return any(Path(name).suffix in CODE for name in listing.files)
+
+
+def read(listing: Listing) -> Chosen:
+    """The files of a package that matter."""
+    findings = [_listed(listing, name, why) for name, why in listing.odd.items()]
+    texts, code = dict[str, bytes](), dict[str, bytes]()
+    for name, path in listing.files.items():
+        try:
+            data = read_bytes(path)
+        except RebsyncError as error:
+            if name == listing.only:
+                raise
+            if Path(name).suffix in CODE:
+                findings.append(_listed(listing, name, _message(error)))
+            continue
+        (code if Path(name).suffix in CODE else texts)[name] = data
+    wanted = relevant(code, listing.only)
+    files: dict[str, Source] = {}
+    for name in sorted([*texts, *wanted]):
+        source = _text(listing, name, code.get(name) or texts.get(name, b""), findings)
+        if source is not None:
+            files[name] = source
+    return Chosen(
+        files, listing.only, shown(listing.root), tuple(findings), len(code) - len(wanted)
+    )
+
+
+# --- text ---------------------------------------------------------------------------------------
+
+
+def _text(listing: Listing, name: str, data: bytes, findings: list[Finding]) -> Source | None:
+    """The text of a file; None where it has none, which is then listed if it is code."""
+    path = shown(listing.files[name])
+    is_code = Path(name).suffix in CODE
+    why, hint = _unreadable(data)
+    if why:
+        if is_code:
+            findings.append(Finding(Grade.UNREADABLE, Source(path, ""), NOWHERE, why, hint))
+        return None
+    text = data.removeprefix(BOM).decode("utf-8", _LATIN)
+    source = Source(path, text.replace("\0", " "))
+    if is_code and (at := _first_odd(data, text)) is not None:
+        why = f"a byte that is not UTF-8 is read as Latin-1: {text[at]!r}"
+        if text[at] == "\0":
+            why, hint = "a NUL byte is read as a blank", "take it out"
+        span = Span(at, at + 1)
+        findings.append(Finding(Grade.APPROXIMATED, source, span, why, hint or _HINT))
+    return source
+
+
+def _unreadable(data: bytes) -> tuple[str, str]:
+    """Why the bytes of a file are no text that can be read, and what to do."""
+    if data[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE):
+        return "the file looks like UTF-16", _HINT
+    if len(data) > _MUCH:
+        return f"larger than {_MUCH >> 20} MiB, too large to read", "split the file"
+    if data.count(0) * 10 > len(data):
+        return "the file is no text", ""
+    return "", ""
+
+
+def _first_odd(data: bytes, text: str) -> int | None:
+    """Where, outside of comments, the first byte is that is not UTF-8, or NUL."""
+    try:
+        data.decode("utf-8")
+        odd = "\0"
+        if odd not in text:
+            return None
+    except UnicodeDecodeError:
+        odd = "\0" + "".join(map(chr, range(0x80, 0x100)))
+    blank = _COMMENT.sub(lambda m: " " * len(m[0]), text)
+    return next((i for i, c in enumerate(blank) if c in odd), None)
+
+
+def _latin(error: UnicodeError) -> tuple[str, int]:
+    """What stands for bytes that are no UTF-8: the characters that they are in Latin-1."""
+    if not isinstance(error, UnicodeDecodeError):
+        raise error
+    return error.object[error.start : error.end].decode("latin-1"), error.end
+
+
+codecs.register_error(_LATIN, _latin)
+
+
+# --- what is listed -----------------------------------------------------------------------------
+
+
+def _listed(listing: Listing, name: str, why: str) -> Finding:
+    path = shown(str(Path(listing.root) / name))
+    return Finding(Grade.UNREADABLE, Source(path, ""), NOWHERE, why)
+
+
+def _message(error: RebsyncError) -> str:
+    return error.findings[0].diagnostics[0].message

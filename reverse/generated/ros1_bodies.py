@@ -1,0 +1,143 @@
+"""The bodies of the functions of a class of generated code, and what runs around them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+from rebsync.reverse.bodies.cpp_statements import CppStatements
+from rebsync.reverse.bodies.cpp_types import type_of
+from rebsync.reverse.bodies.scope import Outside, Record, Scope, Variable
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.ros1_free import passed_by_reference
+from rebsync.reverse.generated.ros1_roles import Taken, parameters_of
+from rebsync.reverse.generated.ros1_timers import Timer, sent_later, with_rearming
+from rebsync.reverse.syntax.cpp_index import Code, CppField, CppFunction
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+
+
+@dataclass(frozen=True, slots=True)
+class Bodies:
+    """Reads functions and lambdas of one class; `scope` is what they can name."""
+
+    code: Code
+    scope: Scope
+    findings: Findings
+
+    def parameters(self, function: CppFunction) -> tuple[m.Parameter, ...]:
+        """The parameters; what the model cannot pass is listed."""
+        found = []
+        references = set(passed_by_reference(function))
+        for index, parameter in enumerate(function.parameters):
+            span = function.cpp.span(parameter.node)
+            type_ = type_of(parameter.type)
+            if type_ is None:
+                why = f'the model has no type "{text_of(parameter.type)}"'
+                self._unread(function, parameter.node, why, function.name)
+            elif index in references:
+                why = "what this function does to its parameter the caller's variable keeps"
+                self._unread(function, parameter.node, why, function.name)
+            name = self.scope.local(parameter.name)
+            found.append(m.Parameter(type_ or m.Type("int"), name, span))
+        return tuple(found)
+
+    def block(self, function: CppFunction, within: str) -> m.Block | None:
+        """The body of a function, if the files have it; one that should be there is listed."""
+        if function.body is None:
+            if not function.pure:
+                self._unread(function, function.node, "its body is not in these files", within)
+            return None
+        inside = self._inside(function.cpp).declare(*(p.name for p in function.parameters))
+        return CppStatements(function.cpp, inside, self.findings, within).block(function.body)
+
+    def _inside(self, cpp: Cpp) -> Scope:
+        return replace(self.scope, constants=self.code.constants_for(cpp))
+
+    def _unread(self, function: CppFunction, node: Node, why: str, within: str) -> None:
+        unread = Unread(function.cpp.span(node), why)
+        self.findings.unreadable(function.cpp.source, unread, within)
+
+    # --- handlers that are lambdas --------------------------------------------------------------
+
+    def taken(
+        self, taken: Taken, fields: Mapping[str, m.Type | None] | None, within: str
+    ) -> tuple[tuple[m.Parameter, ...], m.Block]:
+        """Parameters and body of a server whose handler is a lambda in the shim."""
+        function = taken.function
+        span = function.cpp.span(taken.message.node)
+        if fields is None or None in fields.values():
+            why = f'the model does not know the fields of "{taken.type}"'
+            self._unread(function, taken.message.node, why, within)
+        known = {f: t for f, t in (fields or {}).items() if t is not None}
+        names = {f: self.scope.local(f) for f in known}
+        variables = {f: Variable(names[f], t) for f, t in known.items()}
+        parameters = tuple(m.Parameter(t, names[f], span) for f, t in known.items())
+        inside = self._inside(function.cpp).with_locals({taken.message.name: Record(variables)})
+        body = part(taken.call.arguments[4], "body")
+        reader = CppStatements(function.cpp, inside, self.findings, within)
+        return parameters, reader.block(body)
+
+    # --- timers ---------------------------------------------------------------------------------
+
+    def ticking(self, timer: Timer, function: CppFunction, name: str, within: str) -> m.Block:
+        """The body of a timer's callback, with the next tick if there is one."""
+        lambda_ = timer.lambda_
+        given = function.parameters if lambda_ is None else parameters_of(lambda_)
+        body = function.body if lambda_ is None else part(lambda_, "body")
+        if body is None:
+            self._unread(function, function.node, "its body is not in these files", within)
+            return m.Block(())
+        hidden = self._inside(function.cpp).with_locals({p.name: Outside() for p in given})
+        read = CppStatements(function.cpp, hidden, self.findings, within).block(body)
+        again = None if timer.one_shot else self._later(timer, name, within)
+        return read if again is None else with_rearming(read, again)
+
+    def _later(self, timer: Timer, server: str, within: str) -> m.Statement | None:
+        try:
+            return sent_later(timer, server, self._inside(timer.function.cpp))
+        except Unread as unread:
+            self.findings.unreadable(timer.function.cpp.source, unread, within)
+            return None
+
+    # --- constructors ---------------------------------------------------------------------------
+
+    def started(self, timers: Iterator[tuple[Timer, str]], within: str) -> list[m.Statement]:
+        """What the class's own constructor starts: the first ticks, to these servers."""
+        later = (self._later(t, s, within) for t, s in timers if t.one_shot or self._is_whole(t))
+        return [s for s in later if s is not None]
+
+    def _is_whole(self, timer: Timer) -> bool:
+        """Whether a periodic timer's time is one of the model; its callback lists it if not."""
+        try:
+            sent_later(timer, "", self._inside(timer.function.cpp))
+        except Unread:
+            return False
+        return True
+
+    def given(self, values: Iterator[tuple[CppField, Cpp, Node]], within: str) -> list[m.Statement]:
+        """What members have before the model's constructor runs."""
+        found: list[m.Statement] = []
+        for member, cpp, value in values:
+            variable = self.scope.members.get(member.name)
+            if not isinstance(variable, Variable):
+                continue
+            try:
+                found += self._given(variable.name, cpp, value)
+            except Unread as unread:
+                self.findings.unreadable(cpp.source, unread, within)
+        return found
+
+    def _given(self, name: str, cpp: Cpp, value: Node) -> Iterator[m.Statement]:
+        span = cpp.span(value)
+        reader = CppExpressions(cpp, self._inside(cpp))
+        if value.type != "initializer_list":
+            yield m.ExpressionStatement(m.Assign("=", m.Name(name), reader.read(value)), (), span)
+            return
+        for index, element in enumerate(named(value)):
+            cell = m.Index(m.Name(name), m.IntLiteral(index))
+            yield m.ExpressionStatement(m.Assign("=", cell, reader.read(element)), (), span)

@@ -1,0 +1,406 @@
+"""Classes of generated code as reactive classes and interfaces."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import field, replace
+from fractions import Fraction
+
+from rebsync import model as m
+from rebsync.names import uncarry
+from rebsync.records import dataclass
+from rebsync.reserved import RESERVED
+from rebsync.reverse.bodies.cpp_types import class_name, type_of
+from rebsync.reverse.bodies.scope import Called, Function, Member, Outside, Runtime, Scope, Variable
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.ros1_bodies import Bodies
+from rebsync.reverse.generated.ros1_free import free_functions
+from rebsync.reverse.generated.ros1_names import (
+    annotations_in,
+    enumerators,
+    is_interface,
+    plain_name,
+    state_types,
+    variable_name,
+)
+from rebsync.reverse.generated.ros1_plumbing import check_plumbing
+from rebsync.reverse.generated.ros1_publishing import publisher
+from rebsync.reverse.generated.ros1_roles import Roles, roles_of, shown_of
+from rebsync.reverse.generated.ros1_sends import add_sends
+from rebsync.reverse.generated.ros1_timers import (
+    Timer,
+    checked,
+    server_of_timer,
+    ticking,
+    timers_of,
+)
+from rebsync.reverse.generated.ros1_values import initial_values
+from rebsync.reverse.syntax.cpp_calls import call_of
+from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppField, CppFunction
+from rebsync.reverse.syntax.cpp_tree import named, text_of
+
+_RUNTIME: dict[str, Runtime] = {
+    "Mailbox": Runtime("mailbox"),
+    "Drive": Runtime("drive"),
+    "Sensor": Runtime("sensor"),
+}
+_ROS = frozenset({"Publisher", "Publishers", "Subscriber", "Timer", "WallTimer", "NodeHandle"})
+_PLUMBING = frozenset({"mailbox", "publishState"})
+
+
+@dataclass(slots=True)
+class Classes:
+    """Reads the classes of some code that have a mailbox, and the interfaces of these.
+
+    `messages` are the fields of message types (`package/Type`) by their names, `unit` the seconds
+    that a unit of time takes.
+    """
+
+    code: Code
+    findings: Findings
+    messages: Mapping[str, Mapping[str, m.Type | None]] = field(default_factory=dict)
+    unit: Fraction = Fraction(1)
+    types: frozenset[str] = frozenset()
+    roles: dict[str, Roles] = field(default_factory=dict)
+    timers: dict[str, tuple[Timer, ...]] = field(default_factory=dict)
+    fields: dict[str, Mapping[str, m.Type | None]] = field(default_factory=dict)
+    _scopes: dict[str, Scope] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.fields = {t.rpartition("/")[2]: f for t, f in self.messages.items()}
+        if not any("Mailbox" in cpp.source.text for cpp in self.code.files):
+            self.roles = {name: Roles() for name in self.code.classes}
+            self.types = frozenset(self.code.classes)
+            return  # nothing here is generated
+        for owner in self.code.classes.values():
+            self.roles[owner.name] = roles_of(self.code, owner)
+        for owner in self.code.classes.values():
+            add_sends(self.code, owner, self.roles, self.fields)
+        messages = {n for roles in self.roles.values() for n in roles.messages}
+        messages |= {p.message for roles in self.roles.values() for p in roles.publishers.values()}
+        states = {s for c in self.code.classes.values() for s in state_types(self.code, c)}
+        self.types = frozenset(messages | states | set(self.code.classes))
+        for owner in self.code.classes.values():
+            self.timers[owner.name] = tuple(self._timed(owner))
+
+    def read(self, wanted: set[str] | None = None) -> tuple[m.ReactiveClass | m.Interface, ...]:
+        """All of them, or those that are wanted, in the order of the code."""
+        return tuple(
+            self._reactive(c) if self._has_mailbox(c) else self._interface(c)
+            for c in self.code.classes.values()
+            if (self._has_mailbox(c) or is_interface(c)) and (wanted is None or c.name in wanted)
+        )
+
+    def _has_mailbox(self, owner: CppClass) -> bool:
+        return any(
+            text_of(f.type) == "Mailbox" for c in self.code.lineage(owner.name) for f in c.fields
+        )
+
+    def _timed(self, owner: CppClass) -> Iterator[Timer]:
+        """The timers of a class; their callbacks are servers, unless they only post a message."""
+        roles = self.roles[owner.name]
+        for timer in timers_of(self.code, owner, roles) if self._has_mailbox(owner) else ():
+            if timer.callback and timer.one_shot and timer.posts is not None:
+                roles.passing.add(timer.callback)
+            elif timer.callback:
+                roles.handlers[timer.callback] = uncarry(timer.callback, RESERVED | self.types)
+            yield timer
+
+    # --- one class ------------------------------------------------------------------------------
+
+    def _interface(self, owner: CppClass) -> m.Interface:
+        servers = tuple(
+            self._server(owner, f, plain_name(f, self.types))
+            for f in self.code.functions_of(owner)
+            if f.pure
+        )
+        extends = tuple(class_name(b) for b in owner.bases)
+        span = owner.cpp.span(owner.node)
+        return m.Interface(
+            class_name(owner.name), servers, extends, annotations_in(owner.markers, owner), span
+        )
+
+    def _reactive(self, owner: CppClass) -> m.ReactiveClass:
+        check_plumbing(self.code, owner, self.roles, self.fields, self.findings)
+        for timer in self.timers[owner.name]:
+            checked(timer, f"{owner.name}.{timer.function.name}", self.findings)
+        functions = [f for f in self.code.functions_of(owner) if self._is_of_model(owner, f)]
+        methods = [f for f in functions if self._served(owner, f) is None]
+        known, state = self._variables(owner)
+        members: list[m.ClassMember] = [m.KnownRebecs(tuple(known))] if known else []
+        members += [m.StateVars(tuple(state))] if state else []
+        members += self._constructors(owner)
+        members += [
+            self._server(owner, f, name)
+            for f in functions
+            if (name := self._served(owner, f)) is not None
+        ]
+        members += self._lambdas(owner)
+        members += [self._method(owner, f) for f in methods]
+        members += [self._method(owner, f) for f in self._free(owner)]
+        extends = [b for b in owner.bases if self._is_reactive(b)]
+        return m.ReactiveClass(
+            class_name(owner.name),
+            (self.roles[owner.name].queue_length or 1) + ticking(self.timers[owner.name]),
+            tuple(members),
+            self._is_abstract(owner),
+            class_name(extends[0]) if extends else None,
+            tuple(class_name(b) for b in owner.bases if b not in extends),
+            tuple(self._class_annotations(owner)),
+            owner.cpp.span(owner.node),
+        )
+
+    def _class_annotations(self, owner: CppClass) -> Iterator[m.Annotation]:
+        """Those of the markers; without markers, those that the set-up shows."""
+        if any(x.startswith("reactiveclass ") for x in owner.markers):
+            yield from annotations_in(owner.markers, owner)
+            return
+        if any(text_of(f.type) == "Drive" for f in owner.fields):
+            yield m.Annotation("Robot")
+        if self.roles[owner.name].on_bridge:
+            yield m.Annotation("Controller")
+
+    def _server_annotations(
+        self, owner: CppClass, function: CppFunction, name: str
+    ) -> Iterator[m.Annotation]:
+        """Those of the markers; without markers, those that the set-up shows."""
+        if any(x.startswith("msgsrv ") for x in function.markers):
+            yield from annotations_in(function.markers, owner)
+            return
+        if name in self.roles[owner.name].sensors:
+            yield m.Annotation("Sensor")
+        overload = name, len(function.parameters)
+        for above in self.code.lineage(owner.name):
+            shown = self.roles[above.name].annotations.get(overload)
+            if shown is not None:
+                same = [f for f in above.functions if f.name == function.name]
+                same = [f for f in same if len(f.parameters) == overload[1]]
+                index = next((i for i, f in enumerate(same) if f.types == function.types), 0)
+                yield from shown[min(index, len(shown) - 1)]
+                return
+
+    def _is_reactive(self, name: str) -> bool:
+        return name in self.code.classes and self._has_mailbox(self.code.classes[name])
+
+    def _is_abstract(self, owner: CppClass) -> bool:
+        """Whether no node is of this class: then it does not say what its state is."""
+        return not any(f.name == "publishState" and not f.pure for f in owner.functions)
+
+    # --- variables ------------------------------------------------------------------------------
+
+    def _variables(self, owner: CppClass) -> tuple[list[m.Declaration], list[m.Declaration]]:
+        roles = self.roles[owner.name]
+        known: list[m.Declaration] = []
+        state: list[m.Declaration] = []
+        for member in owner.fields:
+            if self._runtime(member) or member.name in roles.globals:
+                continue
+            type_ = type_of(member.type)
+            if type_ is None:
+                if text_of(member.type).rpartition("::")[2] not in _ROS:
+                    why = f'the model has no type "{text_of(member.type)}"'
+                    unread = Unread(member.cpp.span(member.node), why)
+                    self.findings.unreadable(member.cpp.source, unread, owner.name)
+                continue
+            span = member.cpp.span(member.node)
+            declarator = m.Declarator(variable_name(self.roles[owner.name], member), None, span)
+            declaration = m.Declaration(type_, (declarator,), span=span)
+            (known if member.name in roles.known else state).append(declaration)
+        return known, state
+
+    def _runtime(self, member: CppField) -> Runtime | None:
+        text = text_of(member.type)
+        return _RUNTIME.get(text.partition("<")[0])
+
+    # --- functions ------------------------------------------------------------------------------
+
+    def _is_of_model(self, owner: CppClass, function: CppFunction) -> bool:
+        roles = self.roles[owner.name]
+        if function.name in (owner.name, f"~{owner.name}", "construct"):
+            return False
+        plain = roles.shims | roles.passing | set(roles.sends) | set(roles.odd_sends)
+        if function.name in _PLUMBING or function.name in plain:
+            return False
+        if function.pure and not self._declares(owner, function):
+            return False
+        return not self._only_forwards(owner, function)
+
+    def _declares(self, owner: CppClass, function: CppFunction) -> bool:
+        """Whether the model declares an abstract function here, not only an interface above."""
+        names = {f"msgsrv {owner.name}.", f"method {owner.name}."}
+        if any(marker.startswith(n) for n in names for marker in function.markers):
+            return not any(
+                f.name == function.name and f.types == function.types
+                for c in self.code.lineage(owner.name)[1:]
+                if not self._has_mailbox(c)
+                for f in c.functions
+            )
+        return True
+
+    def _only_forwards(self, owner: CppClass, function: CppFunction) -> bool:
+        """Whether it only makes an inherited function that of an interface as well."""
+        statements = named(function.body) if function.body is not None else []
+        if not function.overrides or len(statements) != 1:
+            return False
+        inner = named(statements[0])
+        call = call_of(inner[0]) if inner else None
+        if call is None or any(x.startswith(("msgsrv ", "method ")) for x in function.markers):
+            return False
+        passed = [text_of(a) for a in call.arguments]
+        inherited = {f"{c.name}::{function.name}" for c in self.code.lineage(owner.name)[1:]}
+        return call.name in inherited and passed == [p.name for p in function.parameters]
+
+    def _served(self, owner: CppClass, function: CppFunction) -> str | None:
+        """The server whose messages a function serves, here or in a class above."""
+        for above in self.code.lineage(owner.name):
+            server = self.roles[above.name].handlers.get(function.name)
+            if server is not None:
+                return server
+            if not self._has_mailbox(above) and any(
+                f.name == function.name for f in above.functions
+            ):
+                return plain_name(function, self.types)
+        return None
+
+    def _free(self, owner: CppClass) -> list[CppFunction]:
+        """The free functions that the functions of a class call, not those of its ancestors."""
+        above = [f for c in self.code.lineage(owner.name)[1:] for f in self.code.functions_of(c)]
+        known = {f.name for f in free_functions(self.code, above)}
+        known |= {f.name for c in self.code.lineage(owner.name) for f in c.functions}
+        own = free_functions(self.code, self.code.functions_of(owner))
+        return [f for f in own if f.name not in known]
+
+    def _server(self, owner: CppClass, function: CppFunction, name: str) -> m.MessageServer:
+        bodies, within = self._bodies(owner), f"{owner.name}.{name}"
+        timer = next((t for t in self.timers[owner.name] if t.callback == function.name), None)
+        if timer is not None:
+            parameters: tuple[m.Parameter, ...] = ()
+            body: m.Block | None = bodies.ticking(timer, function, name, within)
+        else:
+            parameters = bodies.parameters(function)
+            body = bodies.block(function, within)
+        return m.MessageServer(
+            name,
+            parameters,
+            body,
+            function.pure and self._has_mailbox(owner),
+            tuple(self._server_annotations(owner, function, name)),
+            function.cpp.span(function.node),
+        )
+
+    def _lambdas(self, owner: CppClass) -> Iterator[m.MessageServer]:
+        """The servers whose handlers are lambdas: what the subscriptions hand over, and timers."""
+        bodies = self._bodies(owner)
+        for taken in self.roles[owner.name].taken:
+            if taken.handler is None:
+                fields = self.fields.get(taken.type)
+                within = f"{owner.name}.{taken.server}"
+                parameters, body = bodies.taken(taken, fields, within)
+                span = taken.function.cpp.span(taken.call.node)
+                shown = shown_of(self.code, taken)
+                yield m.MessageServer(taken.server, parameters, body, False, shown, span)
+        for timer, name in self._timed_servers(owner):
+            if timer.lambda_ is not None and not (timer.one_shot and timer.posts is not None):
+                body = bodies.ticking(timer, timer.function, name, f"{owner.name}.{name}")
+                span = timer.function.cpp.span(timer.lambda_)
+                yield m.MessageServer(name, (), body, False, (), span)
+
+    def _timed_servers(self, owner: CppClass) -> Iterator[tuple[Timer, str]]:
+        """The timers of a class with the servers that these send messages to."""
+        handlers = self.roles[owner.name].handlers
+        for index, timer in enumerate(self.timers[owner.name], 1):
+            once = timer.posts if timer.one_shot else None
+            yield timer, once or handlers.get(timer.callback, f"timer{index}")
+
+    def _method(self, owner: CppClass, function: CppFunction) -> m.Method:
+        bodies, name = self._bodies(owner), plain_name(function, self.types)
+        result = type_of(function.result) if function.result is not None else None
+        return m.Method(
+            result or m.Type("void"),
+            name,
+            bodies.parameters(function),
+            bodies.block(function, f"{owner.name}.{name}"),
+            function.pure,
+            annotations_in(function.markers, owner),
+            function.cpp.span(function.node),
+        )
+
+    def _constructors(self, owner: CppClass) -> Iterator[m.Constructor]:
+        """Those of the model, with what happens before and after them."""
+        bodies = self._bodies(owner)
+        given = bodies.given(initial_values(self.code, owner), owner.name)
+        at_start = (p for p in self._timed_servers(owner) if p[0].at_start)
+        started = bodies.started(at_start, owner.name)
+        name, found = class_name(owner.name), 0
+        for function in self.code.functions_of(owner):
+            if function.name != "construct":
+                continue
+            found += 1
+            body = bodies.block(function, owner.name)
+            if body is not None:
+                body = replace(body, statements=(*given, *body.statements, *started))
+            yield m.Constructor(
+                name,
+                bodies.parameters(function),
+                body,
+                annotations_in(function.markers, owner),
+                function.cpp.span(function.node),
+            )
+        if not found and (given or started):
+            yield m.Constructor(name, (), m.Block((*given, *started)))
+
+    def _bodies(self, owner: CppClass) -> Bodies:
+        return Bodies(self.code, self.scope(owner), self.findings)
+
+    # --- names ----------------------------------------------------------------------------------
+
+    def scope(self, owner: CppClass) -> Scope:
+        """What the bodies of a class can name."""
+        if owner.name not in self._scopes:
+            self._scopes[owner.name] = self._scope(owner)
+        return self._scopes[owner.name]
+
+    def _member(self, roles: Roles, member: CppField) -> Member:
+        if (runtime := self._runtime(member)) is not None:
+            return runtime
+        if (advertised := roles.publishers.get(member.name)) is not None:
+            return publisher(advertised, self.roles, self.messages)
+        if type_of(member.type) is None:
+            return Outside(reaches=text_of(member.type).startswith("ros::"))
+        return Variable(variable_name(roles, member), type_of(member.type))
+
+    def _scope(self, owner: CppClass) -> Scope:
+        members: dict[str, Member] = {}
+        functions: dict[str, Function] = {}
+        callable_: set[str] = set()
+        for above in reversed(self.code.lineage(owner.name)):
+            roles = self.roles[above.name]
+            for member in above.fields:
+                members[member.name] = self._member(roles, member)
+            for function in self.code.functions_of(above):
+                served = self._served(above, function)
+                if function.name in roles.sends:
+                    functions[function.name] = roles.sends[function.name]
+                elif served is not None:
+                    functions[function.name] = Called(served, server=True)
+                elif self._is_of_model(above, function):
+                    functions[function.name] = Called(plain_name(function, self.types))
+                    callable_.add(function.name)
+            callable_ |= roles.constants | set(roles.sends)
+        for function in self._free(owner):
+            functions[function.name] = Called(plain_name(function, self.types))
+            callable_.add(function.name)
+        bases = {c.name: class_name(c.name) for c in self.code.lineage(owner.name)[1:]}
+        timers = {t.call.node.id: server_of_timer(t, n) for t, n in self._timed_servers(owner)}
+        return Scope(
+            members,
+            functions,
+            bases,
+            self.types,
+            frozenset(callable_),
+            timers=timers,
+            enumerators=enumerators(self.code),
+            enums=frozenset(e.enum for all_ in self.code.enumerators.values() for e in all_),
+            messages=self.messages,
+            unit=self.unit,
+        )

@@ -1,0 +1,47 @@
+"""Free functions that bodies of a class call: local methods of the model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from rebsync.reserved import RUNTIME_FUNCTIONS
+from rebsync.reverse.bodies.cpp_types import type_of
+from rebsync.reverse.syntax.cpp_index import Code, CppFunction
+
+
+def free_functions(code: Code, bodies: Iterable[CppFunction]) -> Iterator[CppFunction]:
+    """Those that these functions call, and those that these call, with types of the model.
+
+    Not where there are several of a name: which one is meant depends on the types.
+    """
+    seen: set[str] = set()
+    waiting = list(bodies)
+    while waiting:
+        for call in code.calls_of(waiting.pop(0)):
+            found = code.definitions.get(("", call.name), [])
+            if call.target is not None or call.name in seen or len(found) != 1:
+                continue
+            (function,) = found
+            if call.name not in RUNTIME_FUNCTIONS and _has_plain_types(function):
+                seen.add(call.name)
+                waiting.append(function)
+                yield function
+
+
+def _has_plain_types(function: CppFunction) -> bool:
+    typed = all(type_of(p.type) is not None for p in function.parameters)
+    return function.result is not None and type_of(function.result) is not None and typed
+
+
+def passed_by_reference(function: CppFunction) -> Iterator[int]:
+    """The parameters of which a function gets the caller's own variable, by their positions."""
+    for index, parameter in enumerate(function.parameters):
+        declarator = parameter.node.child_by_field_name("declarator")
+        constant = any(
+            c.type == "type_qualifier" and c.text == b"const" for c in parameter.node.named_children
+        )
+        kind = declarator.type if declarator is not None else ""
+        if kind.startswith("abstract_"):
+            kind = kind.removeprefix("abstract_")
+        if kind == "pointer_declarator" or (kind == "reference_declarator" and not constant):
+            yield index

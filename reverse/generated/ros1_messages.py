@@ -1,0 +1,45 @@
+"""The message types of a package of generated code: what the fields are in the model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from rebsync.model import Type
+from rebsync.reserved import RUNTIME_FIELDS
+from rebsync.reverse.build.manifests import read_manifest
+from rebsync.reverse.build.messages import MessageField, plain_type, read_message
+from rebsync.source import Source
+
+_TYPES = {
+    "bool": "boolean",
+    "int8": "byte",
+    "int16": "short",
+    "int32": "int",
+    "float32": "float",
+    "float64": "double",
+}
+
+
+def own_messages(files: Mapping[str, Source]) -> dict[str, dict[str, Type | None]]:
+    """By message type, with its package, the fields but for those of the run-time part.
+
+    None for what the model has no type for.
+    """
+    manifest = files.get("package.xml")
+    package = read_manifest(manifest).name if manifest is not None else None
+    found = {}
+    for path, source in sorted(files.items()):
+        name = path.rpartition("/")[2].removesuffix(".msg")
+        if path.endswith(".msg"):
+            read = read_message(source, "", name)
+            found[f"{package or ''}/{name}"] = {
+                f.name: _type(f) for f in read.fields if f.name not in RUNTIME_FIELDS
+            }
+    return found
+
+
+def _type(field: MessageField) -> Type | None:
+    plain = _TYPES.get(plain_type(field.type))
+    if plain is None or field.length == 0:
+        return None
+    return Type(plain, () if field.length is None else (field.length,))

@@ -1,0 +1,82 @@
+"""The model's names of what a class of generated code declares."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator
+
+from rebsync import model as m
+from rebsync.names import carry, uncarry
+from rebsync.reserved import RESERVED, RUNTIME_MEMBERS
+from rebsync.reverse.bodies.written import annotation
+from rebsync.reverse.generated.ros1_roles import Roles
+from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppField, CppFunction
+from rebsync.reverse.syntax.cpp_tree import named, text_of
+
+
+def variable_name(roles: Roles, member: CppField) -> str:
+    """The model's name of a member variable, from its marker unless it was renamed."""
+    known = roles.known.get(member.name)
+    if known is not None:
+        return known
+    for marker in member.markers:
+        kind, path, *_ = [*marker.split(), "", ""]
+        name = path.rpartition(".")[2]
+        carried = re.escape(carry(name, RUNTIME_MEMBERS))
+        if kind in ("statevar", "env") and re.fullmatch(rf"{carried}_(_\d+)?", member.name):
+            return name
+    return uncarry(member.name.removesuffix("_"), RUNTIME_MEMBERS)
+
+
+def plain_name(function: CppFunction, types: Collection[str]) -> str:
+    """The model's name of a function, from its marker unless it was renamed.
+
+    `types` are the names of classes and messages, which functions give way to.
+    """
+    reserved = RESERVED | set(types)
+    for marker in function.markers:
+        kind, path, *_ = [*marker.split(), "", ""]
+        name = path.rpartition(".")[2]
+        if kind not in ("msgsrv", "method") or not path:
+            continue
+        apart = function.name.startswith(f"{name}_")  # from overloads that C++ cannot tell
+        if apart or carry(name, reserved) == function.name:
+            return name
+    return uncarry(function.name, reserved)
+
+
+def is_interface(owner: CppClass) -> bool:
+    """Whether a class only says what its heirs can do."""
+    destructor = f"~{owner.name}"
+    names = {f.name for f in owner.functions}
+    others = (f for f in owner.functions if f.name != destructor)
+    return not owner.fields and destructor in names and all(f.pure for f in others)
+
+
+def state_types(code: Code, owner: CppClass) -> Iterator[str]:
+    """The types of the messages that tell the state of a class's nodes."""
+    for function in code.functions_of(owner):
+        if function.name == "publishState" and function.body is not None:
+            for statement in named(function.body)[:1]:
+                type_ = statement.child_by_field_name("type")
+                if type_ is not None:
+                    yield text_of(type_)
+
+
+def annotations_in(markers: Collection[str], owner: CppClass) -> tuple[m.Annotation, ...]:
+    """The annotations that markers in a class hold."""
+    span = owner.cpp.span(owner.node)
+    return tuple(a for text in markers if (a := annotation(text, span)) is not None)
+
+
+def enumerators(code: Code) -> dict[str, int]:
+    """The constants of enumerations by their names, alone and after the enumeration's.
+
+    Not where there are several of a name with different values.
+    """
+    values: dict[str, set[int | None]] = {}
+    for name, all_of in code.enumerators.items():
+        for each in all_of:
+            for prefix in {"", f"{each.enum}::", f"{each.scope}::"} - {"::"}:
+                values.setdefault(f"{prefix}{name}", set()).add(each.value)
+    return {n: v for n, vs in values.items() for v in vs if len(vs) == 1 and v is not None}

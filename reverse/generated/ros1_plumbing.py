@@ -1,0 +1,167 @@
+"""What generated code does around its bodies, and whether somebody has changed that.
+
+The model says nothing of how a message is filled or unpacked, so what is there must be what was
+generated. Anything else is listed: the model would not show it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Container, Iterator, Mapping, Sequence
+
+from tree_sitter import Node
+
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.ros1_roles import Roles, Taken, call_in
+from rebsync.reverse.generated.ros1_timers import timers_of
+from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
+from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+
+_SETS_UP = frozenset({"param", "advertise", "advertiseAll", "readArray", "unused"})
+_SUBSCRIBES = frozenset({"subscribe", "subscribeOnBridge"})
+_TELLS = frozenset({"flatten", "publish"})
+
+
+def check_plumbing(
+    code: Code,
+    owner: CppClass,
+    all_roles: Mapping[str, Roles],
+    fields: Mapping[str, Collection[str]],
+    findings: Findings,
+) -> None:
+    """Lists what a class does outside of its bodies that the model cannot show.
+
+    `fields` are those of each message type, in their order.
+    """
+    roles = all_roles[owner.name]
+    lineage = [all_roles[c.name] for c in code.lineage(owner.name)]
+    topics = {t for above in lineage for t in above.topics}
+    for function in code.functions_of(owner):
+        if function.body is None:
+            continue
+        if function.name == owner.name:
+            odd = _odd_in_constructor(code, owner, function, roles)
+            why = "a constructor of generated code only sets up; the model's own is construct()"
+        elif function.name in roles.shims and function.name not in topics:
+            odd = iter((function.node,))
+            why = "no subscription takes messages to this: those of others do not arrive"
+        elif function.name in roles.shims:
+            odd = _odd_in_shim(function, roles, fields)
+            why = "this does more than to hand a message to its handler"
+        elif function.name in roles.odd_sends:
+            odd = iter(roles.odd_sends[function.name])
+            why = "this does more than to send its arguments"
+        elif function.name == "publishState":
+            odd = (s for s in _statements(function) if not _tells(s))
+            why = "this does more than to tell the state"
+        elif function.name == "construct" and not _is_constructed(code, owner):
+            odd = iter((function.node,))
+            why = "no constructor has this run"
+        else:
+            continue
+        for node in odd:
+            unread = Unread(function.cpp.span(node), why)
+            findings.unreadable(function.cpp.source, unread, f"{owner.name}.{function.name}")
+
+
+def _is_constructed(code: Code, owner: CppClass) -> bool:
+    """Whether the model's constructor runs, or no node is of this class alone."""
+    own = [f for f in code.functions_of(owner) if f.name == owner.name]
+    concrete = any(f.name == "publishState" and not f.pure for f in owner.functions)
+    return not concrete or any(c.name == "construct" for f in own for c in code.calls_of(f))
+
+
+def _statements(function: CppFunction) -> list[Node]:
+    return named(function.body) if function.body is not None else []
+
+
+def _odd_in_constructor(
+    code: Code, owner: CppClass, function: CppFunction, roles: Roles
+) -> Iterator[Node]:
+    """Statements that neither set up anything nor prepare that."""
+    timers = {t.call.node.id for t in timers_of(code, owner, roles)}
+    for statement in _statements(function):
+        given, _, _ = text_of(statement).partition("=")
+        prepares = given.startswith("const ros::NodeHandle ") or given.strip() in roles.globals
+        if not prepares and not _sets_up(statement, function, roles, timers):
+            yield statement
+
+
+def _sets_up(statement: Node, function: CppFunction, roles: Roles, timers: Container[int]) -> bool:
+    """Whether it is one call that sets something up, whose value may be kept."""
+    inner = statement
+    if statement.type == "expression_statement":
+        if not named(statement):
+            return True  # a semicolon alone
+        inner = named(statement)[0]
+    if inner.type == "assignment_expression":
+        inner = part(inner, "right")
+    call = call_of(inner)
+    if call is None:
+        return False
+    match call.name:
+        case "createTimer" | "createWallTimer" | "createSteadyTimer":
+            return call.node.id in timers
+        case "onServed":
+            return _hands_on(call, "publishState", None)
+        case "construct":
+            return _hands_on(call, "construct", [p.name for p in function.parameters])
+        case name if name in _SUBSCRIBES:
+            callback = call.arguments[-1] if call.arguments else None
+            lambda_ = callback is not None and callback.type == "lambda_expression"
+            taken = any(callback == t.shim for t in roles.taken)
+            return call.node.id in roles.wired and (taken or not lambda_)
+        case name:
+            return name in _SETS_UP
+
+
+def _hands_on(call: CppCall, function: str, given: Sequence[str] | None) -> bool:
+    """Whether a lambda only calls this function, with the last of what is given in its order."""
+    found = call_in(call.arguments[-1]) if call.arguments else None
+    passed = [text_of(a) for a in found[1]] if found is not None else []
+    in_order = given is None or passed == list(given)[len(given) - len(passed) :]
+    return found is not None and found[0] == function and in_order
+
+
+def _tells(statement: Node) -> bool:
+    """Whether it is a statement of `publishState`: fills the message, or publishes it."""
+    if statement.type == "declaration":
+        return True
+    expression = named(statement)[0] if named(statement) else statement
+    if expression.type == "assignment_expression":
+        target, value = part(expression, "left"), part(expression, "right")
+        return text_of(target).startswith("msg.") and next(calls_in(value), None) is None
+    call = call_of(expression)
+    return call is not None and call.name in _TELLS
+
+
+def _odd_in_shim(
+    function: CppFunction, roles: Roles, fields: Mapping[str, Collection[str]]
+) -> Iterator[Node]:
+    """The whole body, unless it hands every field on once, in the message's order."""
+    received = [t for t in roles.taken if t.shim == function.node]
+    statements = _statements(function)
+    if len(statements) != 1 or len(received) != 1:
+        yield from statements
+    elif not _hands_fields_on(received[0], fields.get(received[0].type)):
+        yield received[0].call.arguments[-1]
+
+
+def _hands_fields_on(taken: Taken, order: Collection[str] | None) -> bool:
+    """Whether a handler gets the fields; a lambda that is the handler takes what it wants."""
+    called = call_in(taken.call.arguments[-1])
+    if taken.handler is None or called is None:
+        return taken.handler is None
+    passed = [_field(a) for a in called[1]]
+    if None in passed or len(set(passed)) != len(passed):
+        return False
+    return order is None or passed == list(order)
+
+
+def _field(argument: Node) -> str | None:
+    """The field of `msg->x`, `msg->x != 0` or `unflatten<T>(msg->x)`."""
+    text = "".join(text_of(argument).split()).removesuffix("!=0")
+    if text.startswith("unflatten<") and text.endswith(")"):
+        text = text[text.rindex("(") + 1 : -1]
+    name = text.removeprefix("msg->")
+    return name if name != text and name.isidentifier() else None

@@ -1,0 +1,293 @@
+"""What the functions and members of a class of generated code are for.
+
+They are known by what they do: a handler is what a subscription puts into the mailbox, a function
+that publishes or posts is a send. Names and markers decide nothing here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import field
+from typing import TypeAlias
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.names import original, uncarry
+from rebsync.records import dataclass
+from rebsync.reserved import OWN_TOPICS
+from rebsync.reverse.bodies.scope import Sends
+from rebsync.reverse.syntax.cpp_calls import CppCall, assigned_in, call_of, calls_in, string_of
+from rebsync.reverse.syntax.cpp_declarations import parameters_in
+from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction, CppParameter
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+
+_SENSOR = "_sensor_"
+_DEEP = 100
+# Handles of the rebec's own topics.
+_OWN_HANDLES = ("node", "ros::NodeHandle(node)")
+Overload: TypeAlias = tuple[str, int]  # a server, and how many arguments it takes
+
+
+@dataclass(frozen=True, slots=True)
+class Advertised:
+    """A publisher: to a known rebec, or to all of a class, and the last part of its topic."""
+
+    known: str | None
+    key: str
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Taken:
+    """A call that puts a message into the mailbox: `message` is the parameter that has it.
+
+    `handler` is the function that serves it; None where a lambda does all that itself. `shim` is
+    what the subscription calls, a function or a lambda.
+    """
+
+    server: str
+    handler: str | None
+    message: CppParameter
+    shim: Node
+    topic: str
+    function: CppFunction
+    call: CppCall
+
+    @property
+    def type(self) -> str:
+        """The message's type, without its package."""
+        text = text_of(self.message.type)
+        for end in ("::ConstPtr", "ConstPtr", "::Ptr"):
+            text = text.removesuffix(end)
+        return text.rpartition("::")[2]
+
+
+@dataclass(slots=True)
+class Roles:
+    """Of one class alone: by function what it serves or sends, by member what that stands for.
+
+    `handlers` and `messages` give the server's name in the model, `globals` the entry of the
+    parameter server and the default, `annotations` those that the set-up of a server shows; of
+    overloads that take equally many arguments the first one's first. `topics` are those of shims
+    by their names, `wired` the calls that make them and publishers of the rebec; `passing` are
+    callbacks of timers that only post a message; `odd_sends` what functions that send do besides.
+    """
+
+    handlers: dict[str, str] = field(default_factory=dict)
+    messages: dict[str, str] = field(default_factory=dict)
+    shims: set[str] = field(default_factory=set)
+    sends: dict[str, Sends] = field(default_factory=dict)
+    odd_sends: dict[str, list[Node]] = field(default_factory=dict)
+    publishers: dict[str, Advertised] = field(default_factory=dict)
+    known: dict[str, str] = field(default_factory=dict)
+    globals: dict[str, tuple[str, Node]] = field(default_factory=dict)
+    constants: set[str] = field(default_factory=set)
+    annotations: dict[Overload, list[tuple[m.Annotation, ...]]] = field(default_factory=dict)
+    on_bridge: bool = False
+    sensors: set[str] = field(default_factory=set)
+    topics: dict[str, str] = field(default_factory=dict)
+    taken: list[Taken] = field(default_factory=list)
+    wired: set[int] = field(default_factory=set)
+    passing: set[str] = field(default_factory=set)
+    queue_length: int | None = None
+
+
+def roles_of(code: Code, owner: CppClass) -> Roles:
+    """Reads what a class's constructors set up, and what its functions do with it.
+
+    Sends are left out here: `ros1_sends.add_sends` needs the handlers of all classes.
+    """
+    roles = Roles()
+    functions = list(code.functions_of(owner))
+    for member in owner.fields:
+        if member.name.endswith(_SENSOR) and text_of(member.type).startswith("Sensor<"):
+            roles.sensors.add(original(member.name.removesuffix(_SENSOR)))
+    for function in functions:
+        if function.name == owner.name:
+            _wired(roles, function)
+    for constructor in (*owner.functions, *functions):
+        if constructor.name == owner.name:
+            roles.queue_length = _queue_length(constructor) or roles.queue_length
+    for function in functions:
+        for call in code.calls_of(function) if _says(function, b"receive") else ():
+            if call.name == "receive" and len(call.arguments) == 5:
+                _received(code, owner, roles, function, call)
+    return roles
+
+
+def _port(topic: str) -> Iterator[m.Annotation]:
+    """`@Port` of a server whose topic says so."""
+    if topic.startswith("port/"):
+        yield m.Annotation("Port")
+
+
+def _priority(code: Code, function: CppFunction, call: CppCall) -> Iterator[m.Annotation]:
+    """`@priority(n)` or `@globalPriority(n)` of a server's descriptor."""
+    found = code.constant(function.cpp, text_of(call.arguments[0]))
+    for given in calls_in(found[1] if found is not None else None):
+        if given.name in ("priority", "globalPriority") and len(given.arguments) == 1:
+            number = text_of(given.arguments[0])
+            value = m.IntLiteral(int(number.lstrip("-")))
+            signed = m.Unary("-", value) if number.startswith("-") else value
+            yield m.Annotation(given.name, (signed,))
+
+
+def server_of(code: Code, cpp: Cpp, constant: str) -> str | None:
+    """The server that a descriptor `constexpr Server kX{"x", priority}` is about."""
+    found = code.constant(cpp, constant)
+    if found is None or found[1].type != "initializer_list":
+        return None
+    values = named(found[1])
+    return string_of(values[0]) if values else None
+
+
+# --- set up by constructors ---------------------------------------------------------------------
+
+
+def _wired(roles: Roles, constructor: CppFunction) -> None:
+    for member, value in assigned_in(constructor.body):
+        for call in calls_in(value):
+            _member(roles, member, call)
+    for call in calls_in(constructor.body) if _says(constructor, b"readArray") else ():
+        if call.name == "readArray" and len(call.arguments) == 3:
+            key = string_of(call.arguments[1])
+            if key is not None:
+                member = text_of(call.arguments[2])
+                values = dict(assigned_in(constructor.body))
+                roles.globals[member] = key, values.get(member, call.node)
+
+
+def _says(function: CppFunction, word: bytes) -> bool:
+    """Whether a word stands in a body at all, which is quickly told."""
+    return function.body is not None and word in (function.body.text or b"")
+
+
+def _member(roles: Roles, member: str, call: CppCall) -> None:
+    first = string_of(call.arguments[0]) if call.arguments else None
+    if first is None:
+        return
+    match call.name, call.on:
+        case "param", "node" if first.startswith("knownrebecs/"):
+            roles.known[member] = original(first.partition("/")[2])
+        case "param", "global" if len(call.arguments) == 2:
+            roles.globals[member] = first, call.arguments[1]
+        case "subscribe", on if on in _OWN_HANDLES and len(call.arguments) in (3, 4):
+            if _is_deep(call.arguments[1]):
+                roles.wired.add(call.node.id)
+                roles.topics[text_of(call.arguments[2]).rpartition("::")[2]] = first
+        case "advertise", "mailbox_" if call.types:
+            roles.wired.add(call.node.id)
+            known, _, key = first.rpartition("/")
+            to = uncarry(known, OWN_TOPICS)
+            roles.publishers[member] = Advertised(to, key, text_of(call.types[0]))
+        case "subscribe" | "subscribeOnBridge", "mailbox_" if len(call.arguments) == 3:
+            roles.wired.add(call.node.id)
+            roles.on_bridge = roles.on_bridge or call.name == "subscribeOnBridge"
+            roles.topics[text_of(call.arguments[1]).rpartition("::")[2]] = first
+        case "advertiseAll", "mailbox_" if call.types and len(call.arguments) == 2:
+            roles.wired.add(call.node.id)
+            key = string_of(call.arguments[1]) or ""
+            roles.publishers[member] = Advertised(None, key, text_of(call.types[0]))
+
+
+def _queue_length(constructor: CppFunction) -> int | None:
+    """The number given to the mailbox, or as default to the parameter that is passed on to it."""
+    if constructor.initialisers is not None:
+        for initialiser in named(constructor.initialisers):
+            for argument in named(initialiser)[-1:]:
+                for value in named(argument):
+                    if text_of(value).isdecimal():
+                        return int(text_of(value))
+    for parameter in constructor.parameters:
+        default = parameter.node.child_by_field_name("default_value")
+        if default is not None and text_of(default).isdecimal():
+            return int(text_of(default))
+    return None
+
+
+# --- what functions do --------------------------------------------------------------------------
+
+
+def _received(
+    code: Code, owner: CppClass, roles: Roles, function: CppFunction, call: CppCall
+) -> None:
+    server = server_of(code, function.cpp, text_of(call.arguments[0]))
+    shim = _around(call.node, function, "lambda_expression")
+    parameters = function.parameters if shim is None else parameters_of(shim)
+    if server is None or not parameters:
+        return
+    if shim is None:
+        roles.shims.add(function.name)
+        topic = roles.topics.get(function.name, "")
+    else:
+        topic = _topic_around(shim, function)
+    called = call_in(call.arguments[4])
+    handler = called[0] if called is not None and _is_plain(code, owner, called[0]) else None
+    taken = Taken(server, handler, parameters[0], shim or function.node, topic, function, call)
+    roles.taken.append(taken)
+    if handler is not None:
+        roles.handlers[handler] = server
+        arguments = len(called[1]) if called is not None else 0
+        shown = *_port(topic), *_priority(code, function, call)
+        roles.annotations.setdefault((server, arguments), []).append(shown)
+    roles.messages[taken.type] = server
+    roles.constants.add(text_of(call.arguments[0]))
+
+
+def shown_of(code: Code, taken: Taken) -> tuple[m.Annotation, ...]:
+    """The annotations that the set-up of a server shows whose handler is a lambda."""
+    return *_port(taken.topic), *_priority(code, taken.function, taken.call)
+
+
+def _is_plain(code: Code, owner: CppClass, name: str) -> bool:
+    """Whether it is a function of the class or above that does not just send."""
+    found = [f for c in code.lineage(owner.name) for f in c.functions if f.name == name]
+    return any(not f.types or f.types[-1] != "When" for f in found)
+
+
+def _around(node: Node, function: CppFunction, kind: str) -> Node | None:
+    """The innermost node of a kind around one, with parameters if it is a lambda."""
+    above = node.parent
+    while above is not None and above != function.node:
+        if above.type == kind and (kind != "lambda_expression" or parameters_of(above)):
+            return above
+        above = above.parent
+    return None
+
+
+def _topic_around(shim: Node, function: CppFunction) -> str:
+    """The topic of the subscription whose callback a lambda is."""
+    around = _around(shim, function, "call_expression")
+    call = call_of(around) if around is not None else None
+    if call is None or not call.name.startswith("subscribe") or not call.arguments:
+        return ""
+    return string_of(call.arguments[0]) or ""
+
+
+def parameters_of(lambda_: Node) -> tuple[CppParameter, ...]:
+    """The parameters of a lambda."""
+    declarator = lambda_.child_by_field_name("declarator")
+    found = declarator.child_by_field_name("parameters") if declarator is not None else None
+    return tuple(parameters_in(found)) if found is not None else ()
+
+
+def call_in(body: Node) -> tuple[str, list[Node]] | None:
+    """The function of the class that a lambda only calls, or that is bound, and the arguments."""
+    if body.type == "call_expression":
+        bound = call_of(body)
+        if bound is None or not bound.name.endswith("bind") or len(bound.arguments) < 2:
+            return None
+        return text_of(bound.arguments[0]).rpartition("::")[2], list(bound.arguments[2:])
+    statements = named(part(body, "body")) if body.type == "lambda_expression" else []
+    inner = named(statements[0]) if len(statements) == 1 else []
+    call = call_of(inner[0]) if len(inner) == 1 else None
+    if call is None or not (call.target is None or call.target.type == "this"):
+        return None
+    return call.name, list(call.arguments)
+
+
+def _is_deep(depth: Node) -> bool:
+    """Whether so deep a queue loses nothing before the mailbox takes it in."""
+    text = text_of(depth)
+    return text == "kQueueSize" or (text.isdecimal() and int(text) >= _DEEP)

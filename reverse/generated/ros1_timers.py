@@ -1,0 +1,149 @@
+"""Timers that somebody has put into a class of generated code.
+
+What a timer's callback posts to the mailbox waits there for its turn, as a message with `after`
+does. Anything else that a callback does, it does while a body may run: that is listed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+from rebsync.reverse.bodies.scope import Scope, TimerOf
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.ros1_roles import Roles, call_in
+from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
+from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
+from rebsync.reverse.syntax.cpp_tree import named, text_of
+
+_MAKES = frozenset({"createTimer", "createWallTimer", "createSteadyTimer"})
+_DURATIONS = frozenset({"ros::Duration", "ros::WallDuration", "ros::SteadyDuration"})
+
+
+@dataclass(frozen=True, slots=True)
+class Timer:
+    """A call that makes a timer: `function` has the call, `seconds` is the period.
+
+    The callback is a function of the class, or a lambda; `posts` is the server to which it posts a
+    message and does nothing else.
+    """
+
+    call: CppCall
+    function: CppFunction
+    seconds: Node
+    one_shot: bool
+    callback: str
+    lambda_: Node | None
+    posts: str | None
+
+    @property
+    def at_start(self) -> bool:
+        """Whether it is the class's constructor that makes it."""
+        return self.function.name == self.function.owner
+
+
+def timers_of(code: Code, owner: CppClass, roles: Roles) -> Iterator[Timer]:
+    """The timers that the functions of a class make, but for those of which that is not plain."""
+    for function in code.functions_of(owner):
+        for call in code.calls_of(function):
+            if call.name in _MAKES and (timer := _timer(code, owner, roles, function, call)):
+                yield timer
+
+
+def _timer(
+    code: Code, owner: CppClass, roles: Roles, function: CppFunction, call: CppCall
+) -> Timer | None:
+    if len(call.arguments) < 2:
+        return None
+    period, callback, *flags = call.arguments
+    given = call_of(period)
+    if given is None or given.name not in _DURATIONS or len(given.arguments) != 1:
+        return None
+    name, lambda_ = "", None
+    if callback.type == "lambda_expression":
+        lambda_ = callback
+    elif callback.type == "pointer_expression" and flags and flags[0].type == "this":
+        name, flags = text_of(callback).lstrip("& ").rpartition("::")[2], flags[1:]
+    elif (bound := call_in(callback)) is not None:
+        name = bound[0]
+    own = next((f for f in code.functions_of(owner) if f.name == name), None)
+    one_shot = text_of(flags[0]) if flags else "false"
+    if (lambda_ is None and own is None) or one_shot not in ("true", "false") or len(flags) > 1:
+        return None
+    body = lambda_ or (own.body if own is not None else None)
+    posts = _posts(roles, body) if body is not None else None
+    return Timer(call, function, given.arguments[0], one_shot == "true", name, lambda_, posts)
+
+
+def _posts(roles: Roles, body: Node) -> str | None:
+    """The server to which a callback posts a message without arguments, if that is all."""
+    if body.type == "lambda_expression":
+        called = call_in(body)
+    else:
+        statements = named(body)
+        inner = named(statements[0]) if len(statements) == 1 else []
+        call = call_of(inner[0]) if len(inner) == 1 else None
+        plain = call is not None and (call.target is None or call.target.type == "this")
+        called = (call.name, list(call.arguments)) if call is not None and plain else None
+    sends = roles.sends.get(called[0]) if called is not None and not called[1] else None
+    return sends.server if sends is not None and sends.known == "self" else None
+
+
+def checked(timer: Timer, within: str, findings: Findings) -> None:
+    """Lists a timer whose callback may run in the middle of a body."""
+    if timer.posts is None:
+        why = "this callback does not wait until a body has run: the model serves one at a time"
+        hint = "let it post a message to the mailbox, and do nothing else"
+        unread = Unread(timer.function.cpp.span(timer.call.node), why, hint)
+        findings.unreadable(timer.function.cpp.source, unread, within)
+
+
+def ticking(timers: Iterable[Timer]) -> int:
+    """The places in the queue that timers' own messages need beside those of the code."""
+    return sum(not t.one_shot for t in timers)
+
+
+def server_of_timer(timer: Timer, name: str) -> TimerOf:
+    """What making the timer in a body stands for; `name` is the server that the callback is."""
+    server = timer.posts if timer.one_shot and timer.posts is not None else name
+    return TimerOf(server, not timer.one_shot)
+
+
+def sent_later(timer: Timer, server: str, scope: Scope) -> m.Statement:
+    """`self.server() after(period)`; `Unread` where the model has no such time."""
+    cpp = timer.function.cpp
+    span = cpp.span(timer.call.node)
+    call = m.Call(m.Self(span), server, (), _time(timer, scope), None, span)
+    return m.ExpressionStatement(call, (), span)
+
+
+def _time(timer: Timer, scope: Scope) -> m.Expression:
+    cpp, node = timer.function.cpp, timer.seconds
+    if node.type == "number_literal":
+        units = Fraction(text_of(node).rstrip("fFlLuU")) / scope.unit
+        if units.denominator != 1:
+            why = f"{text_of(node)} s is no multiple of the model's unit of time"
+            raise Unread(cpp.span(node), why, "change `time_unit`")
+        return m.IntLiteral(int(units), cpp.span(node))
+    if scope.unit != 1:
+        raise Unread(cpp.span(node), "this time is in seconds, which are no units of the model")
+    return CppExpressions(cpp, scope).read(node)
+
+
+def with_rearming(body: m.Block, again: m.Statement) -> m.Block:
+    """The body of a periodic timer's callback, which sends itself the next tick.
+
+    First where it may not come to its end, or is late there: the timer ticks all the same.
+    """
+    leaves = any(isinstance(n, m.Return) or _may_delay(n) for n in m.walk(body))
+    all_of = (again, *body.statements) if leaves else (*body.statements, again)
+    return m.Block(all_of, body.annotations, body.span)
+
+
+def _may_delay(node: m.Node) -> bool:
+    return isinstance(node, m.Call) and node.target is None and node.name != "assertion"

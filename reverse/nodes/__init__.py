@@ -1,0 +1,1 @@
+"""Nodes that people wrote, as reactive classes and a system."""

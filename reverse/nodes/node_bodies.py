@@ -1,0 +1,256 @@
+"""Bodies of a unit as those of message servers and of a constructor."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import field, replace
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+from rebsync.reverse.bodies.cpp_statements import CppStatements
+from rebsync.reverse.bodies.cpp_types import carried
+from rebsync.reverse.bodies.scope import (
+    Function,
+    Meaning,
+    Member,
+    Outside,
+    Publishes,
+    Record,
+    Scope,
+    Stores,
+    Target,
+    TimerOf,
+    Variable,
+)
+from rebsync.reverse.build.message_types import Fields
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.graph import (
+    ClientFact,
+    PublisherFact,
+    ServiceFact,
+    SubscriptionFact,
+    TimerFact,
+)
+from rebsync.reverse.nodes.node_loops import Loop, left
+from rebsync.reverse.nodes.node_servers import Server
+from rebsync.reverse.nodes.node_setup import Setup, around, send
+from rebsync.reverse.nodes.node_starts import Opening, Step
+from rebsync.reverse.nodes.node_state import State
+from rebsync.reverse.nodes.node_tidying import without_values
+from rebsync.reverse.nodes.node_units import Unit
+from rebsync.reverse.syntax.cpp_index import Code, CppFunction
+from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
+
+_HANDLES = (SubscriptionFact, TimerFact, ServiceFact, ClientFact)
+
+
+@dataclass(frozen=True, slots=True)
+class Common:
+    """What all bodies of a package can name: enumerations and message types."""
+
+    enumerators: Mapping[str, int]
+    enums: frozenset[str]
+    messages: Mapping[str, Fields]
+    types: frozenset[str]
+
+
+@dataclass(slots=True)
+class Bodies:
+    """Reads the bodies of a unit, as its rebecs of one kind are wired.
+
+    `functions` are the methods and what else it can call.
+    """
+
+    code: Code
+    unit: Unit
+    servers: Sequence[Server]
+    state: State
+    setup: Setup
+    common: Common
+    targets: Mapping[int, tuple[Target, ...]]
+    opening: Opening
+    findings: Findings
+    functions: dict[str, Function] = field(default_factory=dict)
+
+    def scope(self, cpp: Cpp, function: CppFunction | None) -> Scope:
+        """What a body in a file, in a function, can name."""
+        members: dict[str, Member] = dict(self.state.members_of(function))
+        published: dict[str, Publishes] = {}
+        for number, fact in enumerate(self.unit.facts):
+            kept = fact.site.kept.removeprefix("this->")
+            if isinstance(fact, PublisherFact) and kept:
+                type_ = fact.type if isinstance(fact.type, str) else ""
+                made = Publishes(self.targets.get(number, ()), type_)
+                same = published.setdefault(kept, made) == made
+                members[kept] = made if same else Outside()  # one of several
+            elif isinstance(fact, TimerFact) and kept:
+                server = next((s for s in self.servers if fact in s.timers), None)
+                if server is not None:
+                    members[kept] = TimerOf(server.name, fact.one_shot is not True)
+            elif kept and isinstance(fact, _HANDLES):
+                members[kept] = Outside()
+        entry = self.opening.entry
+        if entry is not None and function is not None and function.node.id == entry.node.id:
+            members |= self.opening.objects
+        return Scope(
+            members,
+            self.functions,
+            {},
+            self.common.types,
+            constants=self.code.constants_for(cpp),
+            enumerators=self.common.enumerators,
+            enums=self.common.enums,
+            messages=self.common.messages,
+            widths=self.state.types.widths,
+            timers=self.setup.timers,
+            instead=self.setup.instead,
+            values=self.setup.values,
+            open=True,
+            chooses=False,
+            unit=self.setup.times.unit,
+        )
+
+    def within(self, name: str) -> str:
+        """The name of a body in findings."""
+        return f"{self.setup.within}.{name}"
+
+    def block(self, cpp: Cpp, scope: Scope, body: Node | None, within: str) -> m.Block:
+        """The body of a function."""
+        assert body is not None
+        return CppStatements(cpp, scope, self.findings, within).block(body)
+
+    # --- servers --------------------------------------------------------------------------------
+
+    def server(self, server: Server) -> m.MessageServer:
+        """A callback as a message server."""
+        function = server.callback.function
+        if function is None:
+            function = around(server.body, self.unit.functions)
+        scope = self.scope(server.cpp, function)
+        local: dict[str, Meaning] = {}
+        for name, value in server.arguments:
+            local[name] = self._argument(server.cpp, scope, value)
+        if server.message:
+            local[server.message] = self._message(server)
+        if server.service is not None and function is not None:
+            local |= {p.name: Outside() for p in function.parameters if p.name}
+        inside = replace(scope.with_locals(local), chooses=True, server=server.name)
+        body = self.block(server.cpp, inside, server.body, self.within(server.name))
+        body = replace(body, statements=without_end(without_values(body).statements))
+        parameters = tuple(m.Parameter(p.type, p.name) for p in server.parameters)
+        span = server.cpp.span(function.node if function is not None else server.body)
+        return m.MessageServer(server.name, parameters, body, span=span)
+
+    def _argument(self, cpp: Cpp, scope: Scope, value: Node) -> Meaning:
+        """What a bind puts in for a parameter: a member, or a value."""
+        meaning = scope.meaning(text_of(value).removeprefix("this->").strip("&"))
+        if meaning is not None:
+            return meaning
+        try:
+            return CppExpressions(cpp, scope).read(value)
+        except Unread:
+            return Outside()
+
+    def _message(self, server: Server) -> Member:
+        if server.timers or server.type is None:
+            return Outside()
+        given = [(p.path, p.name, p.type) for p in server.parameters]
+        variable = self.state.types.variable
+        return Record({p: variable(server.type, p, n, t) for p, n, t in given}, server.type)
+
+    def loop(self, loop: Loop, name: str) -> Iterator[m.MessageServer]:
+        """The server of a loop, and one for what comes after its sleep where both do something."""
+        scope = self.scope(loop.function.cpp, loop.function)
+        scope = replace(scope, chooses=True, server=name)
+        pause = self.setup.pause(loop)
+        again = send(name, pause or 0)
+        span = loop.function.cpp.span(loop.node)
+        reader = CppStatements(loop.function.cpp, scope, self.findings, self.within(name))
+        first, rest = reader.read(loop.first), reader.read(loop.rest)
+        if loop.first and loop.rest:
+            then = self.setup.names.give(f"{name}_rest")
+            body = left(first, send(name))
+            body = body if pause is None else (*body, send(then, pause))
+            yield m.MessageServer(then, (), m.Block((*left(rest, send(name)), send(name))))
+        else:
+            ends = () if pause is None else (again,)
+            body = (*left((*first, *rest), again), *ends)
+        for guard in reversed(loop.guard):
+            condition = self._guard(reader, guard)
+            body = (m.If(condition, m.Block(body)),)
+        yield m.MessageServer(name, (), m.Block(body), span=span)
+
+    def _guard(self, reader: CppStatements, node: Node) -> m.Expression:
+        """A condition besides that the node runs; it may go either way where it is not known."""
+        try:
+            return reader.expressions.condition(node)
+        except Unread as unread:
+            self.findings.unreadable(reader.cpp.source, unread, reader.within)
+            return m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)), reader.cpp.span(node))
+
+    # --- constructor ----------------------------------------------------------------------------
+
+    def constructor(self) -> m.Block:
+        """What runs before the node serves messages."""
+        found: list[m.Statement] = []
+        for cpp, stores in self.state.initial:
+            assert isinstance(stores.value, Node)
+            found += self._known(cpp, stores.value, stores)
+        for step in self.opening.steps:
+            scope = self.scope(step.function.cpp, step.function)
+            instead = {**scope.instead, **step.instead}
+            given = {p.name: Variable(p.name, p.type) for p in self.setup.parameters}
+            scope = replace(scope, instead=instead, chooses=True)
+            scope = scope.with_locals({**given, **self._arguments(step)})
+            reader = CppStatements(
+                step.function.cpp, scope, self.findings, self.within(step.function.name)
+            )
+            found += reader.read(step.nodes)
+        return without_values(m.Block(without_end(tuple(found))))
+
+    def _arguments(self, step: Step) -> dict[str, Meaning]:
+        """What the parameters of a constructor are for the object that is made."""
+        found: dict[str, Meaning] = {}
+        for parameter in step.function.parameters:
+            kept = carried(parameter.type, self.common.enums)
+            found[parameter.name] = Outside(kept.type if kept is not None else None)
+            if kept is not None and parameter.name in step.arguments:
+                cpp, node = step.arguments[parameter.name]
+                try:
+                    found[parameter.name] = CppExpressions(cpp, self.scope(cpp, None)).read(node)
+                except Unread:
+                    continue
+        return found
+
+    def _known(self, cpp: Cpp, node: Node, stores: Stores) -> tuple[m.Statement, ...]:
+        scope = self.scope(cpp, None)
+        scope = replace(scope, instead={**scope.instead, node.id: (stores,)})
+        bare = {k: v for k, v in scope.instead.items() if k == node.id}
+        inside = replace(scope, instead=bare)
+        reader = CppStatements(cpp, inside, self.findings, self.setup.within)
+        return reader.read([node])
+
+
+def takes_time(node: m.Node) -> bool:
+    """Whether a body waits."""
+    return any(isinstance(n, m.Call) and n.name == "delay" for n in m.walk(node))
+
+
+def repeated(body: m.Block, again: m.Statement, early: bool) -> m.Block:
+    """A timer's body with the send that makes it go on: at its end, if all ways lead there.
+
+    Where bodies take time it stands `early`, since a timer goes on from when it went off.
+    """
+    early = early or any(isinstance(n, m.Return) for n in m.walk(body))
+    statements = (again, *body.statements) if early else (*body.statements, again)
+    return replace(body, statements=statements)
+
+
+def without_end(statements: tuple[m.Statement, ...]) -> tuple[m.Statement, ...]:
+    """Without what only ends a function, `return 0;`, and without blocks around all."""
+    while statements and isinstance(statements[-1], m.Return):
+        statements = statements[:-1]
+    return statements

@@ -1,0 +1,147 @@
+"""Members that refer to what the model has: what is done through them is done to the model."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import replace
+
+from tree_sitter import Node
+
+from rebsync.reverse.bodies.cpp_effects import Effects, Touches
+from rebsync.reverse.bodies.cpp_roots import is_modelled, root
+from rebsync.reverse.bodies.scope import (
+    Called,
+    Function,
+    Inline,
+    Itself,
+    Outside,
+    Publishes,
+    Scope,
+    Variable,
+)
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.nodes.node_bodies import Bodies
+from rebsync.reverse.nodes.node_units import Unit
+from rebsync.reverse.syntax.cpp_declarations import CppField
+from rebsync.reverse.syntax.cpp_index import CppClass, CppFunction
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
+
+_PLACES = frozenset(
+    {"identifier", "this", "pointer_expression", "field_expression", "subscript_expression"}
+)
+_REFERS = ("reference_declarator", "pointer_declarator")
+
+
+def note_bound(bodies: Bodies) -> None:
+    """Lists what gives members of a unit other names for what the model has, from the start."""
+    for owner in bodies.unit.lineage:
+        members = {f.name: f for f in (*owner.fields, *owner.others)}
+        for member, cpp, function, value in _values(bodies.unit, owner, members):
+            scope = bodies.scope(cpp, function)
+            for place in _given(member, scope, value):
+                why = f'"{member.name}" may use or change "{text_of(place)}" where it is not seen'
+                bodies.findings.unreadable(
+                    cpp.source, Unread(cpp.span(place), why), bodies.unit.name
+                )
+
+
+def note_helpers(bodies: Bodies, units: Collection[str]) -> None:
+    """Lists functions of other classes that act on what the model has outside of classes."""
+    unit, code = bodies.unit, bodies.code
+    above = {c.name for c in unit.lineage}
+    near = [
+        (owner, function)
+        for owner in code.classes.values()
+        if owner.name not in above and owner.name not in units
+        for function in code.functions_of(owner)
+        if function.body is not None and function.cpp.source.path in unit.files
+    ]
+    callers = (*unit.functions, *(f for _, f in near))
+    called = {c.name.rpartition("::")[2] for f in callers for c in code.calls_of(f)}
+    for owner, function in near:
+        touched = _touched(bodies, owner, function)
+        if touched is not None and function.name in called:
+            why = f'what "{owner.name}::{function.name}" does where it is called is not read'
+            unread = Unread(touched.span, f"{why}: {touched.why}")
+            bodies.findings.unreadable(function.cpp.source, unread, unit.name)
+
+
+def _touched(bodies: Bodies, owner: CppClass, function: CppFunction) -> Touches | None:
+    """What a function of another class does to the model, if it does anything."""
+    whole = bodies.scope(function.cpp, None)
+    own = {f.name for f in (*owner.fields, *owner.others)} | {p.name for p in function.parameters}
+    shared = whole.members.keys() & bodies.code.variables.keys() - own
+    members = {n: whole.members[n] for n in shared}
+    free = {n: f for n, f in whole.functions.items() if _is_free(f)}
+    scope = replace(whole, members=members, functions=free, calm={})
+    try:
+        Effects(function.cpp, scope, returning=True).check(function.body or function.node)
+    except Touches as touches:
+        return touches
+    return None
+
+
+def _is_free(function: Function) -> bool:
+    known = function.function if isinstance(function, Called | Inline) else None
+    return known is not None and not known.owner
+
+
+def _values(
+    unit: Unit, owner: CppClass, members: Mapping[str, CppField]
+) -> Iterator[tuple[CppField, Cpp, CppFunction | None, Node]]:
+    """What members are made with."""
+    for member in members.values():
+        if member.value is not None:
+            yield member, member.cpp, None, member.value
+    for constructor in unit.constructors(owner):
+        entries = constructor.initialisers
+        for entry in named(entries) if entries is not None else ():
+            inner = named(entry)
+            if len(inner) > 1 and text_of(inner[0]) in members:
+                yield members[text_of(inner[0])], constructor.cpp, constructor, inner[-1]
+
+
+def _given(member: CppField, scope: Scope, value: Node) -> Iterator[Node]:
+    """The places of the model that an object outside of it can reach from then on."""
+    if not isinstance(scope.members.get(member.name), Outside) or _is_constant(member):
+        return
+    refers = _refers(member)
+    for argument in _arguments(value):
+        place = _place(argument)
+        meaning = root(scope, (), place)[1]
+        match meaning:
+            case Itself():
+                reached = place.type == "this"
+            case Publishes(targets):
+                reached = bool(targets)
+            case Variable():
+                reached = refers or place is not argument
+            case _:
+                reached = False
+        if reached or (refers and is_modelled(place, meaning)):
+            yield place
+
+
+def _is_constant(member: CppField) -> bool:
+    return any(text_of(c) == "const" for c in member.node.named_children)
+
+
+def _refers(member: CppField) -> bool:
+    return any(True for _ in inside(member.node, *_REFERS))
+
+
+def _arguments(value: Node) -> list[Node]:
+    """`x` of `(x)`, `{x}` and `new C(x)`, where it is a place."""
+    if value.type == "new_expression":
+        arguments = value.child_by_field_name("arguments")
+        return _arguments(arguments) if arguments is not None else []
+    if value.type in ("argument_list", "initializer_list"):
+        return [a for v in named(value) for a in _arguments(v)]
+    return [value] if value.type in _PLACES else []
+
+
+def _place(value: Node) -> Node:
+    """`x` of `&x`."""
+    if value.type == "pointer_expression" and text_of(value).startswith("&"):
+        return value.children_by_field_name("argument")[0]
+    return value

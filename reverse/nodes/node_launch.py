@@ -1,0 +1,60 @@
+"""Which of the launch files of a package is the system that the model is of."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from rebsync.records import dataclass
+from rebsync.reverse.findings import Findings
+from rebsync.reverse.launch.launch_files import read_launch
+from rebsync.reverse.launch.launch_values import Surroundings
+from rebsync.reverse.launch.launched import Launch
+from rebsync.source import Source
+
+_SUFFIX = ".launch"
+_HINT = "name the launch file instead of the package to have its system"
+
+
+@dataclass(frozen=True, slots=True)
+class System:
+    """What one launch file and those that it includes start; `others` start something else."""
+
+    launch: Launch
+    others: tuple[tuple[Source, Launch], ...]
+
+    def note(self, findings: Findings) -> None:
+        """Lists the systems that the model is not of."""
+        for source, launch in self.others:
+            span = launch.nodes[0].span
+            path = self.launch.sources[0].path
+            why = f"this file starts another system than {path}, which the model is of"
+            findings.approximated(source, span, why, _HINT)
+
+
+def is_launch(path: str) -> bool:
+    """Whether a file is a launch file."""
+    return path.endswith(_SUFFIX)
+
+
+def system_of(files: Mapping[str, Source], package: str, only: str | None = None) -> System | None:
+    """The system of a package: the launch file that is asked for, or that starts most of it."""
+
+    def load(path: str) -> Source | None:
+        return files.get(path.removeprefix("/"))
+
+    surroundings = Surroundings(load, lambda _: "")
+    paths = [only] if only is not None else sorted(p for p in files if is_launch(p))
+    read = [(files[p], read_launch(files[p], surroundings)) for p in paths]
+    if not read:
+        return None
+    best = max(read, key=lambda each: _size(each[1], package))
+    included = {id(s) for s in best[1].sources}
+    others = [(s, launch) for s, launch in read if id(s) not in included and _size(launch, package)]
+    whole = {id(s) for _, launch in others for s in launch.sources[1:]}
+    return System(best[1], tuple(each for each in others if id(each[0]) not in whole))
+
+
+def _size(launch: Launch, package: str) -> int:
+    """How many nodes of the package it starts."""
+    of_package = (n for n in launch.nodes if not package or n.package in (package, "nodelet"))
+    return sum(not n.test for n in of_package)

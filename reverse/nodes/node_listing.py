@@ -1,0 +1,227 @@
+"""What of hand-written nodes the model does not show as it is: listed, each place once."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reverse.build.message_types import MessageTypes
+from rebsync.reverse.findings import Findings, Grade, Unread
+from rebsync.reverse.graph import (
+    ClientFact,
+    Fact,
+    Place,
+    PublisherFact,
+    ServiceFact,
+    SubscriptionFact,
+    TimerFact,
+)
+from rebsync.reverse.nodes.node_servers import Server
+from rebsync.reverse.nodes.node_units import Unit, bodies
+from rebsync.reverse.nodes.node_values import Instance
+from rebsync.reverse.nodes.node_wiring import Wiring, unfed, unheard
+from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
+from rebsync.reverse.unknowns import Open
+
+_THREADS = re.compile(
+    r"(AsyncSpinner|MultiThreadedSpinner|NodeletMultiThreaded|thread|jthread|async|pthread_create"
+    r"|getMT\w*NodeHandle|CallbackQueue|setCallbackQueue)\Z"
+)
+_ENTRIES = re.compile(
+    r"(Simple)?Action(Server|Client)|SimpleActionServer|TimeSynchronizer|Synchronizer|MessageFilter"
+)
+_ANY = re.compile(  # what texts without such a name lack
+    rb"Spinner|Threaded|thread|async|getMT|CallbackQueue|Action(?:Server|Client)|Synchronizer"
+    rb"|MessageFilter"
+)
+_SEVERAL = "its callbacks may run at the same time as others: the model has one at a time"
+
+
+@dataclass(slots=True)
+class Listing:
+    """Lists places in findings, each once with the same reason."""
+
+    findings: Findings
+    types: MessageTypes
+
+    def unit(self, unit: Unit, servers: Iterable[Server]) -> None:
+        """What a unit has that its reactive class has not."""
+        served = {id(f) for s in servers for f in (*s.subscriptions, *s.timers, s.service)}
+        for fact in unit.facts:
+            self._fact(unit, fact, id(fact) in served)
+            if isinstance(fact, SubscriptionFact | TimerFact) and _is_lost(fact):
+                why = "nothing keeps what this gives: ROS ends it at once, the model does not"
+                self._approximated(fact.site.place, why, unit.name, "keep it in a member")
+        for server in servers:
+            self._wide(unit, server)
+        for cpp, body in bodies(unit):
+            self._words(unit, cpp, body)
+        for member in (f for c in unit.lineage for f in (*c.fields, *c.others)):
+            self._words(unit, member.cpp, member.type)
+
+    def _fact(self, unit: Unit, fact: Fact, served: bool) -> None:
+        match fact:
+            case SubscriptionFact(single=True):
+                self._unread(fact.site.place, "it waits here for one message", unit.name)
+            case SubscriptionFact() if not served:
+                why = "it is not known which function gets these messages"
+                self._unread(fact.site.place, why, unit.name)
+            case PublisherFact(site) if not site.kept:
+                why = "it is not known what is published here: the publisher is in no variable"
+                self._unread(fact.site.place, why, unit.name)
+            case PublisherFact(site) if _is_elsewhere(site.kept):
+                why = "the publisher is kept in another object: what that publishes is not read"
+                self._unread(fact.site.place, why, unit.name)
+            case ServiceFact() if served:
+                why = "a service is a message server to which nobody in the model sends"
+                self._approximated(fact.site.place, why, unit.name, _CALLS)
+            case ServiceFact():
+                why = "it is not known which function this service calls"
+                self._unread(fact.site.place, why, unit.name)
+            case ClientFact():
+                why = "the model has no services: what this one answers is open"
+                self._approximated(fact.site.place, why, unit.name)
+
+    def _wide(self, unit: Unit, server: Server) -> None:
+        for parameter in server.parameters:
+            if self.types.holds_more(server.type or "", parameter.path):
+                for fact in server.subscriptions[:1]:
+                    why = f'"{parameter.path}" holds more than the model\'s int does'
+                    self._approximated(fact.site.place, why, f"{unit.name}.{server.name}")
+
+    def _words(self, unit: Unit, cpp: Cpp, body: Node) -> None:
+        if _ANY.search(body.text or b"") is None:
+            return
+        for node in _words(body):
+            name = text_of(node)
+            place = Place(cpp.source, cpp.span(node))
+            if _THREADS.match(name):
+                self._unread(place, f'"{name}": {_SEVERAL}', unit.name)
+            elif _ENTRIES.fullmatch(name):
+                why = f'"{name}" calls functions of the node in ways that the model does not have'
+                self._unread(place, why, unit.name)
+
+    # --- wiring ---------------------------------------------------------------------------------
+
+    def wiring(self, wiring: Wiring, units: list[Unit]) -> None:
+        """Topics of some units that are not known, and those with nobody at their other end."""
+        wanted = [i for i in wiring.instances if i.start.unit in units]
+        for instance in wanted:
+            self._topics(instance)
+        for instance, fact in unheard(wiring):
+            topic = instance.topic(fact.topic)
+            if isinstance(topic, str) and instance in wanted:
+                why = f'nobody in these files subscribes to "{topic}": it is not sent in the model'
+                self._approximated(fact.site.place, why, instance.start.unit.name, _OPEN)
+        for instance, heard in unfed(wiring):
+            topic = instance.topic(heard.topic)
+            if isinstance(topic, str) and instance in wanted:
+                why = f'nobody in these files publishes "{topic}": the model gets no such message'
+                self._approximated(heard.site.place, why, instance.start.unit.name, _CLOSE)
+        self._services(wiring, wanted)
+        self._shared(wanted)
+
+    def _services(self, wiring: Wiring, wanted: list[Instance]) -> None:
+        """Calls of services of the model's own nodes: these are no messages."""
+        offered = {
+            i.topic(f.name)
+            for i in wiring.instances
+            for f in i.start.unit.facts
+            if isinstance(f, ServiceFact)
+        }
+        for instance in wanted:
+            for fact in instance.start.unit.facts:
+                if isinstance(fact, ClientFact) and instance.topic(fact.name) in offered:
+                    why = "the model does not send what this asks of another of its nodes"
+                    self._unread(fact.site.place, why, instance.start.unit.name)
+
+    def _topics(self, instance: Instance) -> None:
+        for fact in instance.start.unit.facts:
+            if isinstance(fact, PublisherFact | SubscriptionFact):
+                topic = instance.topic(fact.topic)
+                if isinstance(topic, Open):
+                    why = f"the topic is not known: {topic.why}"
+                    self._unread(fact.site.place, why, instance.start.unit.name)
+
+    def _shared(self, instances: list[Instance]) -> None:
+        """Objects of one program that share its thread, and nodes that may not be there."""
+        nodes: dict[tuple[int, int], list[Instance]] = {}
+        for instance in instances:
+            if instance.start.program is not None:
+                key = instance.start.program.main.node.id, id(instance.launched)
+                nodes.setdefault(key, []).append(instance)
+            if instance.start.made is not None and instance.start.made.repeated:
+                self._made(instance, "how many of these are made is not known: the model has one")
+            launched = instance.launched
+            if launched is not None and launched.only_if:
+                why = f"it is started only `{launched.only_if[-1]}`: in the model it always is"
+                self._approximated(Place(launched.source, launched.span), why)
+        for together in nodes.values():
+            self._common_variables(
+                list({i.start.unit.name: i.start.unit for i in together}.values())
+            )
+            if len(together) > 1:
+                why = "objects of one program take turns; in the model they act by themselves"
+                self._made(together[1], why)
+
+    def _common_variables(self, units: list[Unit]) -> None:
+        """Variables outside of classes that several rebecs of one program use."""
+        if len(units) < 2:
+            return
+        uses = [{text_of(n) for _, body in bodies(u) for n in _words(body)} for u in units]
+        for name, variables in units[0].code.variables.items():
+            constant = any((v.cpp.source.path, name) in units[0].code.constants for v in variables)
+            if sum(name in words for words in uses) > 1 and not constant:
+                place = Place(variables[0].cpp.source, variables[0].cpp.span(variables[0].node))
+                why = f'several rebecs of one program share "{name}": in the model each has its own'
+                self._unread(place, why, units[0].name)
+
+    def _made(self, instance: Instance, why: str) -> None:
+        program, made = instance.start.program, instance.start.made
+        if program is None:
+            return
+        node = program.main.node
+        if made is not None and made.statement is not None:
+            node = made.statement
+        place = Place(program.main.cpp.source, program.main.cpp.span(node))
+        self._approximated(place, why, program.name)
+
+    # --- once -----------------------------------------------------------------------------------
+
+    def _unread(self, place: Place, why: str, within: str) -> None:
+        listed = [f for f in self.findings.all if f.grade is Grade.UNREADABLE]
+        if not any(f.source is place.source and f.span == place.span for f in listed):
+            self.findings.unreadable(place.source, Unread(place.span, why), within)
+
+    def _approximated(self, place: Place, why: str, within: str = "", hint: str = "") -> None:
+        if not any(f.span == place.span and f.why == why for f in self.findings.all):
+            self.findings.approximated(place.source, place.span, why, hint, within)
+
+
+_OPEN = "add the package that has the receivers, if they matter"
+_CALLS = "add a class to the model that calls it, or message servers that send to it"
+_CLOSE = "add the package that publishes it, or a class to the model that sends what may come"
+
+
+def _is_elsewhere(kept: str) -> bool:
+    """Whether a variable is part of another object: `helper_->pub`."""
+    own = kept.removeprefix("this->").partition("[")[0]
+    return "." in own or "->" in own
+
+
+def _is_lost(fact: SubscriptionFact | TimerFact) -> bool:
+    above = fact.site.call.parent
+    single = isinstance(fact, SubscriptionFact) and fact.single
+    return not single and above is not None and above.type == "expression_statement"
+
+
+def _words(node: Node) -> Iterator[Node]:
+    waiting = [node]
+    while waiting:
+        current = waiting.pop()
+        if current.type in ("identifier", "type_identifier", "field_identifier"):
+            yield current
+        waiting += current.named_children

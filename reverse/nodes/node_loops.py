@@ -1,0 +1,186 @@
+"""Loops that keep a node running, `while (ros::ok())`, as servers that send to themselves."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.graph import RateFact
+from rebsync.reverse.syntax.cpp_calls import calls_in
+from rebsync.reverse.syntax.cpp_index import CppFunction
+from rebsync.reverse.syntax.cpp_tree import named, text_of
+
+_LOOPS = frozenset({"while_statement", "do_statement", "for_statement"})
+_HAS_LOOP = re.compile(rb"while|for|do")
+_SPINS = frozenset({"spinOnce", "callAvailable", "callOne"})
+_AWAKE = frozenset({"ok", "isStarted"})
+
+
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """A loop that runs as long as the node does.
+
+    Between `first` and `rest` of its body it sleeps, as `rate` says, or not at all. `guard` are
+    the conditions besides that the node runs.
+    """
+
+    function: CppFunction
+    node: Node
+    first: tuple[Node, ...]
+    rest: tuple[Node, ...]
+    guard: tuple[Node, ...]
+    rate: RateFact | None
+    sleeps: bool
+
+
+def loops_in(function: CppFunction, rates: Sequence[RateFact]) -> Iterator[Loop]:
+    """The loops of a function that run as long as the node does, outer ones only."""
+    body = function.body
+    waiting = [body] if body is not None and _HAS_LOOP.search(body.text or b"") else []
+    while waiting:
+        node = waiting.pop()
+        if node.type in _LOOPS and (loop := _loop(function, node, rates)) is not None:
+            yield loop
+        elif node.type != "lambda_expression":
+            waiting += reversed(node.named_children)
+
+
+def spins(statement: Node) -> bool:
+    """Whether a statement only lets ROS serve messages."""
+    names = {c.name.rpartition("::")[2] for c in calls_in(statement)}
+    return statement.type == "expression_statement" and bool(names & _SPINS) and len(names) == 1
+
+
+def _loop(function: CppFunction, node: Node, rates: Sequence[RateFact]) -> Loop | None:
+    body, condition = node.child_by_field_name("body"), node.child_by_field_name("condition")
+    if body is None:
+        return None
+    parts = list(_conjuncts(condition)) if condition is not None else []
+    runs = [p for p in parts if _is_awake(p)]
+    if (parts and not runs) or (node.type == "for_statement" and parts and len(parts) != len(runs)):
+        return None
+    if node.type == "for_statement" and node.child_by_field_name("update") is not None:
+        return None
+    statements = named(body) if body.type == "compound_statement" else [body]
+    at, rate = _sleep(statements, rates)
+    inside = any(spins(s) or c.name == "sleep" for s in statements for c in calls_in(s))
+    if not inside and all(text_of(p) in ("true", "1") for p in parts):
+        return None
+    first = [s for s in statements[: len(statements) if at is None else at] if not spins(s)]
+    rest = [] if at is None else [s for s in statements[at + 1 :] if not spins(s)]
+    guard = tuple(p for p in parts if p not in runs)
+    sleeps = at is not None or any(
+        c.name.rpartition("::")[2] in ("sleep", "usleep", "sleep_for") for c in calls_in(body)
+    )
+    return Loop(function, node, tuple(first), tuple(rest), guard, rate, sleeps)
+
+
+def _conjuncts(node: Node) -> Iterator[Node]:
+    """The conditions that all have to hold."""
+    inner = named(node)
+    if node.type in ("condition_clause", "parenthesized_expression") and len(inner) == 1:
+        yield from _conjuncts(inner[0])
+    elif node.type == "binary_expression" and len(inner) == 2 and _operator(node) in ("&&", "and"):
+        for each in inner:
+            yield from _conjuncts(each)
+    else:
+        yield node
+
+
+def _operator(node: Node) -> str:
+    operator = node.child_by_field_name("operator")
+    return text_of(operator) if operator is not None else ""
+
+
+def _is_awake(node: Node) -> bool:
+    text = "".join(text_of(node).split())
+    if text in ("true", "1", "!ros::isShuttingDown()"):
+        return True
+    names = {c.name.rpartition("::")[2] for c in calls_in(node)}
+    return node.type == "call_expression" and len(names) == 1 and bool(names & _AWAKE)
+
+
+def _sleep(
+    statements: Sequence[Node], rates: Sequence[RateFact]
+) -> tuple[int | None, RateFact | None]:
+    """Which statement sleeps, and by which rate."""
+    for index, statement in enumerate(statements):
+        if statement.type != "expression_statement":
+            continue
+        for call in calls_in(statement):
+            if call.name != "sleep" or call.target is None:
+                continue
+            for rate in rates:
+                kept = (rate.site.kept or _variable(rate.site.call)).removeprefix("this->")
+                made = rate.site.call
+                inside = call.node.start_byte <= made.start_byte < call.node.end_byte
+                same = rate.site.cpp.source.path == rate.site.place.source.path and inside
+                if (kept and call.on.removeprefix("this->") == kept) or same:
+                    return index, rate
+    return None, None
+
+
+def _variable(call: Node) -> str:
+    """The variable that is declared with what a call makes."""
+    at: Node | None = call
+    while at is not None and at.type not in ("declaration", "compound_statement"):
+        at = at.parent
+    while at is not None and at.type not in ("identifier", "compound_statement"):
+        at = at.child_by_field_name("declarator")
+    return text_of(at) if at is not None and at.type == "identifier" else ""
+
+
+# --- leaving a loop -----------------------------------------------------------------------------
+
+
+def left(statements: Sequence[m.Statement], again: m.Statement) -> tuple[m.Statement, ...]:
+    """The body of a loop as that of a server: to leave the loop ends it, to go on sends again."""
+    return tuple(_left(s, again, True) for s in statements)
+
+
+def _left(node: m.Statement, again: m.Statement, breaks: bool) -> m.Statement:
+    match node:
+        case m.Break() if breaks:
+            return m.Return(None, node.annotations, node.span)
+        case m.Return(value) if value is not None:
+            return m.Return(None, node.annotations, node.span)
+        case m.Continue() if breaks:
+            return m.Block((again, m.Return(None, (), node.span)), node.annotations, node.span)
+        case m.Block(statements):
+            inner_ = [_left(s, again, breaks) for s in statements]
+            flat = [p for s in inner_ for p in (s.statements if isinstance(s, m.Block) else (s,))]
+            local = any(isinstance(p, m.Local) for p in flat)
+            return replace(node, statements=tuple(inner_ if local else flat))
+        case m.If(_, then, otherwise):
+            other = _left(otherwise, again, breaks) if otherwise is not None else None
+            return replace(node, then=_left(then, again, breaks), otherwise=other)
+        case m.While(_, body) | m.For(body=body):
+            return replace(node, body=_left(body, again, False))
+        case m.Switch(_, cases):
+            inner = tuple(
+                replace(c, statements=tuple(_in_switch(s, again, breaks) for s in c.statements))
+                for c in cases
+            )
+            return replace(node, cases=inner)
+        case other_:
+            return other_
+
+
+def _in_switch(node: m.Statement, again: m.Statement, goes_on: bool) -> m.Statement:
+    """As `_left`; a `break` in a switch ends the switch."""
+    match node:
+        case m.Break():
+            return node
+        case m.Block(statements):
+            inner = tuple(_in_switch(s, again, goes_on) for s in statements)
+            return replace(node, statements=inner)
+        case m.If(_, then, otherwise):
+            other = _in_switch(otherwise, again, goes_on) if otherwise is not None else None
+            return replace(node, then=_in_switch(then, again, goes_on), otherwise=other)
+        case _:
+            return _left(node, again, goes_on)

@@ -1,0 +1,97 @@
+"""Parameters that a node reads while it is set up, as parameters of the constructor."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.package import Value
+from rebsync.records import dataclass
+from rebsync.reverse.graph import Access, ParameterFact
+from rebsync.reverse.nodes.node_values import Instance
+from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
+from rebsync.reverse.syntax.cpp_tree import text_of
+from rebsync.static.values import converted
+
+_NUMBERS = {bool: "boolean", int: "int", float: "double"}
+TypeOf = Callable[[Node], m.Type | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """A parameter of the constructor, with its value for each rebec (None: not known)."""
+
+    name: str
+    type: m.Type
+    values: tuple[Value | None, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What a call asks: the node that is set (None: the call itself is the value), and whether
+    there is such a parameter (None: in some of the rebecs).
+    """
+
+    call: CppCall
+    target: Node | None
+    type: m.Type | None
+    values: tuple[Value | None, ...]
+    found: bool | None
+
+
+def asked(fact: ParameterFact, instances: Sequence[Instance], type_of: TypeOf) -> Asked | None:
+    """What a call that reads a parameter asks; None where it is no such call."""
+    call = call_of(fact.site.call)
+    if call is None or fact.access not in (Access.GET, Access.HAS):
+        return None
+    target = _target(call) if fact.access is Access.GET else None
+    here = [i.parameter(fact.name) for i in instances]
+    there = {p is not None for p in here}
+    found = None if len(there) > 1 else next(iter(there), False)
+    default = fact.default
+    others = [None if default is None else i.value(default) for i in instances]
+    if not instances and isinstance(default, bool | int | float):
+        others = [default]
+    raw = [
+        p.value if p is not None else d
+        for p, d in zip(here or [None] * len(others), others, strict=True)
+    ]
+    type_ = type_of(target) if target is not None else _of_values(raw, call)
+    values = tuple(_as(v, type_) if type_ is not None else None for v in raw)
+    return Asked(call, target, type_, values, found)
+
+
+def _target(call: CppCall) -> Node | None:
+    """The variable that gets the value, if one is handed over."""
+    count = len(call.arguments)
+    if call.name.startswith("get") and count == 2:
+        return call.arguments[1]
+    if call.name.startswith("param") and count == 3:
+        return call.arguments[1]
+    return None
+
+
+def _of_values(raw: Sequence[object], call: CppCall) -> m.Type | None:
+    """The type of the value that a call gives."""
+    spelled = {"int": "int", "double": "double", "float": "float", "bool": "boolean"}
+    if call.types and text_of(call.types[0]) in spelled:
+        return m.Type(spelled[text_of(call.types[0])])
+    if len(call.arguments) == 2:
+        if call.arguments[1].type in ("true", "false"):
+            return m.Type("boolean")
+        if call.arguments[1].type == "number_literal":
+            text = text_of(call.arguments[1])
+            return m.Type("double" if "." in text or "e" in text else "int")
+    found = {_NUMBERS.get(type(v)) for v in raw if v is not None}
+    only = next(iter(found), None)
+    return m.Type(only) if len(found) == 1 and only is not None else None
+
+
+def _as(value: object, type_: m.Type) -> Value | None:
+    match value:
+        case bool() | int() | float():
+            return converted(value, type_)
+        case _:
+            return None

@@ -1,0 +1,248 @@
+"""The programs of a package, and the objects of node classes that each of them makes."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import field, replace
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reverse.build.build_files import BuildFiles
+from rebsync.reverse.build.cmake import read_build
+from rebsync.reverse.build.cmake_targets import Folder
+from rebsync.reverse.graph import Graph, NodeFact
+from rebsync.reverse.syntax.cpp_calls import call_of
+from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
+from rebsync.source import Source
+
+_BUILD = "CMakeLists.txt"
+_LOOPS = frozenset({"for_statement", "while_statement", "do_statement", "for_range_loop"})
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """An executable with its `main` and the paths of its sources."""
+
+    name: str
+    main: CppFunction
+    sources: frozenset[str]
+    node: NodeFact | None = None
+
+    @property
+    def stem(self) -> str:
+        """The name of the file that its `main` is in, which programs often have."""
+        return self.main.cpp.source.path.rpartition("/")[2].rpartition(".")[0]
+
+    def has(self, cpp: Cpp) -> bool:
+        """Whether a file is one of its sources."""
+        return cpp.source.path in self.sources
+
+
+@dataclass(frozen=True, slots=True)
+class Made:
+    """An object of a node class, or None for the program itself: where it is made and with what.
+
+    `statement` is the statement of `main` that makes it, if it is one; `variable` its name there.
+    """
+
+    owner: str
+    statement: Node | None
+    variable: str
+    arguments: tuple[Node, ...]
+    repeated: bool = False
+
+
+def programs(code: Code, files: Mapping[str, Source]) -> tuple[Program, ...]:
+    """The executables that the package makes, or what has a `main` where no CMake says so."""
+    build = _build(files)
+    found = []
+    for main in code.definitions.get(("", "main"), []):
+        path = main.cpp.source.path
+        inside = next((p for p, s in files.items() if s is main.cpp.source), path)
+        targets = [] if build is None else _targets(build, inside)
+        stem = path.rpartition("/")[2].rpartition(".")[0]
+        for name, sources in targets or [(stem, frozenset({inside}))]:
+            paths = frozenset(files[p].path for p in sources if p in files) | {path}
+            found.append(Program(name, main, paths))
+    return tuple(found)
+
+
+def with_nodes(found: tuple[Program, ...], graph: Graph) -> tuple[Program, ...]:
+    """The programs, each with the node that it is."""
+    return tuple(replace(p, node=_node(graph, p.main, p.sources)) for p in found)
+
+
+def _build(files: Mapping[str, Source]) -> BuildFiles | None:
+    if _BUILD not in files:
+        return None
+    return read_build(files[_BUILD], Folder(files.get, lambda _: None))
+
+
+def _targets(build: BuildFiles, path: str) -> list[tuple[str, frozenset[str]]]:
+    """The executables that a source belongs to, each with all of its sources."""
+    found = []
+    for target in build.targets:
+        if target.executable and path in target.sources:
+            name = target.file if isinstance(target.file, str) else target.name
+            found.append((name, frozenset(build.sources_of(target))))
+    return found
+
+
+def _node(graph: Graph, main: CppFunction, paths: Collection[str]) -> NodeFact | None:
+    """The node that a program is: made in its `main`, or in a function of its sources."""
+    nodes = [f for f in graph.facts if isinstance(f, NodeFact) and f.nodelet is None]
+    own = [f for f in nodes if f.site.place.source.path == main.cpp.source.path]
+    others = [f for f in nodes if f.site.place.source.path in paths]
+    return next(iter([*own, *others]), None)
+
+
+# --- objects ------------------------------------------------------------------------------------
+
+
+@dataclass(slots=True)
+class Objects:
+    """Looks for the objects of some classes that a program makes."""
+
+    code: Code
+    wanted: Collection[str]
+    _seen: set[str] = field(default_factory=set)
+
+    def made_by(self, program: Program) -> list[Made]:
+        """The objects that `main` makes, and those that functions and classes it uses make."""
+        self._seen = set()
+        found = list(self._in(program.main, True))
+        for (owner, name), functions in self.code.definitions.items():
+            if not owner and name != "main":
+                for function in functions:
+                    if program.has(function.cpp):
+                        found += self._in(function, False)
+        for name, variables in self.code.variables.items():
+            for variable in variables:
+                plain = variable.node.child_by_field_name("declarator")
+                pointer = plain is None or "*" in text_of(plain) or not _is_plain(variable.type)
+                if program.has(variable.cpp) and not pointer:
+                    found += [
+                        Made(n, None, name, ()) for n in _types(variable.type) if n in self.wanted
+                    ]
+        return found
+
+    def made_by_class(self, owner: CppClass, entry: CppFunction | None) -> list[Made]:
+        """The objects that a class makes, a nodelet's; `entry` is the function that starts it."""
+        self._seen = {owner.name}
+        first = list(self._in(entry, True)) if entry is not None else []
+        return first + list(self._members(owner, entry))
+
+    def _in(self, function: CppFunction, in_main: bool) -> Iterator[Made]:
+        for node in self.code.inside(function.cpp, function.body, "type_identifier"):
+            name = text_of(node)
+            if name in self.wanted and (made := _made(node, name, in_main)) is not None:
+                yield made
+            if name in self.code.classes and name not in self._seen and _makes(node):
+                self._seen.add(name)
+                yield from self._members(self.code.classes[name])
+
+    def _members(self, owner: CppClass, entry: CppFunction | None = None) -> Iterator[Made]:
+        """The objects that are members of another, or made by its functions."""
+        for above in self.code.lineage(owner.name):
+            for member in (*above.fields, *above.others):
+                for name in _types(member.type) if _is_plain(member.type) else ():
+                    if name in self.wanted and "*" not in text_of(member.node):
+                        yield Made(name, None, member.name, ())
+            for function in self.code.functions_of(above):
+                if entry is None or function.node.id != entry.node.id:
+                    yield from self._in(function, False)
+
+
+def _types(node: Node) -> list[str]:
+    return [text_of(n) for n in inside(node, "type_identifier")]
+
+
+def _is_plain(node: Node) -> bool:
+    """Whether a type is that of an object itself, not of a pointer or container."""
+    return node.type in ("type_identifier", "qualified_identifier") and "<" not in text_of(node)
+
+
+def _makes(node: Node) -> bool:
+    """Whether a type's name stands where an object is made, not for a parameter or a cast."""
+    around: Node | None = node.parent
+    while around is not None and around.type in ("qualified_identifier", "template_argument_list"):
+        around = around.parent
+    return around is not None and around.type not in (
+        "parameter_declaration",
+        "cast_expression",
+        "lambda_expression",
+    )
+
+
+def _made(node: Node, name: str, in_main: bool) -> Made | None:
+    """The object that is made where a class's name stands, if one is."""
+    around: Node | None = node.parent
+    pointer = False
+    while around is not None and not around.type.endswith("statement"):
+        match around.type:
+            case "new_expression":
+                arguments = around.child_by_field_name("arguments")
+                return _object(around, name, named(arguments) if arguments else [], in_main)
+            case "call_expression" if "make_" in text_of(around).partition("(")[0]:
+                arguments = around.child_by_field_name("arguments")
+                return _object(around, name, named(arguments) if arguments else [], in_main)
+            case "template_argument_list":
+                pointer = True
+            case "parameter_declaration" | "cast_expression" | "lambda_expression":
+                return None
+            case "declaration":
+                return None if pointer else _declared(around, name, in_main)
+        around = around.parent
+    return None
+
+
+def _declared(node: Node, name: str, in_main: bool) -> Made | None:
+    """`Talker t;`, `Talker t(nh);` (which may parse as a function), `Talker t{nh};`."""
+    declarator = node.child_by_field_name("declarator")
+    if declarator is None or declarator.type in ("pointer_declarator", "reference_declarator"):
+        return None
+    if declarator.type == "init_declarator":
+        inner = declarator.child_by_field_name("declarator")
+        if inner is None or inner.type != "identifier":
+            return None
+        value = declarator.child_by_field_name("value")
+        if value is not None and value.type not in ("argument_list", "initializer_list"):
+            value = None
+        return _object(node, name, named(value) if value is not None else [], in_main)
+    if declarator.type == "function_declarator":
+        parameters = declarator.child_by_field_name("parameters")
+        return _object(node, name, named(parameters) if parameters else [], in_main)
+    return _object(node, name, [], in_main)
+
+
+def _object(node: Node, name: str, arguments: list[Node], in_main: bool) -> Made:
+    statement: Node | None = node
+    while statement is not None and not (
+        statement.type.endswith("_statement") or statement.type == "declaration"
+    ):
+        statement = statement.parent
+    around, repeated = statement, False
+    while around is not None:
+        repeated = repeated or around.type in _LOOPS
+        around = around.parent
+    variable = _variable(statement) if statement is not None else ""
+    return Made(name, statement if in_main else None, variable, tuple(arguments), repeated)
+
+
+def _variable(statement: Node) -> str:
+    """The variable that a statement declares, assigns or resets."""
+    at: Node | None = statement
+    if statement.type == "expression_statement" and statement.named_children:
+        inner = statement.named_children[0]
+        call = call_of(inner)
+        if call is not None:
+            return call.on.removeprefix("this->") if call.name == "reset" else ""
+        at = inner.child_by_field_name("left")
+        return text_of(at).removeprefix("this->") if at is not None else ""
+    while at is not None and at.type != "identifier":
+        inner_ = at.child_by_field_name("declarator")
+        last = at.named_children[-1] if at.type == "reference_declarator" else None
+        at = inner_ if inner_ is not None else last
+    return text_of(at) if at is not None else ""

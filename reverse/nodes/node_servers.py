@@ -1,0 +1,254 @@
+"""The message servers of a unit: one for each callback of subscriptions, timers and services."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import TypeAlias
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.build.message_types import Fields, MessageTypes
+from rebsync.reverse.graph import Callback, ServiceFact, SubscriptionFact, TimerFact
+from rebsync.reverse.nodes.node_names import Names
+from rebsync.reverse.nodes.node_units import Unit
+from rebsync.reverse.syntax.cpp_calls import calls_in
+from rebsync.reverse.syntax.cpp_index import Code, CppFunction
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
+
+Asking: TypeAlias = SubscriptionFact | TimerFact | ServiceFact
+_HEADER = "header."
+_DECLARING = ("declaration", "init_declarator", "for_range_loop", "parameter_declaration")
+_PLACE = re.compile(r"(^|::)_\d$")
+
+
+@dataclass(frozen=True, slots=True)
+class Carried:
+    """A field of a message that a server gets as a parameter."""
+
+    path: str
+    name: str
+    type: m.Type
+
+
+@dataclass(frozen=True, slots=True)
+class Server:
+    """A message server to be.
+
+    `message` is the name of the callback's parameter that is the message, or the timer's event;
+    `arguments` are those that a bind fills, by name.
+    """
+
+    name: str
+    callback: Callback
+    cpp: Cpp
+    body: Node
+    message: str
+    arguments: tuple[tuple[str, Node], ...]
+    type: str | None = None
+    parameters: tuple[Carried, ...] = ()
+    subscriptions: tuple[SubscriptionFact, ...] = ()
+    timers: tuple[TimerFact, ...] = ()
+    service: ServiceFact | None = None
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """The paths of the fields that it gets."""
+        return tuple(p.path for p in self.parameters)
+
+
+def servers(unit: Unit, types: MessageTypes, names: Names) -> tuple[Server, ...]:
+    """The servers of a unit, in the order of its subscriptions and timers."""
+    found: dict[tuple[object, ...], Server] = {}
+    for fact in unit.facts:
+        if not isinstance(fact, SubscriptionFact | TimerFact | ServiceFact):
+            continue
+        for callback in fact.callbacks:
+            body = _body(callback, fact.site.cpp) if isinstance(callback, Callback) else None
+            if not isinstance(callback, Callback) or body is None:
+                continue
+            _, bound = _arguments(callback, fact)
+            given = tuple(text_of(node) for _, node in bound)
+            key = body[1].id, given, _kind(fact, callback, types)
+            known = found.get(key)
+            if known is None:
+                found[key] = _server(unit.code, fact, callback, body, types, names)
+            elif isinstance(fact, SubscriptionFact):
+                found[key] = replace(known, subscriptions=(*known.subscriptions, fact))
+            elif isinstance(fact, TimerFact):
+                found[key] = replace(known, timers=(*known.timers, fact))
+    return tuple(found.values())
+
+
+def _kind(fact: Asking, callback: Callback, types: MessageTypes) -> object:
+    """What callbacks must have in common to be one server: a timer that goes on is alone."""
+    if isinstance(fact, SubscriptionFact):
+        return "message", _type(fact, callback, types)
+    if isinstance(fact, ServiceFact):
+        return "service"
+    return "once" if fact.one_shot is True else id(fact)
+
+
+def _body(callback: Callback, cpp: Cpp) -> tuple[Cpp, Node] | None:
+    if callback.function is not None and callback.function.body is not None:
+        return callback.function.cpp, callback.function.body
+    if callback.lambda_ is not None:
+        body = callback.lambda_.child_by_field_name("body")
+        return (cpp, body) if body is not None else None
+    return None
+
+
+def _server(
+    code: Code,
+    fact: Asking,
+    callback: Callback,
+    body: tuple[Cpp, Node],
+    types: MessageTypes,
+    names: Names,
+) -> Server:
+    wish = callback.name.rpartition("::")[2] or _kept(fact) or "callback"
+    message, bound = _arguments(callback, fact)
+    name = names.give(wish if wish != "operator()" else callback.through or "callback")
+    if isinstance(fact, ServiceFact):
+        return Server(name, callback, *body, "", (), service=fact)
+    if isinstance(fact, TimerFact):
+        return Server(name, callback, *body, message, bound, timers=(fact,))
+    type_ = _type(fact, callback, types)
+    fields = types.fields(type_) if type_ is not None else None
+    carried = tuple(_carried(code, fields or {}, message, body, names.used))
+    return Server(name, callback, *body, message, bound, type_, carried, (fact,))
+
+
+def _arguments(callback: Callback, fact: Asking) -> tuple[str, tuple[tuple[str, Node], ...]]:
+    """The callback's parameter for the message, and those that a bind fills with what."""
+    names = [n for n, _ in _parameters(callback)]
+    for call in calls_in(fact.site.call):
+        if call.name.rpartition("::")[2] != "bind" or not call.arguments:
+            continue
+        given = list(call.arguments[1:])
+        owner = callback.function.owner if callback.function is not None else ""
+        if owner and given:
+            given = given[1:]
+        pairs = list(zip(names, given, strict=False))
+        message = next((n for n, node in pairs if _PLACE.search(text_of(node))), "")
+        return message, tuple((n, node) for n, node in pairs if not _PLACE.search(text_of(node)))
+    return names[0] if names else "", ()
+
+
+def _kept(fact: Asking) -> str:
+    return fact.site.kept.removeprefix("this->").rstrip("_")
+
+
+def _type(fact: SubscriptionFact, callback: Callback, types: MessageTypes) -> str | None:
+    """The type of the messages: as the subscription or the callback's signature says."""
+    if isinstance(fact.type, str):
+        return fact.type
+    message, _ = _arguments(callback, fact)
+    spelled = dict(_parameters(callback)).get(message)
+    return types.named(spelled) if spelled is not None else None
+
+
+def _parameters(callback: Callback) -> list[tuple[str, str]]:
+    """Name and type of each parameter of a callback."""
+    if isinstance(callback.function, CppFunction):
+        return [(p.name, text_of(p.type)) for p in callback.function.parameters]
+    found = []
+    declarator = (
+        callback.lambda_.child_by_field_name("declarator") if callback.lambda_ is not None else None
+    )
+    listed = declarator.child_by_field_name("parameters") if declarator is not None else None
+    for parameter in named(listed) if listed is not None else []:
+        at = parameter.child_by_field_name("declarator")
+        while at is not None and at.type != "identifier":
+            at = at.named_children[-1] if at.named_children else None
+        type_ = parameter.child_by_field_name("type")
+        found.append((text_of(at) if at is not None else "", text_of(type_) if type_ else ""))
+    return found
+
+
+# --- which fields are used ----------------------------------------------------------------------
+
+
+def _carried(
+    code: Code, fields: Fields, message: str, body: tuple[Cpp, Node], taken: set[str]
+) -> Iterator[Carried]:
+    """The fields of the model's types that a body uses, in the order of the message."""
+    used = set(used_paths(fields, message, [body[1]]))
+    names = Names.beside(declared(code, *body) | taken)
+    for path, type_ in fields.items():
+        if path in used and type_ is not None:
+            yield Carried(path, names.give(path.replace(".", "_")), type_)
+
+
+def used_paths(fields: Fields, variable: str, bodies: Sequence[Node]) -> Iterator[str]:
+    """The paths of a variable's fields that are named; all where it is used as a whole."""
+    for body in bodies:
+        for node in _named(body, variable):
+            path = _path(node)
+            if path in fields:
+                yield path
+                continue
+            inner = f"{path}." if path else ""
+            for each, type_ in fields.items():
+                plain = type_ is not None and not type_.dimensions
+                counted = each.endswith("header.seq") or (not inner and _of_header(each))
+                if each.startswith(inner) and plain and not counted:
+                    yield each
+
+
+def _of_header(path: str) -> bool:
+    return path.startswith(_HEADER) or f".{_HEADER}" in path
+
+
+def _named(body: Node, variable: str) -> Iterator[Node]:
+    waiting = [body]
+    while waiting:
+        node = waiting.pop()
+        if node.type in ("identifier", "field_identifier") and text_of(node) == variable:
+            yield node
+        waiting += node.named_children
+
+
+def _path(node: Node) -> str:
+    """The fields that follow a variable: `linear.x` of `msg->linear.x` and `(*msg).linear.x`."""
+    at, parts = node, list[str]()
+    while at.parent is not None:
+        around = at.parent
+        if around.type == "field_expression" and around.child_by_field_name("argument") == at:
+            field = around.child_by_field_name("field")
+            call = around.parent
+            function = call.child_by_field_name("function") if call is not None else None
+            if field is None or function == around:
+                break
+            parts.append(text_of(field))
+        elif around.type == "field_expression" and text_of(around).startswith("this->"):
+            pass
+        elif around.type not in ("pointer_expression", "parenthesized_expression") or parts:
+            break
+        at = around
+    return ".".join(parts)
+
+
+def declared(code: Code, cpp: Cpp, body: Node) -> set[str]:
+    """The names of the variables that a body declares."""
+    found = set()
+    for node in code.inside(cpp, body, *_DECLARING):
+        for child in node.children_by_field_name("declarator"):
+            found |= {text_of(n) for n in _identifiers(child)}
+    return found
+
+
+def _identifiers(node: Node) -> Iterator[Node]:
+    """The names that a declarator declares, without those of its value."""
+    if node.type == "identifier":
+        yield node
+    elif node.type == "init_declarator":
+        inner = node.child_by_field_name("declarator")
+        if inner is not None:
+            yield from _identifiers(inner)
+    elif node.type.endswith("declarator"):
+        for child in node.named_children:
+            yield from _identifiers(child)

@@ -1,0 +1,365 @@
+"""What sets a node up, in its constructor or in `main`, as statements of the model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import field
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.package import Value
+from rebsync.records import dataclass
+from rebsync.reverse.bodies.cpp_types import carried
+from rebsync.reverse.bodies.scope import Outside, Stores, TimerOf, Variable
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.graph import (
+    ClientFact,
+    Fact,
+    Graph,
+    NodeFact,
+    ParameterFact,
+    PublisherFact,
+    RateFact,
+    ServiceFact,
+    SubscriptionFact,
+    TimerFact,
+)
+from rebsync.reverse.nodes.node_loops import Loop, loops_in
+from rebsync.reverse.nodes.node_names import Names
+from rebsync.reverse.nodes.node_parameters import Given, asked
+from rebsync.reverse.nodes.node_reach import reached
+from rebsync.reverse.nodes.node_servers import Server
+from rebsync.reverse.nodes.node_state import State
+from rebsync.reverse.nodes.node_times import Times
+from rebsync.reverse.nodes.node_values import Instance
+from rebsync.reverse.syntax.cpp_declarations import declared_name
+from rebsync.reverse.syntax.cpp_index import Code, CppFunction
+from rebsync.reverse.syntax.cpp_tree import inside, named, text_of
+
+Entry = tuple["m.Statement | Stores | Node", ...]
+_WAITS = frozenset({"spin", "waitForShutdown", "spinOnce", "shutdown", "start"})
+_AUDIENCE = frozenset({"getNumSubscribers", "getNumPublishers", "waitForService"})
+_ENDS = frozenset({"spin", "waitForShutdown"})
+_PLAIN = (NodeFact, PublisherFact, SubscriptionFact, ServiceFact, ClientFact, RateFact)
+_AGAIN = "a timer that is made again stops the one before; in the model both go on"
+_ROUND = "messages wait for the next round of this loop; in the model they are served at once"
+_NESTING = frozenset(
+    {"if_statement", "while_statement", "for_statement", "switch_statement", "else_clause"}
+)
+
+
+@dataclass(slots=True)
+class Setup:
+    """What the calls that set a node up stand for, by the ids of their statements.
+
+    `first` are the functions that run before the node serves messages. `periodic` gives for each
+    server of a timer its period, `parameters` are those of the constructor.
+    """
+
+    code: Code
+    graph: Graph
+    state: State
+    servers: Sequence[Server]
+    facts: Sequence[Fact]
+    instances: Sequence[Instance]
+    first: Sequence[CppFunction]
+    times: Times
+    findings: Findings
+    within: str
+    names: Names
+    instead: dict[int, Entry] = field(default_factory=dict)
+    values: dict[int, m.Expression] = field(default_factory=dict)
+    timers: dict[int, TimerOf] = field(default_factory=dict)
+    periodic: dict[str, int] = field(default_factory=dict)
+    parameters: list[Given] = field(default_factory=list)
+    loops: list[tuple[Loop, str]] = field(default_factory=list)
+
+    def prepare(self) -> None:
+        """Finds it all out."""
+        self._captures()
+        self._loops()
+        for fact in self.graph.facts:
+            if isinstance(fact, (*_PLAIN, TimerFact)) and self._is_near(fact):
+                self._plain(fact)
+        for fact in self.facts:
+            match fact:
+                case TimerFact():
+                    self._timer(fact)
+                case ParameterFact() if self._is_first(fact):
+                    self._parameter(fact)
+                case PublisherFact() | SubscriptionFact() if not self._at_once(fact):
+                    self._later(fact)
+        for function in self.first:
+            self._waits(function)
+
+    def _captures(self) -> None:
+        """What lambdas use of the function around them lives as long as they do."""
+        for server in self.servers:
+            if server.callback.lambda_ is None:
+                continue
+            function = around(server.body, self.state.unit.functions)
+            if function is not None:
+                mentioned = {text_of(n) for n in _names(server.body)}
+                self.instead |= self.state.outlive(function, mentioned, False)
+
+    def _is_first(self, fact: Fact) -> bool:
+        return fact.site.function is not None and any(
+            f.node.id == fact.site.function.node.id for f in self.first
+        )
+
+    # --- calls ----------------------------------------------------------------------------------
+
+    def _is_near(self, fact: Fact) -> bool:
+        """Whether a call stands in the files of this unit or of the programs that run it."""
+        path = fact.site.cpp.source.path
+        return path in self.state.unit.files or any(f.cpp.source.path == path for f in self.first)
+
+    def _plain(self, fact: Fact) -> None:
+        """A call that asks for something is no statement of the model."""
+        statement = statement_of(fact.site.call)
+        kinds = ("expression_statement", "declaration", "field_initializer")
+        if statement is not None and statement.type in kinds:
+            self.instead[statement.id] = ()
+
+    def _later(self, fact: PublisherFact | SubscriptionFact) -> None:
+        what = "published" if isinstance(fact, PublisherFact) else "subscribed to"
+        why = f"what is {what} later, or only sometimes, is so from the start in the model"
+        place = fact.site.place
+        self.findings.approximated(place.source, place.span, why, within=self.within)
+
+    def _at_once(self, fact: Fact) -> bool:
+        """Whether a call is made once, when the node starts."""
+        around = fact.site.call.parent
+        while around is not None and around.type != "function_definition":
+            if around.type in _NESTING or around.type == "lambda_expression":
+                return False
+            around = around.parent
+        function = fact.site.function
+        return self._is_first(fact) or (function is not None and function.name == "main")
+
+    def _timer(self, fact: TimerFact) -> None:
+        server = next((s for s in self.servers if fact in s.timers), None)
+        call = fact.site.call
+        if server is None:
+            why = "it is not known which function the timer calls"
+            self._listed(fact, why)
+            return
+        periodic = fact.one_shot is not True
+        self.timers[call.id] = TimerOf(server.name, periodic)
+        if fact.one_shot not in (True, False):
+            self._listed(fact, "it is not known whether the timer goes on")
+        within = f"{self.within}.{server.name}"
+        period = self.times.units(fact, self.instances, self.findings, within)
+        if period is not None and periodic:
+            self.periodic[server.name] = period
+        statement = statement_of(call)
+        if statement is None or not (self._is_first(fact) or self._at_once(fact)):
+            if statement is not None:
+                self.instead.pop(statement.id, None)
+            return
+        self.instead[statement.id] = ()
+        if self._is_again(fact):
+            place = fact.site.place
+            self.findings.approximated(place.source, place.span, _AGAIN, within=within)
+        if fact.autostart is True and period is not None:
+            self.instead[statement.id] = (send(server.name, period),)
+        elif fact.autostart not in (True, False):
+            self._listed(fact, "it is not known whether the timer starts at once")
+
+    def _is_again(self, fact: TimerFact) -> bool:
+        """Whether a timer may be made while it is still running: by what a server calls."""
+        function = fact.site.function
+        served = reached(self.code, self.state.unit, (), self.servers)
+        return function is not None and function.node.id in served
+
+    def _listed(self, fact: Fact, why: str, hint: str = "") -> None:
+        place = fact.site.place
+        self.findings.unreadable(place.source, Unread(place.span, why, hint), self.within)
+
+    # --- parameters -----------------------------------------------------------------------------
+
+    def _parameter(self, fact: ParameterFact) -> None:
+        statement = statement_of(fact.site.call)
+        found = asked(fact, self.instances, lambda n: self._type(n, fact))
+        if found is None or statement is None:
+            if statement is not None and statement.type == "expression_statement":
+                self.instead[statement.id] = ()
+            return
+        whole = statement.type == "expression_statement" and _is_call(statement, fact.site.call)
+        before = self.instead.get(statement.id, (statement,))
+        stores = self._stores(fact, found.target, found.type, found.values)
+        if found.target is not None and (found.found or fact.default is not None):
+            before = (*stores, *before)
+        if whole:
+            before = tuple(b for b in before if b is not statement)
+        elif found.target is None and stores:
+            first = stores[0]
+            assert isinstance(first, Stores) and isinstance(first.value, m.Name)
+            self.values[fact.site.call.id] = first.value
+        elif found.found is not None:
+            self.values[fact.site.call.id] = m.BoolLiteral(found.found)
+        if whole or before != (statement,):
+            self.instead[statement.id] = before
+
+    def _stores(
+        self,
+        fact: ParameterFact,
+        target: Node | None,
+        type_: m.Type | None,
+        values: tuple[Value | None, ...],
+    ) -> tuple[Stores, ...]:
+        """The new parameter of the constructor, stored where it belongs."""
+        if type_ is None or not isinstance(fact.name, str) or (None in values and self.instances):
+            return ()
+        wish = fact.name.rpartition("/")[2].lstrip("~") or "value"
+        free = [w for w in (wish, f"{wish}_given") if w not in self.state.taken]
+        name = self.names.give(*free, f"{wish}_value")
+        self.parameters.append(Given(name, type_, values))
+        return (Stores(target if target is not None else fact.site.call, m.Name(name)),)
+
+    def _type(self, target: Node, fact: ParameterFact) -> m.Type | None:
+        """The type of the variable that a parameter is stored in; None for one outside."""
+        name = text_of(target).removeprefix("this->")
+        members = self.state.members_of(fact.site.function)
+        match members.get(name):
+            case Variable(_, type_):
+                return type_
+            case Outside():
+                return None
+        body = fact.site.function.body if fact.site.function is not None else None
+        for node in inside(body, "declaration"):
+            for declarator in node.children_by_field_name("declarator"):
+                inner = declarator.child_by_field_name("declarator")
+                found = declared_name(inner if inner is not None else declarator)
+                type_node = node.child_by_field_name("type")
+                if found is not None and text_of(found) == name and type_node is not None:
+                    kept = carried(type_node, self.state.enums)
+                    return kept.type if kept is not None else None
+        return None
+
+    # --- loops and waiting ----------------------------------------------------------------------
+
+    def _loops(self) -> None:
+        rates = [f for f in self.facts if isinstance(f, RateFact)]
+        for function in self.first:
+            for loop in loops_in(function, rates):
+                self._loop(function, loop)
+
+    def _loop(self, function: CppFunction, loop: Loop) -> None:
+        parts = (*loop.first, *loop.rest)
+        self.instead[loop.node.id] = ()
+        if loop.rate is not None and self.servers and b"spinOnce" in (loop.node.text or b""):
+            place = loop.rate.site.place
+            self.findings.approximated(place.source, place.span, _ROUND, within=self.within)
+        if parts:
+            mentioned = {text_of(n) for p in parts for n in _names(p)}
+            self.instead |= self.state.outlive(function, mentioned, False, loop.node)
+            self.instead[loop.node.id] = ()
+            name = self.names.give("loop" if function.name == "main" else function.name)
+            self.loops.append((loop, name))
+            period = self._pause(loop) if not loop.first else 0
+            self.instead[loop.node.id] = (send(name, period or 0),)
+        for later in _later(loop.node):
+            self.instead[later.id] = ()
+
+    def _pause(self, loop: Loop) -> int | None:
+        """The time that a loop sleeps in each round, in units."""
+        if loop.rate is None:
+            return None
+        return self.times.units(loop.rate, self.instances, self.findings, self.within)
+
+    def pause(self, loop: Loop) -> int | None:
+        """The time between two rounds of a loop, in units; None, and listed, where it is open."""
+        if loop.rate is not None:
+            return self._pause(loop)
+        if not loop.sleeps:
+            why = "this loop runs as often as the machine can: the model cannot say how often"
+            unread = Unread(loop.function.cpp.span(loop.node), why, "let it sleep by a ros::Rate")
+            self.findings.unreadable(loop.function.cpp.source, unread, self.within)
+            return None
+        return 0
+
+    def _waits(self, function: CppFunction) -> None:
+        """What waits for messages, or lets ROS serve them, is nothing in the model."""
+        for call in self.code.calls_of(function):
+            name = call.name.rpartition("::")[2]
+            if name in _AUDIENCE and (loop := _loop_around(call.node)) is not None:
+                self.instead[loop.id] = ()
+                continue
+            statement = statement_of(call.node) if name in _WAITS else None
+            if statement is None or not _is_call(statement, call.node):
+                continue
+            own = call.target is None and "::" not in call.name
+            if statement.type != "expression_statement" or own or statement.id in self.instead:
+                continue
+            if name == "start" and "pinner" not in call.on.lower():
+                continue
+            if call.target is not None and any(f.name == name for f in self.state.unit.functions):
+                continue
+            self.instead[statement.id] = ()
+            if name in _ENDS:
+                for later in _later(statement):
+                    self.instead[later.id] = ()
+
+
+def around(node: Node, functions: Sequence[CppFunction]) -> CppFunction | None:
+    """The function that a lambda stands in."""
+    at: Node | None = node
+    while at is not None:
+        for function in functions:
+            if function.body is not None and function.body.id == at.id:
+                return function
+        at = at.parent
+    return None
+
+
+def send(server: str, after: int = 0) -> m.Statement:
+    """`self.server() after(...)`."""
+    time = m.IntLiteral(after) if after else None
+    return m.ExpressionStatement(m.Call(m.Self(), server, (), time))
+
+
+def statement_of(node: Node) -> Node | None:
+    """The statement, or entry of an initialiser list, that a node is in."""
+    at: Node | None = node
+    while at is not None:
+        if at.type.endswith("_statement") or at.type in ("declaration", "field_initializer"):
+            return at
+        if at.type in ("function_definition", "lambda_expression"):
+            return None
+        at = at.parent
+    return None
+
+
+def _loop_around(node: Node) -> Node | None:
+    """The loop that a node is in the condition of."""
+    below = node
+    while (at := below.parent) is not None and not at.type.endswith("_definition"):
+        if at.type in ("while_statement", "do_statement"):
+            return at if at.child_by_field_name("condition") == below else None
+        below = at
+    return None
+
+
+def _is_call(statement: Node, call: Node) -> bool:
+    """Whether a statement is nothing but a call."""
+    inner = named(statement)
+    return len(inner) == 1 and inner[0].id == call.id
+
+
+def _later(node: Node) -> Iterator[Node]:
+    """What stands behind a statement: when it is reached, the node is being shut down."""
+    after = node.next_named_sibling
+    while after is not None:
+        yield after
+        after = after.next_named_sibling
+
+
+def _names(node: Node) -> Iterable[Node]:
+    waiting = [node]
+    while waiting:
+        current = waiting.pop()
+        if current.type == "identifier":
+            yield current
+        waiting += current.named_children

@@ -1,0 +1,289 @@
+"""What runs before a node serves messages: its constructors, and what `main` does with it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import field
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.bodies.rewriting import renamed
+from rebsync.reverse.bodies.scope import Itself, Member, Outside, Stores
+from rebsync.reverse.graph import TimerFact
+from rebsync.reverse.nodes.node_names import Names
+from rebsync.reverse.nodes.node_state import State
+from rebsync.reverse.nodes.node_units import Start, Unit
+from rebsync.reverse.syntax.cpp_calls import calls_in
+from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
+
+_ENTRY = "onInit"
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """Statements of a function that run when a node starts.
+
+    `arguments` are what the function's parameters get, with the file that says so.
+    """
+
+    function: CppFunction
+    nodes: tuple[Node, ...]
+    instead: Mapping[int, tuple[m.Statement | Stores | Node, ...]] = field(default_factory=dict)
+    arguments: Mapping[str, tuple[Cpp, Node]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Opening:
+    """All that runs before a node serves messages, in its order.
+
+    `objects` are the names that `entry` has for the object itself, and for others.
+    """
+
+    steps: tuple[Step, ...]
+    entry: CppFunction | None = None
+    objects: Mapping[str, Member] = field(default_factory=dict)
+
+
+def first_functions(code: Code, unit: Unit, starts: Sequence[Start]) -> list[CppFunction]:
+    """The functions that run before a unit's node serves messages."""
+    found: dict[int, CppFunction] = {}
+    waiting = list(_roots(unit, starts))
+    callbacks = {
+        c.function.node.id
+        for f in unit.facts
+        for c in getattr(f, "callbacks", ())
+        if getattr(c, "function", None) is not None
+    }
+    while waiting:
+        function = waiting.pop(0)
+        if function.node.id in found or function.node.id in callbacks:
+            continue
+        found[function.node.id] = function
+        names = {c.name.rpartition("::")[2] for c in code.calls_of(function)}
+        waiting += [f for f in unit.functions if f.name in names and f.body is not None]
+    return list(found.values())
+
+
+def _roots(unit: Unit, starts: Sequence[Start]) -> Iterator[CppFunction]:
+    if unit.program is not None:
+        yield unit.program.main
+    for owner in reversed(unit.lineage):
+        yield from unit.constructors(owner)
+    yield from (f for f in unit.functions if f.name == _ENTRY)
+    for start in starts:
+        if start.unit is unit and start.made is not None:
+            for statement in used_in_main(start):
+                called = {c.name for c in calls_in(statement)}
+                yield from (f for f in unit.functions if f.name in called)
+
+
+def used_in_main(start: Start) -> list[Node]:
+    """The statements after an object is made that do something with it, or ask for its timers."""
+    made, entry = start.made, start.entry
+    if made is None or entry is None or made.statement is None or not made.variable:
+        return []
+    parent = made.statement.parent
+    after = [n for n in named(parent) if n.start_byte >= made.statement.end_byte] if parent else []
+    path = entry.cpp.source.path
+    timers = [f.site for f in start.unit.facts if isinstance(f, TimerFact)]
+    asked = [s.call.start_byte for s in timers if s.cpp.source.path == path]
+    return [
+        n
+        for n in after
+        if any(n.start_byte <= at < n.end_byte for at in asked)
+        or (n.type.endswith("_statement") and _uses(n, made.variable))
+    ]
+
+
+def _uses(node: Node, variable: str) -> bool:
+    return any(c.on.removeprefix("this->") == variable for c in calls_in(node))
+
+
+def opening(unit: Unit, state: State, start: Start | None, starts: Sequence[Start]) -> Opening:
+    """What runs when a rebec of a unit starts; `starts` are all that there are."""
+    if unit.program is not None:
+        main = unit.program.main
+        together = [s for s in starts if s.process == main.node.id]
+        return Opening((Step(main, _statements(main), _arguments(main)),), main, _objects(together))
+    steps: list[Step] = []
+    given: dict[str, list[tuple[Cpp, Node]]] = {}
+    for owner in unit.lineage:  # each says what its bases get, which are made before it
+        made = start.made if start is not None and owner is unit.lineage[0] else None
+        count = len(made.arguments) if made is not None else len(given.get(owner.name, ()))
+        constructor = _constructor(unit, owner, count)
+        if constructor is not None:
+            passed = _passed(constructor, start if made is not None else None)
+            values = zip(constructor.parameters, given.get(owner.name, ()), strict=False)
+            passed |= {p.name: value for p, value in values}
+            own = list(_constructed(constructor, state, passed))
+            given |= {n: v for step in own for n, v in _to_bases(step)}
+            steps = [*own, *steps]
+    steps += [Step(f, _statements(f)) for f in unit.functions if f.name == _ENTRY]
+    if start is None or start.entry is None or start.made is None:
+        return Opening(tuple(steps))
+    steps += [Step(start.entry, (statement,)) for statement in used_in_main(start)]
+    objects = _objects([s for s in starts if s.process == start.process])
+    if start.made.variable:
+        objects[start.made.variable] = Itself()
+    return Opening(tuple(steps), start.entry, objects)
+
+
+def _objects(starts: Sequence[Start]) -> dict[str, Member]:
+    """The objects of a program, each of which is another rebec."""
+    return {
+        s.made.variable: Outside(reaches=True)
+        for s in starts
+        if s.made is not None and s.made.variable
+    }
+
+
+def _arguments(main: CppFunction) -> dict[int, tuple[m.Statement, ...]]:
+    """Checks of the command line are nothing to the model: the node is started as it should be."""
+    if not main.parameters:
+        return {}
+    count = main.parameters[0].name
+    return {
+        n.id: ()
+        for n in _statements(main)
+        if n.type == "if_statement"
+        and (condition := n.child_by_field_name("condition")) is not None
+        and any(text_of(i) == count for i in _identifiers(condition))
+    }
+
+
+def _identifiers(node: Node) -> Iterator[Node]:
+    waiting = [node]
+    while waiting:
+        current = waiting.pop()
+        if current.type == "identifier":
+            yield current
+        waiting += current.named_children
+
+
+def _statements(function: CppFunction) -> tuple[Node, ...]:
+    return tuple(function.body.named_children) if function.body is not None else ()
+
+
+def _constructor(unit: Unit, owner: CppClass, count: int) -> CppFunction | None:
+    """The constructor that makes the object: by the number of its arguments, if that tells."""
+    found = unit.constructors(owner)
+    if len(found) > 1:
+        found = [f for f in found if len(f.parameters) == count] or found
+    return found[0] if found else None
+
+
+def _to_bases(step: Step) -> Iterator[tuple[str, list[tuple[Cpp, Node]]]]:
+    """What the initialisers of a constructor give to those of others, by their classes."""
+    for entry in step.nodes:
+        inner = named(entry)
+        if entry.type == "field_initializer" and len(inner) > 1:
+            cpp = step.function.cpp
+            values = [step.arguments.get(text_of(v), (cpp, v)) for v in named(inner[-1])]
+            yield text_of(inner[0]).rpartition("::")[2], values
+
+
+def _passed(function: CppFunction, start: Start | None) -> dict[str, tuple[Cpp, Node]]:
+    """What the object's constructor gets, or what it takes without."""
+    found = {}
+    for parameter in function.parameters:
+        default = parameter.node.child_by_field_name("default_value")
+        if default is not None:
+            found[parameter.name] = function.cpp, default
+    made = start.made if start is not None else None
+    entry = start.entry if start is not None else None
+    if made is not None and entry is not None and made.owner == function.owner:
+        pairs = zip(function.parameters, made.arguments, strict=False)
+        found |= {p.name: (entry.cpp, node) for p, node in pairs}
+    return found
+
+
+def _constructed(
+    function: CppFunction, state: State, arguments: Mapping[str, tuple[Cpp, Node]]
+) -> Iterator[Step]:
+    """The initialisers of a constructor, then its body; first another that it hands on to."""
+    nodes = []
+    instead: dict[int, tuple[Stores, ...]] = {}
+    for entry in named(function.initialisers) if function.initialisers is not None else []:
+        inner = named(entry)
+        name = text_of(inner[0]) if inner else ""
+        values = named(inner[-1]) if len(inner) > 1 else []
+        meaning = state.members.get(name)
+        nodes.append(entry)
+        instead[entry.id] = ()
+        if name == function.owner:
+            others = [f for f in state.unit.functions if f.name == f.owner == name]
+            for other in others:
+                if len(other.parameters) == len(values) and other.node.id != function.node.id:
+                    given = zip(other.parameters, values, strict=True)
+                    passed = {p.name: (function.cpp, value) for p, value in given}
+                    yield from _constructed(other, state, passed)
+        stores = state.stored(meaning, values)
+        if stores is not None:
+            instead[entry.id] = (stores,)
+        elif not values:
+            instead[entry.id] = state.zeros(meaning)
+    yield Step(function, tuple(nodes), instead, arguments)
+    yield Step(function, _statements(function), {}, arguments)
+
+
+# --- starting late ------------------------------------------------------------------------------
+
+
+def started_late(
+    body: m.Block, parameters: Sequence[m.Parameter], names: Names
+) -> tuple[m.Block, list[m.MessageServer], dict[str, m.Type]]:
+    """A constructor without what only a server can do: to send to others, to wait, to choose.
+
+    From the first such statement on, the rest is a server of its own, which the constructor sends
+    to first of all. What it needs of the constructor's parameters and locals becomes state.
+    """
+    at = next((n for n, s in enumerate(body.statements) if _is_late(s)), None)
+    if at is None:
+        return body, [], {}
+    first, rest = body.statements[:at], body.statements[at:]
+    needed = {n.name for s in rest for n in m.walk(s) if isinstance(n, m.Name)}
+    variables: dict[str, m.Type] = {}
+    kept: list[m.Statement] = []
+    for parameter in parameters:
+        if parameter.name in needed:
+            variable = names.give(f"{parameter.name}_kept")
+            variables[variable] = parameter.type
+            kept.append(_stored(variable, m.Name(parameter.name)))
+            rest = tuple(renamed(s, parameter.name, variable) for s in rest)
+    done: list[m.Statement] = []
+    for statement in first:
+        if isinstance(statement, m.Local) and needed & _locals(statement):
+            for declarator in statement.declaration.declarators:
+                variables[declarator.name] = statement.declaration.type
+                if declarator.initial is not None and not isinstance(
+                    declarator.initial, m.ArrayInitializer
+                ):
+                    done.append(_stored(declarator.name, declarator.initial))
+        else:
+            done.append(statement)
+    name = names.give("start")
+    go = m.ExpressionStatement(m.Call(m.Self(), name))
+    server = m.MessageServer(name, (), m.Block(rest))
+    return m.Block((*kept, *done, go)), [server], variables
+
+
+def _is_late(statement: m.Statement) -> bool:
+    for node in m.walk(statement):
+        match node:
+            case m.Choice():
+                return True
+            case m.Call(target, name):
+                if name == "delay" or (target is not None and not isinstance(target, m.Self)):
+                    return True
+    return False
+
+
+def _locals(statement: m.Local) -> set[str]:
+    return {d.name for d in statement.declaration.declarators}
+
+
+def _stored(variable: str, value: m.Expression) -> m.Statement:
+    return m.ExpressionStatement(m.Assign("=", m.Name(variable), value))

@@ -1,0 +1,346 @@
+"""What the variables of a unit are in the model: state variables, messages, publishers, timers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import field
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.bodies.cpp_messages import zero_of
+from rebsync.reverse.bodies.cpp_types import carried, is_time, wider
+from rebsync.reverse.bodies.cpp_unknowns import domain_near
+from rebsync.reverse.bodies.scope import Member, Outside, Record, Stores, Variable
+from rebsync.reverse.build.message_types import MessageTypes
+from rebsync.reverse.findings import Findings
+from rebsync.reverse.nodes.node_names import Names
+from rebsync.reverse.nodes.node_servers import declared
+from rebsync.reverse.nodes.node_units import Unit
+from rebsync.reverse.syntax.cpp_declarations import CppField, declared_name
+from rebsync.reverse.syntax.cpp_index import Code, CppFunction
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
+from rebsync.source import Span
+
+Note = Callable[[Cpp, Span, str], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Unset:
+    """A variable that is made without a value, by its name in the code."""
+
+    name: str
+    variable: Variable
+    cpp: Cpp
+    node: Node
+
+
+@dataclass(slots=True)
+class State:
+    """The variables of a unit by their names in the code.
+
+    `variables` are the state variables with their types; `local` are those of one function that
+    outlive it, by the id of the function's node; `initial` what holds before a constructor runs;
+    `unset` are those that are made without a value, by their names in the model.
+    """
+
+    code: Code
+    unit: Unit
+    types: MessageTypes
+    names: Names
+    units: frozenset[str]
+    enums: frozenset[str]
+    members: dict[str, Member] = field(default_factory=dict)
+    variables: dict[str, m.Type] = field(default_factory=dict)
+    local: dict[int, dict[str, Member]] = field(default_factory=dict)
+    initial: list[tuple[Cpp, Stores]] = field(default_factory=list)
+    wide: list[tuple[Cpp, Node, str]] = field(default_factory=list)
+    unset: dict[str, Unset] = field(default_factory=dict)
+
+    taken: set[str] = field(default_factory=set)
+    _outlived: dict[tuple[int, frozenset[str], bool], dict[int, tuple[Stores, ...]]] = field(
+        default_factory=dict
+    )
+
+    def __post_init__(self) -> None:
+        bodies = [(f.cpp, f.body) for f in self.unit.functions if f.body is not None]
+        taken = {n for cpp, body in bodies for n in declared(self.code, cpp, body)}
+        taken |= {p.name for f in self.unit.functions for p in f.parameters}
+        taken |= {f.name for f in self.unit.functions}
+        self.taken = taken
+        for member in self._globals():
+            self._add(member)
+        for above in reversed(self.unit.lineage):
+            for member in (*above.fields, *above.others):
+                outside = self.code.statics.get((above.name, member.name))
+                self._add(member, outside if member.value is None else None)
+                if member.value is None and not _is_static(member.node):
+                    left = self.members[member.name]
+                    self._leave(member.name, left, member.type, member.cpp, member.type)
+
+    def _globals(self) -> Iterator[CppField]:
+        for variables in self.code.variables.values():
+            for variable in variables:
+                path = variable.cpp.source.path
+                if path in self.unit.files and (path, variable.name) not in self.code.constants:
+                    yield variable
+
+    def _add(self, member: CppField, outside: CppField | None = None) -> None:
+        """`outside` gives the value of a static member that has it outside of its class."""
+        declarator = _declarator(member.node, member.name)
+        meaning = self.meaning(member.name, member.type, declarator, member.cpp, self.taken)
+        self.members[member.name] = meaning
+        given = outside if outside is not None else member
+        if given.value is not None:
+            braces = given.value.type == "initializer_list"
+            values = named(given.value) if braces else [given.value]
+            stores = self.stored(meaning, values)
+            if stores is not None:
+                self.initial.append((given.cpp, stores))
+
+    def _leave(self, name: str, meaning: Member, type_: Node, cpp: Cpp, node: Node) -> None:
+        """Keeps in mind that a variable has no value yet: times and messages have theirs."""
+        match meaning:
+            case Variable(of_model) if not is_time(type_):
+                self.unset[of_model] = Unset(name, meaning, cpp, node)
+            case Record(fields, ""):
+                owner = self.code.classes.get(text_of(type_).rpartition("::")[2])
+                for member in owner.fields if owner is not None else ():
+                    if member.name in fields and member.value is None:
+                        inner = f"{name}.{member.name}"
+                        self._leave(inner, fields[member.name], member.type, cpp, node)
+            case _:
+                pass
+
+    def zeros(self, meaning: Member | None) -> tuple[Stores, ...]:
+        """What `x()` stores in the initialisers of a constructor."""
+        match meaning:
+            case Variable(name) if name in self.unset:
+                return tuple(zeros(m.Name(name), self.variables[name]))
+            case Record(fields):
+                return tuple(s for field_ in fields.values() for s in self.zeros(field_))
+            case _:
+                return ()
+
+    def stored(self, meaning: Member | None, values: list[Node]) -> Stores | None:
+        """What a variable of the model holds from the start; one of several parts as its first."""
+        match meaning:
+            case Variable(name, m.Type(dimensions=(_, *_))) if values:
+                around = _parent(values[0])
+                braces = around.type == "initializer_list"
+                return Stores(m.Name(name), around if braces else values[0])
+            case Variable(name) if values:
+                return Stores(m.Name(name), values[0] if len(values) == 1 else _parent(values[0]))
+            case Record(fields) if values and fields:
+                first = next(iter(fields.values()))
+                return Stores(m.Name(first.name), _parent(values[0]))
+            case _:
+                return None
+
+    def meaning(
+        self, name: str, type_: Node, declarator: Node | None, cpp: Cpp, taken: set[str]
+    ) -> Member:
+        """What a variable of this type is; those of the model are state variables from here on."""
+        wish = name.rstrip("_") or name
+        shape = declarator.type if declarator is not None else "identifier"
+        message = self.types.named(text_of(type_))
+        if message is not None and shape in ("identifier", "field_identifier"):
+            return self._record(message, wish, cpp, type_)
+        if shape == "array_declarator" and declarator is not None:
+            return self._array(wish, name, type_, declarator, cpp, taken)
+        if shape not in ("identifier", "field_identifier", "init_declarator"):
+            return Outside(reaches=text_of(type_).rpartition("::")[2] in self.units)
+        kept = carried(type_, self.enums)
+        if kept is not None:
+            if kept.why:
+                self.wide.append((cpp, type_, kept.why))
+            free = [w for w in (wish, name, f"{wish}_") if w not in taken] or [f"{wish}_"]
+            given, domain = self._new(free, kept.type), domain_near(type_) or ()
+            return Variable(given, kept.type, kept.bits, domain)
+        return self._struct(text_of(type_).rpartition("::")[2], wish)
+
+    def _new(self, wishes: list[str], type_: m.Type) -> str:
+        given = self.names.give(*wishes)
+        self.variables[given] = type_
+        return given
+
+    def _record(self, message: str, wish: str, cpp: Cpp, node: Node) -> Record:
+        fields = {}
+        for path, type_ in (self.types.fields(message) or {}).items():
+            plain = type_ is not None and not type_.dimensions
+            if type_ is not None and plain and not f".{path}".count(".header."):
+                given = self._new([f"{wish}_{path}".replace(".", "_")], type_)
+                fields[path] = self.types.variable(message, path, given, type_)
+                if self.types.holds_more(message, path):
+                    self.wide.append((cpp, node, wider(path)))
+        return Record(fields, message)
+
+    def _array(
+        self, wish: str, name: str, type_: Node, declarator: Node, cpp: Cpp, taken: set[str]
+    ) -> Member:
+        kept = carried(type_, self.enums)
+        lengths: list[int] = []
+        at: Node | None = declarator
+        while at is not None and at.type == "array_declarator":
+            size = at.child_by_field_name("size")
+            length = _number(self.code, cpp, size) if size is not None else None
+            if length is None or length < 1:
+                return Outside()
+            lengths.insert(0, length)
+            at = at.child_by_field_name("declarator")
+        if kept is None or kept.type.dimensions or kept.bits:
+            return Outside()
+        if kept.why:
+            self.wide.append((cpp, type_, kept.why))
+        array = m.Type(kept.type.name, tuple(lengths))
+        free = [w for w in (wish, name) if w not in taken] or [f"{wish}_"]
+        return Variable(self._new(free, array), array)
+
+    def _struct(self, type_: str, wish: str) -> Member:
+        """A plain structure is a message of its own; other objects are outside."""
+        owner = self.code.classes.get(type_)
+        if owner is None:
+            return Outside(reaches=type_ in self.units)
+        plain = not owner.bases and not owner.others and not owner.functions
+        if type_ in self.units or not plain:
+            return Outside(reaches=type_ in self.units)
+        fields: dict[str, Variable] = {}
+        for member in owner.fields:
+            kept = carried(member.type, self.enums)
+            if kept is not None and not kept.type.dimensions:
+                given = self._new([f"{wish}_{member.name}"], kept.type)
+                fields[member.name] = Variable(given, kept.type, kept.bits)
+                if kept.why:
+                    self.wide.append((member.cpp, member.type, kept.why))
+                if member.value is not None:
+                    self.initial.append((member.cpp, Stores(m.Name(given), member.value)))
+        return Record(fields)
+
+    # --- variables of functions -----------------------------------------------------------------
+
+    def outlive(
+        self, function: CppFunction, names: set[str], only_static: bool, within: Node | None = None
+    ) -> dict[int, tuple[Stores, ...]]:
+        """Makes variables of a function state variables; what stands for their declarations.
+
+        Those that are declared `within` a loop live for one round only.
+        """
+        key = function.node.id, frozenset(names), only_static
+        if key not in self._outlived:
+            self._outlived[key] = self._outlive(function, names, only_static, within)
+        return self._outlived[key]
+
+    def _outlive(
+        self, function: CppFunction, names: set[str], only_static: bool, within: Node | None
+    ) -> dict[int, tuple[Stores, ...]]:
+        instead: dict[int, tuple[Stores, ...]] = {}
+        local = self.local.setdefault(function.node.id, {})
+        for node in _declarations(self.code, function):
+            if within is not None and within.start_byte <= node.start_byte < within.end_byte:
+                continue
+            static = any(text_of(c) == "static" for c in node.named_children)
+            found = [(d, n) for d in node.children_by_field_name("declarator") for n in _name(d)]
+            wanted = [(d, n) for d, n in found if n in names or static]
+            if not wanted or static != only_static or len(wanted) != len(found):
+                continue
+            type_ = node.child_by_field_name("type")
+            stores = []
+            for declarator, name in wanted:
+                if type_ is None or name in local:
+                    continue
+                inner = _inner(declarator)
+                meaning = self.meaning(name, type_, inner, function.cpp, set())
+                local[name] = meaning
+                if not only_static and declarator.type != "init_declarator":
+                    self._leave(name, meaning, type_, function.cpp, type_)
+                if only_static:  # what is put in the place of a call sees it too
+                    self.members.setdefault(name, meaning)
+                value = _value(declarator)
+                if isinstance(meaning, Variable) and value is not None:
+                    stores.append(Stores(m.Name(meaning.name), value))
+            if only_static:
+                self.initial += [(function.cpp, s) for s in stores]
+                stores = []
+            instead[node.id] = tuple(stores)
+        return instead
+
+    def members_of(self, function: CppFunction | None) -> Mapping[str, Member]:
+        """What the names of variables stand for in a function."""
+        if function is None or function.node.id not in self.local:
+            return self.members
+        return {**self.members, **self.local[function.node.id]}
+
+    def note(self, findings: Findings, within: str) -> None:
+        """Lists the variables that hold more than the model's."""
+        for cpp, node, why in self.wide:
+            findings.approximated(cpp.source, cpp.span(node), why, within=within)
+
+
+def zeros(place: m.Expression, type_: m.Type) -> Iterator[Stores]:
+    """What a variable, or each element of an array, holds at first."""
+    zero = zero_of(type_)
+    if zero is not None:
+        yield Stores(place, zero)
+    for index in range(type_.dimensions[0] if type_.dimensions else 0):
+        inner = m.Type(type_.name, type_.dimensions[1:])
+        yield from zeros(m.Index(place, m.IntLiteral(index)), inner)
+
+
+def _is_static(node: Node) -> bool:
+    return any(text_of(c) == "static" for c in node.named_children)
+
+
+def _parent(node: Node) -> Node:
+    return node.parent if node.parent is not None else node
+
+
+def _number(code: Code, cpp: Cpp, node: Node) -> int | None:
+    text = text_of(node)
+    if text.isdecimal():
+        return int(text)
+    found = code.constants_for(cpp).get(text)
+    return int(text_of(found[1])) if found is not None and text_of(found[1]).isdecimal() else None
+
+
+def _declarator(node: Node, name: str) -> Node | None:
+    """The declarator of one of the variables of a declaration."""
+    for declarator in node.children_by_field_name("declarator"):
+        inner = _inner(declarator)
+        found = declared_name(inner)
+        if found is not None and text_of(found) == name:
+            return inner
+    return None
+
+
+def _inner(declarator: Node) -> Node:
+    if declarator.type == "init_declarator":
+        return declarator.child_by_field_name("declarator") or declarator
+    return declarator
+
+
+def _name(declarator: Node) -> list[str]:
+    found = declared_name(_inner(declarator))
+    return [text_of(found)] if found is not None else []
+
+
+def _value(declarator: Node) -> Node | None:
+    """The one value that a declarator gives."""
+    if declarator.type != "init_declarator":
+        return None
+    value = declarator.child_by_field_name("value")
+    if value is not None and value.type in ("argument_list", "initializer_list"):
+        inside = named(value)
+        return inside[0] if len(inside) == 1 else None
+    return value
+
+
+def _declarations(code: Code, function: CppFunction) -> Iterator[Node]:
+    """Those of a body itself, not of lambdas in it."""
+    end = -1
+    for node in code.inside(function.cpp, function.body, "declaration", "lambda_expression"):
+        if node.start_byte >= end:
+            if node.type == "declaration":
+                yield node
+            else:
+                end = node.end_byte

@@ -1,0 +1,288 @@
+"""Hand-written nodes of a package as reactive classes and a `main` with their rebecs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import field
+from fractions import Fraction
+
+from rebsync import model as m
+from rebsync.config import FILE_NAME, parse_config
+from rebsync.literals import literal_of
+from rebsync.records import dataclass
+from rebsync.reverse.bodies.cpp_types import class_name
+from rebsync.reverse.bodies.scope import Target
+from rebsync.reverse.build.message_types import MessageTypes
+from rebsync.reverse.findings import Findings
+from rebsync.reverse.graph import Fact, Graph, PublisherFact, SubscriptionFact
+from rebsync.reverse.launch.launched import Launch
+from rebsync.reverse.nodes.node_bodies import Bodies, Common
+from rebsync.reverse.nodes.node_bound import note_bound, note_helpers
+from rebsync.reverse.nodes.node_classes import NodeClass
+from rebsync.reverse.nodes.node_listing import Listing
+from rebsync.reverse.nodes.node_names import Names, class_word
+from rebsync.reverse.nodes.node_parameters import Given
+from rebsync.reverse.nodes.node_presence import STAND_IN
+from rebsync.reverse.nodes.node_programs import Program
+from rebsync.reverse.nodes.node_servers import declared, servers
+from rebsync.reverse.nodes.node_setup import Setup
+from rebsync.reverse.nodes.node_starts import first_functions, opening
+from rebsync.reverse.nodes.node_state import State
+from rebsync.reverse.nodes.node_times import Times
+from rebsync.reverse.nodes.node_units import Start, Unit, Units
+from rebsync.reverse.nodes.node_values import Instance
+from rebsync.reverse.nodes.node_views import all_units
+from rebsync.reverse.nodes.node_wiring import Wiring, idle, instances
+from rebsync.reverse.syntax.cpp_index import Code
+from rebsync.source import Source
+
+
+@dataclass(frozen=True, slots=True)
+class Nodes:
+    """The reactive classes of hand-written nodes, and their rebecs; `starts` says if any start."""
+
+    classes: tuple[m.ReactiveClass, ...]
+    rebecs: tuple[m.Rebec, ...]
+    starts: bool
+
+
+@dataclass(slots=True)
+class NodeSystem:
+    """Reads the hand-written nodes of a package; `only` is the path of the one file asked for.
+
+    Beside `generated` classes the programs that stand in for sensors are no nodes of the model.
+    """
+
+    code: Code
+    graph: Graph
+    files: Mapping[str, Source]
+    launch: Launch | None
+    package: str
+    programs: tuple[Program, ...]
+    findings: Findings
+    only: str | None = None
+    generated: bool = False
+    _states: dict[str, State] = field(default_factory=dict)
+
+    def read(self) -> Nodes:
+        """All of them. What has no place in the model is listed."""
+        found = self.programs
+        if self.generated:
+            found = tuple(p for p in found if not p.name.endswith(STAND_IN))
+        reading = Units(self.code, self.graph, found, self.generated)
+        units, starts = all_units(self.code, self.graph, found, self.generated)
+        if not units:
+            return Nodes((), (), False)
+        types = MessageTypes.of(self.files, self.package)
+        common = self._common(types, units)
+        owners = frozenset(u.owner.name for u in units if u.owner is not None)
+        for unit in units:
+            names = Names.beside(())
+            self._states[unit.name] = State(unit.code, unit, types, names, owners, common.enums)
+        served = {u.name: servers(u, types, self._states[u.name].names) for u in units}
+        names = Names.beside(())
+        classes = {u.name: names.give(_class(u)) for u in units}
+        rebecs = instances(starts, self.launch, self.package, names)
+        wiring = Wiring((*rebecs, *idle(units, starts, rebecs, names)), served)
+        reader = _Reader(self, reading, types, common, wiring, classes, names, starts)
+        read = tuple(c for u in units if self._is_wanted(u) for c in reader.classes_of(u))
+        listing = Listing(self.findings, types)
+        for program in found:
+            if not any(u.program is program for u in units) and self.only is None:
+                listing.unit(reading.of_program(program), ())
+        for unit in units:
+            if self._is_wanted(unit):
+                listing.unit(unit, served[unit.name])
+        listing.wiring(wiring, [u for u in units if self._is_wanted(u)])
+        return Nodes(read, tuple(map(reader.rebec, rebecs)), bool(starts))
+
+    def _is_wanted(self, unit: Unit) -> bool:
+        if self.only is None:
+            return True
+        path = self.files[self.only].path
+        headers = {c.cpp.source.path for c in unit.lineage[:1]}
+        return path in unit.files | headers
+
+    def _common(self, types: MessageTypes, units: Sequence[Unit]) -> Common:
+        values: dict[str, set[int | None]] = {}
+        for name, all_of in self.code.enumerators.items():
+            for each in all_of:
+                for prefix in {"", f"{each.enum}::", f"{each.scope}::"} - {"::"}:
+                    values.setdefault(f"{prefix}{name}", set()).add(each.value)
+        known = {n: v for n, vs in values.items() for v in vs if len(vs) == 1 and v is not None}
+        enums = {e.enum for all_of in self.code.enumerators.values() for e in all_of if e.enum}
+        wanted = {
+            f.type
+            for u in units
+            for f in u.facts
+            if isinstance(f, PublisherFact | SubscriptionFact) and isinstance(f.type, str)
+        }
+        messages = types.all_fields(wanted | types.mentioned(self.code.files))
+        known |= types.constants()
+        return Common(known, frozenset(enums), messages, frozenset())
+
+    def state(self, unit: Unit) -> State:
+        """The variables of a unit."""
+        return self._states[unit.name]
+
+    def unit_of_time(self) -> Fraction:
+        """The seconds that a unit of the model's time takes."""
+        if FILE_NAME not in self.files:
+            return Fraction(1)
+        return Fraction(repr(parse_config(self.files[FILE_NAME]).time_unit))
+
+
+@dataclass(slots=True)
+class _Reader:
+    """Reads the classes of units, for each kind of their rebecs one."""
+
+    system: NodeSystem
+    reading: Units
+    types: MessageTypes
+    common: Common
+    wiring: Wiring
+    classes: Mapping[str, str]
+    names: Names
+    starts: Sequence[Start]
+    kinds: dict[int, str] = field(default_factory=dict)
+    times: Times = field(default_factory=lambda: Times(Fraction(1), Fraction(1)))
+    _parameters: dict[str, tuple[list[Given], int]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for unit_name, class_ in self.classes.items():
+            of_unit = [i for i in self.wiring.instances if i.start.unit.name == unit_name]
+            for number, kind in enumerate(
+                dict.fromkeys(self.wiring.kinds[i.name] for i in of_unit)
+            ):
+                self.kinds[kind] = class_ if not number else self.names.give(class_)
+        self.times = Times.of(self.system.unit_of_time(), self.wiring.instances)
+
+    def classes_of(self, unit: Unit) -> Iterator[m.ReactiveClass]:
+        """The classes that a unit becomes: one, or more if its rebecs are wired differently."""
+        for number, alike in enumerate(self.wiring.alike(unit) or [[]]):
+            findings = self.system.findings if not number else Findings()
+            yield self._class(unit, alike, findings)
+            known = {(f.span, f.why) for f in self.system.findings.all}
+            if number:
+                new = [f for f in findings.all if (f.span, f.why) not in known]
+                self.system.findings.all += new
+
+    def _class(self, unit: Unit, alike: list[Instance], findings: Findings) -> m.ReactiveClass:
+        state = self.system.state(unit)
+        before, state.names = state.names, Names(state.names.used | set(state.variables))
+        setup = self._setup(unit, alike, state, findings)
+        start = alike[0].start if alike else None
+        known = self._known(unit, alike, state.names)
+        bodies = Bodies(
+            unit.code,
+            unit,
+            self.wiring.servers[unit.name],
+            state,
+            setup,
+            self.common,
+            self._targets(alike, known),
+            opening(unit, state, start, self.starts),
+            findings,
+        )
+        name = self.kinds[self.wiring.kinds[alike[0].name]] if alike else self.classes[unit.name]
+        read = NodeClass(name, bodies, [(n, c) for n, c, _ in known]).read()
+        state.note(findings, unit.name)
+        note_bound(bodies)
+        note_helpers(bodies, self.classes)
+        state.names = before
+        for index, instance in enumerate(alike):
+            self._parameters[instance.name] = setup.parameters, index
+        return read
+
+    def _setup(self, unit: Unit, alike: list[Instance], state: State, findings: Findings) -> Setup:
+        """What sets up the rebecs of one kind."""
+        start = alike[0].start if alike else None
+        first = first_functions(unit.code, unit, self.starts)
+        facts = unit.facts
+        if start is not None and start.entry is not None and self._is_alone(start):
+            first = [*first, start.entry]
+            facts = (*facts, *self._facts_at(start))
+        setup = Setup(
+            unit.code,
+            self.system.graph,
+            state,
+            self.wiring.servers[unit.name],
+            facts,
+            alike,
+            first,
+            self.times,
+            findings,
+            unit.name,
+            state.names,
+        )
+        setup.prepare()
+        for function in unit.functions:
+            setup.instead |= state.outlive(function, set(), True)
+        return setup
+
+    def _is_alone(self, start: Start) -> bool:
+        """Whether an object is all that its program or nodelet has to do with ROS."""
+        together = [s for s in self.starts if s.process == start.process]
+        return start.made is not None and len(together) == 1
+
+    def _facts_at(self, start: Start) -> tuple[Fact, ...]:
+        """What the program or nodelet that has an object asks for besides."""
+        if start.program is not None:
+            return self.reading.of_program(start.program).facts
+        return tuple(f for f in self.system.graph.facts if f.site.owner == start.nodelet)
+
+    # --- known rebecs ---------------------------------------------------------------------------
+
+    def _known(self, unit: Unit, alike: list[Instance], names: Names) -> list[tuple[str, str, int]]:
+        """Name, class and place among the slots of the rebecs that a class sends to."""
+        slots = [self.wiring.known(i) for i in alike]
+        bodies = [(f.cpp, f.body) for f in unit.functions if f.body is not None]
+        taken = {n for cpp, body in bodies for n in declared(unit.code, cpp, body)}
+        taken |= {p.name for s in self.wiring.servers[unit.name] for p in s.parameters}
+        found = []
+        for slot, several in enumerate(zip(*slots, strict=True)):
+            to = [self.wiring.instances[n] for n in several]
+            class_ = self.kinds[self.wiring.kinds[to[0].name]]
+            wish = to[0].name if len(set(several)) == 1 else class_[:1].lower() + class_[1:]
+            if wish in taken:
+                wish = f"{wish}_rebec"
+            found.append((names.give(wish), class_, slot))
+        return found
+
+    def _targets(
+        self, alike: list[Instance], known: list[tuple[str, str, int]]
+    ) -> dict[int, tuple[Target, ...]]:
+        """By publisher the receivers with their servers and the fields that they take."""
+        if not alike:
+            return {}
+        instance = alike[0]
+        own = self.wiring.instances.index(instance)
+        slots = self.wiring.known(instance)
+        found: dict[int, list[Target]] = {}
+        for number, to, name in self.wiring.edges[instance.name]:
+            unit = self.wiring.instances[to].start.unit.name
+            server = next(s for s in self.wiring.servers[unit] if s.name == name)
+            receiver = None if to == own else known[slots.index(to)][0]
+            found.setdefault(number, []).append(Target(receiver, name, server.fields))
+        return {n: tuple(t) for n, t in found.items()}
+
+    # --- main -----------------------------------------------------------------------------------
+
+    def rebec(self, instance: Instance) -> m.Rebec:
+        """An instance with its known rebecs and the values of its constructor's parameters."""
+        bindings = [m.Name(self.wiring.instances[n].name) for n in self.wiring.known(instance)]
+        parameters, index = self._parameters.get(instance.name, ([], 0))
+        arguments = [literal_of(_value(p, index)) for p in parameters]
+        class_ = self.kinds[self.wiring.kinds[instance.name]]
+        return m.Rebec(m.Type(class_), instance.name, tuple(bindings), tuple(arguments))
+
+
+def _value(parameter: Given, index: int) -> bool | int | float | str:
+    value = parameter.values[index] if index < len(parameter.values) else None
+    if isinstance(value, bool | int | float | str):
+        return value
+    return {"boolean": False, "float": 0.0, "double": 0.0}.get(parameter.type.name, 0)
+
+
+def _class(unit: Unit) -> str:
+    return class_name(unit.owner.name) if unit.owner is not None else class_word(unit.name)

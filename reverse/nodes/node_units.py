@@ -1,0 +1,223 @@
+"""What of hand-written code becomes a reactive class: classes that talk to ROS, and programs.
+
+A class counts with all that it inherits; a program stands for its functions outside of classes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reserved import RUNTIME_CLASSES
+from rebsync.reverse.graph import (
+    Callback,
+    Fact,
+    Graph,
+    NodeFact,
+    PublisherFact,
+    ServiceFact,
+    SubscriptionFact,
+    TimerFact,
+)
+from rebsync.reverse.nodes.node_programs import Made, Objects, Program
+from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
+from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
+
+_CONNECTS = (PublisherFact, SubscriptionFact, TimerFact, ServiceFact)
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """What becomes a reactive class.
+
+    `functions` are its functions with bodies, of overridden ones the last; `owner` is None for
+    what a program does outside of classes. `code` is what its functions can name.
+    """
+
+    name: str
+    owner: CppClass | None
+    lineage: tuple[CppClass, ...]
+    functions: tuple[CppFunction, ...]
+    facts: tuple[Fact, ...]
+    code: Code
+    program: Program | None = None
+
+    @property
+    def names(self) -> frozenset[str]:
+        """The classes that its functions belong to."""
+        return frozenset(c.name for c in self.lineage)
+
+    def constructors(self, of: CppClass) -> list[CppFunction]:
+        """The constructors, with bodies, of one of its classes."""
+        return [f for f in self.functions if f.owner == of.name == f.name]
+
+    @property
+    def files(self) -> frozenset[str]:
+        """The paths of the files that its functions stand in."""
+        return frozenset(f.cpp.source.path for f in self.functions)
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """A rebec to be: a unit, the program that runs it and the object that it is.
+
+    A nodelet has no program, nor has a class that no program of the package makes. `entry` is the
+    function that starts the object: `main`, or that of the nodelet that has it.
+    """
+
+    unit: Unit
+    program: Program | None
+    made: Made | None
+    entry: CppFunction | None = None
+    nodelet: str | None = None
+
+    @property
+    def process(self) -> object:
+        """What objects have in common that run together."""
+        return self.program.main.node.id if self.program is not None else self.nodelet or self
+
+
+@dataclass(slots=True)
+class Units:
+    """The units of some code, and where they start."""
+
+    code: Code
+    graph: Graph
+    programs: tuple[Program, ...]
+    generated: bool = False
+
+    def all(self) -> tuple[list[Unit], list[Start]]:
+        """All units, in the order of the code, and all objects of them that programs make."""
+        classes = self._classes()
+        objects = Objects(self.code, classes)
+        made = {p.main.node.id: objects.made_by(p) for p in self.programs}
+        nodelets = {n: self._entry(n) for n in sorted(self.nodelets())}
+        inner = {
+            n: [m for m in objects.made_by_class(self.code.classes[n], entry) if m.owner != n]
+            for n, entry in nodelets.items()
+        }
+        concrete = {m.owner for all_of in (*made.values(), *inner.values()) for m in all_of}
+        bases = {b.name for c in classes for b in self.code.lineage(c)[1:]}
+        units = {
+            n: self._of_class(n)
+            for n in classes
+            if n in concrete or n in nodelets or n not in bases
+        }
+        starts: list[Start] = []
+        own: list[Unit] = []
+        for program in self.programs:
+            unit = self.of_program(program)
+            if any(_connects(f) for f in unit.facts):
+                own.append(unit)
+                starts.append(Start(unit, program, None))
+            for m in made[program.main.node.id]:
+                starts.append(Start(units[m.owner], program, m, program.main))
+        for name, entry in nodelets.items():
+            if name in units:
+                starts.append(Start(units[name], None, None, None, name))
+            starts += [Start(units[m.owner], None, m, entry, name) for m in inner[name]]
+        return [*units.values(), *own], starts
+
+    def _entry(self, nodelet: str) -> CppFunction | None:
+        """The function that starts a nodelet."""
+        for above in self.code.lineage(nodelet):
+            for function in self.code.functions_of(above):
+                if function.name == "onInit" and function.body is not None:
+                    return function
+        return None
+
+    def nodelets(self) -> set[str]:
+        """The classes that are exported as nodelets."""
+        facts = (f for f in self.graph.facts if isinstance(f, NodeFact))
+        found = {f.nodelet.rpartition("::")[2] for f in facts if f.nodelet is not None}
+        return {n for n in found if n in self.code.classes}
+
+    # --- classes --------------------------------------------------------------------------------
+
+    def _classes(self) -> list[str]:
+        """The classes with callbacks, publishers or timers, inherited ones counted."""
+        with_facts = {o for f in self._facts() if _connects(f) for o in [self.owner_of(f)] if o}
+        names = [
+            n
+            for n, c in self.code.classes.items()
+            if with_facts & {a.name for a in self.code.lineage(n)}
+            and not self._is_generated(c)
+            and not (self.generated and n in RUNTIME_CLASSES)
+        ]
+        return names
+
+    def _is_generated(self, owner: CppClass) -> bool:
+        """Whether a class is one of those that rebsync makes, which are read another way."""
+        fields = (f for c in self.code.lineage(owner.name) for f in c.fields)
+        return any(text_of(f.type) == "Mailbox" for f in fields)
+
+    def owner_of(self, fact: Fact) -> str | None:
+        """The class that a fact belongs to: that of its callback, or else that of its call."""
+        if not isinstance(fact, _CONNECTS):
+            return None
+        by = fact.site.owner if fact.site.owner in self.code.classes else None
+        if isinstance(fact, SubscriptionFact | TimerFact | ServiceFact):
+            for callback in fact.callbacks:
+                if isinstance(callback, Callback) and callback.function is not None:
+                    to = callback.function.owner
+                    inherits = by and to in {c.name for c in self.code.lineage(by)}
+                    if to in self.code.classes and not inherits:
+                        return to
+                    return by
+        return by
+
+    def _of_class(self, name: str) -> Unit:
+        lineage = tuple(self.code.lineage(name))
+        names = {c.name for c in lineage}
+        functions: dict[tuple[str, tuple[str, ...]], CppFunction] = {}
+        for above in lineage:
+            for function in self.code.functions_of(above):
+                key = function.name, function.types
+                if function.body is not None or function.initialisers is not None:
+                    functions.setdefault(key, function)
+        facts = [
+            f
+            for f in self._facts()
+            if self.owner_of(f) in names or (not isinstance(f, _CONNECTS) and f.site.owner in names)
+        ]
+        return Unit(name, lineage[0], lineage, tuple(functions.values()), tuple(facts), self.code)
+
+    def _facts(self) -> Iterator[Fact]:
+        """The facts that calls in these files give; there may be more files in the package."""
+        paths = {cpp.source.path for cpp in self.code.files}
+        return (f for f in self.graph.facts if f.site.cpp.source.path in paths)
+
+    # --- programs -------------------------------------------------------------------------------
+
+    def of_program(self, program: Program) -> Unit:
+        """What a program does outside of classes."""
+        functions = [
+            f
+            for (owner, _), all_of in self.code.definitions.items()
+            for f in all_of
+            if not owner and program.has(f.cpp) and f.body is not None
+        ]
+        facts = [
+            f
+            for f in self.graph.facts
+            if self.owner_of(f) is None
+            and f.site.owner not in self.code.classes
+            and program.has(f.site.cpp)
+        ]
+        return Unit(program.name, None, (), tuple(functions), tuple(facts), self.code, program)
+
+
+def _connects(fact: Fact) -> bool:
+    """Whether a fact makes what it belongs to a node with servers or messages of its own."""
+    single = isinstance(fact, SubscriptionFact) and fact.single
+    return isinstance(fact, _CONNECTS) and not single
+
+
+def bodies(unit: Unit) -> Iterator[tuple[Cpp, Node]]:
+    """The bodies of all functions of a unit, with initialiser lists."""
+    for function in unit.functions:
+        for node in (function.initialisers, function.body):
+            if node is not None:
+                yield function.cpp, node

@@ -1,0 +1,211 @@
+"""Which rebecs there are, and who receives what they publish."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import field, replace
+
+from rebsync.records import dataclass
+from rebsync.reverse.graph import (
+    Access,
+    ParameterFact,
+    PublisherFact,
+    RateFact,
+    SubscriptionFact,
+    TimerFact,
+)
+from rebsync.reverse.launch.launched import Launch, LaunchedNode
+from rebsync.reverse.nodes.node_names import Names
+from rebsync.reverse.nodes.node_programs import Program
+from rebsync.reverse.nodes.node_servers import Server
+from rebsync.reverse.nodes.node_times import period_of
+from rebsync.reverse.nodes.node_units import Start, Unit
+from rebsync.reverse.nodes.node_values import Instance
+from rebsync.reverse.unknowns import Open
+
+# By the publisher's place in the facts of its unit, a receiver and its server.
+Edge = tuple[int, int, str]
+
+
+def instances(
+    starts: Sequence[Start], launch: Launch | None, package: str, names: Names
+) -> tuple[Instance, ...]:
+    """The rebecs that a launch file starts, or one of each kind without it."""
+    if launch is None:
+        return tuple(_alone(starts, names))
+    found = []
+    for node in launch.nodes:
+        of_node = [s for s in starts if _runs(node, s, package)]
+        for start in of_node:
+            plain = node.name if isinstance(node.name, str) else "node"
+            wish = plain if len(of_node) == 1 else f"{plain}_{_own(start)}"
+            space = node.namespace if isinstance(node.namespace, str) else ""
+            given = names.give(wish, f"{space.strip('/')}_{wish}")
+            found.append(Instance(start, given, plain, node, launch))
+    return tuple(found)
+
+
+def idle(
+    units: Sequence[Unit], starts: Sequence[Start], found: Sequence[Instance], names: Names
+) -> Iterator[Instance]:
+    """An instance of each unit that nobody starts."""
+    started = {id(i.start.unit) for i in found}
+    for unit in units:
+        if id(unit) not in started:
+            start = next((s for s in starts if s.unit is unit), Start(unit, None, None))
+            yield from (replace(i, idle=True) for i in _alone([start], names))
+
+
+def _alone(starts: Sequence[Start], names: Names) -> Iterator[Instance]:
+    for start in starts:
+        program = start.program
+        others = [s for s in starts if s.process == start.process]
+        named = program.node.name if program is not None and program.node is not None else None
+        node = named if isinstance(named, str) and named else _program(program) or start.unit.name
+        wish = node if len(others) == 1 else _own(start)
+        yield Instance(start, names.give(wish[:1].lower() + wish[1:]), node.strip("/"))
+
+
+def _program(program: Program | None) -> str:
+    return program.name if program is not None else ""
+
+
+def _own(start: Start) -> str:
+    """What tells an object from the others of its program."""
+    if start.made is not None and start.made.variable:
+        return start.made.variable.removeprefix("this->").rstrip("_")
+    return _class(start)
+
+
+def _class(start: Start) -> str:
+    return start.unit.owner.name if start.unit.owner is not None else start.unit.name
+
+
+def _runs(node: LaunchedNode, start: Start, package: str) -> bool:
+    """Whether a tag of a launch file starts this."""
+    if node.nodelet is not None:
+        name = node.nodelet.class_name
+        plain = name.replace("::", "/").rpartition("/")[2] if name is not None else None
+        return start.program is None and plain == start.nodelet
+    if start.program is None or (package and node.package not in (package, "")):
+        return False
+    return node.type in (start.program.name, start.program.stem)
+
+
+# --- who receives what --------------------------------------------------------------------------
+
+
+@dataclass(slots=True)
+class Wiring:
+    """The edges from publishers to servers, and the kinds of rebecs that are wired alike."""
+
+    instances: tuple[Instance, ...]
+    servers: Mapping[str, tuple[Server, ...]]
+    edges: dict[str, tuple[Edge, ...]] = field(default_factory=dict)
+    kinds: dict[str, int] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        listening = list(self._listening())
+        for instance in self.instances:
+            self.edges[instance.name] = tuple(self._edges(instance, listening))
+        self._sort()
+
+    def _listening(self) -> Iterator[tuple[str, object, int, str]]:
+        """Each topic with its type, and the rebec and server that receive it."""
+        for index, instance in enumerate(self.instances):
+            for server in self.servers[instance.start.unit.name]:
+                for fact in server.subscriptions:
+                    topic = instance.topic(fact.topic)
+                    if isinstance(topic, str):
+                        yield topic, server.type, index, server.name
+
+    def _edges(
+        self, instance: Instance, listening: Iterable[tuple[str, object, int, str]]
+    ) -> Iterator[Edge]:
+        for number, fact in enumerate(instance.start.unit.facts):
+            topic = instance.topic(fact.topic) if isinstance(fact, PublisherFact) else None
+            if not isinstance(fact, PublisherFact) or isinstance(topic, Open):
+                continue
+            for name, type_, to, server in listening:
+                if self.instances[to].idle and not instance.idle:
+                    continue
+                if name == topic and (type_ == fact.type or not _both(type_, fact.type)):
+                    yield number, to, server
+
+    def _sort(self) -> None:
+        """Rebecs of a unit are of one kind if they send alike to rebecs of equal kinds.
+
+        Their timers have the same periods, and the same parameters are set.
+        """
+        apart = {i.name: (i.start.unit.name, *_settings(i)) for i in self.instances}
+        first = {mark: n for n, mark in enumerate(dict.fromkeys(apart.values()))}
+        self.kinds = {name: first[mark] for name, mark in apart.items()}
+        while True:
+            marks = {i.name: (self.kinds[i.name], self._shape(i)) for i in self.instances}
+            numbers = {mark: n for n, mark in enumerate(dict.fromkeys(marks.values()))}
+            finer = {name: numbers[mark] for name, mark in marks.items()}
+            done = len(set(finer.values())) == len(set(self.kinds.values()))
+            self.kinds = finer
+            if done:
+                return
+
+    def _shape(self, instance: Instance) -> tuple[object, ...]:
+        slots = self.known(instance)
+        own = self.instances.index(instance)
+        return tuple(
+            (number, self.kinds[self.instances[to].name], slots.index(to) if to != own else -1, to_)
+            for number, to, to_ in self.edges[instance.name]
+        )
+
+    def known(self, instance: Instance) -> list[int]:
+        """The rebecs that one sends to, itself left out, in the order of its publishers."""
+        own = self.instances.index(instance)
+        edges = self.edges[instance.name]
+        return list(dict.fromkeys(to for _, to, _ in edges if to != own))
+
+    def alike(self, unit: Unit) -> list[list[Instance]]:
+        """The rebecs of a unit, those of one kind together."""
+        found: dict[int, list[Instance]] = {}
+        for instance in self.instances:
+            if instance.start.unit is unit:
+                found.setdefault(self.kinds[instance.name], []).append(instance)
+        return list(found.values())
+
+
+def _settings(instance: Instance) -> Iterator[str]:
+    """What rebecs of one class have in common besides."""
+    for fact in instance.start.unit.facts:
+        match fact:
+            case TimerFact() | RateFact():
+                yield str(period_of(instance, fact))
+            case ParameterFact(default=None, access=Access.GET | Access.HAS):
+                yield str(instance.parameter(fact.name) is not None)
+
+
+def _both(one: object, other: object) -> bool:
+    return isinstance(one, str) and isinstance(other, str)
+
+
+def unheard(wiring: Wiring) -> Iterator[tuple[Instance, PublisherFact]]:
+    """The publishers whose messages no rebec receives."""
+    for instance in wiring.instances:
+        sent = {number for number, _, _ in wiring.edges[instance.name]}
+        for number, fact in enumerate(instance.start.unit.facts):
+            if isinstance(fact, PublisherFact) and number not in sent:
+                yield instance, fact
+
+
+def unfed(wiring: Wiring) -> Iterator[tuple[Instance, SubscriptionFact]]:
+    """The subscriptions to which no rebec publishes."""
+    fed = {(to, server) for edges in wiring.edges.values() for _, to, server in edges}
+    topics = {
+        instance.topic(fact.topic)
+        for instance in wiring.instances
+        for fact in instance.start.unit.facts
+        if isinstance(fact, PublisherFact)
+    }
+    for index, instance in enumerate(wiring.instances):
+        for server in wiring.servers[instance.start.unit.name]:
+            for fact in server.subscriptions:
+                if (index, server.name) not in fed or instance.topic(fact.topic) not in topics:
+                    yield instance, fact

@@ -1,0 +1,1 @@
+"""C++ text as trees and declarations."""

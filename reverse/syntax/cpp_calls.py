@@ -1,0 +1,85 @@
+"""The calls in a piece of C++: what is called, on what, with which types and arguments."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
+
+_FEW = 60
+
+
+@dataclass(frozen=True, slots=True)
+class CppCall:
+    """`target.name<types>(arguments)`; `target` is None for a plain function."""
+
+    name: str
+    target: Node | None
+    types: tuple[Node, ...]
+    arguments: tuple[Node, ...]
+    node: Node
+
+    @property
+    def on(self) -> str:
+        """The text of the target."""
+        return text_of(self.target) if self.target is not None else ""
+
+
+def call_of(node: Node) -> CppCall | None:
+    """The call that a node is, if it is one."""
+    if node.type != "call_expression":
+        return None
+    function = part(node, "function")
+    target: Node | None = None
+    types: tuple[Node, ...] = ()
+    if function.type == "field_expression":
+        target, function = part(function, "argument"), part(function, "field")
+    if function.type in ("template_function", "template_method"):
+        types = tuple(named(part(function, "arguments")))
+        function = part(function, "name")
+    arguments = tuple(named(part(node, "arguments")))
+    return CppCall(text_of(function), target, types, arguments, node)
+
+
+def calls_in(node: Node | None) -> Iterator[CppCall]:
+    """All calls in a node, outer ones first, in the order of the text."""
+    if node is None:
+        return
+    found = _walked(node) if node.descendant_count < _FEW else inside(node, "call_expression")
+    for current in found:
+        if (call := call_of(current)) is not None:
+            yield call
+
+
+def _walked(node: Node) -> Iterator[Node]:
+    """The nodes of calls: with few nodes this is quicker than a search."""
+    waiting = [node]
+    while waiting:
+        current = waiting.pop()
+        if current.type == "call_expression":
+            yield current
+        if current.named_child_count:
+            waiting += reversed(current.named_children)
+
+
+def string_of(node: Node) -> str | None:
+    """The text that a literal stands for, pieces that follow each other joined."""
+    if node.type == "concatenated_string":
+        pieces = [string_of(c) for c in named(node)]
+        return None if None in pieces else "".join(p for p in pieces if p is not None)
+    if node.type != "string_literal":
+        return None
+    return text_of(node)[1:-1] if text_of(node).startswith('"') else None
+
+
+def assigned_in(body: Node | None) -> Iterator[tuple[str, Node]]:
+    """`name = value;` for the statements of a body itself, not of those within."""
+    for statement in named(body) if body is not None else []:
+        if statement.type != "expression_statement":
+            continue
+        for expression in named(statement):
+            if expression.type == "assignment_expression":
+                yield text_of(part(expression, "left")), part(expression, "right")

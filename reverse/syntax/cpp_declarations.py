@@ -1,0 +1,256 @@
+"""What C++ code declares: functions, classes, variables, enumerations, and how they are read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reverse.syntax.cpp_tree import Cpp, markers_above, markers_beside, named, part, text_of
+
+WRAPPERS = frozenset(
+    {
+        *("preproc_if", "preproc_ifdef", "preproc_else", "preproc_elif", "preproc_elifdef"),
+        *("template_declaration", "ERROR"),
+    }
+)
+TYPES = frozenset({"class_specifier", "struct_specifier", "enum_specifier"})
+_DECLARATORS = frozenset({"pointer_declarator", "reference_declarator", "array_declarator"})
+
+
+@dataclass(frozen=True, slots=True)
+class CppParameter:
+    """A parameter; its name is empty where the code gives none.
+
+    `default` is what it is where a call leaves it out, with the file that says so.
+    """
+
+    name: str
+    type: Node
+    node: Node
+    default: tuple[Cpp, Node] | None = None
+
+    @property
+    def may_change(self) -> bool:
+        """Whether a function may change what it gets for it."""
+        text = text_of(self.node)
+        return ("&" in text or "*" in text) and "const" not in text
+
+
+@dataclass(frozen=True, slots=True)
+class CppFunction:
+    """A function, declared or defined; `owner` is the class it belongs to, or empty."""
+
+    name: str
+    owner: str
+    parameters: tuple[CppParameter, ...]
+    result: Node | None
+    body: Node | None
+    initialisers: Node | None
+    markers: tuple[str, ...]
+    cpp: Cpp
+    node: Node
+    pure: bool = False
+    overrides: bool = False
+
+    @property
+    def types(self) -> tuple[str, ...]:
+        """The parameters' types as text, which tells overloads apart."""
+        return tuple("".join(text_of(p.type).split()) for p in self.parameters)
+
+
+@dataclass(frozen=True, slots=True)
+class CppField:
+    """A member variable."""
+
+    name: str
+    type: Node
+    value: Node | None
+    markers: tuple[str, ...]
+    cpp: Cpp
+    node: Node
+
+
+@dataclass(frozen=True, slots=True)
+class CppEnumerator:
+    """A constant of an enumeration; `scope` is the class around it, or empty.
+
+    `value` is known where the enumeration says it with numbers, or leaves it out.
+    """
+
+    name: str
+    enum: str
+    scope: str
+    value: int | None
+    cpp: Cpp
+    node: Node
+
+
+@dataclass(frozen=True, slots=True)
+class CppAlias:
+    """Another name for a type: `typedef type name;` or `using name = type;`."""
+
+    name: str
+    type: Node
+    cpp: Cpp
+
+
+@dataclass(frozen=True, slots=True)
+class CppClass:
+    """A class with a body; its functions are as declared in it, in their order.
+
+    `fields` are its plain variables; `others` its pointers, references, arrays, and constants that
+    its constructors set. `outer` is the class it stands in, or empty.
+    """
+
+    name: str
+    bases: tuple[str, ...]
+    fields: tuple[CppField, ...]
+    functions: tuple[CppFunction, ...]
+    markers: tuple[str, ...]
+    cpp: Cpp
+    node: Node
+    others: tuple[CppField, ...] = ()
+    outer: str = ""
+
+
+def function_of(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
+    """The function that a node declares or defines, if it is one; `owner` is the class around."""
+    if node.type not in ("function_definition", "field_declaration", "declaration"):
+        return None
+    declarator = node.child_by_field_name("declarator")
+    while declarator is not None and declarator.type in (
+        "reference_declarator",
+        "pointer_declarator",
+    ):
+        declarator = declarator.named_children[-1] if declarator.named_children else None
+    body = node.child_by_field_name("body")
+    if declarator is not None and only_braces(node):
+        body, declarator = part(declarator, "value"), part(declarator, "declarator")
+    if declarator is None or declarator.type != "function_declarator":
+        return None
+    name = part(declarator, "declarator")
+    while name.type == "qualified_identifier":
+        scope = name.child_by_field_name("scope")
+        owner, name = unscoped(scope) if scope is not None else owner, part(name, "name")
+    value = node.child_by_field_name("default_value")
+    lists = [c for c in node.named_children if c.type == "field_initializer_list"]
+    return CppFunction(
+        text_of(name),
+        owner,
+        tuple(parameters_in(part(declarator, "parameters"))),
+        node.child_by_field_name("type"),
+        body,
+        lists[0] if lists else None,
+        markers_above(node),
+        cpp,
+        node,
+        pure=value is not None and text_of(value) == "0",
+        overrides=any(c.type == "virtual_specifier" for c in declarator.named_children),
+    )
+
+
+def unscoped(name: Node) -> str:
+    """The last name of a scope, class or type, without the arguments of a template."""
+    while name.type in ("qualified_identifier", "template_type", "template_function"):
+        name = part(name, "name")
+    return text_of(name)
+
+
+def declared_name(declarator: Node) -> Node | None:
+    """The name that a declarator of a variable declares; None for a function's."""
+    while declarator.type in _DECLARATORS:
+        if not declarator.named_children:
+            return None
+        inner = declarator.child_by_field_name("declarator")
+        declarator = inner if inner is not None else declarator.named_children[-1]
+    return declarator if declarator.type in ("identifier", "field_identifier") else None
+
+
+def members_of(body: Node) -> Iterator[Node]:
+    """The members of a class, those between preprocessor lines and of templates too."""
+    for member in named(body):
+        if member.type in WRAPPERS:
+            yield from members_of(member)
+        else:
+            yield member
+
+
+def whole_number(node: Node) -> int | None:
+    """A whole number, or a minus before one."""
+    text = text_of(node).replace(" ", "").replace("'", "").rstrip("uUlL")
+    try:
+        return int(text, 0)
+    except ValueError:
+        return None
+
+
+def other_fields(cpp: Cpp, node: Node) -> Iterator[CppField]:
+    """The pointers, references and arrays of a declaration of members."""
+    for declarator, value in _with_values(node):
+        if declarator.type in _DECLARATORS and (name := declared_name(declarator)) is not None:
+            yield CppField(text_of(name), part(node, "type"), value, (), cpp, node)
+
+
+def _with_values(node: Node) -> list[tuple[Node, Node | None]]:
+    """The declarators of a member declaration, each with the value that follows it."""
+    declarators = node.children_by_field_name("declarator")
+    values = node.children_by_field_name("default_value")
+    if not values or len(declarators) == 1:
+        return [(d, values[0] if values else None) for d in declarators]
+    found: list[tuple[Node, Node | None]] = []
+    for declarator, after in zip(declarators, [*declarators[1:], None], strict=True):
+        end = after.start_byte if after is not None else node.end_byte
+        own = [v for v in values if declarator.end_byte <= v.start_byte < end]
+        found.append((declarator, own[0] if own else None))
+    return found
+
+
+def only_braces(node: Node) -> bool:
+    """Whether it is `void f() { {} }`, which the grammar takes for a variable."""
+    declarator = node.child_by_field_name("declarator")
+    if node.type != "declaration" or declarator is None or declarator.type != "init_declarator":
+        return False
+    function, value = part(declarator, "declarator"), part(declarator, "value")
+    return function.type == "function_declarator" and value.type == "initializer_list"
+
+
+def parameters_in(node: Node) -> Iterator[CppParameter]:
+    """The parameters of a list of them."""
+    for parameter in named(node):
+        if parameter.type not in ("parameter_declaration", "optional_parameter_declaration"):
+            continue
+        name = parameter.child_by_field_name("declarator")
+        while name is not None and name.type in ("reference_declarator", "pointer_declarator"):
+            name = name.named_children[-1] if name.named_children else None
+        yield CppParameter(text_of(name) if name else "", part(parameter, "type"), parameter)
+
+
+def is_constant(node: Node) -> bool:
+    """Whether a declaration is of constants: `const` or `constexpr`, and of no pointer."""
+    qualifiers = {text_of(c) for c in node.named_children if c.type == "type_qualifier"}
+    return bool(qualifiers & {"const", "constexpr"})
+
+
+def valued(node: Node) -> Iterator[tuple[Node, Node]]:
+    """The member constants of a declaration with their values."""
+    declarators = node.children_by_field_name("declarator")
+    value = node.child_by_field_name("default_value")
+    if value is not None and len(declarators) == 1:
+        yield declarators[0], value
+
+
+def plain_fields(cpp: Cpp, node: Node) -> Iterator[CppField]:
+    for declarator, value in _with_values(node):
+        if declarator.type == "field_identifier":
+            markers = (*markers_above(node), *markers_beside(node))
+            yield CppField(text_of(declarator), part(node, "type"), value, markers, cpp, node)
+
+
+def bases_of(node: Node) -> Iterator[str]:
+    for clause in node.named_children:
+        if clause.type == "base_class_clause":
+            for base in clause.named_children:
+                if base.type in ("type_identifier", "qualified_identifier", "template_type"):
+                    yield unscoped(base)

@@ -1,0 +1,348 @@
+"""The declarations of the C++ files of a package: classes, functions, constants.
+
+Header and source are read together: a function's body is looked for wherever it is.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_left
+from collections.abc import Iterable, Iterator
+from dataclasses import field
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
+from rebsync.reverse.syntax.cpp_declarations import (
+    TYPES,
+    CppAlias,
+    CppClass,
+    CppEnumerator,
+    CppField,
+    CppFunction,
+    CppParameter,
+    bases_of,
+    declared_name,
+    function_of,
+    is_constant,
+    members_of,
+    only_braces,
+    other_fields,
+    plain_fields,
+    unscoped,
+    valued,
+    whole_number,
+)
+from rebsync.reverse.syntax.cpp_tree import (
+    Cpp,
+    by_types,
+    in_text_order,
+    markers_above,
+    parse,
+    part,
+    text_of,
+)
+from rebsync.source import Source
+
+__all__ = [
+    "Code",
+    "CppAlias",
+    "CppClass",
+    "CppEnumerator",
+    "CppField",
+    "CppFunction",
+    "CppParameter",
+    "function_of",
+]
+
+# The types of nodes that `Code.inside` looks for.
+SOUGHT = (
+    *("call_expression", "declaration", "for_range_loop", "init_declarator"),
+    *("lambda_expression", "parameter_declaration", "type_identifier"),
+)
+_HEADERS = (".h", ".hh", ".hpp", ".hxx", ".cuh", ".ipp", ".tpp")
+_HANDED = re.compile(r"(?:->|\.)\s*(\w+)\s*\(|&\s*(?:\w+::)*(\w+)")
+_CONTAINERS = frozenset(
+    {
+        *("translation_unit", "namespace_definition", "declaration_list", "ERROR"),
+        *("linkage_specification", "preproc_if", "preproc_ifdef", "preproc_else", "preproc_elif"),
+        *("preproc_elifdef", "template_declaration"),
+    }
+)
+
+
+@dataclass(slots=True)
+class Code:
+    """All declarations of some files.
+
+    `classes` has the first class of each name; `all_classes` has all of them, those inside of
+    classes too. `statics` are static members with the values that stand outside of their class.
+    """
+
+    files: list[Cpp] = field(default_factory=list)
+    all_classes: dict[str, list[CppClass]] = field(default_factory=dict)
+    enumerators: dict[str, list[CppEnumerator]] = field(default_factory=dict)
+    aliases: dict[str, list[CppAlias]] = field(default_factory=dict)
+    variables: dict[str, list[CppField]] = field(default_factory=dict)
+    statics: dict[tuple[str, str], CppField] = field(default_factory=dict)
+    classes: dict[str, CppClass] = field(default_factory=dict)
+    definitions: dict[tuple[str, str], list[CppFunction]] = field(default_factory=dict)
+    constants: dict[tuple[str, str], tuple[Cpp, Node]] = field(default_factory=dict)
+    _calls: dict[int, tuple[CppCall, ...]] = field(default_factory=dict)
+    _nodes: dict[int, dict[str, list[Node]]] = field(default_factory=dict)
+    _sorted: dict[tuple[int, tuple[str, ...]], tuple[list[int], list[Node]]] = field(
+        default_factory=dict
+    )
+    _types: dict[int, tuple[str, ...]] = field(default_factory=dict)
+    _visible: dict[str, dict[str, tuple[Cpp, Node]]] = field(default_factory=dict)
+    _handed: frozenset[str] | None = None
+
+    @staticmethod
+    def of(files: Iterable[Cpp]) -> Code:
+        """The declarations of these files."""
+        code = Code()
+        for cpp in files:
+            code.files.append(cpp)
+            code._add(cpp, cpp.root)
+        return code
+
+    def lineage(self, name: str) -> list[CppClass]:
+        """A class and those it descends from, as far as they are known, nearest first."""
+        found: dict[str, CppClass] = {}
+        waiting = [name]
+        while waiting:
+            current = self.classes.get(waiting.pop(0))
+            if current is not None and current.name not in found:
+                found[current.name] = current
+                waiting += current.bases
+        return list(found.values())
+
+    def functions_of(self, owner: CppClass) -> Iterator[CppFunction]:
+        """The functions of a class, with their bodies where these are known."""
+        for declared in owner.functions:
+            yield self._defined(declared) or declared
+
+    def inside(self, cpp: Cpp, node: Node | None, *types: str) -> list[Node]:
+        """The nodes of some types in a node of a file, outer ones first, in the text's order.
+
+        A file is searched once for them all: with many functions that is much quicker. The types
+        are some of `SOUGHT`.
+        """
+        if node is None:
+            return []
+        key = id(cpp), types
+        if key not in self._sorted:
+            if id(cpp) not in self._nodes:
+                self._nodes[id(cpp)] = by_types(cpp.root, SOUGHT)
+            found = self._nodes[id(cpp)]
+            nodes = in_text_order(n for type_ in types for n in found.get(type_, ()))
+            self._sorted[key] = [n.start_byte for n in nodes], nodes
+        starts, nodes = self._sorted[key]
+        end = node.end_byte
+        first, behind = bisect_left(starts, node.start_byte), bisect_left(starts, end)
+        return [n for n in nodes[first:behind] if n.end_byte <= end]
+
+    def calls_of(self, function: CppFunction) -> tuple[CppCall, ...]:
+        """The calls in a function's body."""
+        return self.calls_in(function.cpp, function.body) if function.body is not None else ()
+
+    def calls_in(self, cpp: Cpp, body: Node) -> tuple[CppCall, ...]:
+        """The calls in a body of a file, outer ones first, in the order of the text."""
+        if body.id not in self._calls:
+            if id(cpp) in self._nodes:
+                found = map(call_of, self.inside(cpp, body, "call_expression"))
+                self._calls[body.id] = tuple(c for c in found if c is not None)
+            else:
+                self._calls[body.id] = tuple(calls_in(body))
+        return self._calls[body.id]
+
+    def handed_on(self) -> frozenset[str]:
+        """The names of functions that some code calls on an object, or hands on."""
+        if self._handed is None:
+            found = (m for cpp in self.files for m in _HANDED.finditer(cpp.source.text))
+            self._handed = frozenset(m[1] or m[2] for m in found)
+        return self._handed
+
+    def constant(self, cpp: Cpp, name: str) -> tuple[Cpp, Node] | None:
+        """The value of a constant of a file."""
+        return self.constants.get((cpp.source.path, name))
+
+    def constants_for(self, cpp: Cpp) -> dict[str, tuple[Cpp, Node]]:
+        """The constants that a file can name: its own, and those of headers that agree on them."""
+        if cpp.source.path not in self._visible:
+            self._visible[cpp.source.path] = self._constants_for(cpp)
+        return self._visible[cpp.source.path]
+
+    def _constants_for(self, cpp: Cpp) -> dict[str, tuple[Cpp, Node]]:
+        found: dict[str, tuple[Cpp, Node]] = {}
+        differing = set()
+        for (path, name), value in self.constants.items():
+            if path.endswith(_HEADERS):
+                before = found.setdefault(name, value)
+                if text_of(before[1]) != text_of(value[1]):
+                    differing.add(name)
+        own = {n: v for (path, n), v in self.constants.items() if path == cpp.source.path}
+        return {n: v for n, v in found.items() if n not in differing} | own
+
+    def _defined(self, declared: CppFunction) -> CppFunction | None:
+        if declared.body is not None:
+            return None
+        found = self.definitions.get((declared.owner, declared.name), [])
+        count = len(declared.parameters)
+        found = [f for f in found if len(f.parameters) == count]
+        return next((f for f in found if self._types_of(f) == self._types_of(declared)), None)
+
+    def _types_of(self, function: CppFunction) -> tuple[str, ...]:
+        key = function.node.id
+        if key not in self._types:
+            self._types[key] = function.types
+        return self._types[key]
+
+    # --- collecting -----------------------------------------------------------------------------
+
+    def _add(self, cpp: Cpp, node: Node) -> None:
+        for child in node.named_children:
+            match child.type:
+                case "class_specifier" | "struct_specifier":
+                    self._add_class(cpp, child)
+                case "preproc_def":
+                    self._add_macro(cpp, child)
+                case "enum_specifier":
+                    self._add_enum(cpp, child, "")
+                case "type_definition" | "alias_declaration":
+                    self._add_aliases(cpp, child)
+                case "function_definition":
+                    self._add_function(cpp, child)
+                case "declaration":
+                    if only_braces(child):
+                        self._add_function(cpp, child)
+                    self._add_variables(cpp, child)
+                case kind if kind in _CONTAINERS:
+                    self._add(cpp, child)
+
+    def _add_function(self, cpp: Cpp, node: Node) -> None:
+        if (function := function_of(cpp, node, "")) is not None:
+            self.definitions.setdefault((function.owner, function.name), []).append(function)
+
+    def _add_class(self, cpp: Cpp, node: Node, outer: str = "") -> None:
+        name, body = node.child_by_field_name("name"), node.child_by_field_name("body")
+        if name is None or body is None:
+            return
+        own = unscoped(name)
+        fields: list[CppField] = []
+        others: list[CppField] = []
+        functions: list[CppFunction] = []
+        for member in members_of(body):
+            function = function_of(cpp, member, own)
+            if function is not None:
+                functions.append(function)
+            elif member.type in ("type_definition", "alias_declaration"):
+                self._add_aliases(cpp, member)
+            elif member.type != "field_declaration":
+                continue
+            elif not self._add_nested(cpp, member, own) and is_constant(member):
+                for declarator, value in valued(member):
+                    self.constants[cpp.source.path, text_of(declarator)] = cpp, value
+                others += plain_fields(cpp, member)
+            else:
+                fields += plain_fields(cpp, member)
+                others += other_fields(cpp, member)
+        read = CppClass(
+            own,
+            tuple(bases_of(node)),
+            tuple(fields),
+            tuple(functions),
+            markers_above(node),
+            cpp,
+            node,
+            tuple(others),
+            outer,
+        )
+        self.all_classes.setdefault(own, []).append(read)
+        if not outer:
+            self.classes.setdefault(own, read)
+
+    def _add_nested(self, cpp: Cpp, member: Node, outer: str) -> bool:
+        """Takes the class or enumeration that a member declares, if it does."""
+        type_ = member.child_by_field_name("type")
+        if type_ is None or type_.type not in TYPES:
+            return False
+        if type_.type == "enum_specifier":
+            self._add_enum(cpp, type_, outer)
+        else:
+            self._add_class(cpp, type_, outer)
+        return True
+
+    def _add_enum(self, cpp: Cpp, node: Node, scope: str) -> None:
+        name, body = node.child_by_field_name("name"), node.child_by_field_name("body")
+        next_: int | None = 0
+        for child in body.named_children if body is not None else []:
+            if child.type != "enumerator":
+                continue
+            if (given := child.child_by_field_name("value")) is not None:
+                next_ = whole_number(given)
+            own = text_of(part(child, "name"))
+            read = CppEnumerator(own, text_of(name) if name else "", scope, next_, cpp, child)
+            self.enumerators.setdefault(own, []).append(read)
+            next_ = next_ + 1 if next_ is not None else None
+
+    def _add_aliases(self, cpp: Cpp, node: Node) -> None:
+        type_ = node.child_by_field_name("type")
+        names = node.children_by_field_name("declarator") + node.children_by_field_name("name")
+        if type_ is None:
+            return
+        if type_.type in ("class_specifier", "struct_specifier"):
+            self._add_class(cpp, type_)
+        elif type_.type == "enum_specifier":
+            self._add_enum(cpp, type_, "")
+        for name in names:
+            if name.type == "type_identifier":
+                read = CppAlias(text_of(name), type_, cpp)
+                self.aliases.setdefault(read.name, []).append(read)
+
+    def _add_variables(self, cpp: Cpp, node: Node) -> None:
+        type_ = node.child_by_field_name("type")
+        if type_ is None:
+            return
+        if type_.type in ("class_specifier", "struct_specifier"):
+            self._add_class(cpp, type_)
+        elif type_.type == "enum_specifier":
+            self._add_enum(cpp, type_, "")
+        constant = is_constant(node)
+        for declarator in node.children_by_field_name("declarator"):
+            value = None
+            if declarator.type == "init_declarator":
+                value, declarator = part(declarator, "value"), part(declarator, "declarator")
+                if constant:
+                    self.constants[cpp.source.path, text_of(declarator)] = cpp, value
+            if declarator.type == "qualified_identifier" and value is not None:
+                self._add_static(cpp, node, declarator, value)
+                continue
+            name = declared_name(declarator)
+            if name is not None:
+                read = CppField(text_of(name), type_, value, (), cpp, node)
+                self.variables.setdefault(read.name, []).append(read)
+
+    def _add_static(self, cpp: Cpp, node: Node, declarator: Node, value: Node) -> None:
+        """`int C::x = 3;`, outside of the class."""
+        scope = ""
+        while declarator.type == "qualified_identifier":
+            above = declarator.child_by_field_name("scope")
+            scope = unscoped(above) if above is not None else scope
+            declarator = part(declarator, "name")
+        read = CppField(text_of(declarator), part(node, "type"), value, (), cpp, node)
+        self.statics.setdefault((scope, read.name), read)
+
+    def _add_macro(self, cpp: Cpp, node: Node) -> None:
+        """`#define LIMIT 8`: the text as an expression, if it is one."""
+        name, text = node.child_by_field_name("name"), node.child_by_field_name("value")
+        if name is None or text is None:
+            return
+        inside = parse(Source(cpp.source.path, f"const auto x = {text_of(text)};"))
+        declaration = inside.root.named_children[0] if inside.root.named_children else None
+        if declaration is None or inside.root.has_error or declaration.type != "declaration":
+            return
+        declarator = part(declaration, "declarator")
+        if (value := declarator.child_by_field_name("value")) is not None:
+            self.constants[cpp.source.path, text_of(name)] = inside, value

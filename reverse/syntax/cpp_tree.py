@@ -1,0 +1,219 @@
+"""C++ text to a syntax tree, with places in the text as the rest of rebsync counts them."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Iterable, Iterator
+from dataclasses import field
+from functools import cache
+
+import tree_sitter_cpp
+from tree_sitter import Language, Node, Parser, Query, QueryCursor
+
+from rebsync.records import dataclass
+from rebsync.reverse.syntax.cpp_depth import deep_parts, may_be_deep, without
+from rebsync.reverse.syntax.cpp_text import readable
+from rebsync.source import Source, SourceSpan, Span
+
+_MOST_COMMENTS = 60  # each is looked for from the start of what is around it
+_NOT_ASCII = re.compile(r"[^\x00-\x7f]")
+_INVERTED = re.compile(rb"[\s(]*~")
+_ELEMENTS = frozenset({"initializer_list", "parenthesized_expression"})
+_COMMENT = re.compile(r"^\s*//[/!]?|^\s*/\*+|\*+/\s*\Z")
+
+
+@dataclass(frozen=True)
+class Cpp:
+    """One file of C++ and its tree, whose places are bytes.
+
+    `wide` are the bytes behind each character that takes more than one, and by how many bytes more
+    than characters the text up to there has. `deep` are the bytes of places that nest deeper than
+    is read: they are not in the tree. `inverted` are the bytes of each `~` that is `!` in the tree.
+    """
+
+    source: Source
+    root: Node = field(repr=False)
+    wide: tuple[list[int], list[int]] | None = field(repr=False)
+    deep: tuple[tuple[int, int], ...] = ()
+    inverted: frozenset[int] = frozenset()
+
+    def operator(self, node: Node) -> str:
+        """The operator of an operation."""
+        operator = part(node, "operator")
+        return "~" if operator.start_byte in self.inverted else text_of(operator)
+
+    def span(self, node: Node) -> Span:
+        """The characters that a node covers."""
+        if self.wide is None:
+            return SourceSpan(node.start_byte, node.end_byte, self.source)
+        return self.source.within(self.characters(node.start_byte, node.end_byte))
+
+    def characters(self, start: int, end: int) -> Span:
+        """The characters that some bytes are."""
+        if self.wide is None:
+            return Span(start, end)
+        return Span(self._character(start), self._character(end))
+
+    def _character(self, byte: int) -> int:
+        ends, surplus = self.wide or ([], [])
+        before = bisect_right(ends, byte)
+        return byte - (surplus[before - 1] if before else 0)
+
+
+@cache
+def _language() -> Language:
+    return Language(tree_sitter_cpp.language())
+
+
+@cache
+def _parser() -> Parser:
+    return Parser(_language())
+
+
+def parse(source: Source) -> Cpp:
+    """The tree of a file; where the text is no C++ it has error nodes."""
+    text = readable(source.text)
+    data = text.encode("utf-8", "surrogatepass")
+    wide = None if len(data) == len(text) else _wide(text)
+    root = _parser().parse(data).root_node
+    deep: list[tuple[int, int]] = []
+    while may_be_deep(data) and (parts := list(deep_parts(root))):
+        deep += parts
+        data = without(data, parts)
+        root = _parser().parse(data).root_node
+    inverted: set[int] = set()
+    while root.has_error and (found := list(_taken_for_destructors(root, data))):
+        inverted.update(found)
+        data = _with_negations(data, found)
+        root = _parser().parse(data).root_node
+    return Cpp(source, root, wide, tuple(deep), frozenset(inverted))
+
+
+def _taken_for_destructors(root: Node, data: bytes) -> Iterator[int]:
+    """The bytes of `~` with which elements in braces begin, `{~x[0], 1}`.
+
+    There the grammar looks for the name of a destructor, and finds an error; with `!` it does not.
+    """
+    for node in inside(root, "ERROR"):
+        if node.parent is not None and node.parent.type in _ELEMENTS:
+            sign = _INVERTED.match(data, node.start_byte)
+            if sign is not None:
+                yield sign.end() - 1
+
+
+def _with_negations(data: bytes, places: Iterable[int]) -> bytes:
+    changed = bytearray(data)
+    for place in places:
+        changed[place] = ord("!")
+    return bytes(changed)
+
+
+def _wide(text: str) -> tuple[list[int], list[int]]:
+    """The byte behind each character that is not ASCII, and how many bytes too many come before."""
+    ends: list[int] = []
+    surplus: list[int] = []
+    more = 0
+    for match in _NOT_ASCII.finditer(text):
+        more += len(match[0].encode("utf-8", "surrogatepass")) - 1
+        ends.append(match.end() + more)
+        surplus.append(more)
+    return ends, surplus
+
+
+def text_of(node: Node) -> str:
+    """The text of a node."""
+    text = node.text
+    return text.decode("utf-8", "replace") if text else ""
+
+
+def named(node: Node) -> list[Node]:
+    """The named children of a node but for comments."""
+    return [c for c in node.named_children if c.type != "comment"]
+
+
+def inside(node: Node | None, *types: str) -> list[Node]:
+    """The nodes of some types in a node, itself included, outer ones first, in the text's order.
+
+    The parser's library looks for them, which is much quicker than going through a tree.
+    """
+    if node is None:
+        return []
+    found = QueryCursor(_query(types)).captures(node).get("found", [])
+    found.sort(key=_in_text)
+    return found
+
+
+def by_types(node: Node, types: tuple[str, ...]) -> dict[str, list[Node]]:
+    """The nodes of each of some types in a node, in no order: one search finds them all."""
+    return QueryCursor(_named_query(types)).captures(node)
+
+
+def in_text_order(nodes: Iterable[Node]) -> list[Node]:
+    """Nodes of a tree as they begin in the text, outer ones first."""
+    return sorted(nodes, key=_in_text)
+
+
+@cache
+def _named_query(types: tuple[str, ...]) -> Query:
+    return Query(_language(), " ".join(f"({type_}) @{type_}" for type_ in types))
+
+
+@cache
+def _query(types: tuple[str, ...]) -> Query:
+    return Query(_language(), " ".join(f"({type_}) @found" for type_ in types))
+
+
+def _in_text(node: Node) -> tuple[int, int]:
+    return node.start_byte, -node.end_byte
+
+
+def part(node: Node, name: str) -> Node:
+    """The child in a field that the grammar promises; ValueError where a broken text lacks it."""
+    child = node.child_by_field_name(name)
+    if child is None:
+        raise ValueError(f"{node.type} without {name}")
+    return child
+
+
+def markers_above(node: Node) -> tuple[str, ...]:
+    """The markers in the comments directly before a node."""
+    found: list[str] = []
+    before = node.prev_sibling
+    while before is not None and before.type == "comment" and not _trails(before):
+        found.append(text_of(before))
+        if len(found) > _MOST_COMMENTS:
+            break
+        before = before.prev_sibling
+    return markers_in(reversed(found))
+
+
+def markers_beside(node: Node) -> tuple[str, ...]:
+    """The markers in the comments that follow a node on its last line, and go on below."""
+    found: list[str] = []
+    after = node.next_sibling
+    row = node.end_point[0]
+    while (
+        after is not None and after.type == "comment" and after.start_point[0] <= row + len(found)
+    ):
+        found.append(text_of(after))
+        after = after.next_sibling
+    return markers_in(found)
+
+
+def markers_in(comments: Iterable[str]) -> tuple[str, ...]:
+    """`kind path` of the markers in comments that follow each other.
+
+    A formatter may have split a marker over lines, or joined two.
+    """
+    marked = list(comments)
+    if not any("rebsync:" in comment for comment in marked):
+        return ()
+    text = " ".join(_COMMENT.sub(" ", comment) for comment in marked)
+    return tuple(" ".join(piece.split()) for piece in text.split("rebsync:")[1:])
+
+
+def _trails(comment: Node) -> bool:
+    """Whether a comment stands behind something on its line."""
+    before = comment.prev_sibling
+    return before is not None and before.end_point[0] == comment.start_point[0]

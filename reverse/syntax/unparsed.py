@@ -1,0 +1,132 @@
+"""What of a file the parser could not see as the compiler will: listed, with the place.
+
+These are places that are no C++ to the parser, and alternatives of `#if` of which it is not known
+which one is compiled.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from tree_sitter import Node
+
+from rebsync.reverse.findings import Finding, Grade
+from rebsync.reverse.syntax.cpp_conditions import Conditional, blank, conditionals
+from rebsync.reverse.syntax.cpp_text import has_alternatives, is_split, read_branch
+from rebsync.reverse.syntax.cpp_tree import Cpp
+from rebsync.source import Span
+
+_LONGEST = 120
+_DIRECTIVES = re.compile(r"^[ \t]*#(?:[^\n\\]|\\\r?\n|\\.)*", re.MULTILINE)
+_ROS = re.compile(
+    r"\b(?:ros::|NodeHandle|advertise|subscribe|publish|createTimer|createWallTimer|param|getParam"
+    r"|setParam|spin|ROS_ASSERT)\b"
+)
+_HINT = "where only one is ever compiled, take the others out"
+
+
+def unparsed(cpp: Cpp) -> Iterator[Finding]:
+    """The places of a file that are not read as they will be compiled, in no order."""
+    for start, end in cpp.deep:
+        why = "this nests deeper than rebsync reads"
+        span = _first_line(cpp, cpp.characters(start, end))
+        yield Finding(
+            Grade.UNREADABLE, cpp.source, span, why, "give parts of it names of their own"
+        )
+    if cpp.root.has_error:
+        yield from (_error(cpp, node) for node in _errors(cpp))
+    if has_alternatives(cpp.source.text):
+        yield from _alternatives(cpp)
+
+
+# --- what is no C++ -----------------------------------------------------------------------------
+
+
+def _errors(cpp: Cpp) -> Iterator[Node]:
+    """The outermost nodes that say that the text is no C++, one for each line."""
+    waiting = [cpp.root]
+    lines = set[int]()
+    while waiting:
+        node = waiting.pop()
+        if node.is_error or node.is_missing:
+            if not _harmless(cpp, node) and node.start_point.row not in lines:
+                lines.add(node.start_point.row)
+                yield node
+        elif node.has_error:
+            waiting += reversed(node.children)
+
+
+def _harmless(cpp: Cpp, node: Node) -> bool:
+    """Whether what is missing says nothing: the `;` after a macro, the name of an instantiation."""
+    parent = node.parent
+    if not node.is_missing or parent is None:
+        return False
+    if parent.type == "template_instantiation":
+        return True
+    at_top = parent.parent is None or parent.parent.type in ("translation_unit", "declaration_list")
+    first = parent.named_children[0] if parent.named_children else None
+    return at_top and node.type == ";" and first is not None and first.type == "call_expression"
+
+
+def _error(cpp: Cpp, node: Node) -> Finding:
+    why = "this is no C++ that can be read: a macro may hide it"
+    if node.is_missing:
+        why = f"this is no C++ that can be read: `{node.type}` is missing"
+    return Finding(Grade.UNREADABLE, cpp.source, _first_line(cpp, cpp.span(node)), why)
+
+
+def _first_line(cpp: Cpp, span: Span) -> Span:
+    """The start of a place, at least one character."""
+    text = cpp.source.text
+    line_end = text.find("\n", span.start)
+    end = min(span.end, span.start + _LONGEST, line_end if line_end >= 0 else len(text))
+    return Span(span.start, max(end, min(span.start + 1, len(text))))
+
+
+# --- alternatives -------------------------------------------------------------------------------
+
+
+def _alternatives(cpp: Cpp) -> Iterator[Finding]:
+    """Those of which it is not known what is compiled, and that hold code; not those within."""
+    plain = blank(cpp.source.text)
+    done: list[tuple[int, int]] = []
+    for each in reversed(conditionals(plain)):
+        start, end = each.directives[0][0], each.directives[-1][1]
+        while done and done[-1][0] > start:
+            done.pop()
+        if done and end <= done[-1][1]:
+            continue
+        if each.decided:
+            done += [(b.start, b.end) for b in each.branches if not b.taken]
+        else:
+            done.append((start, end))
+            yield from _undecided(cpp, plain, each)
+
+
+def _undecided(cpp: Cpp, plain: str, each: Conditional) -> Iterator[Finding]:
+    code = [_DIRECTIVES.sub("", plain[b.start : b.end]) for b in each.branches]
+    if not any(text.strip() for text in code):
+        return
+    start, end = each.directives[0]
+    span = Span(start, start + len(plain[start:end].rstrip()))
+    if is_split(plain, each):
+        which = "none" if read_branch(each) is None else "one"
+        why = f"of the alternatives of `{each.condition}` {which} is read: they overlap other code"
+        yield Finding(Grade.UNREADABLE, cpp.source, span, why, _HINT)
+        return
+    if _in_body(cpp, each) and not any(_ROS.search(text) for text in code):
+        return  # the reader of the body lists it
+    why = f"whether `{each.condition}` holds is not known: all alternatives are read"
+    yield Finding(Grade.APPROXIMATED, cpp.source, span, why, _HINT)
+
+
+def _in_body(cpp: Cpp, each: Conditional) -> bool:
+    """Whether alternatives stand in the body of a function."""
+    at = len(cpp.source.text[: each.directives[0][1]].encode("utf-8", "surrogatepass"))
+    node = cpp.root.descendant_for_byte_range(at - 1, at)
+    while node is not None:
+        if node.type == "compound_statement":
+            return True
+        node = node.parent
+    return False

@@ -1,0 +1,1 @@
+"""What names, numbers and handles in the code come to."""

@@ -1,0 +1,66 @@
+"""What variables make of what they are given: lists, defaults of parameters, pointers."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync.reverse.graph import FromParameter
+from rebsync.reverse.syntax.cpp_tree import part, text_of
+from rebsync.reverse.values.cpp_flow_definitions import Definition
+from rebsync.reverse.values.cpp_flow_types import Variable
+from rebsync.reverse.values.cpp_values_numbers import converted
+from rebsync.reverse.values.cpp_values_plain import MOST, Frame, Nothing, Value, choice
+
+if TYPE_CHECKING:
+    from rebsync.reverse.values.cpp_values import Values
+
+
+def listed(values: Values, type_: str, definition: Definition, frame: Frame) -> Value:
+    """The elements of an array or vector that is made of them."""
+    given = definition.arguments
+    found = [converted(values.value(g, frame), type_) for g in given]
+    holder = part(definition.node, "value") if definition.node.type == "init_declarator" else None
+    braces = holder is not None and holder.type == "initializer_list"
+    match found:
+        case [tuple() as copied]:
+            return copied
+        case [int() as count, (bool() | int() | float() | str()) as element] if not braces:
+            return (element,) * count if 0 <= count < MOST else Nothing()
+        case _ if braces and all(isinstance(v, (bool, int, float, str)) for v in found):
+            return tuple(v for v in found if isinstance(v, (bool, int, float, str)))
+        case _:
+            return values.unknown("a list that is not known", definition.place, frame)
+
+
+def with_default(value: Value, default: Value) -> Value:
+    """The value of a parameter with what the code puts in its place where it is not set."""
+    match default:
+        case Nothing():
+            return value
+        case bool() | int() | float() | str() | FromParameter() if isinstance(value, FromParameter):
+            return FromParameter(value.name, default, value.expression, value.search, value.within)
+        case _:
+            return choice([default, value])
+
+
+def is_pointer(variable: Variable) -> bool:
+    """Whether a variable is a pointer, plain or shared."""
+    above = variable.name.parent
+    if above is not None and above.type == "pointer_declarator":
+        return True
+    if variable.field is not None:
+        for declarator in variable.field.node.children_by_field_name("declarator"):
+            if declarator.type == "pointer_declarator" and variable.text in text_of(declarator):
+                return True
+    text = text_of(variable.type) if variable.type is not None else ""
+    return "_ptr<" in text or text.endswith("Ptr")
+
+
+def on_this(call: Node) -> bool:
+    """Whether a call is one of a method of the same object."""
+    if call.type != "call_expression":
+        return call.type == "field_initializer"
+    function = part(call, "function")
+    return function.type != "field_expression" or part(function, "argument").type == "this"
