@@ -11,7 +11,7 @@ from rebsync.names import uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED
 from rebsync.reverse.bodies.cpp_types import class_name, type_of
-from rebsync.reverse.bodies.scope import Called, Function, Member, Outside, Runtime, Scope, Variable
+from rebsync.reverse.bodies.scope import Called, Function, Member, Outside, Scope, Variable
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.ros1_bodies import Bodies
 from rebsync.reverse.generated.ros1_free import free_functions
@@ -20,6 +20,7 @@ from rebsync.reverse.generated.ros1_names import (
     enumerators,
     is_interface,
     plain_name,
+    runtime_of,
     state_types,
     variable_name,
 )
@@ -39,11 +40,6 @@ from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppField, CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, text_of
 
-_RUNTIME: dict[str, Runtime] = {
-    "Mailbox": Runtime("mailbox"),
-    "Drive": Runtime("drive"),
-    "Sensor": Runtime("sensor"),
-}
 _ROS = frozenset({"Publisher", "Publishers", "Subscriber", "Timer", "WallTimer", "NodeHandle"})
 _PLUMBING = frozenset({"mailbox", "publishState"})
 
@@ -193,7 +189,7 @@ class Classes:
         known: list[m.Declaration] = []
         state: list[m.Declaration] = []
         for member in owner.fields:
-            if self._runtime(member) or member.name in roles.globals:
+            if runtime_of(member) or member.name in roles.globals:
                 continue
             type_ = type_of(member.type)
             if type_ is None:
@@ -207,10 +203,6 @@ class Classes:
             declaration = m.Declaration(type_, (declarator,), span=span)
             (known if member.name in roles.known else state).append(declaration)
         return known, state
-
-    def _runtime(self, member: CppField) -> Runtime | None:
-        text = text_of(member.type)
-        return _RUNTIME.get(text.partition("<")[0])
 
     # --- functions ------------------------------------------------------------------------------
 
@@ -361,7 +353,7 @@ class Classes:
         return self._scopes[owner.name]
 
     def _member(self, roles: Roles, member: CppField) -> Member:
-        if (runtime := self._runtime(member)) is not None:
+        if (runtime := runtime_of(member)) is not None:
             return runtime
         if (advertised := roles.publishers.get(member.name)) is not None:
             return publisher(advertised, self.roles, self.messages)

@@ -8,10 +8,22 @@ from collections.abc import Collection, Iterator
 from rebsync import model as m
 from rebsync.names import carry, uncarry
 from rebsync.reserved import RESERVED, RUNTIME_MEMBERS
+from rebsync.reverse.bodies.scope import Runtime
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.generated.ros1_roles import Roles
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppField, CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, text_of
+
+_RUNTIME: dict[str, Runtime] = {
+    "Mailbox": Runtime("mailbox"),
+    "Drive": Runtime("drive"),
+    "Sensor": Runtime("sensor"),
+}
+
+
+def runtime_of(member: CppField) -> Runtime | None:
+    """What a member is of the run-time part of generated code, if it is of it."""
+    return _RUNTIME.get(text_of(member.type).partition("<")[0])
 
 
 def variable_name(roles: Roles, member: CppField) -> str:
