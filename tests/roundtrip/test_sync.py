@@ -19,6 +19,10 @@ from tests.reverse.test_laws import package_of
 CHANGES = {
     "experiment1": [("msgsrv moveBackward() {", "\n    delay(7);  // rest"), ("int e11 = ", "1")],
     "experiment2": [("msgsrv MoveInX() {", "\n    delay(7);  // rest"), ("int e2 = ", "1")],
+    "warehouse": [
+        ("msgsrv enter(int id, int cell) {", "\n    delay(7);  // rest"),
+        ("int patience = ", "1"),
+    ],
 }
 
 
