@@ -101,12 +101,12 @@ class Tokens:
                 return self._made(replace(node, otherwise=None))
             case m.If(otherwise=m.Block((m.If() as inner,), annotations=())) if self._folds:
                 return self._made(replace(node, otherwise=inner))
-            case m.ExpressionStatement(m.Unary("++" | "--" as sign, inner)) if self._folds:
-                return self._made(replace(node, expression=m.Postfix(sign, inner)))
+            case m.ExpressionStatement(value) if self._folds:
+                return self._parts(replace(node, expression=_step(value)))
             case m.Block() | m.Case():
                 return replace(self._parts(node), statements=self._statements(node.statements))
             case m.For() if self._folds:
-                return self._parts(self._updates(node))
+                return self._parts(replace(node, updates=tuple(map(_step, node.updates))))
             case m.Empty() if is_unreadable(node):
                 return m.Empty((m.Annotation(f"{id(self)} {id(node)}"),))  # equal to nothing
             case _:
@@ -114,7 +114,8 @@ class Tokens:
 
     def _is_of(self, expression: m.Expression, type_: m.Type) -> bool:
         """Whether a cast to a type leaves an expression as it is."""
-        return str(self.side.analysis.type_of(expression)) == str(type_)
+        known = self.side.analysis.type_of(expression)
+        return known is not None and str(known) == str(type_)
 
     def _symbol(self, node: object) -> object:
         return self.side.analysis.symbol_of(node)
@@ -156,17 +157,16 @@ class Tokens:
             return tuple(self.of(s) for s in statements)
         return tuple(self.of(s) for s in _flat(statements))
 
-    def _updates(self, loop: m.For) -> m.For:
-        """A loop whose updates are told in one way, as nobody takes their values."""
-        return replace(
-            loop,
-            updates=tuple(
-                m.Postfix(u.operator, u.operand, u.span)
-                if isinstance(u, m.Unary) and u.operator in ("++", "--")
-                else u
-                for u in loop.updates
-            ),
-        )
+
+def _step(expression: m.Expression) -> m.Expression:
+    """A step up or down whose value nobody takes, told in one way."""
+    match expression:
+        case m.Paren(inner):
+            return _step(inner)
+        case m.Unary("++" | "--" as sign, inner):
+            return m.Postfix(sign, inner, expression.span)
+        case _:
+            return expression
 
 
 def _flat(statements: tuple[m.Statement, ...]) -> Iterator[m.Statement]:
