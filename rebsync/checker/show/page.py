@@ -5,8 +5,6 @@ It needs nothing but itself; without scripts everything in it can still be read.
 
 from __future__ import annotations
 
-import base64
-import hashlib
 from collections.abc import Sequence
 from functools import cache
 from importlib.resources import files
@@ -15,7 +13,7 @@ from rebsync.checker.result import Coverage, Result, Violation
 from rebsync.checker.show import words
 from rebsync.checker.show.chart import chart_inside
 from rebsync.checker.show.chart_style import STYLE
-from rebsync.checker.show.markup import Markup, element, joined
+from rebsync.checker.show.markup import Markup, element, joined, metadata
 from rebsync.checker.show.page_source import coverage_section, source_section, text_section
 from rebsync.checker.show.page_states import states_table
 from rebsync.checker.trace import Trace
@@ -88,19 +86,10 @@ def _page(
             script,
         ),
     )
-    head = element("head", joined(*_metadata(), element("title", source.path), style))
+    head = element(
+        "head", joined(*metadata(_file("page.js")), element("title", source.path), style)
+    )
     return f"<!DOCTYPE html>\n{element('html', head, body, lang='en')}\n"
-
-
-def _metadata() -> list[Markup]:
-    """The page may load nothing and run nothing but its own script."""
-    digest = base64.b64encode(hashlib.sha256(_file("page.js").encode()).digest()).decode()
-    policy = f"default-src 'none'; style-src 'unsafe-inline'; script-src 'sha256-{digest}'"
-    return [
-        element("meta", charset="utf-8"),
-        element("meta", http_equiv="Content-Security-Policy", content=policy),
-        element("meta", name="viewport", content="width=device-width, initial-scale=1"),
-    ]
 
 
 @cache
