@@ -8,7 +8,6 @@ from rebsync.source import NOWHERE, Span
 
 _OPPOSITE = {"==": "!=", "!=": "==", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
 _MATHEMATICS = frozenset({"pow", "sqrt"})
-UNKNOWN_TRUTH = m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)))
 
 
 def tight(expression: m.Expression, least: int) -> m.Expression:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 
 from rebsync.reverse.syntax.cpp_calls import CppCall
-from rebsync.reverse.syntax.cpp_tree import text_of
 
 LOGGING = ("ROS_DEBUG", "ROS_INFO", "ROS_WARN", "ROS_ERROR", "ROS_FATAL", "NODELET_", "ROS_LOG")
 STREAMS = frozenset(
@@ -87,16 +86,3 @@ def takes_values(call: CppCall) -> bool:
 def type_takes_values(name: str) -> bool:
     """Whether constructors of a type are known to change none of their arguments."""
     return bool(_CONVERSION.match(name) or _LIBRARIES.match(name))
-
-
-def logs(call: CppCall) -> bool:
-    """Whether a call writes a log, and nothing else."""
-    plain = call.name.rpartition("::")[2]
-    if call.target is None and call.name.startswith(LOGGING):
-        return True
-    if plain in ("printf", "puts", "perror"):
-        return True
-    outputs = ("stdout", "stderr")
-    return plain in ("fprintf", "fputs", "fflush") and any(
-        text_of(a) in outputs for a in call.arguments
-    )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import field
 
 from tree_sitter import Node
@@ -21,9 +21,6 @@ from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.syntax.cpp_declarations import CppField, declared_name
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
-from rebsync.source import Span
-
-Note = Callable[[Cpp, Span, str], None]
 
 
 @dataclass(frozen=True, slots=True)

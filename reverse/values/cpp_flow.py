@@ -60,16 +60,6 @@ def climb(node: Node, stop: Callable[[Node], bool]) -> Node | None:
     return above
 
 
-def covers(outer: Node, inner: Node) -> bool:
-    """Whether a node of the same tree lies within another."""
-    return outer.start_byte <= inner.start_byte and inner.end_byte <= outer.end_byte
-
-
-def statement_around(node: Node) -> Node | None:
-    """The nearest statement or declaration around a node."""
-    return climb(node, lambda n: n.type.endswith("_statement") or n.type == "declaration")
-
-
 @dataclass(slots=True)
 class Texts:
     """Finds names in the files of some code, and the functions and classes around places."""

@@ -81,11 +81,6 @@ def as_text(values: Values, value: Value, node: Node, frame: Frame) -> Value:
 # --- formats ------------------------------------------------------------------------------------
 
 
-def format_index(name: str) -> int | None:
-    """The argument of a function that is a format for the first, if it is such a function."""
-    return _BY_FORMAT.get(name)
-
-
 def formatted(values: Values, call: Node, frame: Frame) -> Value:
     """The text that `sprintf(buffer, "robot_%d", number)` writes."""
     given = named(part(call, "arguments"))
