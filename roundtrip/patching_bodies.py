@@ -205,6 +205,8 @@ class BodyPatch:
     def _parts(self, x: object, r: object, but: tuple[str, ...] = ()) -> bool:
         """The parts of two nodes of one kind."""
         first, second = self.left.of(x), self.right.of(r)
+        if type(first) is not type(x) or type(second) is not type(r):
+            return False  # what has no effect is compared without: then the whole is replaced
         for each in fields(x):  # type: ignore[arg-type]
             if not each.compare or each.name in but:
                 continue
