@@ -8,7 +8,6 @@ is known of it.
 from __future__ import annotations
 
 import json
-from typing import assert_never
 
 from rebsync.reverse.graph import (
     Callback,
@@ -28,6 +27,7 @@ from rebsync.reverse.graph import (
     Under,
     Unresolved,
 )
+from rebsync.unions import assert_never
 
 
 def noted(fact: Fact) -> str:
