@@ -84,7 +84,8 @@ class Classes:
         return tuple(
             self._reactive(c) if self._has_mailbox(c) else self._interface(c)
             for c in self.code.classes.values()
-            if (self._has_mailbox(c) or is_interface(c)) and (wanted is None or c.name in wanted)
+            if (self._has_mailbox(c) or is_interface(c, alone=not self.timers))
+            and (wanted is None or c.name in wanted)
         )
 
     def _has_mailbox(self, owner: CppClass) -> bool:
@@ -264,7 +265,9 @@ class Classes:
 
     def _server(self, owner: CppClass, function: CppFunction, name: str) -> m.MessageServer:
         bodies, within = self._bodies(owner), f"{owner.name}.{name}"
-        timer = next((t for t in self.timers[owner.name] if t.callback == function.name), None)
+        timer = next(
+            (t for t in self.timers.get(owner.name, ()) if t.callback == function.name), None
+        )
         if timer is not None:
             parameters: tuple[m.Parameter, ...] = ()
             body: m.Block | None = bodies.ticking(timer, function, name, within)
@@ -300,7 +303,7 @@ class Classes:
     def _timed_servers(self, owner: CppClass) -> Iterator[tuple[Timer, str]]:
         """The timers of a class with the servers that these send messages to."""
         handlers = self.roles[owner.name].handlers
-        for index, timer in enumerate(self.timers[owner.name], 1):
+        for index, timer in enumerate(self.timers.get(owner.name, ()), 1):
             once = timer.posts if timer.one_shot else None
             yield timer, once or handlers.get(timer.callback, f"timer{index}")
 

@@ -57,8 +57,13 @@ def plain_name(function: CppFunction, types: Collection[str]) -> str:
     return uncarry(function.name, reserved)
 
 
-def is_interface(owner: CppClass) -> bool:
-    """Whether a class only says what its heirs can do."""
+def is_interface(owner: CppClass, alone: bool) -> bool:
+    """Whether a class only says what its heirs can do.
+
+    `alone`, where there is no generated node, only a marker tells it from people's own classes.
+    """
+    if alone and not any(marker.startswith("interface ") for marker in owner.markers):
+        return False
     destructor = f"~{owner.name}"
     names = {f.name for f in owner.functions}
     others = (f for f in owner.functions if f.name != destructor)

@@ -13,6 +13,7 @@ from tree_sitter import Node
 
 from rebsync.reverse.findings import Finding, Grade
 from rebsync.reverse.syntax.cpp_conditions import Conditional, blank, conditionals
+from rebsync.reverse.syntax.cpp_declarations import only_braces
 from rebsync.reverse.syntax.cpp_text import has_alternatives, is_split, read_branch
 from rebsync.reverse.syntax.cpp_tree import Cpp
 from rebsync.source import Span
@@ -58,11 +59,14 @@ def _errors(cpp: Cpp) -> Iterator[Node]:
 
 
 def _harmless(cpp: Cpp, node: Node) -> bool:
-    """Whether what is missing says nothing: the `;` after a macro, the name of an instantiation."""
+    """Whether what is missing says nothing.
+
+    The `;` after a macro or after `void f() { {} }`, the name of an instantiation.
+    """
     parent = node.parent
     if not node.is_missing or parent is None:
         return False
-    if parent.type == "template_instantiation":
+    if parent.type == "template_instantiation" or only_braces(parent):
         return True
     at_top = parent.parent is None or parent.parent.type in ("translation_unit", "declaration_list")
     first = parent.named_children[0] if parent.named_children else None

@@ -104,3 +104,23 @@ def test_odd_code_takes_a_moment(name: str) -> None:
     extract({"n.cpp": Source("n.cpp", text)})
     relevant({"a.cpp": b'#include "b.h"\nros::init();', "b.h": ODD[name].encode() * 2})
     assert process_time() - started < 20
+
+
+def test_abstract_classes_of_people_are_no_interfaces() -> None:
+    queue = "class Queue {\n public:\n  virtual ~Queue() {}\n  virtual void call(int x) = 0;\n};\n"
+    assert extract({"queue.h": Source("queue.h", queue)}).model.classes == ()
+    assert (
+        len(
+            extract(
+                {"queue.cpp": Source("queue.cpp", queue + NODE.format(statement=""))}
+            ).model.classes
+        )
+        == 1
+    )
+    marked = f"// rebsync: interface Queue\n{queue}"
+    assert len(extract({"queue.h": Source("queue.h", marked)}).model.classes) == 1
+
+
+@pytest.mark.parametrize("body", ["{ {} }", "{\n  {\n    {}\n  }\n}", "{ {} {} }"])
+def test_nothing_is_missing_in_a_body_of_empty_blocks(body: str) -> None:
+    assert list(unparsed(parse(Source("a.cpp", f"void A::f() {body}\nvoid g() {{}}\n")))) == []

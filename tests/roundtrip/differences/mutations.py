@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
@@ -229,10 +230,12 @@ def local_renamed(draw: DrawFn, model: m.Model) -> Mutated:
 
     owner, member = chosen(draw, [(c, x) for c, x in bodies(model) if locals_in(x.body)])
     name = chosen(draw, locals_in(member.body))
+    taken = {n.name for n in m.walk(member.body) if isinstance(n, m.Name | m.Declarator)}
+    fresh = next(n for i in itertools.count(1) if (n := f"other{i}") not in taken)
 
     def rule(node: object) -> object:
         if isinstance(node, m.Name | m.Declarator) and node.name == name:
-            return replace(node, name="other")
+            return replace(node, name=fresh)
         return node
 
     new = replace(member, body=rewrite(member.body, rule))
