@@ -121,6 +121,7 @@ class CppStatements:
         for node in nodes:
             if node.type == "comment":
                 comments.append(text_of(node))
+            if node.type == "comment" or node.start_byte in self.cpp.filled:
                 continue
             markers = markers_in(comments)
             annotations = tuple(

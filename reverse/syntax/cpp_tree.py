@@ -17,8 +17,10 @@ from rebsync.reverse.syntax.cpp_text import readable
 from rebsync.source import Source, SourceSpan, Span
 
 _MOST_COMMENTS = 60  # each is looked for from the start of what is around it
+_NEAR = 200  # bytes that are looked at before a brace
 _NOT_ASCII = re.compile(r"[^\x00-\x7f]")
 _INVERTED = re.compile(rb"[\s(]*~")
+_DOUBLE_BRACES = re.compile(rb"\{(?=(\s)\s*\{)")
 _ELEMENTS = frozenset({"initializer_list", "parenthesized_expression"})
 _COMMENT = re.compile(r"^\s*//[/!]?|^\s*/\*+|\*+/\s*\Z")
 
@@ -29,7 +31,8 @@ class Cpp:
 
     `wide` are the bytes behind each character that takes more than one, and by how many bytes more
     than characters the text up to there has. `deep` are the bytes of places that nest deeper than
-    is read: they are not in the tree. `inverted` are the bytes of each `~` that is `!` in the tree.
+    is read: they are not in the tree. `inverted` are the bytes of each `~` that is `!` in the tree,
+    `filled` those of each `;` that is only in the tree.
     """
 
     source: Source
@@ -37,6 +40,7 @@ class Cpp:
     wide: tuple[list[int], list[int]] | None = field(repr=False)
     deep: tuple[tuple[int, int], ...] = ()
     inverted: frozenset[int] = frozenset()
+    filled: frozenset[int] = frozenset()
 
     def operator(self, node: Node) -> str:
         """The operator of an operation."""
@@ -82,12 +86,43 @@ def parse(source: Source) -> Cpp:
         deep += parts
         data = without(data, parts)
         root = _parser().parse(data).root_node
+    filled: frozenset[int] = frozenset()
+    if root.has_error and (doubled := frozenset(_double_braces(data))):
+        data, root, filled = _told_from_lists(data, root, doubled)
     inverted: set[int] = set()
     while root.has_error and (found := list(_taken_for_destructors(root, data))):
         inverted.update(found)
         data = _with_negations(data, found)
         root = _parser().parse(data).root_node
-    return Cpp(source, root, wide, tuple(deep), frozenset(inverted))
+    return Cpp(source, root, wide, tuple(deep), frozenset(inverted), filled)
+
+
+def _double_braces(data: bytes) -> Iterator[int]:
+    """The space between `{ {` where this is no list of values behind a sign."""
+    for found in _DOUBLE_BRACES.finditer(data):
+        if data[max(0, found.start() - _NEAR) : found.start()].rstrip()[-1:] not in b"=,(":
+            yield found.start(1)
+
+
+def _told_from_lists(
+    data: bytes, root: Node, places: frozenset[int]
+) -> tuple[bytes, Node, frozenset[int]]:
+    """Blocks that begin with blocks, `{ { } }`, which the grammar may take for lists of values.
+
+    A `;` between the braces tells them apart.
+    """
+    changed = bytearray(data)
+    for place in places:
+        changed[place] = ord(";")
+    better = _parser().parse(bytes(changed)).root_node
+    if _errors(better) < _errors(root):
+        return bytes(changed), better, places
+    return data, root, frozenset()
+
+
+def _errors(root: Node) -> int:
+    found = by_types(root, ("ERROR", "MISSING"))
+    return sum(map(len, found.values()))
 
 
 def _taken_for_destructors(root: Node, data: bytes) -> Iterator[int]:

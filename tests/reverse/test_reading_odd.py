@@ -121,6 +121,8 @@ def test_abstract_classes_of_people_are_no_interfaces() -> None:
     assert len(extract({"queue.h": Source("queue.h", marked)}).model.classes) == 1
 
 
-@pytest.mark.parametrize("body", ["{ {} }", "{\n  {\n    {}\n  }\n}", "{ {} {} }"])
+@pytest.mark.parametrize(
+    "body", ["{ {} }", "{\n  {\n    {}\n  }\n}", "{ {} {} }", "{ { {} }\n ++x[0]; }"]
+)
 def test_nothing_is_missing_in_a_body_of_empty_blocks(body: str) -> None:
     assert list(unparsed(parse(Source("a.cpp", f"void A::f() {body}\nvoid g() {{}}\n")))) == []
