@@ -16,12 +16,12 @@ from rebsync.reverse.bodies import (
     cpp_loops,
     cpp_plain_locals,
     cpp_special,
+    cpp_users,
 )
 from rebsync.reverse.bodies.building import bare, is_calm, is_effect
 from rebsync.reverse.bodies.cpp_effects import Effects, Touches, is_outside
 from rebsync.reverse.bodies.cpp_expressions import MOVE, CppExpressions
 from rebsync.reverse.bodies.cpp_unknowns import Demote
-from rebsync.reverse.bodies.known_functions import LOGGING
 from rebsync.reverse.bodies.made_locals import tidied
 from rebsync.reverse.bodies.scope import Inline, Lambda, Meaning, Scope, Stores, Variable
 from rebsync.reverse.bodies.written import annotation
@@ -118,6 +118,7 @@ class CppStatements:
 
     def statements(self, nodes: Sequence[Node]) -> Iterator[m.Statement]:
         comments: list[str] = []
+        users: Effects | None = None
         for node in nodes:
             if node.type == "comment":
                 comments.append(text_of(node))
@@ -129,8 +130,18 @@ class CppStatements:
             local = any(text.startswith("local ") for text in markers)
             comments = []
             self.findings.statements[self.within] += 1
-            if node.id in self.scope.instead or not self._is_outside(node):
+            users = cpp_users.block_after(self, markers, users)
+            if users is not None and not self.scope.open:
+                yield from self._of_user(node, users)
+            elif node.id in self.scope.instead or not self._is_outside(node):
                 yield from self._one(node, annotations, local)
+
+    def _of_user(self, node: Node, block: Effects) -> Iterator[m.Statement]:
+        """Nothing for what a user's block does, unless it touches what the model has."""
+        try:
+            block.check(node)
+        except Touches as touches:
+            yield from self._unreadable(node, touches)
 
     def _is_outside(self, node: Node) -> bool:
         """Whether a statement that people wrote touches nothing of the model."""
@@ -295,9 +306,7 @@ class CppStatements:
             yield m.Empty(annotations, span)
             return
         expression = children[0]
-        if _calls(expression, "unused") or _logs(expression):
-            if self.scope.open:  # then it is not outside
-                raise self.unread(node, "what is logged here changes what the model has")
+        if cpp_users.is_log(self, node, expression):
             return
         if declared := cpp_plain_locals.late(self, expression):
             yield m.Local(declared, annotations, span)
@@ -377,15 +386,6 @@ class CppStatements:
         """Whether a block only holds locals of a switch, and the switch."""
         comments = [text_of(c) for c in node.named_children if c.type == "comment"]
         return any(t.startswith("local ") for t in markers_in(comments))
-
-
-def _calls(node: Node, function: str) -> bool:
-    return node.type == "call_expression" and text_of(part(node, "function")) == function
-
-
-def _logs(node: Node) -> bool:
-    called = node.type == "call_expression" and part(node, "function").type == "identifier"
-    return called and text_of(part(node, "function")).startswith(LOGGING)
 
 
 def _cell(axis: str, offset: m.Expression) -> m.Expression:

@@ -171,7 +171,12 @@ class Ignored:
     returns: Type | None = None
 
 
-Function: TypeAlias = Called | Inline | Sends | Ignored
+@dataclass(frozen=True, slots=True)
+class Around:
+    """A function of a generated class that no body of the model calls, such as `publishState`."""
+
+
+Function: TypeAlias = Called | Inline | Sends | Ignored | Around
 
 # --- set-up -------------------------------------------------------------------------------------
 

@@ -11,12 +11,16 @@ from rebsync.names import uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED
 from rebsync.reverse.bodies.cpp_types import class_name, type_of
-from rebsync.reverse.bodies.scope import Called, Function, Member, Outside, Scope, Variable
+from rebsync.reverse.bodies.scope import Around, Called, Function, Member, Outside, Scope, Variable
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.ros1_annotations import (
+    annotations_in,
+    class_annotations,
+    server_annotations,
+)
 from rebsync.reverse.generated.ros1_bodies import Bodies
 from rebsync.reverse.generated.ros1_free import free_functions
 from rebsync.reverse.generated.ros1_names import (
-    annotations_in,
     enumerators,
     is_interface,
     plain_name,
@@ -143,38 +147,9 @@ class Classes:
             self._is_abstract(owner),
             class_name(extends[0]) if extends else None,
             tuple(class_name(b) for b in owner.bases if b not in extends),
-            tuple(self._class_annotations(owner)),
+            tuple(class_annotations(self.roles, owner)),
             owner.cpp.span(owner.node),
         )
-
-    def _class_annotations(self, owner: CppClass) -> Iterator[m.Annotation]:
-        """Those of the markers; without markers, those that the set-up shows."""
-        if any(x.startswith("reactiveclass ") for x in owner.markers):
-            yield from annotations_in(owner.markers, owner)
-            return
-        if any(text_of(f.type) == "Drive" for f in owner.fields):
-            yield m.Annotation("Robot")
-        if self.roles[owner.name].on_bridge:
-            yield m.Annotation("Controller")
-
-    def _server_annotations(
-        self, owner: CppClass, function: CppFunction, name: str
-    ) -> Iterator[m.Annotation]:
-        """Those of the markers; without markers, those that the set-up shows."""
-        if any(x.startswith("msgsrv ") for x in function.markers):
-            yield from annotations_in(function.markers, owner)
-            return
-        if name in self.roles[owner.name].sensors:
-            yield m.Annotation("Sensor")
-        overload = name, len(function.parameters)
-        for above in self.code.lineage(owner.name):
-            shown = self.roles[above.name].annotations.get(overload)
-            if shown is not None:
-                same = [f for f in above.functions if f.name == function.name]
-                same = [f for f in same if len(f.parameters) == overload[1]]
-                index = next((i for i, f in enumerate(same) if f.types == function.types), 0)
-                yield from shown[min(index, len(shown) - 1)]
-                return
 
     def _is_reactive(self, name: str) -> bool:
         return name in self.code.classes and self._has_mailbox(self.code.classes[name])
@@ -279,7 +254,7 @@ class Classes:
             parameters,
             body,
             function.pure and self._has_mailbox(owner),
-            tuple(self._server_annotations(owner, function, name)),
+            tuple(server_annotations(self.code, self.roles, owner, function, name)),
             function.cpp.span(function.node),
         )
 
@@ -364,6 +339,10 @@ class Classes:
             return Outside(reaches=text_of(member.type).startswith("ros::"))
         return Variable(variable_name(roles, member), type_of(member.type))
 
+    def _called(self, function: CppFunction) -> Called:
+        result = type_of(function.result) if function.result is not None else None
+        return Called(plain_name(function, self.types), returns=result, function=function)
+
     def _scope(self, owner: CppClass) -> Scope:
         members: dict[str, Member] = {}
         functions: dict[str, Function] = {}
@@ -379,11 +358,13 @@ class Classes:
                 elif served is not None:
                     functions[function.name] = Called(served, server=True)
                 elif self._is_of_model(above, function):
-                    functions[function.name] = Called(plain_name(function, self.types))
+                    functions[function.name] = self._called(function)
                     callable_.add(function.name)
+                else:
+                    functions.setdefault(function.name, Around())
             callable_ |= roles.constants | set(roles.sends)
         for function in self._free(owner):
-            functions[function.name] = Called(plain_name(function, self.types))
+            functions[function.name] = self._called(function)
             callable_.add(function.name)
         bases = {c.name: class_name(c.name) for c in self.code.lineage(owner.name)[1:]}
         timers = {t.call.node.id: server_of_timer(t, n) for t, n in self._timed_servers(owner)}

@@ -5,11 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator
 
-from rebsync import model as m
 from rebsync.names import carry, uncarry
 from rebsync.reserved import RESERVED, RUNTIME_MEMBERS
 from rebsync.reverse.bodies.scope import Runtime
-from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.generated.ros1_roles import Roles
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppField, CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, text_of
@@ -78,12 +76,6 @@ def state_types(code: Code, owner: CppClass) -> Iterator[str]:
                 type_ = statement.child_by_field_name("type")
                 if type_ is not None:
                     yield text_of(type_)
-
-
-def annotations_in(markers: Collection[str], owner: CppClass) -> tuple[m.Annotation, ...]:
-    """The annotations that markers in a class hold."""
-    span = owner.cpp.span(owner.node)
-    return tuple(a for text in markers if (a := annotation(text, span)) is not None)
 
 
 def enumerators(code: Code) -> dict[str, int]:

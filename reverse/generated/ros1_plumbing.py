@@ -11,6 +11,7 @@ from collections.abc import Collection, Container, Iterator, Mapping, Sequence
 from tree_sitter import Node
 
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_roles import Roles, Taken, call_in
 from rebsync.reverse.generated.ros1_timers import timers_of
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
@@ -52,7 +53,7 @@ def check_plumbing(
             odd = iter(roles.odd_sends[function.name])
             why = "this does more than to send its arguments"
         elif function.name == "publishState":
-            odd = (s for s in _statements(function) if not _tells(s))
+            odd = (s for s in working(function.body) if not _tells(s))
             why = "this does more than to tell the state"
         elif function.name == "construct" and not _is_constructed(code, owner):
             odd = iter((function.node,))
@@ -71,16 +72,12 @@ def _is_constructed(code: Code, owner: CppClass) -> bool:
     return not concrete or any(c.name == "construct" for f in own for c in code.calls_of(f))
 
 
-def _statements(function: CppFunction) -> list[Node]:
-    return named(function.body) if function.body is not None else []
-
-
 def _odd_in_constructor(
     code: Code, owner: CppClass, function: CppFunction, roles: Roles
 ) -> Iterator[Node]:
     """Statements that neither set up anything nor prepare that."""
     timers = {t.call.node.id for t in timers_of(code, owner, roles)}
-    for statement in _statements(function):
+    for statement in working(function.body):
         given, _, _ = text_of(statement).partition("=")
         prepares = given.startswith("const ros::NodeHandle ") or given.strip() in roles.globals
         if not prepares and not _sets_up(statement, function, roles, timers):
@@ -91,8 +88,6 @@ def _sets_up(statement: Node, function: CppFunction, roles: Roles, timers: Conta
     """Whether it is one call that sets something up, whose value may be kept."""
     inner = statement
     if statement.type == "expression_statement":
-        if not named(statement):
-            return True  # a semicolon alone
         inner = named(statement)[0]
     if inner.type == "assignment_expression":
         inner = part(inner, "right")
@@ -140,7 +135,7 @@ def _odd_in_shim(
 ) -> Iterator[Node]:
     """The whole body, unless it hands every field on once, in the message's order."""
     received = [t for t in roles.taken if t.shim == function.node]
-    statements = _statements(function)
+    statements = working(function.body)
     if len(statements) != 1 or len(received) != 1:
         yield from statements
     elif not _hands_fields_on(received[0], fields.get(received[0].type)):

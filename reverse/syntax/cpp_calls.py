@@ -24,8 +24,8 @@ class CppCall:
 
     @property
     def on(self) -> str:
-        """The text of the target."""
-        return text_of(self.target) if self.target is not None else ""
+        """The text of the target, without `this->`."""
+        return text_of(self.target).removeprefix("this->") if self.target is not None else ""
 
 
 def call_of(node: Node) -> CppCall | None:
