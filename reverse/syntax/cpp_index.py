@@ -9,6 +9,7 @@ import re
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator
 from dataclasses import field
+from typing import TypeVar
 
 from tree_sitter import Node
 
@@ -56,6 +57,9 @@ __all__ = [
     "function_of",
 ]
 
+_K = TypeVar("_K")
+_V = TypeVar("_V")
+
 # The types of nodes that `Code.inside` looks for.
 SOUGHT = (
     *("call_expression", "declaration", "for_range_loop", "init_declarator"),
@@ -97,15 +101,44 @@ class Code:
     _types: dict[int, tuple[str, ...]] = field(default_factory=dict)
     _visible: dict[str, dict[str, tuple[Cpp, Node]]] = field(default_factory=dict)
     _handed: frozenset[str] | None = None
+    _parts: dict[int, Code] = field(default_factory=dict)
 
     @staticmethod
     def of(files: Iterable[Cpp]) -> Code:
         """The declarations of these files."""
         code = Code()
         for cpp in files:
-            code.files.append(cpp)
-            code._add(cpp, cpp.root)
+            part_ = code._parts[id(cpp)] = Code([cpp])
+            part_._add(cpp, cpp.root)
+            code._take(part_)
         return code
+
+    def view(self, files: Iterable[Cpp]) -> Code:
+        """The declarations of some of its files, which are not read again."""
+        code = Code(
+            _calls=self._calls,
+            _nodes=self._nodes,
+            _sorted=self._sorted,
+            _types=self._types,
+            _parts=self._parts,
+        )
+        for cpp in files:
+            code._take(self._parts[id(cpp)])
+        return code
+
+    def _take(self, one: Code) -> None:
+        """Adds the declarations of one more file."""
+        self.files += one.files
+        _append(self.all_classes, one.all_classes)
+        _append(self.enumerators, one.enumerators)
+        _append(self.aliases, one.aliases)
+        _append(self.variables, one.variables)
+        _append(self.definitions, one.definitions)
+        self.constants |= one.constants
+        for name, class_ in one.classes.items():
+            self.classes.setdefault(name, class_)
+        for key, static in one.statics.items():
+            self.statics.setdefault(key, static)
 
     def lineage(self, name: str) -> list[CppClass]:
         """A class and those it descends from, as far as they are known, nearest first."""
@@ -346,3 +379,11 @@ class Code:
         declarator = part(declaration, "declarator")
         if (value := declarator.child_by_field_name("value")) is not None:
             self.constants[cpp.source.path, text_of(name)] = inside, value
+
+
+def _append(to: dict[_K, list[_V]], more: dict[_K, list[_V]]) -> None:
+    for key, values in more.items():
+        if (known := to.get(key)) is not None:
+            known += values
+        else:
+            to[key] = [*values]
