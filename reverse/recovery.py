@@ -69,8 +69,11 @@ def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
     or, if it is a launch file, the system that this one starts.
     """
     findings = Findings()
-    trees = [parse(source) for path, source in sorted(files.items()) if path.endswith(_CODE)]
-    findings.all += [f for cpp in trees for f in unparsed(cpp)]
+    trees = []
+    for path, source in sorted(files.items()):
+        if path.endswith(_CODE):
+            trees.append(parse(source))
+            findings.all += unparsed(trees[-1])
     code = Code.of(trees)
     asking = Asking(code)
     package = _package(files)

@@ -79,8 +79,10 @@ class Setup:
         """Finds it all out."""
         self._captures()
         self._loops()
+        # Calls in the files of this unit, or of the programs that run it.
+        near = self.state.unit.files | {f.cpp.source.path for f in self.first}
         for fact in self.graph.facts:
-            if isinstance(fact, (*_PLAIN, TimerFact)) and self._is_near(fact):
+            if fact.site.cpp.source.path in near and isinstance(fact, (*_PLAIN, TimerFact)):
                 self._plain(fact)
         for fact in self.facts:
             match fact:
@@ -109,11 +111,6 @@ class Setup:
         )
 
     # --- calls ----------------------------------------------------------------------------------
-
-    def _is_near(self, fact: Fact) -> bool:
-        """Whether a call stands in the files of this unit or of the programs that run it."""
-        path = fact.site.cpp.source.path
-        return path in self.state.unit.files or any(f.cpp.source.path == path for f in self.first)
 
     def _plain(self, fact: Fact) -> None:
         """A call that asks for something is no statement of the model."""

@@ -256,7 +256,7 @@ class _Reader:
         if not alike:
             return {}
         instance = alike[0]
-        own = self.wiring.instances.index(instance)
+        own = self.wiring.place(instance)
         slots = self.wiring.known(instance)
         found: dict[int, list[Target]] = {}
         for number, to, name in self.wiring.edges[instance.name]:

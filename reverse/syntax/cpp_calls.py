@@ -9,8 +9,6 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
 
-_FEW = 60
-
 
 @dataclass(frozen=True, slots=True)
 class CppCall:
@@ -46,23 +44,9 @@ def call_of(node: Node) -> CppCall | None:
 
 def calls_in(node: Node | None) -> Iterator[CppCall]:
     """All calls in a node, outer ones first, in the order of the text."""
-    if node is None:
-        return
-    found = _walked(node) if node.descendant_count < _FEW else inside(node, "call_expression")
-    for current in found:
+    for current in inside(node, "call_expression"):
         if (call := call_of(current)) is not None:
             yield call
-
-
-def _walked(node: Node) -> Iterator[Node]:
-    """The nodes of calls: with few nodes this is quicker than a search."""
-    waiting = [node]
-    while waiting:
-        current = waiting.pop()
-        if current.type == "call_expression":
-            yield current
-        if current.named_child_count:
-            waiting += reversed(current.named_children)
 
 
 def string_of(node: Node) -> str | None:

@@ -57,6 +57,7 @@ __all__ = [
     "function_of",
 ]
 
+_MANY = 300  # nodes, from which on searching a file once is quicker than going through them
 _K = TypeVar("_K")
 _V = TypeVar("_V")
 
@@ -183,7 +184,7 @@ class Code:
     def calls_in(self, cpp: Cpp, body: Node) -> tuple[CppCall, ...]:
         """The calls in a body of a file, outer ones first, in the order of the text."""
         if body.id not in self._calls:
-            if id(cpp) in self._nodes:
+            if id(cpp) in self._nodes or body.descendant_count > _MANY:
                 found = map(call_of, self.inside(cpp, body, "call_expression"))
                 self._calls[body.id] = tuple(c for c in found if c is not None)
             else:
