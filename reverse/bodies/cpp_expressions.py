@@ -10,8 +10,8 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync import precedence
 from rebsync.records import dataclass
-from rebsync.reverse.bodies import cpp_called, cpp_idioms, cpp_mailbox
-from rebsync.reverse.bodies.building import bare, binary, is_calm, is_place, tight
+from rebsync.reverse.bodies import cpp_called, cpp_casts, cpp_idioms, cpp_mailbox, cpp_widths
+from rebsync.reverse.bodies.building import binary, is_calm, is_place, tight
 from rebsync.reverse.bodies.cpp_conversions import (
     alternatives,
     as_number,
@@ -25,7 +25,6 @@ from rebsync.reverse.bodies.cpp_literals import literal
 from rebsync.reverse.bodies.cpp_misread import Chain, Operand, Operation, chain_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_stores import kept
-from rebsync.reverse.bodies.cpp_types import carried, type_of
 from rebsync.reverse.bodies.cpp_unknowns import Unknown, choice, domain_near
 from rebsync.reverse.bodies.scope import (
     Inline,
@@ -42,7 +41,7 @@ from rebsync.reverse.bodies.scope import (
 )
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
-from rebsync.static.types import BOOLEAN, INT, converts, is_boolean, is_floating, is_integer
+from rebsync.static.types import BOOLEAN, converts, is_boolean, is_floating
 
 _PREFIX = frozenset({"+", "-", "!", "~"})
 _WORDS = {"and": "&&", "or": "||", "not": "!", "not_eq": "!=", "bitand": "&", "bitor": "|"}
@@ -97,6 +96,7 @@ class CppExpressions:
                 condition, then, otherwise = named(node)
                 tested = tight(self.condition(condition), precedence.CHAIN)
                 ways = alternatives(self.scope, self.read(then), self.read(otherwise))
+                cpp_widths.check(self, node, "+", (then, otherwise))
                 return m.Conditional(tested, *ways, span)
             case "cast_expression":
                 return self.cast(part(node, "type"), part(node, "value"), node)
@@ -120,6 +120,7 @@ class CppExpressions:
                 return self.binary(node, self._sign(node), named(node))
         try:
             read = self.read(node)
+            cpp_widths.check_truth(self, node)
         except Unread as unread:
             if not isinstance(unread, Unknown) and not self.scope.open:
                 raise
@@ -132,7 +133,9 @@ class CppExpressions:
         try:
             if place.type is not None and is_boolean(place.type):
                 return self.condition(node, place)
-            return converted_to(self.scope, self.read(node), place)
+            read = self.read(node)
+            cpp_widths.check_stored(self, node, read, place)
+            return converted_to(self.scope, read, place)
         except Unread as unread:
             values = domain_near(node) or place.domain
             if not values or not (self.scope.open or isinstance(unread, Unknown)):
@@ -298,6 +301,9 @@ class CppExpressions:
                 return value if self.scope.open else m.Paren(value)
             case Operation(operator, left, right):
                 sides = self._joined(whole, left), self._joined(whole, right)
+                for side in (left, right):
+                    if isinstance(side, Operand) and cpp_widths.is_wide(self, side):
+                        raise self.unknown(whole, "what this gives depends on how wide it is")
                 return binary(*operands(self.scope, operator, *sides))
 
     def _computed(self, node: Node) -> m.Expression:
@@ -309,6 +315,7 @@ class CppExpressions:
     def binary(self, node: Node, operator: str, sides: Sequence[Node]) -> m.Expression:
         reads = self.condition if operator in ("&&", "||") else self.read
         left, right = (reads(side) for side in sides)
+        cpp_widths.check(self, node, operator, sides)
         operator, left, right = operands(self.scope, operator, left, right)
         return binary(operator, left, right, self.cpp.span(node))
 
@@ -321,6 +328,7 @@ class CppExpressions:
         if operator == "=":
             return m.Assign("=", written, self.stored(value, place), span)
         right = self.read(value)
+        cpp_widths.check(self, node, operator[:-1], sides)
         done, left, right = operands(self.scope, operator[:-1], written, right)
         result = type_in(self.scope, binary(done, left, right))
         if place.type is None or result is None or not is_calm(written):
@@ -342,29 +350,13 @@ class CppExpressions:
                 if whole.type is None or not whole.type.dimensions:
                     return Variable(whole.name)
                 of = m.Type(whole.type.name, whole.type.dimensions[1:])
-                return Variable(whole.name, of, whole.bits, whole.domain)
+                return Variable(whole.name, of, whole.bits, whole.domain, whole.wide)
             case _:
                 return Variable("")
 
     def cast(self, to: Node, operand: Node, node: Node) -> m.Expression:
         """A value that is converted by a cast of whatever kind."""
-        plain = type_of(to)
-        if plain is not None and not plain.dimensions and not self.scope.open:
-            return m.Cast(plain, self.operand(operand, precedence.CAST), self.cpp.span(node))
-        kept = carried(to, self.scope.enums)
-        if kept is None or kept.type.dimensions:
-            raise self.unread(node, f'the model has no type "{text_of(to)}"')
-        if kept.type == BOOLEAN:
-            return self.condition(operand)
-        value = self.read(operand)
-        of = type_in(self.scope, value)
-        if of is not None and is_boolean(of):
-            return as_number(self.scope, value)
-        if of is not None and kept.bits:
-            return converted_to(self.scope, value, Variable("", kept.type, kept.bits))
-        if of is not None and is_integer(of) and (_holds(value, of, kept.type) or kept.why):
-            return value
-        return m.Cast(kept.type, tight(value, precedence.CAST), self.cpp.span(node))
+        return cpp_casts.cast(self, to, operand, node)
 
     # --- calls ----------------------------------------------------------------------------------
 
@@ -390,9 +382,3 @@ class CppExpressions:
         """A call with all arguments as they are."""
         values = tuple(self.read(a) for a in arguments)
         return m.Call(target, name, values, span=self.cpp.span(node))
-
-
-def _holds(value: m.Expression, of: m.Type, type_: m.Type) -> bool:
-    """Whether a value is in the range of a type: what is computed is as wide as an int."""
-    stored = isinstance(bare(value), m.Name | m.Member | m.Index | m.Cast | m.IntLiteral)
-    return of == type_ and (type_ == INT or stored)

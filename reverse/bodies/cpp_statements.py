@@ -24,6 +24,8 @@ from rebsync.reverse.bodies.cpp_expressions import MOVE, CppExpressions
 from rebsync.reverse.bodies.cpp_unknowns import Demote
 from rebsync.reverse.bodies.made_locals import tidied
 from rebsync.reverse.bodies.scope import Inline, Lambda, Meaning, Scope, Stores, Variable
+from rebsync.reverse.bodies.shared import Shared
+from rebsync.reverse.bodies.wide_locals import broken_locals
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.syntax.cpp_tree import Cpp, markers_in, named, part, text_of
@@ -31,22 +33,6 @@ from rebsync.reverse.syntax.cpp_tree import Cpp, markers_in, named, part, text_o
 _NOTHING = frozenset(
     {"using_declaration", "alias_declaration", "type_definition", "static_assert_declaration"}
 )
-
-
-@dataclass(slots=True)
-class Shared:
-    """What the readers of a body share with those of the bodies that stand in it.
-
-    `demoted` are locals, or fields of local messages, whose values the model cannot know;
-    `names` are the names of the model that all locals got, `kept` those that no other may have,
-    `made` those of locals that the code does not have; `running` are the functions that are read.
-    """
-
-    demoted: set[str] = field(default_factory=set)
-    names: set[str] = field(default_factory=set)
-    kept: set[str] = field(default_factory=set)
-    made: set[str] = field(default_factory=set)
-    running: list[tuple[int, str]] = field(default_factory=list)
 
 
 @dataclass(slots=True)
@@ -94,14 +80,19 @@ class CppStatements:
         counted = self.findings.statements[self.within]
         while True:
             try:
-                return tidied(tuple(self.statements(nodes)), self.shared.made)
+                read = tuple(self.statements(nodes))
+                broken = broken_locals(read, self.shared.wide, self.scope) - scope.overflowing
+                if not broken:
+                    self.scope.wide.update(self.shared.wide)
+                    return tidied(read, self.shared.made)
+                scope = replace(scope, overflowing=scope.overflowing | broken)
             except Demote as demote:
                 self.shared.demoted |= demote.names
-                self.scope, self.before = scope, []
-                for names in (self.own, self.shared.names, self.shared.kept, self.shared.made):
-                    names.clear()
-                del self.findings.all[listed:]
-                self.findings.statements[self.within] = counted
+            self.scope, self.before = scope, []
+            self.own.clear()
+            self.shared.clear()
+            del self.findings.all[listed:]
+            self.findings.statements[self.within] = counted
 
     def _known(
         self, node: Node, known: Sequence[m.Statement | Stores | Node]
@@ -293,6 +284,7 @@ class CppStatements:
     def local(self, node: Node, variable: Variable, initial: m.Initializer | None) -> m.Local:
         """The declaration of a local."""
         span = self.cpp.span(node)
+        self.shared.add(variable)
         declarator = m.Declarator(variable.name, initial, span)
         return m.Local(m.Declaration(variable.type or m.Type("int"), (declarator,), span=span))
 

@@ -61,7 +61,8 @@ class Common:
 class Bodies:
     """Reads the bodies of a unit, as its rebecs of one kind are wired.
 
-    `functions` are the methods and what else it can call.
+    `functions` are the methods and what else it can call; `overflowing` are state variables that
+    hold more in the code than an `int` does, `wide` the bits of locals that could.
     """
 
     code: Code
@@ -74,6 +75,8 @@ class Bodies:
     opening: Opening
     findings: Findings
     functions: dict[str, Function] = field(default_factory=dict)
+    overflowing: frozenset[str] = frozenset()
+    wide: dict[str, int] = field(default_factory=dict)
 
     def scope(self, cpp: Cpp, function: CppFunction | None) -> Scope:
         """What a body in a file, in a function, can name."""
@@ -105,6 +108,8 @@ class Bodies:
             enums=self.common.enums,
             messages=self.common.messages,
             widths=self.state.types.widths,
+            overflowing=self.overflowing,
+            wide=self.wide,
             timers=self.setup.timers,
             instead=self.setup.instead,
             values=self.setup.values,

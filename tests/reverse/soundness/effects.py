@@ -19,8 +19,6 @@ from rebsync.static import Analysis, analyse
 from tests.reverse.soundness.nodes import Callback, DrawnNode
 from tests.reverse.soundness.programs import Effect, Input, Seen
 
-# What is said of integers that models have no type for: they wrap elsewhere, or not at all.
-_WIDER = "holds more than"
 _ENOUGH = 10_000  # messages that the rebec may have waiting, so that none finds no place
 _FUNCTION = re.compile(
     r"^(?:\w+ (?:\w+::)?|(?=on\w+_ = ))(\w+)(?:\(|_ = )[^\n]*\) \{\n(.*?)^\}",
@@ -106,9 +104,8 @@ class _Grades:
         self._found: dict[str, Grade] = {}
         for finding in extracted.findings:
             name = re.split(r"[.:]+", finding.within)[-1]
-            grade = Grade.UNREADABLE if _WIDER in finding.why else finding.grade
-            if grade is Grade.UNREADABLE or name not in self._found:
-                self._found[name] = grade
+            if finding.grade is Grade.UNREADABLE or name not in self._found:
+                self._found[name] = finding.grade
 
     def of(self, callback: Callback) -> Grade | None:
         """The worst of them; None where all is exact."""
