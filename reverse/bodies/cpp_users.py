@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync.reverse.bodies.cpp_effects import Effects
-from rebsync.reverse.bodies.known_functions import LOGGING
+from rebsync.reverse.bodies.known_functions import CONSOLE, LOGGING
 from rebsync.reverse.syntax.cpp_tree import part, text_of
 
 if TYPE_CHECKING:
@@ -44,7 +44,8 @@ def is_log(reader: CppStatements, statement: Node, node: Node) -> bool:
     function = part(node, "function")
     if text_of(function) == "unused":
         return True
-    if function.type != "identifier" or not text_of(function).startswith(LOGGING):
+    logs = function.type == "identifier" and text_of(function).startswith(LOGGING)
+    if not logs and (reader.scope.open or text_of(function) not in CONSOLE):
         return False
     if reader.scope.open:  # then it is not outside
         raise reader.unread(statement, "what is logged here changes what the model has")

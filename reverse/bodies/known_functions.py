@@ -7,6 +7,7 @@ import re
 from rebsync.reverse.syntax.cpp_calls import CppCall
 
 LOGGING = ("ROS_DEBUG", "ROS_INFO", "ROS_WARN", "ROS_ERROR", "ROS_FATAL", "NODELET_", "ROS_LOG")
+CONSOLE = frozenset({"printf", "std::printf", "puts", "std::puts"})
 STREAMS = frozenset(
     {"std::cout", "std::cerr", "std::clog", "cout", "cerr", "clog", "std::endl", "endl"}
 )

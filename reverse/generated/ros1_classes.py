@@ -10,7 +10,7 @@ from rebsync import model as m
 from rebsync.names import uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED
-from rebsync.reverse.bodies.cpp_types import class_name, type_of
+from rebsync.reverse.bodies.cpp_types import class_name
 from rebsync.reverse.bodies.scope import Around, Called, Function, Member, Outside, Scope, Variable
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.ros1_annotations import (
@@ -21,7 +21,9 @@ from rebsync.reverse.generated.ros1_annotations import (
 from rebsync.reverse.generated.ros1_bodies import Bodies
 from rebsync.reverse.generated.ros1_free import free_functions
 from rebsync.reverse.generated.ros1_names import (
+    declared_type,
     enumerators,
+    is_given,
     is_interface,
     plain_name,
     runtime_of,
@@ -167,7 +169,7 @@ class Classes:
         for member in owner.fields:
             if runtime_of(member) or member.name in roles.globals:
                 continue
-            type_ = type_of(member.type)
+            type_ = declared_type(self.code, member.type)
             if type_ is None:
                 if text_of(member.type).rpartition("::")[2] not in _ROS:
                     why = f'the model has no type "{text_of(member.type)}"'
@@ -184,7 +186,7 @@ class Classes:
 
     def _is_of_model(self, owner: CppClass, function: CppFunction) -> bool:
         roles = self.roles[owner.name]
-        if function.name in (owner.name, f"~{owner.name}", "construct"):
+        if function.name in (owner.name, f"~{owner.name}", "construct") or is_given(function):
             return False
         plain = roles.shims | roles.passing | set(roles.sends) | set(roles.odd_sends)
         if function.name in _PLUMBING or function.name in plain:
@@ -284,7 +286,7 @@ class Classes:
 
     def _method(self, owner: CppClass, function: CppFunction) -> m.Method:
         bodies, name = self._bodies(owner), plain_name(function, self.types)
-        result = type_of(function.result) if function.result is not None else None
+        result = declared_type(self.code, function.result) if function.result is not None else None
         return m.Method(
             result or m.Type("void"),
             name,
@@ -335,12 +337,12 @@ class Classes:
             return runtime
         if (advertised := roles.publishers.get(member.name)) is not None:
             return publisher(advertised, self.roles, self.messages)
-        if type_of(member.type) is None:
+        if declared_type(self.code, member.type) is None:
             return Outside(reaches=text_of(member.type).startswith("ros::"))
-        return Variable(variable_name(roles, member), type_of(member.type))
+        return Variable(variable_name(roles, member), declared_type(self.code, member.type))
 
     def _called(self, function: CppFunction) -> Called:
-        result = type_of(function.result) if function.result is not None else None
+        result = declared_type(self.code, function.result) if function.result is not None else None
         return Called(plain_name(function, self.types), returns=result, function=function)
 
     def _scope(self, owner: CppClass) -> Scope:

@@ -4,7 +4,14 @@ from __future__ import annotations
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.known_functions import ACTS, LOGGING, LOOKS, STREAMS, takes_values
+from rebsync.reverse.bodies.known_functions import (
+    ACTS,
+    CONSOLE,
+    LOGGING,
+    LOOKS,
+    STREAMS,
+    takes_values,
+)
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
 
@@ -35,10 +42,15 @@ def is_idle(statement: Node) -> bool:
 
 
 def _logs(node: Node) -> bool:
-    """Whether it is `ROS_INFO(...)` or `std::cout << ...`."""
+    """Whether it is `ROS_INFO(...)` or `std::cout << ...`, or says that it is nothing."""
     call = call_of(node)
     if call is not None:
-        return call.target is None and call.name.startswith(LOGGING)
+        said = text_of(node).startswith("static_cast<void>(")
+        return said or (
+            call.target is None and (call.name.startswith(LOGGING) or call.name in CONSOLE)
+        )
+    if node.type == "cast_expression":
+        return text_of(part(node, "type")) == "void"
     while node.type == "binary_expression" and text_of(part(node, "operator")) == "<<":
         node = part(node, "left")
     return text_of(node) in STREAMS
@@ -58,4 +70,4 @@ def _is_look(call: CppCall) -> bool:
         return False
     if call.target is not None:
         return name in LOOKS or name in _ASKS
-    return name in _ASKS or takes_values(call)
+    return name in _ASKS or call.name == "static_cast" or takes_values(call)

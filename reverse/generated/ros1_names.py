@@ -5,8 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator
 
+from tree_sitter import Node
+
+from rebsync.model import Type
 from rebsync.names import carry, uncarry
 from rebsync.reserved import RESERVED, RUNTIME_MEMBERS
+from rebsync.reverse.bodies.cpp_types import type_of
 from rebsync.reverse.bodies.scope import Runtime
 from rebsync.reverse.generated.ros1_roles import Roles
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppField, CppFunction
@@ -89,3 +93,16 @@ def enumerators(code: Code) -> dict[str, int]:
             for prefix in {"", f"{each.enum}::", f"{each.scope}::"} - {"::"}:
                 values.setdefault(f"{prefix}{name}", set()).add(each.value)
     return {n: v for n, vs in values.items() for v in vs if len(vs) == 1 and v is not None}
+
+
+def declared_type(code: Code, node: Node) -> Type | None:
+    """The model's type for a C++ type, or for what an alias stands for."""
+    aliases = code.aliases.get(text_of(node), ()) if node.type == "type_identifier" else ()
+    types = {type_of(alias.type) for alias in aliases}
+    return types.pop() if len(types) == 1 else type_of(node)
+
+
+def is_given(function: CppFunction) -> bool:
+    """Whether C++ itself defines a function, or forbids it: `= default`, `= delete`."""
+    kinds = ("default_method_clause", "delete_method_clause")
+    return any(child.type in kinds for child in function.node.named_children)

@@ -78,7 +78,7 @@ def _odd_in_constructor(
     """Statements that neither set up anything nor prepare that."""
     timers = {t.call.node.id for t in timers_of(code, owner, roles)}
     for statement in working(function.body):
-        given, _, _ = text_of(statement).partition("=")
+        given = text_of(statement).partition("=")[0].removeprefix("this->")
         prepares = given.startswith("const ros::NodeHandle ") or given.strip() in roles.globals
         if not prepares and not _sets_up(statement, function, roles, timers):
             yield statement

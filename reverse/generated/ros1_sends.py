@@ -68,7 +68,7 @@ def _sent(
     chosen = call_of(where)
     if chosen is not None and chosen.name == "to" and chosen.arguments:
         where, others = chosen.arguments[0], 2
-    publisher = publishers.get(text_of(where))
+    publisher = publishers.get(text_of(where).removeprefix("this->"))
     if publisher is None:
         return None
     server = servers.get(publisher.message) or uncarry(publisher.key, RUNTIME_TOPICS)

@@ -60,10 +60,14 @@ def string_of(node: Node) -> str | None:
 
 
 def assigned_in(body: Node | None) -> Iterator[tuple[str, Node]]:
-    """`name = value;` for the statements of a body itself, not of those within."""
+    """`name = value;` for the statements of a body itself, not of those within.
+
+    What is written `this->name` counts as `name`.
+    """
     for statement in named(body) if body is not None else []:
         if statement.type != "expression_statement":
             continue
         for expression in named(statement):
             if expression.type == "assignment_expression":
-                yield text_of(part(expression, "left")), part(expression, "right")
+                left = text_of(part(expression, "left")).removeprefix("this->")
+                yield left, part(expression, "right")

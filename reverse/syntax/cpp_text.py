@@ -14,7 +14,9 @@ from rebsync.reverse.syntax.cpp_conditions import Conditional, alternatives
 # Patterns start with plain text where they can: this is what makes searching quick.
 # `class FOO_EXPORT Foo {`: without the macro's definition the parser takes Foo for a variable.
 _EXPORTS = tuple(
-    re.compile(rf"({word}\s+)[A-Z][A-Z0-9_]*(?=\s+[A-Za-z_]\w*\s*(?:final\s*)?(?:[{{]|:[^:]))")
+    re.compile(
+        rf"({word}\s+)[A-Z][A-Z0-9_]*(?=\s+(?!final\b)[A-Za-z_]\w*\s*(?:final\s*)?(?:[{{]|:[^:]))"
+    )
     for word in ("class", "struct")
 )
 # `FOO_DEPRECATED const char* f();`, at the start of a line, where a declaration goes on.
