@@ -21,7 +21,7 @@ from rebsync.reverse.bodies.cpp_conversions import (
     variable_of,
 )
 from rebsync.reverse.bodies.cpp_effects import Effects
-from rebsync.reverse.bodies.cpp_literals import literal
+from rebsync.reverse.bodies.cpp_literals import in_range, is_bare_macro, literal
 from rebsync.reverse.bodies.cpp_misread import Chain, Operand, Operation, chain_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_stores import kept
@@ -183,7 +183,8 @@ class CppExpressions:
 
     def _literal(self, node: Node) -> m.Expression:
         try:
-            return literal(self.cpp, node)
+            read = literal(self.cpp, node)
+            return in_range(read, node) if self.scope.open else read
         except Unread as unread:
             if node.type in ("string_literal", "raw_string_literal", "null", "sizeof_expression"):
                 raise self.unknown(node, unread.why) from None
@@ -210,6 +211,8 @@ class CppExpressions:
                 return cpp_idioms.whole(self.scope.enumerators[spelled], span)
             if spelled in self.scope.constants:
                 cpp, value = self.scope.constants[spelled]
+                if is_bare_macro(cpp, value, node):
+                    raise self.unread(node, "what stands beside this macro may bind tighter")
                 scope = self.scope.without_constant(spelled)
                 return CppExpressions(cpp, scope, self.findings, self.within).read(value)
         if (known := cpp_idioms.constant_named(name, span)) is not None:

@@ -13,6 +13,7 @@ from rebsync import model as m
 from rebsync.reverse.bodies.building import binary, cast, chosen, is_calm, tight
 from rebsync.reverse.bodies.cpp_conversions import as_number, operands, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
+from rebsync.reverse.bodies.cpp_literals import lower
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_time import time_called, to_seconds
 from rebsync.reverse.bodies.cpp_types import carried
@@ -41,7 +42,8 @@ _LIMIT = re.compile(r"(?:std::)?numeric_limits<\s*(?:int|int32_t|std::int32_t)\s
 
 
 def whole(value: int, span: Span) -> m.Expression:
-    """An integer as an expression."""
+    """An integer as an expression; of a larger one the lower bits."""
+    value = lower(value)
     if value < 0:
         return m.Unary("-", m.IntLiteral(-value, span), span)
     return m.IntLiteral(value, span)

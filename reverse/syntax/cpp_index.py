@@ -33,8 +33,8 @@ from rebsync.reverse.syntax.cpp_declarations import (
     plain_fields,
     unscoped,
     valued,
-    whole_number,
 )
+from rebsync.reverse.syntax.cpp_numbers import KnownNumbers
 from rebsync.reverse.syntax.cpp_tree import (
     Cpp,
     by_types,
@@ -315,7 +315,7 @@ class Code:
             if child.type != "enumerator":
                 continue
             if (given := child.child_by_field_name("value")) is not None:
-                next_ = whole_number(given)
+                next_ = KnownNumbers(self.enumerators, self.constants, cpp).of(given)
             own = text_of(part(child, "name"))
             read = CppEnumerator(own, text_of(name) if name else "", scope, next_, cpp, child)
             self.enumerators.setdefault(own, []).append(read)
