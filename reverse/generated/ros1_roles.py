@@ -56,6 +56,11 @@ class Taken:
     call: CppCall
 
     @property
+    def tells_sender(self) -> bool:
+        """Whether the message says who has sent it."""
+        return "".join(text_of(self.call.arguments[2]).split()).endswith("->sender")
+
+    @property
     def type(self) -> str:
         """The message's type, without its package."""
         text = text_of(self.message.type)

@@ -32,6 +32,7 @@ def add_sends(
     lineage = [all_roles[c.name] for c in code.lineage(owner.name)]
     publishers = {n: p for roles in reversed(lineage) for n, p in roles.publishers.items()}
     servers = {m: s for roles in all_roles.values() for m, s in roles.messages.items()}
+    senders = {t.type for roles in all_roles.values() for t in roles.taken if t.tells_sender}
     roles = all_roles[owner.name]
     for function in code.functions_of(owner):
         if not _takes_times(function):
@@ -40,7 +41,7 @@ def add_sends(
             sends = _sent(code, function, call, publishers, servers)
             if sends is None:
                 continue
-            if odd := list(_odd_send(function, sends, lineage, fields)):
+            if odd := _odd_send(function, sends, lineage, fields, senders):
                 roles.odd_sends[function.name] = odd
             else:
                 roles.sends[function.name] = sends
@@ -80,12 +81,18 @@ def _odd_send(
     sends: Sends,
     lineage: Sequence[Roles],
     fields: Mapping[str, Collection[str]],
-) -> Iterator[Node]:
+    senders: Collection[str],
+) -> list[Node]:
+    """What a function does besides sending; `senders` are the messages that say who sends them."""
     handlers = {f: s for roles in reversed(lineage) for f, s in roles.handlers.items()}
     made = next((s for s in working(function.body) if s.type == "declaration"), None)
     type_ = text_of(part(made, "type")).rpartition("::")[2] if made is not None else ""
     order = list(fields[type_]) if type_ in fields else None
-    return _odd_in_send(function, sends, handlers, order)
+    odd = list(_odd_in_send(function, sends, handlers, order))
+    if made is not None and type_ in senders and not _tells_sender(function, _declared(made)):
+        return [*odd, made]
+    # What is left out is told by itself only: it follows from what stands there instead.
+    return odd[:-1] if len(odd) > 1 and odd[-1] == function.body else odd
 
 
 def _odd_in_send(
@@ -169,6 +176,10 @@ def _stored(statement: Node) -> tuple[str, str]:
 
 def _is_in(field: str, message: str) -> bool:
     return bool(message) and field.startswith(f"{message}.")
+
+
+def _tells_sender(function: CppFunction, message: str) -> bool:
+    return any(_is_sender(s, message) for s in working(function.body))
 
 
 def _is_sender(statement: Node, message: str) -> bool:
