@@ -25,7 +25,7 @@ from rebsync.reverse.bodies.cpp_literals import in_range, is_bare_macro, literal
 from rebsync.reverse.bodies.cpp_misread import Chain, Operand, Operation, chain_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_stores import kept
-from rebsync.reverse.bodies.cpp_unknowns import Unknown, choice, domain_near
+from rebsync.reverse.bodies.cpp_unknowns import HINT, Unknown, choice, domain_near
 from rebsync.reverse.bodies.scope import (
     Inline,
     Itself,
@@ -46,6 +46,8 @@ from rebsync.static.types import BOOLEAN, converts, is_boolean, is_floating
 _PREFIX = frozenset({"+", "-", "!", "~"})
 _WORDS = {"and": "&&", "or": "||", "not": "!", "not_eq": "!=", "bitand": "&", "bitor": "|"}
 _TRUTH = Variable("", BOOLEAN)
+_ONE_OF = "it is one of the values in the comment"
+_STANDS = "stands for all that comparisons do not tell apart"
 MOVE = cpp_mailbox.MOVE
 
 # Reads the call of a function whose body stands in its place: what the call gives, if anything.
@@ -137,11 +139,14 @@ class CppExpressions:
             cpp_widths.check_stored(self, node, read, place)
             return converted_to(self.scope, read, place)
         except Unread as unread:
-            values = domain_near(node) or place.domain
+            values, why = domain_near(node) or place.domain, _ONE_OF
+            if not values and isinstance(unread, Unknown) and self.scope.regions is not None:
+                values = self.scope.regions(place)
+                why = f'one value of "{place.name}" {_STANDS}'
             if not values or not (self.scope.open or isinstance(unread, Unknown)):
                 raise
-            why = f"{unread.why}: it is one of the values in the comment"
-            self.approximate(node, Unread(unread.span, why))
+            why = f"{unread.why}: {why}"
+            self.approximate(node, Unread(unread.span, why, HINT if why.endswith(_STANDS) else ""))
             pinned = tuple(converted_to(self.scope, v, place) for v in values)
             return choice(tuple(dict.fromkeys(pinned)))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import field, fields, replace
 from fractions import Fraction
 from typing import Literal, TypeAlias
@@ -227,6 +227,8 @@ class Scope:
     widths: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
     # The wide numbers, by their names in the model, that an `int` need not hold.
     overflowing: frozenset[str] = frozenset()
+    # What stands for values that nobody knows, of a variable that is only compared.
+    regions: Callable[[Variable], tuple[Expression, ...]] | None = None
     # The servers of callbacks that calls (`createTimer`), by the id of the call's node, set timers
     # for.
     timers: Mapping[int, TimerOf] = field(default_factory=dict)

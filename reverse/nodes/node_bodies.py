@@ -10,6 +10,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+from rebsync.reverse.bodies.cpp_regions import Regions
 from rebsync.reverse.bodies.cpp_statements import CppStatements
 from rebsync.reverse.bodies.cpp_types import carried
 from rebsync.reverse.bodies.scope import (
@@ -76,6 +77,7 @@ class Bodies:
     findings: Findings
     functions: dict[str, Function] = field(default_factory=dict)
     overflowing: frozenset[str] = frozenset()
+    regions: dict[str, Regions] = field(default_factory=dict)
     wide: dict[str, int] = field(default_factory=dict)
 
     def scope(self, cpp: Cpp, function: CppFunction | None) -> Scope:
@@ -109,6 +111,7 @@ class Bodies:
             messages=self.common.messages,
             widths=self.state.types.widths,
             overflowing=self.overflowing,
+            regions=self._regions(cpp).of,
             wide=self.wide,
             timers=self.setup.timers,
             instead=self.setup.instead,
@@ -117,6 +120,17 @@ class Bodies:
             chooses=False,
             unit=self.setup.times.unit,
         )
+
+    def _regions(self, cpp: Cpp) -> Regions:
+        """What stands for values that nobody knows."""
+        path = cpp.source.path
+        if path not in self.regions:
+            members = self.state.members.items()
+            names = {v.name: name for name, v in members if isinstance(v, Variable)}
+            constants = self.code.constants_for(cpp)
+            values = self.common.enumerators
+            self.regions[path] = Regions(self.code.files, names, values, constants)
+        return self.regions[path]
 
     def within(self, name: str) -> str:
         """The name of a body in findings."""

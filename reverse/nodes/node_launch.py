@@ -39,7 +39,7 @@ class System:
         for source, launch in self.others:
             span = launch.nodes[0].span
             path = self.launch.sources[0].path.rpartition("/")[2]
-            why = f"this file starts another system than {path}, which the model is of"
+            why = f'this file starts another system than "{path}", which the model is of'
             findings.approximated(source, span, why, _HINT)
 
 

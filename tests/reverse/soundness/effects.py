@@ -19,6 +19,8 @@ from rebsync.static import Analysis, analyse
 from tests.reverse.soundness.nodes import Callback, DrawnNode
 from tests.reverse.soundness.programs import Effect, Input, Seen
 
+# Variables that have one value of each range that the code tells apart.
+_STANDS = re.compile(r'one value of "(\w+)" stands')
 _ENOUGH = 10_000  # messages that the rebec may have waiting, so that none finds no place
 _FUNCTION = re.compile(
     r"^(?:\w+ (?:\w+::)?|(?=on\w+_ = ))(\w+)(?:\(|_ = )[^\n]*\) \{\n(.*?)^\}",
@@ -66,7 +68,8 @@ def compare(
     if analysis.errors:
         tally.refused += [f"{node.name}: {d.message}" for d in analysis.errors]
         return tally
-    possible = Possible(node, analysis)
+    stands = {name for f in extracted.findings for name in _STANDS.findall(f.why)}
+    possible = Possible(node, analysis, stands)
     first = possible.started()
     possible.states = possible.agreeing(first, seen[0])
     if not possible.states:
@@ -129,9 +132,9 @@ class Done:
 
 
 class Possible:
-    """The states that the model may be in."""
+    """The states that the model may be in; values of `stands` are none that the code has."""
 
-    def __init__(self, node: DrawnNode, analysis: Analysis) -> None:
+    def __init__(self, node: DrawnNode, analysis: Analysis, stands: set[str]) -> None:
         self.node = node
         self.program: Program = lower(analysis, Properties())[0]
         rebecs = [r for r in self.program.rebecs if r.name == node.name.lower()]
@@ -146,7 +149,7 @@ class Possible:
         )
         self.actor = Actor(self.program, index, "ftts", Coverage())
         self.states: set[tuple[Cell, ...]] = set()
-        self._slots = {s.name: s for s in self.rebec.state}
+        self._slots = {s.name: s for s in self.rebec.state if s.name not in stands}
 
     # --- what is seen and what is possible ------------------------------------------------------
 

@@ -10,7 +10,7 @@ from tests.reverse.soundness.drawing import WIDE, Body, Variable
 def odd_statement(body: Body) -> list[str]:
     """One of them, if there is what it needs."""
     if body.is_wide and body.chance(70):
-        return _wide(body)
+        return _wide(body) if body.chance(75) else _unknown(body)
     return body.random.choice(_ALL)(body)
 
 
@@ -86,6 +86,17 @@ def _unsigned(body: Body) -> list[str]:
         lambda: f"{target} = ({name} * 100000) >> 3;",
     )
     return [made, used]
+
+
+def _unknown(body: Body) -> list[str]:
+    """A member that gets what nobody knows: some are only compared."""
+    target, real = _plain(body, "int"), _plain(body, "double")
+    if target is None or not body.members or not body.opaque or not target.endswith("_"):
+        return []
+    lines = [f"{target} = library::level();", f"if ({target} > 2) {target} = 0;"]
+    if real is not None and real.endswith("_"):
+        lines += [f"{real} = library::ratio();"]
+    return [body.random.choice(lines)]
 
 
 def _wide(body: Body) -> list[str]:
