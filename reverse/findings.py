@@ -53,6 +53,16 @@ class Findings:
     # Members that get values that the model cannot know: with these outside more can be read.
     open_members: set[str] = field(default_factory=set)
 
+    def mark(self) -> tuple[int, Counter[str], set[str]]:
+        """What there is, to go back to."""
+        return len(self.all), Counter(self.statements), set(self.open_members)
+
+    def back_to(self, marked: tuple[int, Counter[str], set[str]]) -> None:
+        """Forgets what came since: it is read again."""
+        count, statements, members = marked
+        del self.all[count:]
+        self.statements, self.open_members = Counter(statements), set(members)
+
     def unreadable(self, source: Source, unread: Unread, within: str) -> None:
         """Lists a place that the model lacks."""
         grade = Grade.UNREADABLE

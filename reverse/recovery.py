@@ -69,25 +69,29 @@ def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
     or, if it is a launch file, the system that this one starts.
     """
     findings = Findings()
-    trees = [parse(source) for path, source in sorted(files.items()) if path.endswith(_CODE)]
-    findings.all += [f for cpp in trees for f in unparsed(cpp)]
+    trees = []
+    for path, source in sorted(files.items()):
+        if path.endswith(_CODE):
+            trees.append(parse(source))
+            findings.all += unparsed(trees[-1])
     code = Code.of(trees)
     asking = Asking(code)
     package = _package(files)
     asked = only if only is not None and is_launch(only) else None
     only = only if asked is None else None
-    system = system_of(files, package, asked)
+    started = programs(code, files)
+    system = system_of(files, package, asked, started)
     launch = system.launch if system is not None else None
     classes = Classes(code, findings, own_messages(files), _unit_of_time(launch))
     read = classes.read(_classes_in(code, files[only].path) if only is not None else None)
-    started = programs(code, files)
     nodes = Nodes((), (), False)
     generated = is_generated(code)
     if not generated or may_have_nodes(code, asking, started):
         graph = asking.graph
         found = with_nodes(started, graph)
+        of_nodes = launch if system is not None and system.starts else None
         nodes = NodeSystem(
-            code, graph, files, launch, package, found, findings, only, generated
+            code, graph, files, of_nodes, package, found, findings, only, generated
         ).read()
     if system is not None and only is None and (read or nodes.classes):
         system.note(findings)

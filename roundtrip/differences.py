@@ -27,6 +27,7 @@ from rebsync.roundtrip.differences_bodies import callable_differences
 from rebsync.roundtrip.matching import Matching, Pair, matched, names_of
 from rebsync.roundtrip.sides import Given, Item, Side, Unread, side, too_deep
 from rebsync.roundtrip.tokens import Tokens
+from rebsync.source import SourceSpan
 
 _SYSTEM = ("env", "rebec")
 _CLASSES = ("reactiveclass", "interface")
@@ -72,7 +73,7 @@ class _Comparing:
             elif self._counts(item, self.right):
                 found.append(self._removed(item))
         for item in self.matching.rights:
-            if self._counts(item, self.left):
+            if self._counts(item, self.left) and not self._is_unused(item):
                 found.append(self._added(item))
         if self.left.depth is Depth.IDENTICAL:
             found += self._orders()
@@ -91,6 +92,16 @@ class _Comparing:
         if item.owner and any(i.name == item.owner and i.kind in _CLASSES for i in own):
             return False
         return not (other.given.partial and item.kind in (*_SYSTEM, *_CLASSES))
+
+    def _is_unused(self, item: Item) -> bool:
+        """Whether it is a function of the code that nothing calls, and nothing can override."""
+        if not isinstance(item.node, m.Method) or self.right.depth is not Depth.EQUAL:
+            return False
+        if item.node.abstract or not isinstance(item.node.span, SourceSpan):
+            return False
+        same = [i for i in self.right.items if i.kind in _BODIES and i.name == item.name]
+        calls = (n for n in m.walk(self.right.model) if isinstance(n, m.Call))
+        return len(same) == 1 and all(call.name != item.name for call in calls)
 
     def _removed(self, item: Item) -> Removed:
         owner = self._item(self.left, item.owner)

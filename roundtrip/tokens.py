@@ -14,6 +14,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.roundtrip.difference import Depth
 from rebsync.roundtrip.sides import Side, is_unreadable
+from rebsync.static.constants import constant
 from rebsync.static.symbols import (
     BuiltinFunctionSymbol,
     BuiltinSymbol,
@@ -114,6 +115,8 @@ class Tokens:
 
     def _is_of(self, expression: m.Expression, type_: m.Type) -> bool:
         """Whether a cast to a type leaves an expression as it is."""
+        if isinstance(expression, m.IntLiteral) and type_ == m.Type("int"):
+            return constant(expression) == constant(m.Cast(type_, expression))
         known = self.side.analysis.type_of(expression)
         return known is not None and str(known) == str(type_)
 

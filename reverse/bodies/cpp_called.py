@@ -13,7 +13,16 @@ from rebsync.reverse.bodies import cpp_idioms, cpp_mailbox
 from rebsync.reverse.bodies.cpp_places import is_this
 from rebsync.reverse.bodies.cpp_types import class_name
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
-from rebsync.reverse.bodies.scope import Called, Function, Ignored, Inline, Itself, Lambda, Sends
+from rebsync.reverse.bodies.scope import (
+    Around,
+    Called,
+    Function,
+    Ignored,
+    Inline,
+    Itself,
+    Lambda,
+    Sends,
+)
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 if TYPE_CHECKING:
@@ -75,6 +84,8 @@ def by_name(
             return _local_method(reader, node, target, called, arguments)
         case Inline() as inline:
             return reader.inlined(node, inline, arguments)
+        case Around():
+            raise reader.unread(node, f'what "{name}" does the model does not describe')
         case Ignored():
             raise Unknown(reader.cpp.span(node), f'the model cannot know what "{name}" gives')
     if own is not None and name in _OPERATIONS and len(arguments) == 2:

@@ -345,7 +345,7 @@ class Effects:
                         self.written.add(of)
                     else:
                         raise self._touches(call.node, f'this may change "{of}"')
-            case Runtime() | Lambda() | Itself():
+            case Runtime() | Lambda() | Itself() if name not in LOOKS:
                 raise self._touches(call.node, f'"{of}" acts on the node')
             case _:
                 if name not in LOOKS and is_modelled(target, meaning):

@@ -10,8 +10,8 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync import precedence
 from rebsync.records import dataclass
-from rebsync.reverse.bodies import cpp_called, cpp_idioms, cpp_mailbox
-from rebsync.reverse.bodies.building import bare, binary, is_calm, is_place, tight
+from rebsync.reverse.bodies import cpp_called, cpp_casts, cpp_idioms, cpp_mailbox, cpp_widths
+from rebsync.reverse.bodies.building import binary, is_calm, is_place, tight
 from rebsync.reverse.bodies.cpp_conversions import (
     alternatives,
     as_number,
@@ -21,12 +21,11 @@ from rebsync.reverse.bodies.cpp_conversions import (
     variable_of,
 )
 from rebsync.reverse.bodies.cpp_effects import Effects
-from rebsync.reverse.bodies.cpp_literals import literal
+from rebsync.reverse.bodies.cpp_literals import in_range, is_bare_macro, literal
 from rebsync.reverse.bodies.cpp_misread import Chain, Operand, Operation, chain_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_stores import kept
-from rebsync.reverse.bodies.cpp_types import carried, type_of
-from rebsync.reverse.bodies.cpp_unknowns import Unknown, choice, domain_near
+from rebsync.reverse.bodies.cpp_unknowns import HINT, Unknown, choice, domain_near
 from rebsync.reverse.bodies.scope import (
     Inline,
     Itself,
@@ -42,11 +41,13 @@ from rebsync.reverse.bodies.scope import (
 )
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
-from rebsync.static.types import BOOLEAN, INT, converts, is_boolean, is_floating, is_integer
+from rebsync.static.types import BOOLEAN, converts, is_boolean, is_floating
 
 _PREFIX = frozenset({"+", "-", "!", "~"})
 _WORDS = {"and": "&&", "or": "||", "not": "!", "not_eq": "!=", "bitand": "&", "bitor": "|"}
 _TRUTH = Variable("", BOOLEAN)
+_ONE_OF = "it is one of the values in the comment"
+_STANDS = "stands for all that comparisons do not tell apart"
 MOVE = cpp_mailbox.MOVE
 
 # Reads the call of a function whose body stands in its place: what the call gives, if anything.
@@ -97,6 +98,7 @@ class CppExpressions:
                 condition, then, otherwise = named(node)
                 tested = tight(self.condition(condition), precedence.CHAIN)
                 ways = alternatives(self.scope, self.read(then), self.read(otherwise))
+                cpp_widths.check(self, node, "+", (then, otherwise))
                 return m.Conditional(tested, *ways, span)
             case "cast_expression":
                 return self.cast(part(node, "type"), part(node, "value"), node)
@@ -120,6 +122,7 @@ class CppExpressions:
                 return self.binary(node, self._sign(node), named(node))
         try:
             read = self.read(node)
+            cpp_widths.check_truth(self, node)
         except Unread as unread:
             if not isinstance(unread, Unknown) and not self.scope.open:
                 raise
@@ -132,13 +135,18 @@ class CppExpressions:
         try:
             if place.type is not None and is_boolean(place.type):
                 return self.condition(node, place)
-            return converted_to(self.scope, self.read(node), place)
+            read = self.read(node)
+            cpp_widths.check_stored(self, node, read, place)
+            return converted_to(self.scope, read, place)
         except Unread as unread:
-            values = domain_near(node) or place.domain
+            values, why = domain_near(node) or place.domain, _ONE_OF
+            if not values and isinstance(unread, Unknown) and self.scope.regions is not None:
+                values = self.scope.regions(place)
+                why = f'one value of "{place.name}" {_STANDS}'
             if not values or not (self.scope.open or isinstance(unread, Unknown)):
                 raise
-            why = f"{unread.why}: it is one of the values in the comment"
-            self.approximate(node, Unread(unread.span, why))
+            why = f"{unread.why}: {why}"
+            self.approximate(node, Unread(unread.span, why, HINT if why.endswith(_STANDS) else ""))
             pinned = tuple(converted_to(self.scope, v, place) for v in values)
             return choice(tuple(dict.fromkeys(pinned)))
 
@@ -180,7 +188,8 @@ class CppExpressions:
 
     def _literal(self, node: Node) -> m.Expression:
         try:
-            return literal(self.cpp, node)
+            read = literal(self.cpp, node)
+            return in_range(read, node) if self.scope.open else read
         except Unread as unread:
             if node.type in ("string_literal", "raw_string_literal", "null", "sizeof_expression"):
                 raise self.unknown(node, unread.why) from None
@@ -207,6 +216,8 @@ class CppExpressions:
                 return cpp_idioms.whole(self.scope.enumerators[spelled], span)
             if spelled in self.scope.constants:
                 cpp, value = self.scope.constants[spelled]
+                if is_bare_macro(cpp, value, node):
+                    raise self.unread(node, "what stands beside this macro may bind tighter")
                 scope = self.scope.without_constant(spelled)
                 return CppExpressions(cpp, scope, self.findings, self.within).read(value)
         if (known := cpp_idioms.constant_named(name, span)) is not None:
@@ -298,6 +309,9 @@ class CppExpressions:
                 return value if self.scope.open else m.Paren(value)
             case Operation(operator, left, right):
                 sides = self._joined(whole, left), self._joined(whole, right)
+                for side in (left, right):
+                    if isinstance(side, Operand) and cpp_widths.is_wide(self, side):
+                        raise self.unknown(whole, "what this gives depends on how wide it is")
                 return binary(*operands(self.scope, operator, *sides))
 
     def _computed(self, node: Node) -> m.Expression:
@@ -309,6 +323,7 @@ class CppExpressions:
     def binary(self, node: Node, operator: str, sides: Sequence[Node]) -> m.Expression:
         reads = self.condition if operator in ("&&", "||") else self.read
         left, right = (reads(side) for side in sides)
+        cpp_widths.check(self, node, operator, sides)
         operator, left, right = operands(self.scope, operator, left, right)
         return binary(operator, left, right, self.cpp.span(node))
 
@@ -321,6 +336,7 @@ class CppExpressions:
         if operator == "=":
             return m.Assign("=", written, self.stored(value, place), span)
         right = self.read(value)
+        cpp_widths.check(self, node, operator[:-1], sides)
         done, left, right = operands(self.scope, operator[:-1], written, right)
         result = type_in(self.scope, binary(done, left, right))
         if place.type is None or result is None or not is_calm(written):
@@ -342,29 +358,13 @@ class CppExpressions:
                 if whole.type is None or not whole.type.dimensions:
                     return Variable(whole.name)
                 of = m.Type(whole.type.name, whole.type.dimensions[1:])
-                return Variable(whole.name, of, whole.bits, whole.domain)
+                return Variable(whole.name, of, whole.bits, whole.domain, whole.wide)
             case _:
                 return Variable("")
 
     def cast(self, to: Node, operand: Node, node: Node) -> m.Expression:
         """A value that is converted by a cast of whatever kind."""
-        plain = type_of(to)
-        if plain is not None and not plain.dimensions and not self.scope.open:
-            return m.Cast(plain, self.operand(operand, precedence.CAST), self.cpp.span(node))
-        kept = carried(to, self.scope.enums)
-        if kept is None or kept.type.dimensions:
-            raise self.unread(node, f'the model has no type "{text_of(to)}"')
-        if kept.type == BOOLEAN:
-            return self.condition(operand)
-        value = self.read(operand)
-        of = type_in(self.scope, value)
-        if of is not None and is_boolean(of):
-            return as_number(self.scope, value)
-        if of is not None and kept.bits:
-            return converted_to(self.scope, value, Variable("", kept.type, kept.bits))
-        if of is not None and is_integer(of) and (_holds(value, of, kept.type) or kept.why):
-            return value
-        return m.Cast(kept.type, tight(value, precedence.CAST), self.cpp.span(node))
+        return cpp_casts.cast(self, to, operand, node)
 
     # --- calls ----------------------------------------------------------------------------------
 
@@ -390,9 +390,3 @@ class CppExpressions:
         """A call with all arguments as they are."""
         values = tuple(self.read(a) for a in arguments)
         return m.Call(target, name, values, span=self.cpp.span(node))
-
-
-def _holds(value: m.Expression, of: m.Type, type_: m.Type) -> bool:
-    """Whether a value is in the range of a type: what is computed is as wide as an int."""
-    stored = isinstance(bare(value), m.Name | m.Member | m.Index | m.Cast | m.IntLiteral)
-    return of == type_ and (type_ == INT or stored)

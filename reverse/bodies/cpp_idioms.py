@@ -13,10 +13,12 @@ from rebsync import model as m
 from rebsync.reverse.bodies.building import binary, cast, chosen, is_calm, tight
 from rebsync.reverse.bodies.cpp_conversions import as_number, operands, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
+from rebsync.reverse.bodies.cpp_literals import lower
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_time import time_called, to_seconds
 from rebsync.reverse.bodies.cpp_types import carried
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
+from rebsync.reverse.bodies.cpp_widths import check_whole, check_wide_call
 from rebsync.reverse.bodies.scope import Called, Record, Variable
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
@@ -40,7 +42,8 @@ _LIMIT = re.compile(r"(?:std::)?numeric_limits<\s*(?:int|int32_t|std::int32_t)\s
 
 
 def whole(value: int, span: Span) -> m.Expression:
-    """An integer as an expression."""
+    """An integer as an expression; of a larger one the lower bits."""
+    value = lower(value)
     if value < 0:
         return m.Unary("-", m.IntLiteral(-value, span), span)
     return m.IntLiteral(value, span)
@@ -59,10 +62,14 @@ def call(
     """The call of a function of a library, if the model can say what it gives."""
     span, count = reader.cpp.span(node), len(arguments)
     plain = name.partition("<")[0].removeprefix("std::").removeprefix("boost::")
+    if plain in ("pow", "sqrt", "floor", "ceil", "round", "trunc"):
+        for argument in arguments:
+            check_whole(reader, argument)
     match plain, count:
         case "ros::ok", 0:
             return m.BoolLiteral(True, span)
         case "min" | "max", 2:
+            check_wide_call(reader, node)
             return _least(reader, arguments, plain)
         case "min" | "max", 1 if arguments[0].type == "initializer_list":
             return _least(reader, named(arguments[0]), plain)
@@ -97,6 +104,7 @@ def _calm(reader: CppExpressions, nodes: Sequence[Node]) -> list[m.Expression]:
     """Operands that may be evaluated more than once."""
     read = [as_number(reader.scope, reader.read(n)) for n in nodes]
     for node, value in zip(nodes, read, strict=True):
+        check_whole(reader, node)
         if not is_calm(value):
             raise reader.unread(node, "the model would do this more than once", "use a local")
     return read

@@ -16,6 +16,7 @@ from rebsync.reverse.bodies.cpp_messages import declare, given, is_pointer, mess
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_types import carried
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
+from rebsync.reverse.bodies.cpp_widths import place_of
 from rebsync.reverse.bodies.scope import (
     Inline,
     Itself,
@@ -83,7 +84,7 @@ def _value(inside: CppStatements, node: Node, result: Node | None) -> Meaning:
     kept = carried(result, inside.scope.enums) if result is not None else None
     if kept is None and text not in ("auto", "const auto"):
         raise Unknown(inside.cpp.span(node), "the model cannot know what this gives")
-    place = Variable("", kept.type if kept is not None else None, kept.bits if kept else 0)
+    place = place_of("", kept) if kept is not None else Variable("")
     inside.findings.statements[inside.within] += 1
     return inside.expressions.stored(node, place)
 
@@ -188,7 +189,7 @@ def _bound(
             effects.refers(argument)
         inside.meaning(name, Outside())
         return
-    yield from _valued(reader, inside, name, Variable("", kept.type, kept.bits), argument, once)
+    yield from _valued(reader, inside, name, place_of("", kept), argument, once)
 
 
 def _left_out(
@@ -200,7 +201,7 @@ def _left_out(
     kept = carried(parameter.type, reader.scope.enums)
     if kept is None or kept.type.dimensions:
         raise reader.unread(node, "what is left out of this call is no value of the model")
-    place = Variable(parameter.name, kept.type, kept.bits)
+    place = place_of(parameter.name, kept)
     value = cpp_idioms.left_out(reader.expressions, node, parameter, place)
     local = replace(place, name=reader.fresh(parameter.name, inlining=True))
     reader.shared.made.add(local.name)
@@ -231,7 +232,7 @@ def _valued(
         Effects(reader.cpp, reader.scope).check(argument)
         inside.meaning(name, Outside(place.type))
         return
-    if once and is_calm(value):
+    if once and is_calm(value) and not place.wide:
         inside.meaning(name, value)
         return
     if name in reader.shared.demoted or place.type is None:
@@ -282,8 +283,8 @@ def _result(
     if kept is None:
         inside.returns = Outside()
         return Outside()
-    inside.returns = Variable("", kept.type, kept.bits)
-    return Variable(reader.fresh("result", inlining=True), kept.type, kept.bits)
+    inside.returns = place_of("", kept)
+    return place_of(reader.fresh("result", inlining=True), kept)
 
 
 def _returned(body: Node) -> Iterator[Node]:

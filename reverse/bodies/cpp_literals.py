@@ -14,6 +14,8 @@ from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 _INTEGER = re.compile(r"(0[xX][0-9a-fA-F]+|0[bB][01]+|[0-9]+)(?:[uU]?[lL]{0,2}|[lL]{1,2}[uU])\Z")
 _FLOAT = re.compile(r"((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)([fFlL]?)\Z")
 
+_MOST = (1 << 31) - 1  # that an `int` holds
+_AROUND = frozenset({"binary_expression", "unary_expression", "cast_expression"})
 _ESCAPES = {"\\n": 10, "\\t": 9, "\\r": 13, "\\0": 0, "\\\\": 92, "\\'": 39, "\\e": 27}
 
 
@@ -65,6 +67,43 @@ def _number(text: str, cpp: Cpp, node: Node) -> m.Expression:
     if real is None:
         raise Unread(span, f'the model has no number "{text}"')
     return m.FloatLiteral(model_float(real[1], real[2]), span)
+
+
+def lower(value: int) -> int:
+    """The number that the model's `int` makes of a whole one: its lower 32 bits."""
+    bits = value & 0xFFFFFFFF
+    return bits - (1 << 32) if bits >> 31 else bits
+
+
+def in_range(read: m.Expression, node: Node) -> m.Expression:
+    """An integer that no `int` holds as the one that its lower bits are."""
+    match read:
+        case m.IntLiteral(value, span) if value > _MOST:
+            if value == _MOST + 1 and _is_negated(node):
+                return read
+        case m.Unary("-", m.IntLiteral(value), span) if value > _MOST + 1:
+            value = -value
+        case _:
+            return read
+    known = lower(value)
+    return m.Unary("-", m.IntLiteral(-known), span) if known < 0 else m.IntLiteral(known, span)
+
+
+def _is_negated(node: Node) -> bool:
+    above = node.parent
+    return above is not None and above.type == "unary_expression" and text_of(above)[0] == "-"
+
+
+def is_bare_macro(cpp: Cpp, value: Node, use: Node) -> bool:
+    """Whether a macro is an operation without parentheses that stands in another one."""
+    above = value.parent
+    beside = use.parent
+    if value.type not in ("binary_expression", "conditional_expression") or beside is None:
+        return False
+    while above is not None and above.type != "declaration":
+        above = above.parent
+    made = above is not None and text_of(above).startswith("const auto x = ")
+    return made and len(cpp.root.named_children) == 1 and beside.type in _AROUND
 
 
 def model_float(digits: str, suffix: str) -> str:

@@ -17,6 +17,7 @@ from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_effects import Effects, Touches
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_types import Carried, carried
+from rebsync.reverse.bodies.cpp_widths import place_of, wide_of
 from rebsync.reverse.bodies.known_functions import type_takes_values
 from rebsync.reverse.bodies.scope import Itself, Lambda, Meaning, Outside, Record, Variable
 from rebsync.reverse.findings import Unread
@@ -194,7 +195,7 @@ def _only_value(declared: _Declared) -> Node | None:
 def _typed(
     reader: CppStatements, declared: _Declared, kept: Carried, value: Node | None
 ) -> Iterator[m.Statement]:
-    local = Variable(reader.fresh(declared.name), kept.type, kept.bits)
+    local = place_of(reader.fresh(declared.name), kept)
     initial: m.Initializer | None = None
     if value is not None and value.type == "initializer_list" and not kept.type.dimensions:
         value = named(value)[0] if named(value) else None
@@ -205,27 +206,11 @@ def _typed(
             initial = reader.expressions.read(value)
     elif value is not None:
         initial = reader.expressions.stored(value, local)
-    if kept.why and not _counts(declared) and not _is_small(initial):
+    if local.name in reader.scope.overflowing:
         span = reader.cpp.span(declared.node)
         reader.findings.approximated(reader.cpp.source, span, kept.why, "", reader.within)
     reader.meaning(declared.name, local, own=True)
     yield reader.local(declared.node, local, initial)
-
-
-def _is_small(initial: m.Initializer | None) -> bool:
-    return isinstance(initial, m.BoolLiteral)
-
-
-def _counts(declared: _Declared) -> bool:
-    """Whether it is the variable of a loop that counts up to some bound."""
-    above = declared.node.parent
-    loop = above.parent if above is not None else None
-    if loop is None or loop.type != "for_statement":
-        return False
-    condition, update = loop.child_by_field_name("condition"), loop.child_by_field_name("update")
-    if condition is None or update is None:
-        return False
-    return "<" in text_of(condition) and "++" in text_of(update)
 
 
 def _array(reader: CppStatements, declared: _Declared) -> Carried | None:
@@ -294,7 +279,7 @@ def _inferred(
         reader.meaning(declared.name, read if is_calm(read) and _lasts(reader, read) else Outside())
         return
     whole = INT if of in (BYTE, SHORT) else of
-    local = Variable(reader.fresh(declared.name), whole)
+    local = Variable(reader.fresh(declared.name), whole, wide=wide_of(reader.expressions, value))
     reader.meaning(declared.name, local, own=True)
     yield reader.local(declared.node, local, read)
 
@@ -378,7 +363,7 @@ def _called_or_made(reader: CppStatements, declared: _Declared) -> Iterator[m.St
     kept = carried(declared.type, reader.scope.enums)
     meanings = [reader.scope.meaning(a) for a in arguments]
     if kept is not None and len(meanings) == 1 and isinstance(meanings[0], Variable):
-        local = Variable(reader.fresh(declared.name), kept.type, kept.bits)
+        local = place_of(reader.fresh(declared.name), kept)
         reader.meaning(declared.name, local, own=True)
         yield reader.local(declared.node, local, m.Name(meanings[0].name))
         return

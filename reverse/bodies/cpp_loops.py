@@ -53,7 +53,8 @@ def _listed(reader: CppStatements, node: Node, over: Node) -> tuple[m.Expression
     values = named(over)
     kept = carried(part(node, "type"), reader.scope.enums)
     of = kept.type if kept is not None else m.Type("int")
-    local = Variable(reader.fresh("values"), m.Type(of.name, (len(values),)))
+    wide = kept.wide if kept is not None else 0
+    local = Variable(reader.fresh("values"), m.Type(of.name, (len(values),)), wide=wide)
     reader.meaning(f"in {node.start_byte}", local)
     initial = m.ArrayInitializer(tuple(reader.expressions.read(v) for v in values))
     return m.Name(local.name), reader.local(over, local, initial)
@@ -71,7 +72,10 @@ def _element(
         raise reader.unread(declarator, "the model has no such element")
     name = text_of(declarator)
     kept = carried(part(node, "type"), reader.scope.enums)
-    local = Variable(reader.fresh(name), kept.type if kept is not None else of)
+    wide = reader.expressions.place(element).wide
+    local = Variable(reader.fresh(name), of, wide=wide)
+    if kept is not None:
+        local = Variable(local.name, kept.type, wide=kept.wide)
     reader.meaning(name, local, own=True)
     return (reader.local(declarator, local, element),)
 

@@ -18,7 +18,6 @@ from rebsync.reverse.bodies.cpp_roots import path_in
 from rebsync.reverse.bodies.cpp_types import wider
 from rebsync.reverse.bodies.cpp_unknowns import HINT, Demote, Unknown, choice, domain_near
 from rebsync.reverse.bodies.scope import (
-    WIDE,
     Called,
     Inline,
     Publishes,
@@ -26,6 +25,7 @@ from rebsync.reverse.bodies.scope import (
     Scope,
     Target,
     Variable,
+    of_width,
 )
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -170,11 +170,12 @@ def declare(
             continue
         width = reader.scope.width(type_, path)
         of_model = reader.fresh(f"{name}_{path.replace('.', '_')}", inlining)
-        variable = Variable(of_model, of, width if width < WIDE else 0)
-        if width >= WIDE:
+        variable = of_width(of_model, of, width)
+        if of_model in reader.scope.overflowing:
             place, why = reader.cpp.span(node), wider(path)
             reader.findings.approximated(reader.cpp.source, place, why, "", reader.within)
         reader.shared.made.add(variable.name)
+        reader.shared.add(variable)
         fields[path] = variable
         span = reader.cpp.span(node)
         declarator = m.Declarator(variable.name, initial, span)
@@ -300,6 +301,7 @@ def _values(
         zero = zero_of(of) if fresh and of is not None else None
         match _deep(record, path), zero:
             case Variable(name), _:
+                _check_sent(reader, node, path, name)
                 found.append(m.Name(name))
             case _, None:
                 why = f'the model cannot know the field "{path}" of this message'
@@ -310,6 +312,14 @@ def _values(
             case _, zero:
                 found.append(zero)
     return tuple(found)
+
+
+def _check_sent(reader: CppStatements, node: Node, path: str, name: str) -> None:
+    """Lists a number that the receiver takes for another: an `int` does not hold it."""
+    if name in reader.scope.overflowing:
+        why = f'"{path}" may wrap, or be more than the model\'s int can be: others get it wrong'
+        unread = Unread(reader.cpp.span(node), why)
+        reader.findings.unreadable(reader.cpp.source, unread, reader.within)
 
 
 def _deep(record: Record, path: str) -> object:

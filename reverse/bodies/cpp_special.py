@@ -16,6 +16,7 @@ from rebsync.reverse.bodies.cpp_effects import Effects, Touches, is_outside
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_time import pause, units
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
+from rebsync.reverse.bodies.cpp_widths import check_whole
 from rebsync.reverse.bodies.known_functions import ASSERTS, STREAMS
 from rebsync.reverse.bodies.scope import (
     Inline,
@@ -303,6 +304,7 @@ def subject(reader: CppStatements, node: Node, body: Node) -> m.Expression:
     """What a switch looks at; one of the cases, or another value, where that is not known."""
     expressions = reader.expressions
     try:
+        check_whole(expressions, node)
         return as_number(reader.scope, expressions.read(node))
     except Unread as unread:
         if not reader.scope.open:

@@ -16,14 +16,16 @@ from rebsync.reverse.bodies import (
     cpp_loops,
     cpp_plain_locals,
     cpp_special,
+    cpp_users,
 )
 from rebsync.reverse.bodies.building import bare, is_calm, is_effect
 from rebsync.reverse.bodies.cpp_effects import Effects, Touches, is_outside
 from rebsync.reverse.bodies.cpp_expressions import MOVE, CppExpressions
 from rebsync.reverse.bodies.cpp_unknowns import Demote
-from rebsync.reverse.bodies.known_functions import LOGGING
 from rebsync.reverse.bodies.made_locals import tidied
 from rebsync.reverse.bodies.scope import Inline, Lambda, Meaning, Scope, Stores, Variable
+from rebsync.reverse.bodies.shared import Shared
+from rebsync.reverse.bodies.wide_locals import broken_locals
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.syntax.cpp_tree import Cpp, markers_in, named, part, text_of
@@ -31,22 +33,6 @@ from rebsync.reverse.syntax.cpp_tree import Cpp, markers_in, named, part, text_o
 _NOTHING = frozenset(
     {"using_declaration", "alias_declaration", "type_definition", "static_assert_declaration"}
 )
-
-
-@dataclass(slots=True)
-class Shared:
-    """What the readers of a body share with those of the bodies that stand in it.
-
-    `demoted` are locals, or fields of local messages, whose values the model cannot know;
-    `names` are the names of the model that all locals got, `kept` those that no other may have,
-    `made` those of locals that the code does not have; `running` are the functions that are read.
-    """
-
-    demoted: set[str] = field(default_factory=set)
-    names: set[str] = field(default_factory=set)
-    kept: set[str] = field(default_factory=set)
-    made: set[str] = field(default_factory=set)
-    running: list[tuple[int, str]] = field(default_factory=list)
 
 
 @dataclass(slots=True)
@@ -94,14 +80,19 @@ class CppStatements:
         counted = self.findings.statements[self.within]
         while True:
             try:
-                return tidied(tuple(self.statements(nodes)), self.shared.made)
+                read = tuple(self.statements(nodes))
+                broken = broken_locals(read, self.shared.wide, self.scope) - scope.overflowing
+                if not broken:
+                    self.scope.wide.update(self.shared.wide)
+                    return tidied(read, self.shared.made)
+                scope = replace(scope, overflowing=scope.overflowing | broken)
             except Demote as demote:
                 self.shared.demoted |= demote.names
-                self.scope, self.before = scope, []
-                for names in (self.own, self.shared.names, self.shared.kept, self.shared.made):
-                    names.clear()
-                del self.findings.all[listed:]
-                self.findings.statements[self.within] = counted
+            self.scope, self.before = scope, []
+            self.own.clear()
+            self.shared.clear()
+            del self.findings.all[listed:]
+            self.findings.statements[self.within] = counted
 
     def _known(
         self, node: Node, known: Sequence[m.Statement | Stores | Node]
@@ -118,6 +109,7 @@ class CppStatements:
 
     def statements(self, nodes: Sequence[Node]) -> Iterator[m.Statement]:
         comments: list[str] = []
+        users: Effects | None = None
         for node in nodes:
             if node.type == "comment":
                 comments.append(text_of(node))
@@ -130,8 +122,18 @@ class CppStatements:
             local = any(text.startswith("local ") for text in markers)
             comments = []
             self.findings.statements[self.within] += 1
-            if node.id in self.scope.instead or not self._is_outside(node):
+            users = cpp_users.block_after(self, markers, users)
+            if users is not None and not self.scope.open:
+                yield from self._of_user(node, users)
+            elif node.id in self.scope.instead or not self._is_outside(node):
                 yield from self._one(node, annotations, local)
+
+    def _of_user(self, node: Node, block: Effects) -> Iterator[m.Statement]:
+        """Nothing for what a user's block does, unless it touches what the model has."""
+        try:
+            block.check(node)
+        except Touches as touches:
+            yield from self._unreadable(node, touches)
 
     def _is_outside(self, node: Node) -> bool:
         """Whether a statement that people wrote touches nothing of the model."""
@@ -283,6 +285,7 @@ class CppStatements:
     def local(self, node: Node, variable: Variable, initial: m.Initializer | None) -> m.Local:
         """The declaration of a local."""
         span = self.cpp.span(node)
+        self.shared.add(variable)
         declarator = m.Declarator(variable.name, initial, span)
         return m.Local(m.Declaration(variable.type or m.Type("int"), (declarator,), span=span))
 
@@ -296,9 +299,7 @@ class CppStatements:
             yield m.Empty(annotations, span)
             return
         expression = children[0]
-        if _calls(expression, "unused") or _logs(expression):
-            if self.scope.open:  # then it is not outside
-                raise self.unread(node, "what is logged here changes what the model has")
+        if cpp_users.is_log(self, node, expression):
             return
         if declared := cpp_plain_locals.late(self, expression):
             yield m.Local(declared, annotations, span)
@@ -378,15 +379,6 @@ class CppStatements:
         """Whether a block only holds locals of a switch, and the switch."""
         comments = [text_of(c) for c in node.named_children if c.type == "comment"]
         return any(t.startswith("local ") for t in markers_in(comments))
-
-
-def _calls(node: Node, function: str) -> bool:
-    return node.type == "call_expression" and text_of(part(node, "function")) == function
-
-
-def _logs(node: Node) -> bool:
-    called = node.type == "call_expression" and part(node, "function").type == "identifier"
-    return called and text_of(part(node, "function")).startswith(LOGGING)
 
 
 def _cell(axis: str, offset: m.Expression) -> m.Expression:

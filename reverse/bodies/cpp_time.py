@@ -11,6 +11,7 @@ from rebsync import model as m
 from rebsync.reverse.bodies.building import binary, cast
 from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_places import resolve
+from rebsync.reverse.bodies.cpp_widths import check_whole
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -66,6 +67,7 @@ def seconds_of(name: str) -> Fraction | None:
 def units(reader: CppExpressions, node: Node, seconds: Fraction) -> m.Expression:
     """So many seconds, times the number that a node is, in units of the model's time."""
     value = reader.read(node)
+    check_whole(reader, node)
     whole = in_units(reader, value, seconds)
     if whole is None:
         span, unit = reader.cpp.span(node), reader.scope.unit

@@ -24,14 +24,13 @@ _UNSIGNED = {
     **dict.fromkeys(("uint8_t", "unsigned char", "u_char", "u_int8_t"), ("short", 8)),
     **dict.fromkeys(("uint16_t", "unsigned short", "unsigned short int"), ("int", 16)),
 }
-_WIDE = frozenset(
-    {
-        *("int64_t", "uint32_t", "uint64_t", "size_t", "ssize_t", "ptrdiff_t", "intptr_t"),
-        *("uint", "unsigned", "unsigned int", "long", "long int", "long long", "long long int"),
-        *("unsigned long", "unsigned long int", "unsigned long long", "unsigned long long int"),
-        *("int_fast8_t", "int_fast16_t", "int_fast32_t", "int_fast64_t"),
-    }
-)
+# By the bits that values have, the sign not counted: of these types is what one word names.
+_WIDE = {
+    **dict.fromkeys(("uint32_t", "uint", "u_int", "u_int32_t"), 32),
+    **dict.fromkeys(("int64_t", "ssize_t", "ptrdiff_t", "intptr_t"), 63),
+    **{f"int_fast{bits}_t": 63 for bits in (8, 16, 32, 64)},
+    **dict.fromkeys(("uint64_t", "size_t", "u_long", "u_int64_t", "uintptr_t"), 64),
+}
 _TIMES = frozenset({"Time", "Duration", "WallTime", "WallDuration", "SteadyTime"})
 _SCOPES = re.compile(r"^(?:::)?(?:std::)?")
 
@@ -77,13 +76,14 @@ def class_name(text: str) -> str:
 class Carried:
     """What the model keeps of the values of a type of C++.
 
-    `bits` is the width of an unsigned type that wraps sooner than `type`; `why` says what gets
-    lost, empty if nothing does.
+    `bits` is the width of an unsigned type that wraps sooner than `type`; `wide` are the bits
+    without the sign of one that holds more, and `why` says so: 32, 63 or 64.
     """
 
     type: Type
     bits: int = 0
     why: str = ""
+    wide: int = 0
 
 
 def carried(node: Node, enums: Collection[str] = ()) -> Carried | None:
@@ -100,9 +100,6 @@ def carried(node: Node, enums: Collection[str] = ()) -> Carried | None:
         return Carried(array) if array is not None else None
     text = " ".join(text_of(node).split())
     name = _SCOPES.sub("", text)
-    words = set(name.split())
-    if "unsigned" in words and "char" not in words and "short" not in words:
-        name = "unsigned"
     last = text.rpartition("::")[2]
     if name in _PLAIN and name != "void":
         return Carried(Type(_PLAIN[name]))
@@ -110,11 +107,21 @@ def carried(node: Node, enums: Collection[str] = ()) -> Carried | None:
         return Carried(Type("byte"))
     if name in _UNSIGNED:
         return Carried(Type(_UNSIGNED[name][0]), _UNSIGNED[name][1])
-    if name in _WIDE or (words and words <= {"long", "int", "unsigned", "signed"}):
-        return Carried(Type("int"), why=wider(text))
+    if wide := _wide(name):
+        return Carried(Type("int"), 0, wider(text), wide)
     if is_time(node):
         return Carried(Type("int"))
     return Carried(Type("int")) if text in enums or last in enums else None
+
+
+def _wide(name: str) -> int:
+    """The bits without the sign of an integer that holds more than an int; 0 for other types."""
+    words = name.split()
+    if not words or not set(words) <= {"long", "int", "unsigned", "signed"}:
+        return _WIDE.get(name, 0)
+    if "long" in words:
+        return 64 if "unsigned" in words else 63
+    return 32 if "unsigned" in words else 0
 
 
 def is_time(node: Node) -> bool:

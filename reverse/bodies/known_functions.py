@@ -7,6 +7,7 @@ import re
 from rebsync.reverse.syntax.cpp_calls import CppCall
 
 LOGGING = ("ROS_DEBUG", "ROS_INFO", "ROS_WARN", "ROS_ERROR", "ROS_FATAL", "NODELET_", "ROS_LOG")
+CONSOLE = frozenset({"printf", "std::printf", "puts", "std::puts"})
 STREAMS = frozenset(
     {"std::cout", "std::cerr", "std::clog", "cout", "cerr", "clog", "std::endl", "endl"}
 )
@@ -27,12 +28,14 @@ ACTS = {
 }
 ASSERTS = frozenset({"ROS_ASSERT", "ROS_ASSERT_MSG", "assert", "BOOST_ASSERT", "ROS_BREAK"})
 ACTS |= dict.fromkeys(ASSERTS, "checks")
-# Member functions that only look at an array, a number, a publisher or a timer.
+# Member functions that only look at an array, a number, a publisher, a timer, or in the mailbox of
+# generated code at the message that is served.
 LOOKS = frozenset(
     {
         *("at", "back", "count", "empty", "front", "getNumSubscribers", "getTopic", "hasPending"),
         *("hasStarted", "isLatched", "isValid", "isZero", "length", "max_size", "size", "toNSec"),
         *("toSec", "c_str", "str", "cbegin", "cend"),
+        *("now", "self", "sender", "arrival", "expiry", "waitingTime"),
     }
 )
 _VALUES = frozenset(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import field, fields, replace
 from fractions import Fraction
 from typing import Literal, TypeAlias
@@ -15,7 +15,7 @@ from rebsync.reserved import RESERVED, uncarry_local
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp
 
-WIDE = 32  # bits, from which on unsigned numbers hold more than the model's `int`
+WIDE = 32  # bits without the sign, from which on numbers hold more than the model's `int`
 
 # --- variables ----------------------------------------------------------------------------------
 
@@ -27,13 +27,20 @@ class Variable:
     With `type` None nothing is converted when it is read or written: the code says it all.
     `bits` is the width of an unsigned type that `type` holds but that wraps sooner (8 or 16). A
     truth value with bits is a number in the code, which can hold others than 0 and 1.
-    `domain` are the values that a hint beside its declaration gives it.
+    `domain` are the values that a hint beside its declaration gives it. `wide` are the bits,
+    without the sign, of a number of which the model's `int` has the lower half: 32, 63 or 64.
     """
 
     name: str
     type: Type | None = None
     bits: int = 0
     domain: tuple[Expression, ...] = ()
+    wide: int = 0
+
+
+def of_width(name: str, type_: Type, width: int) -> Variable:
+    """A variable for a field of a message: of so many bits without the sign, 0 for the model's."""
+    return Variable(name, type_, wide=width) if width >= WIDE else Variable(name, type_, width)
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,7 +178,12 @@ class Ignored:
     returns: Type | None = None
 
 
-Function: TypeAlias = Called | Inline | Sends | Ignored
+@dataclass(frozen=True, slots=True)
+class Around:
+    """A function of a generated class that no body of the model calls, such as `publishState`."""
+
+
+Function: TypeAlias = Called | Inline | Sends | Ignored | Around
 
 # --- set-up -------------------------------------------------------------------------------------
 
@@ -213,6 +225,10 @@ class Scope:
     # The widths in bits of their fields where these are not the model's type's: narrow ones wrap
     # sooner, wide ones hold more.
     widths: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
+    # The wide numbers, by their names in the model, that an `int` need not hold.
+    overflowing: frozenset[str] = frozenset()
+    # What stands for values that nobody knows, of a variable that is only compared.
+    regions: Callable[[Variable], tuple[Expression, ...]] | None = None
     # The servers of callbacks that calls (`createTimer`), by the id of the call's node, set timers
     # for.
     timers: Mapping[int, TimerOf] = field(default_factory=dict)
@@ -232,6 +248,8 @@ class Scope:
     returns: Type | None = None
     # Locals that hold what the functions give whose bodies stand in this one, by their names.
     results: dict[str, Variable] = field(default_factory=dict, compare=False, repr=False)
+    # The bits, without the sign, of the locals of all bodies that hold more than an `int`.
+    wide: dict[str, int] = field(default_factory=dict, compare=False, repr=False)
     # Whether functions, by the ids of their bodies, touch nothing: what has been found out.
     calm: dict[int, bool] = field(default_factory=dict, compare=False, repr=False)
 

@@ -8,7 +8,7 @@ from dataclasses import field
 
 from rebsync.model import Type
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.scope import WIDE, Variable
+from rebsync.reverse.bodies.scope import WIDE, Variable, of_width
 from rebsync.reverse.build.common_messages import COMMON
 from rebsync.reverse.build.messages import plain_type, read_message
 from rebsync.reverse.syntax.cpp_tree import Cpp
@@ -20,9 +20,9 @@ _TYPES = {
     **{"uint16": "int", "uint32": "int", "int64": "int", "uint64": "int"},
     **{"float32": "float", "float64": "double"},
 }
-# In bits: narrow ones wrap sooner than the model's type, others hold more than its `int`. A truth
-# value is a byte in the code.
-_WIDTHS = {"bool": 8, "uint8": 8, "uint16": 16, "uint32": 32, "int64": 64, "uint64": 64}
+# In bits without the sign: narrow ones wrap sooner than the model's type, others hold more than its
+# `int`. A truth value is a byte in the code.
+_WIDTHS = {"bool": 8, "uint8": 8, "uint16": 16, "uint32": 32, "int64": 63, "uint64": 64}
 _DEEPEST = 8
 _POINTERS = re.compile(r"(::)?(Const)?(Shared|Unique|Weak)?Ptr$")
 _WORD = re.compile(r"[A-Z]\w*")
@@ -35,8 +35,8 @@ Fields = Mapping[str, Type | None]
 class MessageTypes:
     """The types that the files of a package declare, and those that come with ROS.
 
-    `widths` are those of fields, by type and path, that are not the model's type's: 8 and 16 bits
-    wrap sooner, 32 and 64 hold more than its `int`.
+    `widths` are those of fields, by type and path, that are not the model's type's, the sign not
+    counted: 8 and 16 bits wrap sooner, 32 and more hold more than its `int`.
     """
 
     own: dict[str, list[tuple[str, str, int | None]]]
@@ -78,8 +78,7 @@ class MessageTypes:
 
     def variable(self, type_: str, path: str, name: str, of: Type) -> Variable:
         """A variable of the model for a field of a type."""
-        width = self.widths.get(type_, {}).get(path, 0)
-        return Variable(name, of, width if width < WIDE else 0)
+        return of_width(name, of, self.widths.get(type_, {}).get(path, 0))
 
     def holds_more(self, type_: str, path: str) -> bool:
         """Whether a field holds more than the model's `int` does."""

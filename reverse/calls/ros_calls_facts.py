@@ -216,9 +216,16 @@ class Facts:
         if any(isinstance(v, Found) for v in ways(value)):
             answer.searched = True
             value = choice(v.name if isinstance(v, Found) else v for v in ways(value))
-            return self._resolved(value, given)
+            return self._found(self._resolved(value, given), given)
         found = self._resolved(value, given)
         return name_under(namespace, found) if found is not None else None
+
+    def _found(self, name: Resolved, given: Given) -> Resolved:
+        """The key that a search upwards finds: a private name says from where it goes up."""
+        if not isinstance(name, str) or name.startswith(("~", "/")):
+            return name
+        place = self.values.unknown("", given.node, given.frame).place
+        return Unresolved(f"the key that an upward search for {name} finds", place, f"*/{name}")
 
     # --- numbers --------------------------------------------------------------------------------
 
@@ -324,7 +331,12 @@ class Facts:
     ) -> ParameterFact:
         access = asked.ask.access or Access.GET
         default = found.get("default")
-        if default is None and "variable" in asked.ask.arguments and len(asked.arguments) == 2:
+        if (
+            default is None
+            and not searched
+            and "variable" in asked.ask.arguments
+            and len(asked.arguments) == 2
+        ):
             default = found.get("fallback")
         return ParameterFact(asked.site, name, access, default, found.get("value"), searched)
 

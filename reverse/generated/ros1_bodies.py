@@ -11,10 +11,10 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_expressions import CppExpressions
 from rebsync.reverse.bodies.cpp_statements import CppStatements
-from rebsync.reverse.bodies.cpp_types import type_of
 from rebsync.reverse.bodies.scope import Outside, Record, Scope, Variable
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.ros1_free import passed_by_reference
+from rebsync.reverse.generated.ros1_names import declared_type
 from rebsync.reverse.generated.ros1_roles import Taken, parameters_of
 from rebsync.reverse.generated.ros1_timers import Timer, sent_later, with_rearming
 from rebsync.reverse.syntax.cpp_index import Code, CppField, CppFunction
@@ -35,7 +35,7 @@ class Bodies:
         references = set(passed_by_reference(function))
         for index, parameter in enumerate(function.parameters):
             span = function.cpp.span(parameter.node)
-            type_ = type_of(parameter.type)
+            type_ = declared_type(self.code, parameter.type)
             if type_ is None:
                 why = f'the model has no type "{text_of(parameter.type)}"'
                 self._unread(function, parameter.node, why, function.name)

@@ -10,14 +10,20 @@ from rebsync import model as m
 from rebsync.names import uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED
-from rebsync.reverse.bodies.cpp_types import class_name, type_of
-from rebsync.reverse.bodies.scope import Called, Function, Member, Outside, Scope, Variable
+from rebsync.reverse.bodies.cpp_types import class_name
+from rebsync.reverse.bodies.scope import Around, Called, Function, Member, Outside, Scope, Variable
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.ros1_annotations import (
+    annotations_in,
+    class_annotations,
+    server_annotations,
+)
 from rebsync.reverse.generated.ros1_bodies import Bodies
 from rebsync.reverse.generated.ros1_free import free_functions
 from rebsync.reverse.generated.ros1_names import (
-    annotations_in,
+    declared_type,
     enumerators,
+    is_given,
     is_interface,
     plain_name,
     runtime_of,
@@ -143,38 +149,9 @@ class Classes:
             self._is_abstract(owner),
             class_name(extends[0]) if extends else None,
             tuple(class_name(b) for b in owner.bases if b not in extends),
-            tuple(self._class_annotations(owner)),
+            tuple(class_annotations(self.roles, owner)),
             owner.cpp.span(owner.node),
         )
-
-    def _class_annotations(self, owner: CppClass) -> Iterator[m.Annotation]:
-        """Those of the markers; without markers, those that the set-up shows."""
-        if any(x.startswith("reactiveclass ") for x in owner.markers):
-            yield from annotations_in(owner.markers, owner)
-            return
-        if any(text_of(f.type) == "Drive" for f in owner.fields):
-            yield m.Annotation("Robot")
-        if self.roles[owner.name].on_bridge:
-            yield m.Annotation("Controller")
-
-    def _server_annotations(
-        self, owner: CppClass, function: CppFunction, name: str
-    ) -> Iterator[m.Annotation]:
-        """Those of the markers; without markers, those that the set-up shows."""
-        if any(x.startswith("msgsrv ") for x in function.markers):
-            yield from annotations_in(function.markers, owner)
-            return
-        if name in self.roles[owner.name].sensors:
-            yield m.Annotation("Sensor")
-        overload = name, len(function.parameters)
-        for above in self.code.lineage(owner.name):
-            shown = self.roles[above.name].annotations.get(overload)
-            if shown is not None:
-                same = [f for f in above.functions if f.name == function.name]
-                same = [f for f in same if len(f.parameters) == overload[1]]
-                index = next((i for i, f in enumerate(same) if f.types == function.types), 0)
-                yield from shown[min(index, len(shown) - 1)]
-                return
 
     def _is_reactive(self, name: str) -> bool:
         return name in self.code.classes and self._has_mailbox(self.code.classes[name])
@@ -192,7 +169,7 @@ class Classes:
         for member in owner.fields:
             if runtime_of(member) or member.name in roles.globals:
                 continue
-            type_ = type_of(member.type)
+            type_ = declared_type(self.code, member.type)
             if type_ is None:
                 if text_of(member.type).rpartition("::")[2] not in _ROS:
                     why = f'the model has no type "{text_of(member.type)}"'
@@ -209,7 +186,7 @@ class Classes:
 
     def _is_of_model(self, owner: CppClass, function: CppFunction) -> bool:
         roles = self.roles[owner.name]
-        if function.name in (owner.name, f"~{owner.name}", "construct"):
+        if function.name in (owner.name, f"~{owner.name}", "construct") or is_given(function):
             return False
         plain = roles.shims | roles.passing | set(roles.sends) | set(roles.odd_sends)
         if function.name in _PLUMBING or function.name in plain:
@@ -279,7 +256,7 @@ class Classes:
             parameters,
             body,
             function.pure and self._has_mailbox(owner),
-            tuple(self._server_annotations(owner, function, name)),
+            tuple(server_annotations(self.code, self.roles, owner, function, name)),
             function.cpp.span(function.node),
         )
 
@@ -309,7 +286,7 @@ class Classes:
 
     def _method(self, owner: CppClass, function: CppFunction) -> m.Method:
         bodies, name = self._bodies(owner), plain_name(function, self.types)
-        result = type_of(function.result) if function.result is not None else None
+        result = declared_type(self.code, function.result) if function.result is not None else None
         return m.Method(
             result or m.Type("void"),
             name,
@@ -360,9 +337,13 @@ class Classes:
             return runtime
         if (advertised := roles.publishers.get(member.name)) is not None:
             return publisher(advertised, self.roles, self.messages)
-        if type_of(member.type) is None:
+        if declared_type(self.code, member.type) is None:
             return Outside(reaches=text_of(member.type).startswith("ros::"))
-        return Variable(variable_name(roles, member), type_of(member.type))
+        return Variable(variable_name(roles, member), declared_type(self.code, member.type))
+
+    def _called(self, function: CppFunction) -> Called:
+        result = declared_type(self.code, function.result) if function.result is not None else None
+        return Called(plain_name(function, self.types), returns=result, function=function)
 
     def _scope(self, owner: CppClass) -> Scope:
         members: dict[str, Member] = {}
@@ -379,11 +360,13 @@ class Classes:
                 elif served is not None:
                     functions[function.name] = Called(served, server=True)
                 elif self._is_of_model(above, function):
-                    functions[function.name] = Called(plain_name(function, self.types))
+                    functions[function.name] = self._called(function)
                     callable_.add(function.name)
+                else:
+                    functions.setdefault(function.name, Around())
             callable_ |= roles.constants | set(roles.sends)
         for function in self._free(owner):
-            functions[function.name] = Called(plain_name(function, self.types))
+            functions[function.name] = self._called(function)
             callable_.add(function.name)
         bases = {c.name: class_name(c.name) for c in self.code.lineage(owner.name)[1:]}
         timers = {t.call.node.id: server_of_timer(t, n) for t, n in self._timed_servers(owner)}

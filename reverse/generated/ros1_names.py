@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator
 
-from rebsync import model as m
+from tree_sitter import Node
+
+from rebsync.model import Type
 from rebsync.names import carry, uncarry
 from rebsync.reserved import RESERVED, RUNTIME_MEMBERS
+from rebsync.reverse.bodies.cpp_types import type_of
 from rebsync.reverse.bodies.scope import Runtime
-from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.generated.ros1_roles import Roles
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppField, CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, text_of
@@ -80,12 +82,6 @@ def state_types(code: Code, owner: CppClass) -> Iterator[str]:
                     yield text_of(type_)
 
 
-def annotations_in(markers: Collection[str], owner: CppClass) -> tuple[m.Annotation, ...]:
-    """The annotations that markers in a class hold."""
-    span = owner.cpp.span(owner.node)
-    return tuple(a for text in markers if (a := annotation(text, span)) is not None)
-
-
 def enumerators(code: Code) -> dict[str, int]:
     """The constants of enumerations by their names, alone and after the enumeration's.
 
@@ -97,3 +93,16 @@ def enumerators(code: Code) -> dict[str, int]:
             for prefix in {"", f"{each.enum}::", f"{each.scope}::"} - {"::"}:
                 values.setdefault(f"{prefix}{name}", set()).add(each.value)
     return {n: v for n, vs in values.items() for v in vs if len(vs) == 1 and v is not None}
+
+
+def declared_type(code: Code, node: Node) -> Type | None:
+    """The model's type for a C++ type, or for what an alias stands for."""
+    aliases = code.aliases.get(text_of(node), ()) if node.type == "type_identifier" else ()
+    types = {type_of(alias.type) for alias in aliases}
+    return types.pop() if len(types) == 1 else type_of(node)
+
+
+def is_given(function: CppFunction) -> bool:
+    """Whether C++ itself defines a function, or forbids it: `= default`, `= delete`."""
+    kinds = ("default_method_clause", "delete_method_clause")
+    return any(child.type in kinds for child in function.node.named_children)

@@ -11,6 +11,7 @@ from collections.abc import Collection, Container, Iterator, Mapping, Sequence
 from tree_sitter import Node
 
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_roles import Roles, Taken, call_in
 from rebsync.reverse.generated.ros1_timers import timers_of
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
@@ -46,13 +47,13 @@ def check_plumbing(
             odd = iter((function.node,))
             why = "no subscription takes messages to this: those of others do not arrive"
         elif function.name in roles.shims:
-            odd = _odd_in_shim(function, roles, fields)
+            odd = _odd_in_shim(code, owner, function, roles, fields)
             why = "this does more than to hand a message to its handler"
         elif function.name in roles.odd_sends:
             odd = iter(roles.odd_sends[function.name])
             why = "this does more than to send its arguments"
         elif function.name == "publishState":
-            odd = (s for s in _statements(function) if not _tells(s))
+            odd = (s for s in working(function.body) if not _tells(s))
             why = "this does more than to tell the state"
         elif function.name == "construct" and not _is_constructed(code, owner):
             odd = iter((function.node,))
@@ -71,17 +72,13 @@ def _is_constructed(code: Code, owner: CppClass) -> bool:
     return not concrete or any(c.name == "construct" for f in own for c in code.calls_of(f))
 
 
-def _statements(function: CppFunction) -> list[Node]:
-    return named(function.body) if function.body is not None else []
-
-
 def _odd_in_constructor(
     code: Code, owner: CppClass, function: CppFunction, roles: Roles
 ) -> Iterator[Node]:
     """Statements that neither set up anything nor prepare that."""
     timers = {t.call.node.id for t in timers_of(code, owner, roles)}
-    for statement in _statements(function):
-        given, _, _ = text_of(statement).partition("=")
+    for statement in working(function.body):
+        given = text_of(statement).partition("=")[0].removeprefix("this->")
         prepares = given.startswith("const ros::NodeHandle ") or given.strip() in roles.globals
         if not prepares and not _sets_up(statement, function, roles, timers):
             yield statement
@@ -91,8 +88,6 @@ def _sets_up(statement: Node, function: CppFunction, roles: Roles, timers: Conta
     """Whether it is one call that sets something up, whose value may be kept."""
     inner = statement
     if statement.type == "expression_statement":
-        if not named(statement):
-            return True  # a semicolon alone
         inner = named(statement)[0]
     if inner.type == "assignment_expression":
         inner = part(inner, "right")
@@ -136,15 +131,48 @@ def _tells(statement: Node) -> bool:
 
 
 def _odd_in_shim(
-    function: CppFunction, roles: Roles, fields: Mapping[str, Collection[str]]
+    code: Code,
+    owner: CppClass,
+    function: CppFunction,
+    roles: Roles,
+    fields: Mapping[str, Collection[str]],
 ) -> Iterator[Node]:
     """The whole body, unless it hands every field on once, in the message's order."""
     received = [t for t in roles.taken if t.shim == function.node]
-    statements = _statements(function)
+    statements = working(function.body)
     if len(statements) != 1 or len(received) != 1:
         yield from statements
     elif not _hands_fields_on(received[0], fields.get(received[0].type)):
         yield received[0].call.arguments[-1]
+    elif not _tells_of_message(code, owner, received[0]):
+        yield received[0].call.node
+
+
+def _tells_of_message(code: Code, owner: CppClass, taken: Taken) -> bool:
+    """Whether the mailbox gets the message's own times, and its sender where that is asked for."""
+    times, sender = ("".join(text_of(a).split()) for a in taken.call.arguments[1:3])
+    name = taken.message.name
+    if times != f"{name}->timing":
+        return False
+    return sender == f"{name}->sender" or not _asks_for_sender(code, owner, taken)
+
+
+def _asks_for_sender(code: Code, owner: CppClass, taken: Taken) -> bool:
+    """Whether what serves a message asks who has sent it."""
+    functions = {
+        f.name: f for c in reversed(code.lineage(owner.name)) for f in code.functions_of(c)
+    }
+    waiting, seen = [taken.handler or taken.function.name], set[str]()
+    while waiting:
+        function = functions.get(waiting.pop())
+        if function is None or function.name in seen:
+            continue
+        seen.add(function.name)
+        for call in code.calls_of(function):
+            if call.name == "sender" and call.on == "mailbox_":
+                return True
+            waiting.append(call.name)
+    return False
 
 
 def _hands_fields_on(taken: Taken, order: Collection[str] | None) -> bool:
@@ -152,16 +180,16 @@ def _hands_fields_on(taken: Taken, order: Collection[str] | None) -> bool:
     called = call_in(taken.call.arguments[-1])
     if taken.handler is None or called is None:
         return taken.handler is None
-    passed = [_field(a) for a in called[1]]
+    passed = [_field(a, taken.message.name) for a in called[1]]
     if None in passed or len(set(passed)) != len(passed):
         return False
     return order is None or passed == list(order)
 
 
-def _field(argument: Node) -> str | None:
+def _field(argument: Node, message: str) -> str | None:
     """The field of `msg->x`, `msg->x != 0` or `unflatten<T>(msg->x)`."""
     text = "".join(text_of(argument).split()).removesuffix("!=0")
     if text.startswith("unflatten<") and text.endswith(")"):
         text = text[text.rindex("(") + 1 : -1]
-    name = text.removeprefix("msg->")
+    name = text.removeprefix(f"{message}->")
     return name if name != text and name.isidentifier() else None

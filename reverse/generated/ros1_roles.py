@@ -17,8 +17,9 @@ from rebsync.names import original, uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import OWN_TOPICS
 from rebsync.reverse.bodies.scope import Sends
+from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.syntax.cpp_calls import CppCall, assigned_in, call_of, calls_in, string_of
-from rebsync.reverse.syntax.cpp_declarations import parameters_in
+from rebsync.reverse.syntax.cpp_declarations import parameters_in, whole_number
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction, CppParameter
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 
@@ -53,6 +54,11 @@ class Taken:
     topic: str
     function: CppFunction
     call: CppCall
+
+    @property
+    def tells_sender(self) -> bool:
+        """Whether the message says who has sent it."""
+        return "".join(text_of(self.call.arguments[2]).split()).endswith("->sender")
 
     @property
     def type(self) -> str:
@@ -127,10 +133,16 @@ def _priority(code: Code, function: CppFunction, call: CppCall) -> Iterator[m.An
     found = code.constant(function.cpp, text_of(call.arguments[0]))
     for given in calls_in(found[1] if found is not None else None):
         if given.name in ("priority", "globalPriority") and len(given.arguments) == 1:
-            number = text_of(given.arguments[0])
-            value = m.IntLiteral(int(number.lstrip("-")))
-            signed = m.Unary("-", value) if number.startswith("-") else value
-            yield m.Annotation(given.name, (signed,))
+            number = _number(code, function.cpp, given.arguments[0])
+            if number is not None:
+                value = m.IntLiteral(abs(number))
+                yield m.Annotation(given.name, (value if number >= 0 else m.Unary("-", value),))
+
+
+def _number(code: Code, cpp: Cpp, node: Node) -> int | None:
+    """A whole number, or that of a constant."""
+    found = code.constant(cpp, text_of(node))
+    return whole_number(found[1] if found is not None else node)
 
 
 def server_of(code: Code, cpp: Cpp, constant: str) -> str | None:
@@ -279,7 +291,7 @@ def call_in(body: Node) -> tuple[str, list[Node]] | None:
         if bound is None or not bound.name.endswith("bind") or len(bound.arguments) < 2:
             return None
         return text_of(bound.arguments[0]).rpartition("::")[2], list(bound.arguments[2:])
-    statements = named(part(body, "body")) if body.type == "lambda_expression" else []
+    statements = working(part(body, "body")) if body.type == "lambda_expression" else []
     inner = named(statements[0]) if len(statements) == 1 else []
     call = call_of(inner[0]) if len(inner) == 1 else None
     if call is None or not (call.target is None or call.target.type == "this"):

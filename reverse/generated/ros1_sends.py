@@ -12,6 +12,7 @@ from tree_sitter import Node
 from rebsync.names import uncarry
 from rebsync.reserved import RUNTIME_TOPICS
 from rebsync.reverse.bodies.scope import Sends
+from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_roles import Advertised, Roles, call_in, server_of
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
@@ -31,6 +32,7 @@ def add_sends(
     lineage = [all_roles[c.name] for c in code.lineage(owner.name)]
     publishers = {n: p for roles in reversed(lineage) for n, p in roles.publishers.items()}
     servers = {m: s for roles in all_roles.values() for m, s in roles.messages.items()}
+    senders = {t.type for roles in all_roles.values() for t in roles.taken if t.tells_sender}
     roles = all_roles[owner.name]
     for function in code.functions_of(owner):
         if not _takes_times(function):
@@ -39,11 +41,11 @@ def add_sends(
             sends = _sent(code, function, call, publishers, servers)
             if sends is None:
                 continue
-            odd = list(_odd_send(function, sends, lineage, fields))
-            if odd:
+            if odd := _odd_send(function, sends, lineage, fields, senders):
                 roles.odd_sends[function.name] = odd
             else:
                 roles.sends[function.name] = sends
+            break
 
 
 def _takes_times(function: CppFunction) -> bool:
@@ -67,7 +69,7 @@ def _sent(
     chosen = call_of(where)
     if chosen is not None and chosen.name == "to" and chosen.arguments:
         where, others = chosen.arguments[0], 2
-    publisher = publishers.get(text_of(where))
+    publisher = publishers.get(text_of(where).removeprefix("this->"))
     if publisher is None:
         return None
     server = servers.get(publisher.message) or uncarry(publisher.key, RUNTIME_TOPICS)
@@ -79,48 +81,76 @@ def _odd_send(
     sends: Sends,
     lineage: Sequence[Roles],
     fields: Mapping[str, Collection[str]],
-) -> Iterator[Node]:
+    senders: Collection[str],
+) -> list[Node]:
+    """What a function does besides sending; `senders` are the messages that say who sends them."""
     handlers = {f: s for roles in reversed(lineage) for f, s in roles.handlers.items()}
-    statements = named(function.body) if function.body is not None else []
-    made = next((s for s in statements if s.type == "declaration"), None)
+    made = next((s for s in working(function.body) if s.type == "declaration"), None)
     type_ = text_of(part(made, "type")).rpartition("::")[2] if made is not None else ""
     order = list(fields[type_]) if type_ in fields else None
-    return _odd_in_send(function, sends, handlers, order)
+    odd = list(_odd_in_send(function, sends, handlers, order))
+    if made is not None and type_ in senders and not _tells_sender(function, _declared(made)):
+        return [*odd, made]
+    # What is left out is told by itself only: it follows from what stands there instead.
+    return odd[:-1] if len(odd) > 1 and odd[-1] == function.body else odd
 
 
 def _odd_in_send(
     function: CppFunction, sends: Sends, handlers: Mapping[str, str], fields: Sequence[str] | None
 ) -> Iterator[Node]:
-    """Statements that do not put one parameter after the other into the message, or send it.
+    """Statements that do not put each parameter into its field of the message, or send it once.
 
     `handlers` are the servers by their functions, `fields` those of the message in their order,
     if they are known.
     """
     *names, when = [p.name for p in function.parameters]
-    waiting = names[sends.known is None :]
-    order = list(fields) if fields is not None and len(fields) == len(waiting) else None
-    message = ""
-    for statement in named(function.body) if function.body is not None else []:
-        if statement.type == "declaration":
-            message = text_of(part(statement, "declarator"))
-            continue
-        call = next(calls_in(statement), None)
-        if call is not None and call.name == "post":
-            called = call_in(call.arguments[-1])
-            passed = [text_of(a) for a in called[1]] if called is not None else None
-            right = called is not None and handlers.get(called[0]) == sends.server
-            if not right or passed != waiting or not _at(call, 1, when):
+    given = names[sends.known is None :]
+    waiting, sent, message = list(given), 0, ""
+    into = dict(zip(given, fields, strict=True)) if fields and len(fields) == len(given) else {}
+    for statement in working(function.body):
+        call = _called(statement)
+        if statement.type == "declaration" and next(calls_in(statement), None) is None:
+            message = _declared(statement)
+        elif call is not None and call.name == "post":
+            right = _posts(call, sends.server, handlers, waiting)
+            if sent or not right or not _at(call, 1, when):
                 yield statement
-            waiting = []
+            waiting, sent = [], sent + 1
         elif call is not None and call.name == "publish":
-            if not _at(call, 2, when):
+            to = call_of(call.arguments[0])
+            right = to is None or _at(to, 1, names[0])
+            if sent or waiting or not right or not _at(call, 1, message) or not _at(call, 2, when):
                 yield statement
+            sent += 1
         elif not _is_sender(statement, message):
-            field = f"{message}.{order.pop(0)}" if order else None
-            if not waiting or not _stores(statement, waiting.pop(0), message, field):
+            field, parameter = _stored(statement)
+            own = f"{message}.{into[parameter]}" if parameter in into else field
+            if sent or parameter not in waiting or field != own or not _is_in(field, message):
                 yield statement
-    if waiting and function.body is not None:
+            waiting = [name for name in waiting if name != parameter]
+    if (waiting or not sent) and function.body is not None:
         yield function.body
+
+
+def _posts(call: CppCall, server: str, handlers: Mapping[str, str], given: Sequence[str]) -> bool:
+    """Whether what waits in the mailbox hands these to the handler of the server."""
+    called = call_in(call.arguments[-1])
+    if called is None or handlers.get(called[0]) != server:
+        return False
+    return [text_of(a) for a in called[1]] == list(given)
+
+
+def _called(statement: Node) -> CppCall | None:
+    """The call that a statement is."""
+    inner = named(statement)
+    plain = statement.type == "expression_statement" and len(inner) == 1
+    return call_of(inner[0]) if plain else None
+
+
+def _declared(declaration: Node) -> str:
+    declarator = part(declaration, "declarator")
+    inner = declarator.child_by_field_name("declarator")
+    return text_of(inner if inner is not None else declarator)
 
 
 def _at(call: CppCall, index: int, when: str) -> bool:
@@ -128,18 +158,28 @@ def _at(call: CppCall, index: int, when: str) -> bool:
     return len(call.arguments) > index and text_of(call.arguments[index]) == when
 
 
-def _stores(statement: Node, parameter: str, message: str, field: str | None) -> bool:
-    """Whether it is `msg_.field = parameter;` or `flatten(parameter, msg_.field);`."""
-    (expression,) = named(statement) or [statement]
-    if expression.type == "assignment_expression":
+def _stored(statement: Node) -> tuple[str, str]:
+    """The place and the value of `msg_.field = parameter;` or `flatten(parameter, msg_.field);`."""
+    inner = named(statement)
+    if statement.type != "expression_statement" or len(inner) != 1:
+        return "", ""
+    (expression,) = inner
+    call = call_of(expression)
+    if expression.type == "assignment_expression" and text_of(part(expression, "operator")) == "=":
         target, value = part(expression, "left"), part(expression, "right")
-    elif (call := next(calls_in(expression), None)) is not None and call.name == "flatten":
+    elif call is not None and call.name == "flatten" and len(call.arguments) == 2:
         value, target = call.arguments
     else:
-        return False
-    stored = "".join(text_of(target).split())
-    right = stored == field if field is not None else stored.startswith(f"{message}.")
-    return right and text_of(value) == parameter
+        return "", ""
+    return "".join(text_of(target).split()), text_of(value)
+
+
+def _is_in(field: str, message: str) -> bool:
+    return bool(message) and field.startswith(f"{message}.")
+
+
+def _tells_sender(function: CppFunction, message: str) -> bool:
+    return any(_is_sender(s, message) for s in working(function.body))
 
 
 def _is_sender(statement: Node, message: str) -> bool:

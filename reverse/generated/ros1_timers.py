@@ -16,6 +16,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_expressions import CppExpressions
 from rebsync.reverse.bodies.scope import Scope, TimerOf
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_roles import Roles, call_in
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
@@ -85,7 +86,7 @@ def _posts(roles: Roles, body: Node) -> str | None:
     if body.type == "lambda_expression":
         called = call_in(body)
     else:
-        statements = named(body)
+        statements = working(body)
         inner = named(statements[0]) if len(statements) == 1 else []
         call = call_of(inner[0]) if len(inner) == 1 else None
         plain = call is not None and (call.target is None or call.target.type == "this")

@@ -10,6 +10,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+from rebsync.reverse.bodies.cpp_regions import Regions
 from rebsync.reverse.bodies.cpp_statements import CppStatements
 from rebsync.reverse.bodies.cpp_types import carried
 from rebsync.reverse.bodies.scope import (
@@ -61,7 +62,8 @@ class Common:
 class Bodies:
     """Reads the bodies of a unit, as its rebecs of one kind are wired.
 
-    `functions` are the methods and what else it can call.
+    `functions` are the methods and what else it can call; `overflowing` are state variables that
+    hold more in the code than an `int` does, `wide` the bits of locals that could.
     """
 
     code: Code
@@ -74,6 +76,9 @@ class Bodies:
     opening: Opening
     findings: Findings
     functions: dict[str, Function] = field(default_factory=dict)
+    overflowing: frozenset[str] = frozenset()
+    regions: dict[str, Regions] = field(default_factory=dict)
+    wide: dict[str, int] = field(default_factory=dict)
 
     def scope(self, cpp: Cpp, function: CppFunction | None) -> Scope:
         """What a body in a file, in a function, can name."""
@@ -105,6 +110,9 @@ class Bodies:
             enums=self.common.enums,
             messages=self.common.messages,
             widths=self.state.types.widths,
+            overflowing=self.overflowing,
+            regions=self._regions(cpp).of,
+            wide=self.wide,
             timers=self.setup.timers,
             instead=self.setup.instead,
             values=self.setup.values,
@@ -112,6 +120,17 @@ class Bodies:
             chooses=False,
             unit=self.setup.times.unit,
         )
+
+    def _regions(self, cpp: Cpp) -> Regions:
+        """What stands for values that nobody knows."""
+        path = cpp.source.path
+        if path not in self.regions:
+            members = self.state.members.items()
+            names = {v.name: name for name, v in members if isinstance(v, Variable)}
+            constants = self.code.constants_for(cpp)
+            values = self.common.enumerators
+            self.regions[path] = Regions(self.code.files, names, values, constants)
+        return self.regions[path]
 
     def within(self, name: str) -> str:
         """The name of a body in findings."""

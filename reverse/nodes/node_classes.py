@@ -21,6 +21,7 @@ from rebsync.reverse.nodes.node_setup import send
 from rebsync.reverse.nodes.node_starts import started_late
 from rebsync.reverse.nodes.node_tidying import tidy
 from rebsync.reverse.nodes.node_unset import read_unset
+from rebsync.reverse.nodes.node_wide import Overflowing, overflowing
 from rebsync.source import Span
 from rebsync.static.types import BOOLEAN
 
@@ -34,11 +35,15 @@ _PACE = "a rate makes up for the time that its loop takes; the model's loop wait
 
 @dataclass(slots=True)
 class NodeClass:
-    """Puts one reactive class together; `known` are names and classes of its known rebecs."""
+    """Puts one reactive class together; `known` are names and classes of its known rebecs.
+
+    `overflowing` is what reading it has shown of the variables that hold more than an `int`.
+    """
 
     name: str
     bodies: Bodies
     known: Sequence[tuple[str, str]]
+    overflowing: Overflowing = Overflowing(frozenset(), frozenset())
 
     def read(self) -> m.ReactiveClass:
         """The class. What it has no place for is listed."""
@@ -48,6 +53,7 @@ class NodeClass:
         body = bodies.constructor()
         methods = functions.read()
         served = self._servers(methods)
+        self.overflowing = overflowing(bodies, body, served, methods)
         body = self._begun(body, served, methods)
         arguments = tuple(m.Parameter(p.type, p.name) for p in setup.parameters)
         own = bodies.state.variables

@@ -2,32 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.launch.launch_files import read_launch
 from rebsync.reverse.launch.launch_values import Surroundings
 from rebsync.reverse.launch.launched import Launch
+from rebsync.reverse.nodes.node_programs import Program
 from rebsync.source import Source
 
 _SUFFIX = ".launch"
+_ELSEWHERE = (
+    "no launch file starts a program of these files: the model has one rebec for each object"
+)
 _HINT = "name the launch file instead of the package to have its system"
 
 
 @dataclass(frozen=True, slots=True)
 class System:
-    """What one launch file and those that it includes start; `others` start something else."""
+    """What one launch file and those that it includes start; `others` start something else.
+
+    `starts` says whether any of it is C++ of the package.
+    """
 
     launch: Launch
     others: tuple[tuple[Source, Launch], ...]
+    starts: bool = True
 
     def note(self, findings: Findings) -> None:
         """Lists the systems that the model is not of."""
+        if not self.starts and self.launch.nodes:
+            first = self.launch.nodes[0]
+            findings.approximated(first.source, first.span, _ELSEWHERE)
+            return
         for source, launch in self.others:
             span = launch.nodes[0].span
-            path = self.launch.sources[0].path
-            why = f"this file starts another system than {path}, which the model is of"
+            path = self.launch.sources[0].path.rpartition("/")[2]
+            why = f'this file starts another system than "{path}", which the model is of'
             findings.approximated(source, span, why, _HINT)
 
 
@@ -36,8 +48,16 @@ def is_launch(path: str) -> bool:
     return path.endswith(_SUFFIX)
 
 
-def system_of(files: Mapping[str, Source], package: str, only: str | None = None) -> System | None:
-    """The system of a package: the launch file that is asked for, or that starts most of it."""
+def system_of(
+    files: Mapping[str, Source],
+    package: str,
+    only: str | None = None,
+    programs: Sequence[Program] = (),
+) -> System | None:
+    """The system of a package: the launch file that is asked for, or that starts most of it.
+
+    That is first of all most of its `programs`: what else it starts is no C++.
+    """
 
     def load(path: str) -> Source | None:
         return files.get(path.removeprefix("/"))
@@ -47,11 +67,18 @@ def system_of(files: Mapping[str, Source], package: str, only: str | None = None
     read = [(files[p], read_launch(files[p], surroundings)) for p in paths]
     if not read:
         return None
-    best = max(read, key=lambda each: _size(each[1], package))
+    names = {name for p in programs for name in (p.name, p.stem)}
+    best = max(read, key=lambda each: (_known(each[1], names), _size(each[1], package)))
     included = {id(s) for s in best[1].sources}
     others = [(s, launch) for s, launch in read if id(s) not in included and _size(launch, package)]
     whole = {id(s) for _, launch in others for s in launch.sources[1:]}
-    return System(best[1], tuple(each for each in others if id(each[0]) not in whole))
+    starts = only is not None or not names or _known(best[1], names) > 0
+    return System(best[1], tuple(each for each in others if id(each[0]) not in whole), starts)
+
+
+def _known(launch: Launch, names: Collection[str]) -> int:
+    """How many nodes it starts that are among the programs, or nodelets."""
+    return sum(not n.test and (n.type in names or n.nodelet is not None) for n in launch.nodes)
 
 
 def _size(launch: Launch, package: str) -> int:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from dataclasses import field
 
 from tree_sitter import Node
 
@@ -25,6 +26,7 @@ from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.nodes.node_wiring import Wiring, unfed, unheard
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 from rebsync.reverse.unknowns import Open
+from rebsync.source import Span
 
 _THREADS = re.compile(
     r"(AsyncSpinner|MultiThreadedSpinner|NodeletMultiThreaded|thread|jthread|async|pthread_create"
@@ -46,6 +48,10 @@ class Listing:
 
     findings: Findings
     types: MessageTypes
+    # What is listed: so many findings, the places of those that are unreadable, and the reasons.
+    _known: int = 0
+    _unreadable: set[tuple[int, Span]] = field(default_factory=set)
+    _reasons: set[tuple[Span, str]] = field(default_factory=set)
 
     def unit(self, unit: Unit, servers: Iterable[Server]) -> None:
         """What a unit has that its reactive class has not."""
@@ -192,13 +198,22 @@ class Listing:
     # --- once -----------------------------------------------------------------------------------
 
     def _unread(self, place: Place, why: str, within: str) -> None:
-        listed = [f for f in self.findings.all if f.grade is Grade.UNREADABLE]
-        if not any(f.source is place.source and f.span == place.span for f in listed):
+        self._look()
+        if (id(place.source), place.span) not in self._unreadable:
             self.findings.unreadable(place.source, Unread(place.span, why), within)
 
     def _approximated(self, place: Place, why: str, within: str = "", hint: str = "") -> None:
-        if not any(f.span == place.span and f.why == why for f in self.findings.all):
+        self._look()
+        if (place.span, why) not in self._reasons:
             self.findings.approximated(place.source, place.span, why, hint, within)
+
+    def _look(self) -> None:
+        """Takes note of the findings since the last time."""
+        for finding in self.findings.all[self._known :]:
+            self._reasons.add((finding.span, finding.why))
+            if finding.grade is Grade.UNREADABLE:
+                self._unreadable.add((id(finding.source), finding.span))
+        self._known = len(self.findings.all)
 
 
 _OPEN = "add the package that has the receivers, if they matter"

@@ -12,7 +12,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.build.message_types import Fields, MessageTypes
-from rebsync.reverse.graph import Callback, ServiceFact, SubscriptionFact, TimerFact
+from rebsync.reverse.graph import Callback, Fact, ServiceFact, SubscriptionFact, TimerFact
 from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.syntax.cpp_calls import calls_in
@@ -63,8 +63,9 @@ class Server:
 def servers(unit: Unit, types: MessageTypes, names: Names) -> tuple[Server, ...]:
     """The servers of a unit, in the order of its subscriptions and timers."""
     found: dict[tuple[object, ...], Server] = {}
+    never = replaced(unit.facts)
     for fact in unit.facts:
-        if not isinstance(fact, SubscriptionFact | TimerFact | ServiceFact):
+        if not isinstance(fact, SubscriptionFact | TimerFact | ServiceFact) or fact in never:
             continue
         for callback in fact.callbacks:
             body = _body(callback, fact.site.cpp) if isinstance(callback, Callback) else None
@@ -111,7 +112,7 @@ def _server(
 ) -> Server:
     wish = callback.name.rpartition("::")[2] or _kept(fact) or "callback"
     message, bound = _arguments(callback, fact)
-    name = names.give(wish if wish != "operator()" else callback.through or "callback")
+    name = names.give(wish if wish != "operator()" else _of_functor(callback.through or ""))
     if isinstance(fact, ServiceFact):
         return Server(name, callback, *body, "", (), service=fact)
     if isinstance(fact, TimerFact):
@@ -136,6 +137,50 @@ def _arguments(callback: Callback, fact: Asking) -> tuple[str, tuple[tuple[str, 
         message = next((n for n, node in pairs if _PLACE.search(text_of(node))), "")
         return message, tuple((n, node) for n, node in pairs if not _PLACE.search(text_of(node)))
     return names[0] if names else "", ()
+
+
+def _of_functor(class_: str) -> str:
+    """What an object that is called has as its server's name: not that of its class."""
+    plain = class_.rpartition("::")[2]
+    name = plain[:1].lower() + plain[1:]
+    return name if name not in ("", plain) else f"{name}_called".lstrip("_")
+
+
+def replaced(facts: Sequence[Fact]) -> list[TimerFact]:
+    """The timers that never go off: their variables get other timers in the same run."""
+    timers = [f for f in facts if isinstance(f, TimerFact) and f.site.kept]
+    sure = [f for f in timers if _is_flat(f)]
+    return [f for f in timers if any(_is_after(later, f) for later in sure)]
+
+
+def share_variable(first: TimerFact, other: TimerFact) -> bool:
+    """Whether two timers are put into one variable, one after the other."""
+    return (
+        first is not other
+        and bool(first.site.kept)
+        and first.site.kept.removeprefix("this->") == other.site.kept.removeprefix("this->")
+        and first.site.owner == other.site.owner
+        and (bool(first.site.owner) or _function(first) == _function(other))
+    )
+
+
+def _is_after(later: TimerFact, fact: TimerFact) -> bool:
+    together = share_variable(fact, later) and _function(later) == _function(fact)
+    return together and later.site.call.start_byte > fact.site.call.start_byte
+
+
+def _function(fact: TimerFact) -> int | None:
+    return fact.site.function.node.id if fact.site.function is not None else None
+
+
+def _is_flat(fact: TimerFact) -> bool:
+    """Whether a timer is made whenever its function runs."""
+    at = fact.site.call.parent
+    while at is not None and at.type != "compound_statement":
+        if at.type in ("if_statement", "conditional_expression", "lambda_expression"):
+            return False
+        at = at.parent
+    return at is not None and at.parent is not None and at.parent.type == "function_definition"
 
 
 def _kept(fact: Asking) -> str:

@@ -29,7 +29,7 @@ from rebsync.reverse.nodes.node_loops import Loop, loops_in
 from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_parameters import Given, asked
 from rebsync.reverse.nodes.node_reach import reached
-from rebsync.reverse.nodes.node_servers import Server
+from rebsync.reverse.nodes.node_servers import Server, replaced, share_variable
 from rebsync.reverse.nodes.node_state import State
 from rebsync.reverse.nodes.node_times import Times
 from rebsync.reverse.nodes.node_values import Instance
@@ -79,8 +79,10 @@ class Setup:
         """Finds it all out."""
         self._captures()
         self._loops()
+        # Calls in the files of this unit, or of the programs that run it.
+        near = self.state.unit.files | {f.cpp.source.path for f in self.first}
         for fact in self.graph.facts:
-            if isinstance(fact, (*_PLAIN, TimerFact)) and self._is_near(fact):
+            if fact.site.cpp.source.path in near and isinstance(fact, (*_PLAIN, TimerFact)):
                 self._plain(fact)
         for fact in self.facts:
             match fact:
@@ -110,11 +112,6 @@ class Setup:
 
     # --- calls ----------------------------------------------------------------------------------
 
-    def _is_near(self, fact: Fact) -> bool:
-        """Whether a call stands in the files of this unit or of the programs that run it."""
-        path = fact.site.cpp.source.path
-        return path in self.state.unit.files or any(f.cpp.source.path == path for f in self.first)
-
     def _plain(self, fact: Fact) -> None:
         """A call that asks for something is no statement of the model."""
         statement = statement_of(fact.site.call)
@@ -139,6 +136,9 @@ class Setup:
         return self._is_first(fact) or (function is not None and function.name == "main")
 
     def _timer(self, fact: TimerFact) -> None:
+        if fact in replaced(self.facts):
+            self._plain(fact)
+            return
         server = next((s for s in self.servers if fact in s.timers), None)
         call = fact.site.call
         if server is None:
@@ -159,7 +159,8 @@ class Setup:
                 self.instead.pop(statement.id, None)
             return
         self.instead[statement.id] = ()
-        if self._is_again(fact):
+        others = [f for f in self.facts if isinstance(f, TimerFact) and share_variable(fact, f)]
+        if self._is_again(fact) or any(f not in replaced(self.facts) for f in others):
             place = fact.site.place
             self.findings.approximated(place.source, place.span, _AGAIN, within=within)
         if fact.autostart is True and period is not None:

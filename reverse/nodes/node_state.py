@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import field
 
 from tree_sitter import Node
@@ -10,8 +10,9 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_messages import zero_of
-from rebsync.reverse.bodies.cpp_types import carried, is_time, wider
+from rebsync.reverse.bodies.cpp_types import Carried, carried, is_time, wider
 from rebsync.reverse.bodies.cpp_unknowns import domain_near
+from rebsync.reverse.bodies.cpp_widths import place_of
 from rebsync.reverse.bodies.scope import Member, Outside, Record, Stores, Variable
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings
@@ -33,12 +34,23 @@ class Unset:
     node: Node
 
 
+@dataclass(frozen=True, slots=True)
+class Wide:
+    """A variable whose type holds more than the model's `int`: bits without the sign, and why."""
+
+    bits: int
+    cpp: Cpp
+    node: Node
+    why: str
+
+
 @dataclass(slots=True)
 class State:
     """The variables of a unit by their names in the code.
 
     `variables` are the state variables with their types; `local` are those of one function that
     outlive it, by the id of the function's node; `initial` what holds before a constructor runs;
+    `wide` are those that can hold more in the code, by their names in the model;
     `unset` are those that are made without a value, by their names in the model.
     """
 
@@ -52,7 +64,7 @@ class State:
     variables: dict[str, m.Type] = field(default_factory=dict)
     local: dict[int, dict[str, Member]] = field(default_factory=dict)
     initial: list[tuple[Cpp, Stores]] = field(default_factory=list)
-    wide: list[tuple[Cpp, Node, str]] = field(default_factory=list)
+    wide: dict[str, Wide] = field(default_factory=dict)
     unset: dict[str, Unset] = field(default_factory=dict)
 
     taken: set[str] = field(default_factory=set)
@@ -150,11 +162,10 @@ class State:
             return Outside(reaches=text_of(type_).rpartition("::")[2] in self.units)
         kept = carried(type_, self.enums)
         if kept is not None:
-            if kept.why:
-                self.wide.append((cpp, type_, kept.why))
             free = [w for w in (wish, name, f"{wish}_") if w not in taken] or [f"{wish}_"]
             given, domain = self._new(free, kept.type), domain_near(type_) or ()
-            return Variable(given, kept.type, kept.bits, domain)
+            self._note_wide(given, kept, cpp, type_)
+            return Variable(given, kept.type, kept.bits, domain, kept.wide)
         return self._struct(text_of(type_).rpartition("::")[2], wish)
 
     def _new(self, wishes: list[str], type_: m.Type) -> str:
@@ -169,8 +180,8 @@ class State:
             if type_ is not None and plain and not f".{path}".count(".header."):
                 given = self._new([f"{wish}_{path}".replace(".", "_")], type_)
                 fields[path] = self.types.variable(message, path, given, type_)
-                if self.types.holds_more(message, path):
-                    self.wide.append((cpp, node, wider(path)))
+                kept = Carried(type_, 0, wider(path), fields[path].wide)
+                self._note_wide(given, kept, cpp, node)
         return Record(fields, message)
 
     def _array(
@@ -188,11 +199,11 @@ class State:
             at = at.child_by_field_name("declarator")
         if kept is None or kept.type.dimensions or kept.bits:
             return Outside()
-        if kept.why:
-            self.wide.append((cpp, type_, kept.why))
         array = m.Type(kept.type.name, tuple(lengths))
         free = [w for w in (wish, name) if w not in taken] or [f"{wish}_"]
-        return Variable(self._new(free, array), array)
+        given = self._new(free, array)
+        self._note_wide(given, kept, cpp, type_)
+        return Variable(given, array, wide=kept.wide)
 
     def _struct(self, type_: str, wish: str) -> Member:
         """A plain structure is a message of its own; other objects are outside."""
@@ -207,9 +218,8 @@ class State:
             kept = carried(member.type, self.enums)
             if kept is not None and not kept.type.dimensions:
                 given = self._new([f"{wish}_{member.name}"], kept.type)
-                fields[member.name] = Variable(given, kept.type, kept.bits)
-                if kept.why:
-                    self.wide.append((member.cpp, member.type, kept.why))
+                fields[member.name] = place_of(given, kept)
+                self._note_wide(given, kept, member.cpp, member.type)
                 if member.value is not None:
                     self.initial.append((member.cpp, Stores(m.Name(given), member.value)))
         return Record(fields)
@@ -268,10 +278,16 @@ class State:
             return self.members
         return {**self.members, **self.local[function.node.id]}
 
-    def note(self, findings: Findings, within: str) -> None:
-        """Lists the variables that hold more than the model's."""
-        for cpp, node, why in self.wide:
-            findings.approximated(cpp.source, cpp.span(node), why, within=within)
+    def _note_wide(self, name: str, kept: Carried, cpp: Cpp, node: Node) -> None:
+        if kept.wide:
+            self.wide[name] = Wide(kept.wide, cpp, node, kept.why)
+
+    def note(self, names: Collection[str], findings: Findings, within: str) -> None:
+        """Lists those variables that hold more than the model's."""
+        for name, wide in self.wide.items():
+            if name in names:
+                span = wide.cpp.span(wide.node)
+                findings.approximated(wide.cpp.source, span, wide.why, within=within)
 
 
 def zeros(place: m.Expression, type_: m.Type) -> Iterator[Stores]:

@@ -168,6 +168,24 @@ class _Reader:
                 self.system.findings.all += new
 
     def _class(self, unit: Unit, alike: list[Instance], findings: Findings) -> m.ReactiveClass:
+        listed = findings.mark()
+        broken = frozenset[str]()
+        while True:
+            node, read = self._read(unit, alike, findings, broken)
+            if node.overflowing.broken <= broken:
+                break
+            broken |= node.overflowing.broken
+            findings.back_to(listed)
+        state = self.system.state(unit)
+        state.note(broken | node.overflowing.counted, findings, unit.name)
+        note_bound(node.bodies)
+        note_helpers(node.bodies, self.classes)
+        return read
+
+    def _read(
+        self, unit: Unit, alike: list[Instance], findings: Findings, broken: frozenset[str]
+    ) -> tuple[NodeClass, m.ReactiveClass]:
+        """A class; `broken` are variables that hold more in the code than an `int` does."""
         state = self.system.state(unit)
         before, state.names = state.names, Names(state.names.used | set(state.variables))
         setup = self._setup(unit, alike, state, findings)
@@ -183,16 +201,15 @@ class _Reader:
             self._targets(alike, known),
             opening(unit, state, start, self.starts),
             findings,
+            overflowing=broken,
         )
         name = self.kinds[self.wiring.kinds[alike[0].name]] if alike else self.classes[unit.name]
-        read = NodeClass(name, bodies, [(n, c) for n, c, _ in known]).read()
-        state.note(findings, unit.name)
-        note_bound(bodies)
-        note_helpers(bodies, self.classes)
+        node = NodeClass(name, bodies, [(n, c) for n, c, _ in known])
+        read = node.read()
         state.names = before
         for index, instance in enumerate(alike):
             self._parameters[instance.name] = setup.parameters, index
-        return read
+        return node, read
 
     def _setup(self, unit: Unit, alike: list[Instance], state: State, findings: Findings) -> Setup:
         """What sets up the rebecs of one kind."""
@@ -256,7 +273,7 @@ class _Reader:
         if not alike:
             return {}
         instance = alike[0]
-        own = self.wiring.instances.index(instance)
+        own = self.wiring.place(instance)
         slots = self.wiring.known(instance)
         found: dict[int, list[Target]] = {}
         for number, to, name in self.wiring.edges[instance.name]:

@@ -6,6 +6,7 @@ A class counts with all that it inherits; a program stands for its functions out
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import field
 
 from tree_sitter import Node
 
@@ -56,7 +57,7 @@ class Unit:
     @property
     def files(self) -> frozenset[str]:
         """The paths of the files that its functions stand in."""
-        return frozenset(f.cpp.source.path for f in self.functions)
+        return frozenset({f.cpp.source.path for f in self.functions})
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,6 +88,7 @@ class Units:
     graph: Graph
     programs: tuple[Program, ...]
     generated: bool = False
+    _owners: dict[int, str | None] = field(default_factory=dict)
 
     def all(self) -> tuple[list[Unit], list[Start]]:
         """All units, in the order of the code, and all objects of them that programs make."""
@@ -155,6 +157,11 @@ class Units:
 
     def owner_of(self, fact: Fact) -> str | None:
         """The class that a fact belongs to: that of its callback, or else that of its call."""
+        if id(fact) not in self._owners:
+            self._owners[id(fact)] = self._owner_of(fact)
+        return self._owners[id(fact)]
+
+    def _owner_of(self, fact: Fact) -> str | None:
         if not isinstance(fact, _CONNECTS):
             return None
         by = fact.site.owner if fact.site.owner in self.code.classes else None
@@ -202,9 +209,9 @@ class Units:
         facts = [
             f
             for f in self.graph.facts
-            if self.owner_of(f) is None
+            if program.has(f.site.cpp)
+            and self.owner_of(f) is None
             and f.site.owner not in self.code.classes
-            and program.has(f.site.cpp)
         ]
         return Unit(program.name, None, (), tuple(functions), tuple(facts), self.code, program)
 

@@ -21,7 +21,7 @@ def all_units(
     units: list[Unit] = []
     starts: list[Start] = []
     for program in programs:
-        view = Code.of(cpp for cpp in code.files if is_header(cpp) or program.has(cpp))
+        view = code.view(cpp for cpp in code.files if is_header(cpp) or program.has(cpp))
         of_program, started = Units(view, graph, (program,), generated).all()
         known = {id(u): _same(u, units) for u in of_program}
         used = {id(s.unit) for s in started}

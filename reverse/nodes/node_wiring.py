@@ -103,8 +103,10 @@ class Wiring:
     servers: Mapping[str, tuple[Server, ...]]
     edges: dict[str, tuple[Edge, ...]] = field(default_factory=dict)
     kinds: dict[str, int] = field(default_factory=dict)
+    _places: dict[str, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        self._places = {instance.name: n for n, instance in enumerate(self.instances)}
         listening = list(self._listening())
         for instance in self.instances:
             self.edges[instance.name] = tuple(self._edges(instance, listening))
@@ -151,15 +153,19 @@ class Wiring:
 
     def _shape(self, instance: Instance) -> tuple[object, ...]:
         slots = self.known(instance)
-        own = self.instances.index(instance)
+        own = self.place(instance)
         return tuple(
             (number, self.kinds[self.instances[to].name], slots.index(to) if to != own else -1, to_)
             for number, to, to_ in self.edges[instance.name]
         )
 
+    def place(self, instance: Instance) -> int:
+        """Where among the rebecs one is."""
+        return self._places[instance.name]
+
     def known(self, instance: Instance) -> list[int]:
         """The rebecs that one sends to, itself left out, in the order of its publishers."""
-        own = self.instances.index(instance)
+        own = self.place(instance)
         edges = self.edges[instance.name]
         return list(dict.fromkeys(to for _, to, _ in edges if to != own))
 

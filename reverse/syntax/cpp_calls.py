@@ -9,8 +9,6 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
 
-_FEW = 60
-
 
 @dataclass(frozen=True, slots=True)
 class CppCall:
@@ -24,8 +22,8 @@ class CppCall:
 
     @property
     def on(self) -> str:
-        """The text of the target."""
-        return text_of(self.target) if self.target is not None else ""
+        """The text of the target, without `this->`."""
+        return text_of(self.target).removeprefix("this->") if self.target is not None else ""
 
 
 def call_of(node: Node) -> CppCall | None:
@@ -46,23 +44,9 @@ def call_of(node: Node) -> CppCall | None:
 
 def calls_in(node: Node | None) -> Iterator[CppCall]:
     """All calls in a node, outer ones first, in the order of the text."""
-    if node is None:
-        return
-    found = _walked(node) if node.descendant_count < _FEW else inside(node, "call_expression")
-    for current in found:
+    for current in inside(node, "call_expression"):
         if (call := call_of(current)) is not None:
             yield call
-
-
-def _walked(node: Node) -> Iterator[Node]:
-    """The nodes of calls: with few nodes this is quicker than a search."""
-    waiting = [node]
-    while waiting:
-        current = waiting.pop()
-        if current.type == "call_expression":
-            yield current
-        if current.named_child_count:
-            waiting += reversed(current.named_children)
 
 
 def string_of(node: Node) -> str | None:
@@ -76,10 +60,14 @@ def string_of(node: Node) -> str | None:
 
 
 def assigned_in(body: Node | None) -> Iterator[tuple[str, Node]]:
-    """`name = value;` for the statements of a body itself, not of those within."""
+    """`name = value;` for the statements of a body itself, not of those within.
+
+    What is written `this->name` counts as `name`.
+    """
     for statement in named(body) if body is not None else []:
         if statement.type != "expression_statement":
             continue
         for expression in named(statement):
             if expression.type == "assignment_expression":
-                yield text_of(part(expression, "left")), part(expression, "right")
+                left = text_of(part(expression, "left")).removeprefix("this->")
+                yield left, part(expression, "right")

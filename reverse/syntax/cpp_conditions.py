@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import lru_cache
 
 from rebsync.records import dataclass
 
@@ -58,9 +59,23 @@ class Conditional:
         return all(b.taken is not None for b in self.branches)
 
 
+@lru_cache(maxsize=1)  # a text is read, and what of it is not read is then listed
+def alternatives(text: str) -> tuple[str, tuple[Conditional, ...]]:
+    """A text as `blank` gives it, and its conditionals."""
+    plain = blank(text)
+    return plain, tuple(conditionals(plain))
+
+
 def blank(text: str) -> str:
     """The same text with blanks for comments and texts in quotes; line ends stay."""
-    return _HIDDEN.sub(lambda m: re.sub(r"[^\n]", " ", m[0]), text)
+    return _HIDDEN.sub(_blanks, text)
+
+
+def _blanks(match: re.Match[str]) -> str:
+    hidden = match[0]
+    if "\n" not in hidden:
+        return " " * len(hidden)
+    return "\n".join([" " * len(line) for line in hidden.split("\n")])
 
 
 def conditionals(text: str) -> list[Conditional]:

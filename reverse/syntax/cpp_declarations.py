@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from tree_sitter import Node
@@ -17,6 +18,9 @@ WRAPPERS = frozenset(
 )
 TYPES = frozenset({"class_specifier", "struct_specifier", "enum_specifier"})
 _DECLARATORS = frozenset({"pointer_declarator", "reference_declarator", "array_declarator"})
+
+# One type, with its scope or, after `using`, without.
+_STD = re.compile(r"^(?:::)?std::(?=\w+\Z)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +61,7 @@ class CppFunction:
     @property
     def types(self) -> tuple[str, ...]:
         """The parameters' types as text, which tells overloads apart."""
-        return tuple("".join(text_of(p.type).split()) for p in self.parameters)
+        return tuple(_STD.sub("", "".join(text_of(p.type).split())) for p in self.parameters)
 
 
 @dataclass(frozen=True, slots=True)

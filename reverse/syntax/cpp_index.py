@@ -9,6 +9,7 @@ import re
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator
 from dataclasses import field
+from typing import TypeVar
 
 from tree_sitter import Node
 
@@ -32,8 +33,8 @@ from rebsync.reverse.syntax.cpp_declarations import (
     plain_fields,
     unscoped,
     valued,
-    whole_number,
 )
+from rebsync.reverse.syntax.cpp_numbers import KnownNumbers
 from rebsync.reverse.syntax.cpp_tree import (
     Cpp,
     by_types,
@@ -55,6 +56,10 @@ __all__ = [
     "CppParameter",
     "function_of",
 ]
+
+_MANY = 300  # nodes, from which on searching a file once is quicker than going through them
+_K = TypeVar("_K")
+_V = TypeVar("_V")
 
 # The types of nodes that `Code.inside` looks for.
 SOUGHT = (
@@ -97,15 +102,44 @@ class Code:
     _types: dict[int, tuple[str, ...]] = field(default_factory=dict)
     _visible: dict[str, dict[str, tuple[Cpp, Node]]] = field(default_factory=dict)
     _handed: frozenset[str] | None = None
+    _parts: dict[int, Code] = field(default_factory=dict)
 
     @staticmethod
     def of(files: Iterable[Cpp]) -> Code:
         """The declarations of these files."""
         code = Code()
         for cpp in files:
-            code.files.append(cpp)
-            code._add(cpp, cpp.root)
+            part_ = code._parts[id(cpp)] = Code([cpp])
+            part_._add(cpp, cpp.root)
+            code._take(part_)
         return code
+
+    def view(self, files: Iterable[Cpp]) -> Code:
+        """The declarations of some of its files, which are not read again."""
+        code = Code(
+            _calls=self._calls,
+            _nodes=self._nodes,
+            _sorted=self._sorted,
+            _types=self._types,
+            _parts=self._parts,
+        )
+        for cpp in files:
+            code._take(self._parts[id(cpp)])
+        return code
+
+    def _take(self, one: Code) -> None:
+        """Adds the declarations of one more file."""
+        self.files += one.files
+        _append(self.all_classes, one.all_classes)
+        _append(self.enumerators, one.enumerators)
+        _append(self.aliases, one.aliases)
+        _append(self.variables, one.variables)
+        _append(self.definitions, one.definitions)
+        self.constants |= one.constants
+        for name, class_ in one.classes.items():
+            self.classes.setdefault(name, class_)
+        for key, static in one.statics.items():
+            self.statics.setdefault(key, static)
 
     def lineage(self, name: str) -> list[CppClass]:
         """A class and those it descends from, as far as they are known, nearest first."""
@@ -150,7 +184,7 @@ class Code:
     def calls_in(self, cpp: Cpp, body: Node) -> tuple[CppCall, ...]:
         """The calls in a body of a file, outer ones first, in the order of the text."""
         if body.id not in self._calls:
-            if id(cpp) in self._nodes:
+            if id(cpp) in self._nodes or body.descendant_count > _MANY:
                 found = map(call_of, self.inside(cpp, body, "call_expression"))
                 self._calls[body.id] = tuple(c for c in found if c is not None)
             else:
@@ -281,7 +315,7 @@ class Code:
             if child.type != "enumerator":
                 continue
             if (given := child.child_by_field_name("value")) is not None:
-                next_ = whole_number(given)
+                next_ = KnownNumbers(self.enumerators, self.constants, cpp).of(given)
             own = text_of(part(child, "name"))
             read = CppEnumerator(own, text_of(name) if name else "", scope, next_, cpp, child)
             self.enumerators.setdefault(own, []).append(read)
@@ -346,3 +380,11 @@ class Code:
         declarator = part(declaration, "declarator")
         if (value := declarator.child_by_field_name("value")) is not None:
             self.constants[cpp.source.path, text_of(name)] = inside, value
+
+
+def _append(to: dict[_K, list[_V]], more: dict[_K, list[_V]]) -> None:
+    for key, values in more.items():
+        if (known := to.get(key)) is not None:
+            known += values
+        else:
+            to[key] = [*values]

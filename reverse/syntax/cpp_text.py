@@ -9,12 +9,14 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable
 
-from rebsync.reverse.syntax.cpp_conditions import Conditional, blank, conditionals
+from rebsync.reverse.syntax.cpp_conditions import Conditional, alternatives
 
 # Patterns start with plain text where they can: this is what makes searching quick.
 # `class FOO_EXPORT Foo {`: without the macro's definition the parser takes Foo for a variable.
 _EXPORTS = tuple(
-    re.compile(rf"({word}\s+)[A-Z][A-Z0-9_]*(?=\s+[A-Za-z_]\w*\s*(?:final\s*)?(?:[{{]|:[^:]))")
+    re.compile(
+        rf"({word}\s+)[A-Z][A-Z0-9_]*(?=\s+(?!final\b)[A-Za-z_]\w*\s*(?:final\s*)?(?:[{{]|:[^:]))"
+    )
     for word in ("class", "struct")
 )
 # `FOO_DEPRECATED const char* f();`, at the start of a line, where a declaration goes on.
@@ -78,9 +80,9 @@ def has_alternatives(text: str) -> bool:
 
 def dropped(text: str) -> list[tuple[int, int]]:
     """The parts of a text that no compiler sees, or that cannot be read with the others."""
-    plain = blank(text)
+    plain, every = alternatives(text)
     found: list[tuple[int, int]] = []
-    for each in conditionals(plain):
+    for each in every:
         if each.is_guard:
             continue
         if each.decided:

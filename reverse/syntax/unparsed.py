@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.findings import Finding, Grade
-from rebsync.reverse.syntax.cpp_conditions import Conditional, blank, conditionals
+from rebsync.reverse.syntax.cpp_conditions import Conditional, alternatives
 from rebsync.reverse.syntax.cpp_declarations import only_braces
 from rebsync.reverse.syntax.cpp_text import has_alternatives, is_split, read_branch
 from rebsync.reverse.syntax.cpp_tree import Cpp
@@ -93,9 +93,9 @@ def _first_line(cpp: Cpp, span: Span) -> Span:
 
 def _alternatives(cpp: Cpp) -> Iterator[Finding]:
     """Those of which it is not known what is compiled, and that hold code; not those within."""
-    plain = blank(cpp.source.text)
+    plain, every = alternatives(cpp.source.text)
     done: list[tuple[int, int]] = []
-    for each in reversed(conditionals(plain)):
+    for each in reversed(every):
         start, end = each.directives[0][0], each.directives[-1][1]
         while done and done[-1][0] > start:
             done.pop()

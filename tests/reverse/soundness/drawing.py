@@ -13,6 +13,7 @@ from random import Random
 # Names that the code may well use, and a model may not.
 LOCALS = ("x", "n", "a", "b", "count", "self", "now", "after", "delay", "sender", "data", "value")
 INTEGERS = ("int", "int8_t", "int16_t", "uint8_t")
+WIDE = ("unsigned", "int64_t", "uint32_t", "size_t", "long")
 LIMIT = 2  # of nested statements
 
 
@@ -71,6 +72,17 @@ class Body:
     message: str = ""
     by_value: bool = False
     callable: list[str] = field(default_factory=list)
+    integers: tuple[str, ...] = INTEGERS
+
+    @property
+    def is_wide(self) -> bool:
+        """Whether there are numbers wider than those of models."""
+        return self.integers != INTEGERS
+
+    @property
+    def taken(self) -> tuple[str, ...]:
+        """The types of other numbers that messages have."""
+        return ("uint64_t",) if self.is_wide else ()
 
     # --- expressions ----------------------------------------------------------------------------
 
@@ -93,7 +105,7 @@ class Body:
 
     def integer(self, depth: int = 0) -> str:
         """An expression of an integer type."""
-        known = self.of(*INTEGERS, "uint16_t")
+        known = self.of(*self.integers, "uint16_t", *self.taken)
         if depth > 2 or self.chance(30):
             return self.random.choice(known).name if known and self.chance(70) else self.number()
         left, right = self.integer(depth + 1), self.integer(depth + 1)
@@ -105,16 +117,21 @@ class Body:
             lambda: f"-({left})",
             lambda: f"~{self.number()}",
             lambda: f"({self.boolean(depth + 1)} ? {left} : {right})",
-            lambda: f"static_cast<{self.random.choice(INTEGERS)}>({left})",
-            lambda: f"({self.random.choice(INTEGERS)})({left})",
+            lambda: f"static_cast<{self.random.choice(self.integers)}>({left})",
+            lambda: f"({self.random.choice(self.integers)})({left})",
             lambda: f"int({left})",
             lambda: f"std::{self.random.choice(('min', 'max'))}<int>({left}, {right})",
-            lambda: f"std::abs({left})" if left.isidentifier() else f"abs(({left}) % 1000)",
+            lambda: self._magnitude(left),
             lambda: self._element(depth) or left,
             lambda: self._called("int", depth) or right,
             lambda: f"static_cast<int>({self.real(depth + 1)})",
             lambda: f"({self.boolean(depth + 1)})",
         )
+
+    def _magnitude(self, inner: str) -> str:
+        if self.is_wide:
+            return f"std::abs(static_cast<int>({inner}))"
+        return f"std::abs({inner})" if inner.isidentifier() else f"abs(({inner}) % 1000)"
 
     def _element(self, depth: int, writable: bool = False) -> str:
         arrays = [v for v in self.variables if v.length and not (writable and v.constant)]
@@ -220,22 +237,22 @@ class Body:
     def statement(self, depth: int) -> list[str]:
         flat = (self._assign, self._assign, self._declare, self._publish, self._call, self._outside)
         nested = (self._if, self._if, self._for, self._while, self._switch, self._early)
-        if self.odd is not None and self.chance(25):
+        if self.odd is not None and self.chance(60 if self.is_wide else 25):
             return self.odd(self)
         if depth < LIMIT and self.chance(45):
             return self.random.choice(nested)(depth)
         return self.random.choice(flat)()
 
     def _assign(self) -> list[str]:
-        targets = self.of(*INTEGERS, "bool", "double", "Mode", writable=True)
+        targets = self.of(*self.integers, "bool", "double", "Mode", writable=True)
         if self.chance(20) and (element := self._element(1, writable=True)):
             return [f"{element} {self.random.choice(('=', '+='))} {self.integer()};"]
         if not targets:
             return []
         target = self.random.choice(targets)
-        if target.type in INTEGERS and self.chance(30):
+        if target.type in self.integers and self.chance(30):
             return [self.random.choice((f"{target.name}++;", f"--{target.name};"))]
-        if target.type in INTEGERS and self.chance(40):
+        if target.type in self.integers and self.chance(40):
             operator = self.random.choice(("+=", "-=", "*=", "|=", "&=", "^="))
             return [f"{target.name} {operator} {self.integer()};"]
         return [f"{target.name} = {self.expression(target.type)};"]
@@ -249,10 +266,11 @@ class Body:
         if self.opaque and self.chance(15):
             self.variables.append(Variable(name, "int"))
             return [f"int {name} = library::level();  // rebsync: domain 0..5"]
-        type_ = self.random.choice(("int", "int", "bool", "double", "int8_t", "int16_t"))
+        types: tuple[str, ...] = ("int", "int", "bool", "double", "int8_t", "int16_t")
+        type_ = self.random.choice((*types, *WIDE) if self.is_wide else types)
         shown = self.random.choice((type_, f"const {type_}"))
         value = self.expression(type_)
-        if type_ in ("int", "bool", "double") and self.chance(30):
+        if type_ in ("int", "bool", "double", *WIDE) and self.chance(30):
             shown, value = "auto", f"static_cast<{type_}>({value})"
         self.variables.append(Variable(name, type_, constant=shown.startswith("const")))
         return [f"{shown} {name} = {value};"]
@@ -341,7 +359,8 @@ class Body:
         else:
             self.variables.append(Variable(index, "int", constant=True))
             step = self.random.choice((f"{index}++", f"++{index}", f"{index} += 2"))
-            head = f"for (int {index} = 0; {index} < {self.random.randint(1, 4)}; {step}) "
+            by = self.random.choice(("int", *WIDE)) if self.is_wide else "int"
+            head = f"for ({by} {index} = 0; {index} < {self.random.randint(1, 4)}; {step}) "
         body = self._loop(depth)
         self.variables = outside
         return [head + "{", *body[1:]]
@@ -353,7 +372,8 @@ class Body:
         self.used.add(counter)
         outside = list(self.variables)
         self.variables.append(Variable(counter, "int", constant=True))
-        made = f"int {counter} = {self.random.randint(1, 3)};"
+        by = self.random.choice(("int", *WIDE)) if self.is_wide else "int"
+        made = f"{by} {counter} = {self.random.randint(1, 3)};"
         body = self._loop(depth)
         self.variables = outside
         if self.chance(50):

@@ -19,8 +19,8 @@ from rebsync.static import Analysis, analyse
 from tests.reverse.soundness.nodes import Callback, DrawnNode
 from tests.reverse.soundness.programs import Effect, Input, Seen
 
-# What is said of integers that models have no type for: they wrap elsewhere, or not at all.
-_WIDER = "holds more than"
+# Variables that have one value of each range that the code tells apart.
+_STANDS = re.compile(r'one value of "(\w+)" stands')
 _ENOUGH = 10_000  # messages that the rebec may have waiting, so that none finds no place
 _FUNCTION = re.compile(
     r"^(?:\w+ (?:\w+::)?|(?=on\w+_ = ))(\w+)(?:\(|_ = )[^\n]*\) \{\n(.*?)^\}",
@@ -68,7 +68,8 @@ def compare(
     if analysis.errors:
         tally.refused += [f"{node.name}: {d.message}" for d in analysis.errors]
         return tally
-    possible = Possible(node, analysis)
+    stands = {name for f in extracted.findings for name in _STANDS.findall(f.why)}
+    possible = Possible(node, analysis, stands)
     first = possible.started()
     possible.states = possible.agreeing(first, seen[0])
     if not possible.states:
@@ -106,9 +107,8 @@ class _Grades:
         self._found: dict[str, Grade] = {}
         for finding in extracted.findings:
             name = re.split(r"[.:]+", finding.within)[-1]
-            grade = Grade.UNREADABLE if _WIDER in finding.why else finding.grade
-            if grade is Grade.UNREADABLE or name not in self._found:
-                self._found[name] = grade
+            if finding.grade is Grade.UNREADABLE or name not in self._found:
+                self._found[name] = finding.grade
 
     def of(self, callback: Callback) -> Grade | None:
         """The worst of them; None where all is exact."""
@@ -132,9 +132,9 @@ class Done:
 
 
 class Possible:
-    """The states that the model may be in."""
+    """The states that the model may be in; values of `stands` are none that the code has."""
 
-    def __init__(self, node: DrawnNode, analysis: Analysis) -> None:
+    def __init__(self, node: DrawnNode, analysis: Analysis, stands: set[str]) -> None:
         self.node = node
         self.program: Program = lower(analysis, Properties())[0]
         rebecs = [r for r in self.program.rebecs if r.name == node.name.lower()]
@@ -149,7 +149,7 @@ class Possible:
         )
         self.actor = Actor(self.program, index, "ftts", Coverage())
         self.states: set[tuple[Cell, ...]] = set()
-        self._slots = {s.name: s for s in self.rebec.state}
+        self._slots = {s.name: s for s in self.rebec.state if s.name not in stands}
 
     # --- what is seen and what is possible ------------------------------------------------------
 

@@ -9,7 +9,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from random import Random
 
-from tests.reverse.soundness.drawing import Body, Helper, Publisher, Variable, lines_of
+from tests.reverse.soundness.drawing import (
+    INTEGERS,
+    WIDE,
+    Body,
+    Helper,
+    Publisher,
+    Variable,
+    lines_of,
+)
 from tests.reverse.soundness.odd import odd_statement
 from tests.reverse.soundness.shapes import SHAPES, Function, Parts, Subscription, files_of
 
@@ -23,13 +31,17 @@ MESSAGES = {
     "std_msgs::Bool": (("data", "bool"),),
     "std_msgs::Float32": (("data", "float"),),
     "std_msgs::Float64": (("data", "double"),),
+    "std_msgs::UInt32": (("data", "uint32_t"),),
+    "std_msgs::Int64": (("data", "int64_t"),),
+    "std_msgs::UInt64": (("data", "uint64_t"),),
     "std_msgs::Empty": (),
     "geometry_msgs::Twist": tuple(
         (f"{part}.{axis}", "double") for part in ("linear", "angular") for axis in "xyz"
     ),
 }
 SENT = ("std_msgs::Int32", "std_msgs::Bool", "std_msgs::Int8", "geometry_msgs::Twist")
-TAKEN = tuple(m for m in sorted(MESSAGES) if m not in ("std_msgs::UInt16", "std_msgs::Float32"))
+_INSTEAD_ONLY = ("UInt16", "Float32", "UInt32", "Int64", "UInt64")
+TAKEN = tuple(m for m in sorted(MESSAGES) if m.rpartition("::")[2] not in _INSTEAD_ONLY)
 # Some nodes have messages of other numbers instead; what else is drawn is the same.
 INSTEAD: tuple[dict[str, str], ...] = (
     {},
@@ -38,6 +50,20 @@ INSTEAD: tuple[dict[str, str], ...] = (
     {"std_msgs::Int8": "std_msgs::UInt16", "std_msgs::Int32": "std_msgs::UInt8"},
     {},
     {"std_msgs::Int32": "std_msgs::UInt16", "std_msgs::Int16": "std_msgs::UInt16"},
+)
+# Of those that have wider numbers than models.
+WIDE_FROM = 1000
+WIDE_INSTEAD: tuple[dict[str, str], ...] = (
+    {"std_msgs::Int32": "std_msgs::Int64", "std_msgs::Int16": "std_msgs::UInt32"},
+    {"std_msgs::Bool": "std_msgs::UInt64", "std_msgs::Int32": "std_msgs::UInt32"},
+    {},
+)
+WIDE_MEMBERS = (
+    Variable("seq_", "uint32_t"),
+    Variable("count_", "unsigned"),
+    Variable("ticks_", "size_t"),
+    Variable("sum_", "int64_t"),
+    Variable("long_", "long"),
 )
 MEMBERS = (
     Variable("total_", "int"),
@@ -90,10 +116,11 @@ class DrawnNode:
 
 
 def draw_node(seed: int) -> DrawnNode:
-    """The node of a seed, always the same."""
+    """The node of a seed, always the same; from `WIDE_FROM` on with wider numbers than models'."""
     random = Random(seed)
     name = f"N{seed}"
-    members = tuple(m for m in MEMBERS if random.randrange(100) < 70)
+    all_members = (*MEMBERS, *WIDE_MEMBERS) if seed >= WIDE_FROM else MEMBERS
+    members = tuple(m for m in all_members if random.randrange(100) < 70)
     publishers = tuple(
         Publisher(f"pub{i}_", message, MESSAGES[message])
         for i, message in enumerate(_drawn(random, SENT, seed))
@@ -106,7 +133,9 @@ def draw_node(seed: int) -> DrawnNode:
     once = (Callback("later", None),) if random.random() < 0.4 else ()
     callbacks = (*taken, *ticks, *once)
     shape = random.choice(SHAPES)
-    parts = _Writer(random, name, members, publishers, callbacks, shape).parts()
+    wide = WIDE if seed >= WIDE_FROM else ()
+    integers = (*INTEGERS, *wide)
+    parts = _Writer(random, name, members, publishers, callbacks, shape, integers).parts()
     sources = files_of(parts, shape, random)
     files = {
         **{f"src/{path}": text for path, text in sources.items()},
@@ -121,6 +150,8 @@ def draw_node(seed: int) -> DrawnNode:
 def _drawn(random: Random, messages: tuple[str, ...], seed: int) -> list[str]:
     """One to three types of messages."""
     instead = INSTEAD[seed % len(INSTEAD)]
+    if seed >= WIDE_FROM:
+        instead = WIDE_INSTEAD[seed % len(WIDE_INSTEAD)]
     drawn = random.sample(messages, random.randint(1, 3))
     return list(dict.fromkeys(instead.get(m, m) for m in drawn))
 
@@ -133,11 +164,12 @@ class _Writer:
     publishers: tuple[Publisher, ...]
     callbacks: tuple[Callback, ...]
     shape: str
+    integers: tuple[str, ...]
     odd: bool = False
 
     def parts(self) -> Parts:
         opaque = self.random.random() < 0.6
-        self.odd = self.random.random() < 0.5
+        self.odd = self.random.random() < 0.5 or self.integers != INTEGERS
         helpers, free = self._helpers()
         called = [h for h, _ in helpers]
         made = {c.name: self._callback(c, called, opaque) for c in self.callbacks}
@@ -217,6 +249,7 @@ class _Writer:
         body.timers = [timer] if once and self.shape != "base" else []
         body.handle = "ros::NodeHandle()" if free else "nh_"
         body.odd = odd_statement if self.odd else None
+        body.integers = self.integers
         return body
 
     def _helpers(self) -> tuple[list[tuple[Helper, Function]], list[str]]:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from tests.reverse.soundness.drawing import INTEGERS, Body, Variable
+from tests.reverse.soundness.drawing import WIDE, Body, Variable
 
 
 def odd_statement(body: Body) -> list[str]:
     """One of them, if there is what it needs."""
+    if body.is_wide and body.chance(70):
+        return _wide(body) if body.chance(75) else _unknown(body)
     return body.random.choice(_ALL)(body)
 
 
@@ -28,7 +30,7 @@ def _plain(body: Body, *types: str) -> str | None:
 
 def _effect_inside(body: Body) -> list[str]:
     """An expression with an effect in the middle of another."""
-    target, other = _plain(body, "int"), _plain(body, *INTEGERS)
+    target, other = _plain(body, "int"), _plain(body, *body.integers)
     if target is None or other is None or target == other:
         return []
     number = body.number()
@@ -48,7 +50,7 @@ def _effect_inside(body: Body) -> list[str]:
 
 def _mixed(body: Body) -> list[str]:
     """Conversions that C++ makes unasked."""
-    flag, whole, real = _plain(body, "bool"), _plain(body, *INTEGERS), _plain(body, "double")
+    flag, whole, real = _plain(body, "bool"), _plain(body, *body.integers), _plain(body, "double")
     lines = []
     if flag is not None:
         lines += [
@@ -84,6 +86,52 @@ def _unsigned(body: Body) -> list[str]:
         lambda: f"{target} = ({name} * 100000) >> 3;",
     )
     return [made, used]
+
+
+def _unknown(body: Body) -> list[str]:
+    """A member that gets what nobody knows: some are only compared."""
+    target, real = _plain(body, "int"), _plain(body, "double")
+    if target is None or not body.members or not body.opaque or not target.endswith("_"):
+        return []
+    lines = [f"{target} = library::level();", f"if ({target} > 2) {target} = 0;"]
+    if real is not None and real.endswith("_"):
+        lines += [f"{real} = library::ratio();"]
+    return [body.random.choice(lines)]
+
+
+def _wide(body: Body) -> list[str]:
+    """A number that wraps below 0, or above what an int holds."""
+    wide, target, real = _plain(body, *WIDE), _plain(body, "int"), _plain(body, "double")
+    if wide is None or target is None:
+        return []
+    number, few = body.random.choice((0, 1, 2, 5, 1000)), body.random.choice((2, 3, 7))
+    lines = [
+        f"if ({wide} - {few} > {number}) {target} = 1;",
+        f"if ({wide} - {few} < {wide}) {target} = 1; else {target} = 2;",
+        f"if ({wide} < {target}) {target} = 2;",
+        f"if ({target} <= {wide}) {target} = 3;",
+        f"if (-{wide} > {number}) {target} = 4;",
+        f"if (-{wide} == {target}) {target} = 4;",
+        f"if ({wide}) {target} = 5; else {target} = 6;",
+        f"{target} = ({wide} - {few}) / {few};",
+        f"{target} = ({wide} - {number}) >> 1;",
+        f"{target} = {wide} * 100000 * 100000 % 7;",
+        f"{target} = {wide} - {number} > {target} ? 1 : 2;",
+        f"{wide}--;",
+        f"{wide} -= {few};",
+        f"if ({wide} > 0) {wide}--;",
+        f"if ({wide} > {few}) {wide} -= {few}; else {wide} = {number};",
+        f"if ({wide} < 10) ++{wide};",
+        f"{wide} = {target};",
+        f"{wide} = {target} > 0 ? {target} : 0;",
+        f"{wide} = {wide} % {few};",
+        f"{wide} <<= 3;",
+        f"{wide} = {wide} * 3 + 1;",
+        f"{wide} = std::max<int>({target}, 0);",
+    ]
+    if real is not None:
+        lines += [f"{real} = {wide} - {number};", f"{wide} = {real};", f"{real} = {wide} * 0.5;"]
+    return [body.random.choice(lines)]
 
 
 def _narrow(body: Body) -> list[str]:

@@ -21,6 +21,10 @@ _RANGES = {
     "uint16_t": (0, (1 << 16) - 1),
     "int16_t": (-(1 << 15), (1 << 15) - 1),
     "int": (-(1 << 31), (1 << 31) - 1),
+    # Models take those that an int holds.
+    "uint32_t": (0, (1 << 31) - 1),
+    "int64_t": (-(1 << 31), (1 << 31) - 1),
+    "uint64_t": (0, (1 << 31) - 1),
 }
 
 
@@ -172,11 +176,19 @@ def _read(told: str, nodes: Sequence[DrawnNode]) -> list[list[Seen]]:
         if first == "node":
             found.append([])
         elif first == "state":
-            found[-1].append(Seen(tuple(effects), tuple(map(float, rest))))
+            found[-1].append(Seen(tuple(effects), tuple(map(_number, rest))))
             effects = []
         else:
             topic = rest[1] if rest[0] == "publish" else None
             values = rest[2:] if topic is not None else rest[1:]
-            effects.append(Effect(float(first), topic, tuple(map(float, values))))
+            effects.append(Effect(float(first), topic, tuple(map(_number, values))))
     assert len(found) == len(nodes)
     return found
+
+
+def _number(told: str) -> float:
+    """A number as it was told; of an integer what a model has of it."""
+    if not told.startswith("i"):
+        return float(told)
+    lower = int(told[1:]) & 0xFFFFFFFF
+    return lower - (1 << 32) if lower >> 31 else lower

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from tests.roundtrip.mutations import bodies, joints, neutral, sending, surroundings
+from tests.roundtrip.mutations import bodies, joints, neutral, sending, spelling, surroundings
 
 BEHAVIOUR = (*bodies.KINDS, *sending.KINDS, *joints.KINDS, *surroundings.KINDS)
-NEUTRAL = neutral.KINDS
+NEUTRAL = (*neutral.KINDS, *spelling.KINDS)
 BY_NAME = {kind.name: kind for kind in (*BEHAVIOUR, *NEUTRAL)}

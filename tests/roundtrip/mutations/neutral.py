@@ -204,7 +204,6 @@ def _all_files(rewrite: Callable[[str], str]) -> Maker:
     return make
 
 
-_LOCAL = r"^( +)(?:int32_t|bool|Rebec<\w+>) (\w+) = (\w+\()"
 _SOURCES = (".h", ".cpp")
 _STATEMENT = r"^( +)((?:this->)?\w[^\n{}]*;)$"
 
@@ -269,8 +268,6 @@ KINDS = (
         "logged in the program",
         in_files("_node.cpp", r"^(  ros::AsyncSpinner)", r'  ROS_INFO("up");\n\1'),
     ),
-    Kind("auto", within(_LOCAL, r"\1auto \2 = \3")),
-    Kind("const local", within(r"^( +)(Rebec<\w+> \w+ = )", r"\1const \2")),
     Kind(
         "without braces",
         within(
@@ -282,25 +279,6 @@ KINDS = (
     Kind(
         "else if in braces",
         within(r"^( *)\} else (if \(.*\) \{\n(?:\1  .*\n)+\1\})(?! else)", r"\1} else {\n\1\2 }"),
-    ),
-    Kind("parentheses in a condition", within(r"\bif \((.*)\) \{$", r"if ((\1)) {")),
-    Kind(
-        "parentheses in a comparison", within(r"(?<=[( ])(\w+_? (?:==|<|>) \w+)(?=[ )])", r"(\1)")
-    ),
-    Kind("parentheses in an assignment", within(r" = ([^\n;]+);$", r" = (\1);")),
-    Kind("parentheses in a result", within(r"return ([^\n;]+);", r"return (\1);")),
-    Kind(
-        "cast to the same type",
-        within(
-            r"(int32_t \w+ = |cell_ = |steps_ = |x_ = )([^\n;]+);", r"\1static_cast<int32_t>(\2);"
-        ),
-    ),
-    Kind("this-> written", within(r"(?<![\w.>])(\w+_)(?= = )", r"this->\1")),
-    Kind("this-> left out", within(r"this->", "")),
-    Kind("this-> before a call", within(r"^( +)(send\w+\()", r"\1this->\2")),
-    Kind(
-        "class before a member",
-        within(r"^( +)(send\w+\()", lambda p, q, m: f"{m[1]}{q.owner}::{m[2]}"),
     ),
     Kind(
         "namespace reopened",
@@ -327,7 +305,7 @@ KINDS = (
         in_files(
             ".cpp",
             r"^(namespace \w+ \{\n\n)(?!\})",
-            r"\1static_assert(sizeof(int) >= 4, \"\");\n\n",
+            r'\1static_assert(sizeof(int) >= 4, "");\n\n',
         ),
     ),
     Kind("markers removed", _markers),
@@ -335,17 +313,6 @@ KINDS = (
     Kind("split file", _split_file),
     Kind("file in another folder", _moved_file),
     Kind("method in the header", _in_header),
-    Kind("++ before", within(r"(\w+)\+\+\)", r"++\1)")),
-    Kind("alternative tokens", within(r" && ", " and ")),
-    Kind("not for !", within(r"(?<=[( ])!(?=[\w(])", "not ")),
-    Kind("hexadecimal number", within(r"(?<=[=<>+] )(10|8|15)\b", lambda p, q, m: hex(int(m[1])))),
-    Kind(
-        "std:: before a type", in_files(".h", r"(?<![\w:])int32_t (\w+_\{\};)", r"std::int32_t \1")
-    ),
-    Kind("int for int32_t", in_files(".h", r"(?<![\w:])int32_t (\w+_\{\};)", r"int \1")),
-    Kind(
-        "value instead of {}", in_files(".h", r"(?<![\w:])int32_t (\w+_)\{\};", r"int32_t \1{0};")
-    ),
     Kind("empty statement", at_start("  ;\n", "constructor", "msgsrv")),
     Kind("block", within(r"^( +)(send\w+\(.*\);)$", r"\1{\n\1  \2\n\1}")),
     Kind(

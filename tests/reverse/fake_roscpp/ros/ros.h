@@ -229,7 +229,11 @@ namespace fake {
 
 template <class T>
 std::string value(T number_) {
-  return " " + number(static_cast<double>(number_));
+  if constexpr (std::is_integral<T>::value) {
+    return " i" + std::to_string(number_);  // all digits: it need not be a double
+  } else {
+    return " " + number(static_cast<double>(number_));
+  }
 }
 
 }  // namespace fake

@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
   n.setParam("list", std::vector<int>(2, 5));  //= parameter set "list" := [5, 5]
   if (n.hasParam("here")) n.deleteParam("here");  //= parameter has "here" //= parameter delete "here"
   if (p.searchParam("up", key)) p.getParam(key, topic);  //= parameter search "~up" //= parameter search "~up"
+  if (n.searchParam("level", key)) n.getParam(key, topic);  //= parameter search "level" //= parameter search ? "*/level"
   p.param(ros::this_node::getName() + "/own", topic, std::string("x"));  //= parameter get "~own" = "x"
   std::string space = ros::this_node::getName();
   n.param<int>(space + "/number", given, 0);  //= parameter get "~number" = 0

@@ -1,0 +1,309 @@
+"""Which values an integer of C++ can have, as far as its type and its operands say."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.bodies.cpp_conversions import variable_of
+from rebsync.reverse.bodies.cpp_places import resolve
+from rebsync.reverse.bodies.cpp_types import Carried, carried
+from rebsync.reverse.bodies.scope import Called, Inline, Lambda, Scope, Variable
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+from rebsync.static.constants import constant
+from rebsync.static.types import is_boolean
+
+COMPARES = frozenset({"<", ">", "<=", ">=", "==", "!="})
+LOGICAL = frozenset({"&&", "||", "and", "or", "not", "!"})
+INT = 31  # bits without the sign
+_UNSIGNED = frozenset({32, 64})
+_NARROW = {"byte": 7, "short": 15, "int": 31}
+_DIGITS = re.compile(r"(0[xX][0-9a-fA-F]+|0[bB][01]+|[0-9]+)([uUlLzZ]*)\Z")
+_SIZES = frozenset({"size", "length", "max_size", "capacity", "count", "strlen", "distance"})
+NAMES_WIDE = re.compile(r"unsigned|long|size|uint|int64|32_t|64_t")
+_SAME = frozenset({"std::move", "std::abs", "abs", "narrow", "widen"})
+
+
+@dataclass(frozen=True, slots=True)
+class Ranged:
+    """What the integer that an expression gives can be, of a type with so many bits."""
+
+    bits: int
+    low: int
+    high: int
+
+    @property
+    def fits(self) -> bool:
+        """Whether the model's `int` is the same number."""
+        return self.low >= -(1 << 31) and self.high < 1 << 31
+
+
+def all_of(bits: int) -> Ranged:
+    """All values of a type: unsigned ones of 32 and 64 bits, others with a sign."""
+    return Ranged(bits, 0 if bits in _UNSIGNED else -(1 << bits), (1 << bits) - 1)
+
+
+def fitting(bits: int) -> Ranged:
+    """The values of a type that an `int` holds."""
+    whole = all_of(bits)
+    return Ranged(bits, max(whole.low, -(1 << 31)), min(whole.high, (1 << 31) - 1))
+
+
+def as_type(found: Ranged, bits: int) -> Ranged:
+    """What becomes of a number in a type."""
+    whole = all_of(bits)
+    inside = whole.low <= found.low and found.high <= whole.high
+    return Ranged(bits, found.low, found.high) if inside else whole
+
+
+def range_of(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
+    """What an integer can be; None for other values, and those that nobody knows."""
+    match node.type:
+        case "number_literal":
+            return _literal(text_of(node).replace("'", ""))
+        case "char_literal" | "true" | "false" | "sizeof_expression":
+            return Ranged(64 if node.type == "sizeof_expression" else INT, 0, 255)
+        case "identifier" | "qualified_identifier" | "field_expression" | "subscript_expression":
+            return _named(cpp, scope, node)
+        case "pointer_expression":
+            return _named(cpp, scope, node)
+        case "parenthesized_expression" if len(named(node)) == 1:
+            return range_of(cpp, scope, named(node)[0])
+        case "comma_expression" | "assignment_expression":
+            last = node.type == "comma_expression"
+            return range_of(cpp, scope, part(node, "right" if last else "left"))
+        case "unary_expression" | "update_expression":
+            return _changed(cpp, scope, node)
+        case "binary_expression":
+            sides = (range_of(cpp, scope, part(node, side)) for side in ("left", "right"))
+            return _computed(text_of(part(node, "operator")), *sides)
+        case "conditional_expression":
+            _, then, otherwise = named(node)
+            ways = (range_of(cpp, scope, way) for way in (then, otherwise))
+            return _either(*ways)
+        case "cast_expression":
+            return _cast(cpp, scope, part(node, "type"), [part(node, "value")])
+        case "compound_literal_expression":
+            return _cast(cpp, scope, part(node, "type"), named(part(node, "value")))
+        case "call_expression":
+            return _called(cpp, scope, node)
+        case _:
+            return None
+
+
+def _literal(text: str) -> Ranged | None:
+    found = _DIGITS.match(text.lstrip("+-"))
+    if found is None:
+        return None
+    digits, suffix = found[1], found[2].lower()
+    octal = len(digits) > 1 and digits.isdecimal() and digits.startswith("0")
+    value = int(digits, 8 if octal else 0)
+    bits = (64 if "l" in suffix else 32) if "u" in suffix else (63 if "l" in suffix else INT)
+    steps = (bits, *(b for b in (32, 63, 64) if b > bits and (b == 63 or not digits.isdecimal())))
+    bits = next((b for b in steps if value < 1 << b), 64)
+    return Ranged(bits, -value, -value) if text.startswith("-") else Ranged(bits, value, value)
+
+
+def _of_type(kept: Carried) -> Ranged | None:
+    if kept.wide:
+        return all_of(kept.wide)
+    if kept.bits:
+        return Ranged(INT, 0, (1 << kept.bits) - 1)
+    return _of_model(kept.type)
+
+
+def _of_model(type_: m.Type) -> Ranged | None:
+    if is_boolean(type_):
+        return Ranged(INT, 0, 1)
+    bits = _NARROW.get(type_.name)
+    return Ranged(INT, -(1 << bits), (1 << bits) - 1) if bits is not None else None
+
+
+def _variable(scope: Scope, variable: Variable) -> Ranged | None:
+    if variable.wide:
+        wide = all_of if variable.name in scope.overflowing else fitting
+        return wide(variable.wide)
+    if variable.type is None:
+        return None
+    return _of_type(Carried(m.Type(variable.type.name), variable.bits))
+
+
+def _named(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
+    place = node
+    while place.type == "subscript_expression":
+        place = part(place, "argument")
+    match resolve(scope, place):
+        case Variable() as variable:
+            return _variable(scope, variable)
+        case m.IntLiteral() | m.Unary() | m.Binary() | m.Paren() as value:
+            known = constant(value)
+            if isinstance(known, int):
+                return Ranged(INT, int(known), int(known))
+            return all_of(INT) if known is None else None
+        case m.Index(m.Name(name)):
+            array = variable_of(scope, name)
+            return _variable(scope, array) if array is not None else all_of(INT)
+        case None:
+            return _constant(scope, text_of(node))
+        case m.FloatLiteral() | m.BoolLiteral():
+            return None
+        case _:
+            return all_of(INT)
+
+
+def _constant(scope: Scope, name: str) -> Ranged | None:
+    for spelled in (name, name.rpartition("::")[2]):
+        if spelled in scope.enumerators:
+            value = scope.enumerators[spelled]
+            return Ranged(INT, value, value) if Ranged(INT, value, value).fits else all_of(63)
+        if spelled in scope.constants:
+            cpp, node = scope.constants[spelled]
+            found = range_of(cpp, scope.without_constant(spelled), node)
+            above = node.parent
+            while above is not None and above.type not in ("declaration", "field_declaration"):
+                above = above.parent
+            kept = carried(part(above, "type"), scope.enums) if above is not None else None
+            whole = _of_type(kept) if kept is not None else None
+            return as_type(found, whole.bits) if found is not None and whole is not None else found
+    return None
+
+
+def _changed(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
+    operator = text_of(part(node, "operator"))
+    argument = part(node, "argument")
+    found = range_of(cpp, scope, argument)
+    if operator in LOGICAL:
+        return Ranged(INT, 0, 1)
+    if found is None:
+        return None
+    match operator:
+        case "-":
+            return as_type(Ranged(found.bits, -found.high, -found.low), found.bits)
+        case "~":
+            return as_type(Ranged(found.bits, ~found.high, ~found.low), found.bits)
+        case "++" | "--" if argument.start_byte != node.start_byte:
+            step = 1 if operator == "++" else -1
+            return as_type(Ranged(found.bits, found.low + step, found.high + step), found.bits)
+        case _:
+            return found
+
+
+def _computed(operator: str, left: Ranged | None, right: Ranged | None) -> Ranged | None:
+    if operator in COMPARES or operator in LOGICAL:
+        return Ranged(INT, 0, 1)
+    if left is None or right is None:
+        return None
+    bits = left.bits if operator in ("<<", ">>") else max(left.bits, right.bits)
+    left, right = as_type(left, bits), right if operator in ("<<", ">>") else as_type(right, bits)
+    low, high = combined(operator, (left.low, left.high), (right.low, right.high))
+    return as_type(Ranged(bits, low, high), bits)
+
+
+def combined(operator: str, left: tuple[int, int], right: tuple[int, int]) -> tuple[int, int]:
+    """The least and the greatest that an operator gives, if nothing wraps."""
+    most = max(map(abs, (*left, *right)))
+    match operator:
+        case "+":
+            return left[0] + right[0], left[1] + right[1]
+        case "-":
+            return left[0] - right[1], left[1] - right[0]
+        case "*":
+            products = [a * b for a in left for b in right]
+            return min(products), max(products)
+        case "/":
+            return -max(map(abs, left)) if left[0] < 0 or right[0] < 0 else 0, max(map(abs, left))
+        case "%":
+            most = min(max(map(abs, left)), max(0, max(map(abs, right)) - 1))
+            return -most if left[0] < 0 else 0, most if left[1] > 0 else 0
+        case ">>" if right[0] >= 0:
+            return min(left[0], 0), max(left[1], 0)
+        case "<<" if 0 <= right[0] <= right[1] < 64:
+            return min(left[0] << right[1], left[0]), max(left[1] << right[1], left[1])
+        case "&" if left[0] >= 0 or right[0] >= 0:
+            return 0, min(side[1] for side in (left, right) if side[0] >= 0)
+        case _:
+            whole = 1 << most.bit_length()
+            unsigned = left[0] >= 0 and right[0] >= 0
+            return (0, whole - 1) if unsigned and operator != "<<" else (-(1 << 64), 1 << 64)
+
+
+def _either(then: Ranged | None, otherwise: Ranged | None) -> Ranged | None:
+    if then is None or otherwise is None:
+        return None
+    bits = max(then.bits, otherwise.bits)
+    then, otherwise = as_type(then, bits), as_type(otherwise, bits)
+    return Ranged(bits, min(then.low, otherwise.low), max(then.high, otherwise.high))
+
+
+def _cast(cpp: Cpp, scope: Scope, to: Node, values: Sequence[Node]) -> Ranged | None:
+    kept = carried(to, scope.enums)
+    whole = _of_type(kept) if kept is not None else None
+    found = range_of(cpp, scope, values[0]) if len(values) == 1 else None
+    if whole is None or found is None:
+        return whole
+    inside = whole.low <= found.low and found.high <= whole.high
+    return Ranged(whole.bits, found.low, found.high) if inside else whole
+
+
+# --- calls --------------------------------------------------------------------------------------
+
+
+def _called(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
+    function, arguments = part(node, "function"), named(part(node, "arguments"))
+    if function.type == "field_expression":
+        name = text_of(part(function, "field"))
+        if name in ("load", "get"):
+            return _named(cpp, scope, part(function, "argument"))
+        if name in _SIZES:
+            return Ranged(64, 0, (1 << 31) - 1)
+        return None if name == "toSec" else _result(scope, name)
+    if function.type == "lambda_expression":
+        return _of_lambda(text_of(function))
+    name = text_of(function)
+    plain, _, given = name.partition("<")
+    types = part(function, "arguments") if function.type == "template_function" else None
+    if plain in ("static_cast", "narrow_cast", "boost::numeric_cast") and types is not None:
+        return _cast(cpp, scope, named(types)[0], arguments)
+    kept = carried(function, scope.enums) if len(arguments) == 1 else None
+    if kept is not None:
+        return _cast(cpp, scope, function, arguments)
+    if plain.rpartition("::")[2] in _SIZES:
+        return Ranged(64, 0, (1 << 31) - 1)
+    if plain in _SAME and len(arguments) == 1:
+        found = range_of(cpp, scope, arguments[0])
+        return all_of(found.bits) if found is not None else None
+    if plain.rpartition("::")[2] in ("min", "max", "clamp"):
+        return _widest(cpp, scope, arguments, given.rstrip(">"))
+    return _result(scope, plain.rpartition("::")[2])
+
+
+def _widest(cpp: Cpp, scope: Scope, arguments: Sequence[Node], given: str) -> Ranged | None:
+    inner = [v for a in arguments for v in (named(a) if a.type == "initializer_list" else [a])]
+    found = [range_of(cpp, scope, value) for value in inner]
+    whole = None
+    for each in found:
+        whole = _either(whole, each) if whole is not None else each
+    return all_of(64) if whole is not None and NAMES_WIDE.search(given) else whole
+
+
+def _result(scope: Scope, name: str) -> Ranged | None:
+    """What a function of the code gives, by the type of its result."""
+    match scope.locals.get(name) or scope.functions.get(name):
+        case Inline(function) if function.result is not None:
+            kept = carried(function.result, scope.enums)
+            return _of_type(kept) if kept is not None else _of_lambda(text_of(function.result))
+        case Called(returns=type_) if type_ is not None:
+            return _of_model(type_)
+        case Lambda(node):
+            return _of_lambda(text_of(node))
+        case _:
+            return None
+
+
+def _of_lambda(text: str) -> Ranged | None:
+    """What a function gives whose type is not looked for."""
+    return all_of(64) if NAMES_WIDE.search(text) else None

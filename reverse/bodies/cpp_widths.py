@@ -1,0 +1,116 @@
+"""Integers of C++ that hold more than the model's `int`: where that makes a difference.
+
+The model has the lower 32 bits of each. Sums, products and what else only depends on these come
+out right whatever wraps. What looks at the whole number is read where that is known to be one that
+an `int` holds: comparisons, quotients, shifts to the right, conversions to floating numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.bodies.cpp_conversions import type_in
+from rebsync.reverse.bodies.cpp_misread import Operand
+from rebsync.reverse.bodies.cpp_ranges import COMPARES, INT, LOGICAL, NAMES_WIDE, as_type, range_of
+from rebsync.reverse.bodies.cpp_types import Carried
+from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.static.constants import constant
+from rebsync.static.types import is_floating
+
+if TYPE_CHECKING:
+    from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+
+_OBSERVES = COMPARES | {"/", "%", ">>", "<<"}
+
+
+def place_of(name: str, kept: Carried) -> Variable:
+    """A variable of a type."""
+    return Variable(name, kept.type, kept.bits, (), kept.wide)
+
+
+def wide_of(reader: CppExpressions, node: Node) -> int:
+    """The `wide` of a variable that `auto` makes for a value."""
+    found = range_of(reader.cpp, reader.scope, node)
+    return found.bits if found is not None and found.bits > INT else 0
+
+
+def is_wide(reader: CppExpressions, operand: Operand) -> bool:
+    """Whether an operand is of a type that is wider than an int, or has no sign."""
+    found = range_of(operand.cpp, reader.scope, operand.node) if reader.scope.open else None
+    return found is not None and found.bits > INT
+
+
+# --- what looks at whole numbers ----------------------------------------------------------------
+
+
+def check(reader: CppExpressions, node: Node, operator: str, sides: Sequence[Node]) -> None:
+    """Raises where an operator looks at a number that an `int` need not hold."""
+    if not reader.scope.open:
+        return
+    left, right = (range_of(reader.cpp, reader.scope, side) for side in sides)
+    if left is None or right is None:
+        for side, found in zip(sides, (left, right), strict=True):
+            if found is not None and operator not in LOGICAL and not found.fits:
+                _raise(reader, side)
+        return
+    if operator not in _OBSERVES:
+        return
+    if operator in ("<<", ">>"):
+        looks = operator == ">>" and not left.fits
+        known = 0 <= right.low <= right.high < 32
+        if (looks or not known) and max(left.bits, right.bits) > INT:
+            _raise(reader, node)
+        return
+    bits = max(left.bits, right.bits)
+    if bits == INT or (operator in ("==", "!=") and bits == 32):
+        return
+    for side, found in zip(sides, (left, right), strict=True):
+        if not as_type(found, bits).fits:
+            _raise(reader, side)
+
+
+def check_whole(reader: CppExpressions, node: Node) -> None:
+    """Raises where an integer is none that an `int` is sure to hold."""
+    found = range_of(reader.cpp, reader.scope, node) if reader.scope.open else None
+    if found is not None and not found.fits:
+        _raise(reader, node)
+
+
+def check_truth(reader: CppExpressions, node: Node) -> None:
+    """Raises where a number of more than 32 bits need not be an `int`, and so may be another 0."""
+    found = range_of(reader.cpp, reader.scope, node) if reader.scope.open else None
+    if found is not None and found.bits > 32 and not found.fits:
+        _raise(reader, node)
+
+
+def check_stored(reader: CppExpressions, node: Node, value: m.Expression, place: Variable) -> None:
+    """Raises where a floating variable gets an integer that an `int` need not hold, or one of
+    these a floating number.
+    """
+    if place.type is not None and is_floating(place.type):
+        check_whole(reader, node)
+    elif place.wide and reader.scope.open and constant(value) is None:
+        of = type_in(reader.scope, value)
+        if of is not None and is_floating(of):
+            _raise(reader, node)
+
+
+def check_wide_call(reader: CppExpressions, node: Node) -> None:
+    """Raises where `std::max<unsigned>(a, b)` may make other numbers of what it compares."""
+    name, arguments = text_of(part(node, "function")), named(part(node, "arguments"))
+    if not reader.scope.open or not NAMES_WIDE.search(name.partition("<")[2]):
+        return
+    for argument in arguments:
+        found = range_of(reader.cpp, reader.scope, argument)
+        if found is None or found.low < 0:
+            _raise(reader, argument)
+
+
+def _raise(reader: CppExpressions, node: Node) -> None:
+    why = f'"{" ".join(text_of(node).split())}" may wrap, or be more than the model\'s int can be'
+    raise reader.unknown(node, why)

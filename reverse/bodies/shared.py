@@ -1,0 +1,37 @@
+"""What the readers of a body, and of those that stand in it, have in common."""
+
+from __future__ import annotations
+
+from dataclasses import field
+
+from rebsync.records import dataclass
+from rebsync.reverse.bodies.scope import Variable
+
+
+@dataclass(slots=True)
+class Shared:
+    """What the readers of a body share with those of the bodies that stand in it.
+
+    `demoted` are locals, or fields of local messages, whose values the model cannot know;
+    `names` are the names of the model that all locals got, `kept` those that no other may have,
+    `made` those of locals that the code does not have; `running` are the functions that are read.
+    `wide` are the bits of locals that hold more than an `int`, by their names in the model.
+    """
+
+    demoted: set[str] = field(default_factory=set)
+    names: set[str] = field(default_factory=set)
+    kept: set[str] = field(default_factory=set)
+    made: set[str] = field(default_factory=set)
+    wide: dict[str, int] = field(default_factory=dict)
+    running: list[tuple[int, str]] = field(default_factory=list)
+
+    def add(self, variable: Variable) -> None:
+        """Keeps in mind what a local can hold; of two of a name the one without a sign."""
+        if variable.wide:
+            known = self.wide.get(variable.name, variable.wide)
+            self.wide[variable.name] = known if known == variable.wide else 32
+
+    def clear(self) -> None:
+        """Forgets the locals: the body is read again."""
+        for names in (self.names, self.kept, self.made, self.wide):
+            names.clear()

@@ -1,0 +1,71 @@
+"""The annotations of classes and servers of generated code: from markers, and from the set-up.
+
+What a set-up does counts, whatever a marker says: the priority of a server.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+
+from rebsync import model as m
+from rebsync.reverse.bodies.written import annotation
+from rebsync.reverse.generated.ros1_roles import Roles
+from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
+from rebsync.reverse.syntax.cpp_tree import text_of
+
+_SHOWN = frozenset({"priority", "globalPriority"})
+
+
+def annotations_in(markers: Collection[str], owner: CppClass) -> tuple[m.Annotation, ...]:
+    """The annotations that markers in a class hold."""
+    span = owner.cpp.span(owner.node)
+    return tuple(a for text in markers if (a := annotation(text, span)) is not None)
+
+
+def class_annotations(all_roles: Mapping[str, Roles], owner: CppClass) -> Iterator[m.Annotation]:
+    """Those of the markers; without markers, those that the set-up shows."""
+    if any(x.startswith("reactiveclass ") for x in owner.markers):
+        yield from annotations_in(owner.markers, owner)
+        return
+    if any(text_of(f.type) == "Drive" for f in owner.fields):
+        yield m.Annotation("Robot")
+    if all_roles[owner.name].on_bridge:
+        yield m.Annotation("Controller")
+
+
+def server_annotations(
+    code: Code, all_roles: Mapping[str, Roles], owner: CppClass, function: CppFunction, name: str
+) -> Iterator[m.Annotation]:
+    """Those of the markers, and those that the set-up shows."""
+    shown = _shown(code, all_roles, owner, function, name)
+    if not any(x.startswith("msgsrv ") for x in function.markers):
+        if name in all_roles[owner.name].sensors:
+            yield m.Annotation("Sensor")
+        yield from shown or ()
+        return
+    marked = annotations_in(function.markers, owner)
+    if shown is None:
+        yield from marked
+        return
+    said = {a.name: a for a in shown if a.name in _SHOWN}
+    for each in marked:
+        if each.name not in _SHOWN:
+            yield each
+        elif (own := said.pop(each.name, None)) is not None:
+            yield each if each.arguments == own.arguments else own
+    yield from said.values()
+
+
+def _shown(
+    code: Code, all_roles: Mapping[str, Roles], owner: CppClass, function: CppFunction, name: str
+) -> tuple[m.Annotation, ...] | None:
+    """What the set-up shows of a server, here or in a class above; None if it shows none."""
+    overload = name, len(function.parameters)
+    for above in code.lineage(owner.name):
+        shown = all_roles[above.name].annotations.get(overload)
+        if shown is not None:
+            same = [f for f in above.functions if f.name == function.name]
+            same = [f for f in same if len(f.parameters) == overload[1]]
+            index = next((i for i, f in enumerate(same) if f.types == function.types), 0)
+            return shown[min(index, len(shown) - 1)]
+    return None
