@@ -11,7 +11,7 @@ from rebsync.roundtrip.digests import Standing, is_base_whole, is_text_of, stand
 from rebsync.roundtrip.manifest import BASE_MODEL
 from rebsync.roundtrip.model_file import model_of
 from rebsync.roundtrip.packages import Kept
-from rebsync.roundtrip.recorded import Record, read_record
+from rebsync.roundtrip.recorded import Record, read_record, told_in_step
 from rebsync.roundtrip.settings import changed_settings
 from rebsync.source import NOWHERE, Source
 
@@ -43,7 +43,8 @@ def check(kept: Kept, depth: str = "equal") -> Checked:
         return _compared(kept, kept.model, None, standing(kept, None), depth)
     model = model_of(kept, record)
     now = standing(kept, record)
-    if not (now.is_as_generated and _is_unchanged(model, record)):
+    is_known = now.is_as_generated or _was_in_step(record, now, depth)
+    if not (is_known and _is_unchanged(model, record)):
         return _compared(kept, model, record, now, depth)
     findings = (*changed_settings(model, record), *_about_base(kept, record))
     return Checked(kept, model, record, now, findings=findings)
@@ -57,6 +58,15 @@ def _record(kept: Kept) -> Record | None:
         if kept.model is None or error.findings[0].diagnostics[0].code != "RS961":
             raise
         return None
+
+
+def _was_in_step(record: Record, now: Standing, depth: str) -> bool:
+    """Whether a sync left this very code, edited as it is, in step with the model of then."""
+    return (
+        depth == "equal"
+        and bool(record.in_step)
+        and record.in_step == told_in_step(record, now.told)
+    )
 
 
 def _is_unchanged(model: str, record: Record) -> bool:

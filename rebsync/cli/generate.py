@@ -60,13 +60,15 @@ def command(
 
 
 def _with_accepted(folder: Path, files: dict[str, str]) -> dict[str, str]:
-    """The files with what the manifest that is there accepts of edits by hand."""
+    """The files with what the manifest that is there says of edits by hand."""
     from rebsync.roundtrip.manifest import MANIFEST
     from rebsync.roundtrip.recorded import read_record, with_accepted
 
     with suppress(RebsyncError):
-        if accepted := read_record(str(folder)).accepted:
-            return {**files, MANIFEST: with_accepted(files[MANIFEST], accepted)}
+        record = read_record(str(folder))
+        if record.accepted or record.in_step:
+            manifest = with_accepted(files[MANIFEST], record.accepted, record.in_step)
+            return {**files, MANIFEST: manifest}
     return files
 
 
