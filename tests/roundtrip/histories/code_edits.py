@@ -55,8 +55,8 @@ def as_generated(name: str, files: Files, old: str, new: str) -> Files | None:
             continue
         ours = files.get(path, "")
         blocks = user_blocks(ours)
-        texts = (with_user_blocks(t, blocks) for t in (before.get(path, ""), theirs))
-        merged = merged_lines(ours, *texts, _LABELS)
+        base = with_user_blocks(before.get(path, ""), blocks)
+        merged = merged_lines(ours, base, with_user_blocks(theirs, blocks), _LABELS)
         if merged.conflicts:
             return None
         result[path] = merged.text
