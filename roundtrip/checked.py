@@ -35,17 +35,33 @@ class Checked:
     findings: tuple[Findings, ...] = field(default=())
 
 
+@dataclass(frozen=True, slots=True)
+class Begun:
+    """A package of which digests alone do not tell how it stands."""
+
+    kept: Kept
+    model: str
+    record: Record | None
+    standing: Standing
+
+
 def check(kept: Kept, depth: str = "equal") -> Checked:
     """How a package stands; a RebsyncError says why that cannot be told."""
+    begun = begin(kept, depth)
+    return begun if isinstance(begun, Checked) else finish(begun, depth)
+
+
+def begin(kept: Kept, depth: str = "equal") -> Checked | Begun:
+    """How a package stands, if digests tell. RebsyncError: it cannot be told."""
     record = _record(kept)
     if record is None:
         assert kept.model is not None
-        return _compared(kept, kept.model, None, standing(kept, None), depth)
+        return Begun(kept, kept.model, None, standing(kept, None))
     model = model_of(kept, record)
     now = standing(kept, record)
     is_known = now.is_as_generated or _was_in_step(record, now, depth)
     if not (is_known and _is_unchanged(model, record)):
-        return _compared(kept, model, record, now, depth)
+        return Begun(kept, model, record, now)
     findings = (*changed_settings(model, record), *_about_base(kept, record))
     return Checked(kept, model, record, now, findings=findings)
 
@@ -85,12 +101,14 @@ def _about_base(kept: Kept, record: Record) -> tuple[Findings, ...]:
     return (Findings(Source(f"{kept.root}/{BASE_MODEL}", ""), (found,)),)
 
 
-def _compared(kept: Kept, model: str, record: Record | None, now: Standing, depth: str) -> Checked:
+def finish(begun: Begun, depth: str) -> Checked:
+    """How a package stands, from its models. RebsyncError: one of these cannot be read."""
     from rebsync.roundtrip.judged import judged
     from rebsync.roundtrip.runtime import edited
     from rebsync.roundtrip.verdict import undetermined
     from rebsync.roundtrip.wiring import odd_wiring
 
+    kept, model, record, now = begun.kept, begun.model, begun.record, begun.standing
     has_base = record is not None and is_base_whole(kept, record)
     found = judged(kept, model, record.digest if record and has_base else None, now, depth)
     drift, findings = found.drift, found.findings
