@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import field, replace
 from typing import TYPE_CHECKING
 
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
@@ -16,7 +16,8 @@ from rebsync.roundtrip.settings import changed_settings
 from rebsync.source import NOWHERE, Source
 
 if TYPE_CHECKING:
-    from rebsync.roundtrip.verdict import Drift
+    from rebsync.roundtrip.difference import Comparison, Difference
+    from rebsync.roundtrip.verdict import Drift, Mover
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +107,6 @@ def finish(begun: Begun, depth: str) -> Checked:
     from rebsync.roundtrip.judged import judged
     from rebsync.roundtrip.runtime import edited
     from rebsync.roundtrip.verdict import undetermined
-    from rebsync.roundtrip.wiring import odd_wiring
 
     kept, model, record, now = begun.kept, begun.model, begun.record, begun.standing
     has_base = record is not None and is_base_whole(kept, record)
@@ -115,9 +115,28 @@ def finish(begun: Begun, depth: str) -> Checked:
     if record is not None:
         unknown = edited(kept, record, now)
         if found.of_code is not None:
-            odd = odd_wiring(kept, record, now, found.of_code)
-            unknown += tuple(f for f in odd if f.diagnostics[0].message not in record.accepted)
+            odd, changes = _odd(begun, record, found.of_code)
+            unknown += odd
+            drift = replace(drift, differences=(*drift.differences, *changes))
         drift = undetermined(drift) if unknown else drift
         about = (*_about_base(kept, record), *changed_settings(model, record))
         findings = (*about, *findings, *unknown)
     return Checked(kept, model, record, now, drift, findings)
+
+
+def _odd(
+    begun: Begun, record: Record, of_code: Comparison
+) -> tuple[tuple[Findings, ...], tuple[tuple[Difference, Mover], ...]]:
+    """Where nodes are joined otherwise, as findings and as differences, unless that is accepted."""
+    from rebsync.roundtrip.verdict import Mover
+    from rebsync.roundtrip.wiring import odd_facts
+
+    found = odd_facts(begun.kept, record, begun.standing, of_code)
+    odd = [o for o in found if o.finding.diagnostics[0].message not in record.accepted]
+    if not odd:
+        return (), ()
+    from rebsync.roundtrip.models import model_given
+    from rebsync.roundtrip.wiring_told import told
+
+    changes = told(odd, model_given(begun.model))
+    return tuple(o.finding for o in odd), tuple((change, Mover.CODE) for change in changes)

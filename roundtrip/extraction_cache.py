@@ -16,7 +16,7 @@ import sys
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from rebsync import __version__
 from rebsync.cache import cache_directory, is_ours
@@ -142,7 +142,7 @@ def unpacked(data: bytes) -> object:
 class _Writer(pickle.Pickler):
     """Writes the one span that is no place by its name: it is told from others by identity."""
 
-    def reducer_override(self, value: object) -> object:
+    def reducer_override(self, value: object) -> Any:  # noqa: ANN401 - what pickle asks for
         return "NOWHERE" if value is NOWHERE else NotImplemented
 
 

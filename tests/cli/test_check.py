@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -302,7 +303,12 @@ def test_many_packages_are_read_by_several_processes(
     pool = parallel._pool
     monkeypatch.setattr(parallel, "processors", lambda: 2)
     monkeypatch.setattr(parallel, "ENOUGH", 1)
-    monkeypatch.setattr(parallel, "_pool", lambda count: started.append(count) or pool(count))
+
+    def starting(count: int) -> ProcessPoolExecutor:
+        started.append(count)
+        return pool(count)
+
+    monkeypatch.setattr(parallel, "_pool", starting)
     assert check(".") == wanted
     assert started == [2]
     assert check(".") == wanted, "from the cache"
