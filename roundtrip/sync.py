@@ -84,7 +84,8 @@ class _Syncing:
             raise RebsyncError(left)
         base = self._base(today)
         if refused := tuple(self._unread(compare(today, code.given), code.given)):
-            return Sync(self.checked, refused=refused, is_undetermined=True)
+            causes = (*filter(_is_of_file, self.checked.findings), *self._lost())
+            return Sync(self.checked, refused=causes or refused, is_undetermined=True)
         merged = merged_model(base, today, code.given, self.favour)
         told = _of_code(base or today, code.given)
         if merged.conflicts:
@@ -119,6 +120,13 @@ class _Syncing:
                     f" model: {difference.why}"
                 )
                 yield finding(place, "RS959", message, "write this in a way that extract reads")
+
+    def _lost(self) -> Iterator[Findings]:
+        """Generated files that are gone, which is why elements are not whole."""
+        for name in self.checked.standing.missing:
+            place = Place(Source(f"{self.checked.kept.root}/{name}", ""), NOWHERE)
+            hint = "`rebsync generate` writes it anew"
+            yield finding(place, "RS969", "this generated file is not there", hint)
 
     # --- results --------------------------------------------------------------------------------
 
@@ -262,6 +270,11 @@ _FIELDS = frozenset(Config.__dataclass_fields__)
 def _is_settled(found: Findings) -> bool:
     """Whether a finding is about what is put right by this."""
     return all(d.code in ("RS955", "RS964") for d in found.diagnostics)
+
+
+def _is_of_file(found: Findings) -> bool:
+    """Whether a finding is about a file that cannot be read at all."""
+    return all(d.code == "RS941" and d.span == NOWHERE for d in found.diagnostics)
 
 
 def _has_unknown(findings: tuple[Findings, ...]) -> bool:

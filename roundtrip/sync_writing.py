@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import os
 import subprocess
+from collections.abc import Mapping
 from pathlib import Path
 
-from rebsync.diagnostics import RebsyncError
+from rebsync.diagnostics import Findings, RebsyncError
 from rebsync.files import BOM, read_bytes
 from rebsync.roundtrip.merge_code import Stages
 from rebsync.roundtrip.sync import Sync, relative
 from rebsync.roundtrip.sync_records import with_what_holds
+from rebsync.source import Source
 from rebsync.writing import replace_tree
 
 
@@ -32,10 +34,20 @@ def write(sync: Sync) -> tuple[str, ...]:
     records = with_what_holds(sync, texts)
     texts |= {p: t for p, t in records.items() if t is not None}
     gone = [p for each in (sync.texts, records) for p, t in each.items() if t is None]
-    written = replace_tree(root, texts, remove=gone)
+    try:
+        written = replace_tree(root, texts, remove=gone)
+    except RebsyncError as error:
+        raise RebsyncError([_as_shown(f, root, sync, shown) for f in error.findings]) from None
     _tell_git(sync)
     own = (path for path in written if not path.startswith(".rebsync/"))
     return tuple(shown.get(p) or f"{sync.checked.kept.root}/{p}" for p in own)
+
+
+def _as_shown(found: Findings, root: str, sync: Sync, shown: Mapping[str, str]) -> Findings:
+    """A finding with the path of its file as the user knows it."""
+    name = relative(os.path.normpath(found.source.path), root)
+    path = shown.get(name) or f"{sync.checked.kept.root}/{name}"
+    return Findings(Source(path, found.source.text), found.diagnostics)
 
 
 def _refuse_link(file: Path, tree: str) -> None:

@@ -14,6 +14,7 @@ from rebsync.roundtrip.markers import user_blocks, with_user_blocks
 from rebsync.roundtrip.text_merge import merged_lines
 from rebsync.source import Source
 from rebsync.static import analyse
+from tests.roundtrip.histories.laws import parts_of
 from tests.roundtrip.histories.model_edits import BEHAVIOUR as MODEL_KINDS
 from tests.roundtrip.histories.model_edits import edited_model
 from tests.roundtrip.mutations.kinds import BEHAVIOUR, NEUTRAL
@@ -102,6 +103,8 @@ def _user_block(rng: Random, files: Files) -> Files:
 def _mutated(rng: Random, name: str, files: Files, kinds: Sequence[Kind]) -> tuple[str, Files]:
     package = Package(name)
     package.files = dict(files)
+    if not parts_of(package):
+        return "code: nothing", files
     for kind in rng.sample(list(kinds), 8):
         mutants = list(islice(kind.mutants(package), _MOST))
         if mutants:
