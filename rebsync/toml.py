@@ -6,6 +6,7 @@ import re
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import field
+from functools import lru_cache
 from typing import TypeVar
 
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, did_you_mean
@@ -34,8 +35,12 @@ class Table:
     path: Path
     values: Mapping[str, object]
     diagnostics: list[Diagnostic]
-    places: Mapping[Path, Span]
     _asked: set[str] = field(default_factory=set)
+
+    @property
+    def places(self) -> Mapping[Path, Span]:
+        """Where tables and keys of the whole text stand."""
+        return _places(self.source)
 
     def text(self, key: str, default: str | None = None) -> str | None:
         """The string at `key`."""
@@ -129,7 +134,7 @@ class Table:
                 self.report("RS808", self.place(key), f"unknown key `{key}`", hint)
 
     def _below(self, suffix: Path, values: Mapping[str, object]) -> Table:
-        return Table(self.source, (*self.path, *suffix), values, self.diagnostics, self.places)
+        return Table(self.source, (*self.path, *suffix), values, self.diagnostics)
 
     def _value(self, key: str) -> object:
         self._asked.add(key)
@@ -156,7 +161,7 @@ def read_toml(source: Source) -> Table:
     except RecursionError:
         mistake = Diagnostic("RS807", NOWHERE, "this TOML is nested too deeply")
         raise RebsyncError([Findings(source, (mistake,))]) from None
-    return Table(source, (), values, [], _places(source))
+    return Table(source, (), values, [])
 
 
 def _decode_mistake(source: Source, error: Exception) -> Diagnostic:
@@ -180,6 +185,7 @@ def _listed(keys: set[str]) -> str:
     return "known keys: " + ", ".join(sorted(keys))
 
 
+@lru_cache(maxsize=1)  # most texts have no mistake, and need none
 def _places(source: Source) -> dict[Path, Span]:
     """The places of headers and keys, found line by line (good enough for messages)."""
     places: dict[Path, Span] = {}

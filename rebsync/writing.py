@@ -10,7 +10,7 @@ import shutil
 import signal
 import stat
 from collections.abc import Collection, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from rebsync.files import BOM, operating_on
@@ -235,15 +235,23 @@ def _sync_directory(folder: Path) -> None:
 
 
 @contextmanager
-def alone_in(root: str) -> Iterator[None]:
-    """One process at a time writes the tree `root`; what a killed one left behind is taken away."""
+def alone_in(root: str, *files: str) -> Iterator[None]:
+    """One process at a time writes the tree `root`, and `files` that may lie elsewhere.
+
+    What a killed one left behind is taken away.
+    """
     folder = Path(root)
     created: list[Path] = []
     with operating_on(root):
         _make_folder(folder.parent, created)
+    folders = {os.path.realpath(path.parent) for path in (folder, *map(Path, files))}
     try:
-        with _locked(folder.parent):
+        with ExitStack() as locks:
+            for each in sorted(folders):  # in one order, so that no two wait for each other
+                locks.enter_context(_locked(Path(each)))
             _clear(folder)
+            for file in map(Path, files):
+                _clear_beside(file.resolve())
             yield
     finally:
         _undo([], created)
@@ -272,6 +280,13 @@ def _clear(root: Path) -> None:
                 shutil.rmtree(stage, ignore_errors=True)
         for staged in root.rglob(".*.rebsync.tmp"):
             if _STAGED.match(staged.name):
+                _discard(staged)
+
+
+def _clear_beside(file: Path) -> None:
+    with suppress(OSError):
+        for staged in file.parent.glob(f".{file.name[:100]}.*.rebsync.tmp"):
+            if _STAGED.match(staged.name) and staged.is_file():
                 _discard(staged)
 
 

@@ -30,11 +30,11 @@ def sentence(outcome: Outcome) -> str:
         return "cannot be checked"
     match verdict_of(outcome):
         case "model ahead":
-            return f"the model is ahead: `rebsync generate` takes {checked.model} into the code"
+            return f"the model is ahead: `rebsync sync` takes {checked.model} into the code"
         case "code ahead":
-            return f"the code is ahead: take its changes into {checked.model}"
+            return f"the code is ahead: `rebsync sync` takes its changes into {checked.model}"
         case "both moved":
-            return "model and code both moved, apart: they can be merged"
+            return "model and code both moved, apart: `rebsync sync` merges them"
         case "conflict":
             elements = checked.drift.conflicts if checked.drift is not None else ()
             return f"conflict: model and code both changed {', '.join(map(str, elements))}"
@@ -134,7 +134,7 @@ def as_sarif(outcomes: Sequence[Outcome]) -> str:
             prints.append({"rebsyncElement/v1": print_})
             pairs = ((difference.left, "the model"), (difference.right, "the code"))
             related.append([(p.source, p.span, remark) for p, remark in pairs if p is not None])
-        others = [(f, list[Remark]()) for f in outcome.findings] + _proofs(outcome)
+        others = [(f, list[Remark]()) for f in _others(outcome)] + _proofs(outcome)
         prints += [{"rebsyncFinding/v1": p} for p in fingerprints([f for f, _ in others])]
         found += [f for f, _ in others]
         related += [places for f, places in others for _ in f.diagnostics]
@@ -148,8 +148,24 @@ def as_github(outcomes: Sequence[Outcome]) -> str:
     found: list[Findings] = []
     for outcome in outcomes:
         found += [_finding(outcome.checked, *d) for d in differences(outcome.checked)]
-        found += [*outcome.findings, *(f for f, _ in _proofs(outcome))]
+        found += [*_others(outcome), *(f for f, _ in _proofs(outcome))]
     return commands(found)
+
+
+def _others(outcome: Outcome) -> list[Findings]:
+    """The findings but for those that are told as differences of an element already."""
+    places = {
+        (d.right.source.path, d.right.span)
+        for d, _ in differences(outcome.checked)
+        if d.right is not None
+    }
+    return [
+        found
+        for found in outcome.findings
+        if not all(
+            d.code == "RS956" and (found.source.path, d.span) in places for d in found.diagnostics
+        )
+    ]
 
 
 def _printed(outcome: Outcome) -> Iterator[tuple[Difference, Mover, str]]:

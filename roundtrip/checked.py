@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import field, replace
 from typing import TYPE_CHECKING
 
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
@@ -11,12 +11,13 @@ from rebsync.roundtrip.digests import Standing, is_base_whole, is_text_of, stand
 from rebsync.roundtrip.manifest import BASE_MODEL
 from rebsync.roundtrip.model_file import model_of
 from rebsync.roundtrip.packages import Kept
-from rebsync.roundtrip.recorded import Record, read_record
+from rebsync.roundtrip.recorded import Record, read_record, told_in_step
 from rebsync.roundtrip.settings import changed_settings
 from rebsync.source import NOWHERE, Source
 
 if TYPE_CHECKING:
-    from rebsync.roundtrip.verdict import Drift
+    from rebsync.roundtrip.difference import Comparison, Difference
+    from rebsync.roundtrip.verdict import Drift, Mover
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,16 +36,33 @@ class Checked:
     findings: tuple[Findings, ...] = field(default=())
 
 
+@dataclass(frozen=True, slots=True)
+class Begun:
+    """A package of which digests alone do not tell how it stands."""
+
+    kept: Kept
+    model: str
+    record: Record | None
+    standing: Standing
+
+
 def check(kept: Kept, depth: str = "equal") -> Checked:
     """How a package stands; a RebsyncError says why that cannot be told."""
+    begun = begin(kept, depth)
+    return begun if isinstance(begun, Checked) else finish(begun, depth)
+
+
+def begin(kept: Kept, depth: str = "equal") -> Checked | Begun:
+    """How a package stands, if digests tell. RebsyncError: it cannot be told."""
     record = _record(kept)
     if record is None:
         assert kept.model is not None
-        return _compared(kept, kept.model, None, standing(kept, None), depth)
+        return Begun(kept, kept.model, None, standing(kept, None))
     model = model_of(kept, record)
     now = standing(kept, record)
-    if not (now.is_as_generated and _is_unchanged(model, record)):
-        return _compared(kept, model, record, now, depth)
+    is_known = now.is_as_generated or _was_in_step(record, now, depth)
+    if not (is_known and _is_unchanged(model, record)):
+        return Begun(kept, model, record, now)
     findings = (*changed_settings(model, record), *_about_base(kept, record))
     return Checked(kept, model, record, now, findings=findings)
 
@@ -57,6 +75,15 @@ def _record(kept: Kept) -> Record | None:
         if kept.model is None or error.findings[0].diagnostics[0].code != "RS961":
             raise
         return None
+
+
+def _was_in_step(record: Record, now: Standing, depth: str) -> bool:
+    """Whether a sync left this very code, edited as it is, in step with the model of then."""
+    return (
+        depth == "equal"
+        and bool(record.in_step)
+        and record.in_step == told_in_step(record, now.told)
+    )
 
 
 def _is_unchanged(model: str, record: Record) -> bool:
@@ -75,21 +102,41 @@ def _about_base(kept: Kept, record: Record) -> tuple[Findings, ...]:
     return (Findings(Source(f"{kept.root}/{BASE_MODEL}", ""), (found,)),)
 
 
-def _compared(kept: Kept, model: str, record: Record | None, now: Standing, depth: str) -> Checked:
+def finish(begun: Begun, depth: str) -> Checked:
+    """How a package stands, from its models. RebsyncError: one of these cannot be read."""
     from rebsync.roundtrip.judged import judged
     from rebsync.roundtrip.runtime import edited
     from rebsync.roundtrip.verdict import undetermined
-    from rebsync.roundtrip.wiring import odd_wiring
 
+    kept, model, record, now = begun.kept, begun.model, begun.record, begun.standing
     has_base = record is not None and is_base_whole(kept, record)
     found = judged(kept, model, record.digest if record and has_base else None, now, depth)
     drift, findings = found.drift, found.findings
     if record is not None:
         unknown = edited(kept, record, now)
         if found.of_code is not None:
-            odd = odd_wiring(kept, record, now, found.of_code)
-            unknown += tuple(f for f in odd if f.diagnostics[0].message not in record.accepted)
+            odd, changes = _odd(begun, record, found.of_code)
+            unknown += odd
+            drift = replace(drift, differences=(*drift.differences, *changes))
         drift = undetermined(drift) if unknown else drift
         about = (*_about_base(kept, record), *changed_settings(model, record))
         findings = (*about, *findings, *unknown)
     return Checked(kept, model, record, now, drift, findings)
+
+
+def _odd(
+    begun: Begun, record: Record, of_code: Comparison
+) -> tuple[tuple[Findings, ...], tuple[tuple[Difference, Mover], ...]]:
+    """Where nodes are joined otherwise, as findings and as differences, unless that is accepted."""
+    from rebsync.roundtrip.verdict import Mover
+    from rebsync.roundtrip.wiring import odd_facts
+
+    found = odd_facts(begun.kept, record, begun.standing, of_code)
+    odd = [o for o in found if o.finding.diagnostics[0].message not in record.accepted]
+    if not odd:
+        return (), ()
+    from rebsync.roundtrip.models import model_given
+    from rebsync.roundtrip.wiring_told import told
+
+    changes = told(odd, model_given(begun.model))
+    return tuple(o.finding for o in odd), tuple((change, Mover.CODE) for change in changes)

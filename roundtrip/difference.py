@@ -49,6 +49,9 @@ class Aspect(Enum):
     EXPRESSION = "expression"
     BODY = "body"
     SECTIONS = "sections"
+    TOPIC = "topic"
+    PRIORITY = "priority"
+    SETTING = "setting"
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,7 @@ from rebsync.roundtrip.manifest import BASE_MODEL
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
 
-_PART = 1 << 20  # bytes that are read at once
+_PART = 1 << 16  # bytes that are read at once; much more is memory from the system for each file
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,10 +16,11 @@ import sys
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from rebsync import __version__
 from rebsync.cache import cache_directory, is_ours
+from rebsync.source import NOWHERE
 
 T = TypeVar("T")
 
@@ -69,7 +70,7 @@ def kept(key: str, kind: type[T]) -> T | None:
     if hashlib.sha256(body).digest() != data[:_DIGEST]:
         return None
     try:
-        value = _Reader(io.BytesIO(body)).load()
+        value = unpacked(body)
     except (pickle.UnpicklingError, AttributeError, ImportError, EOFError, IndexError, TypeError):
         return None  # made by a rebsync of the same version that is not quite the same
     return value if isinstance(value, kind) else None
@@ -81,7 +82,7 @@ def keep(key: str, value: object) -> None:
     if folder is None:
         return
     try:
-        body = pickle.dumps(value, protocol=5)
+        body = packed(value)
     except RecursionError:
         return
     staged = folder / f".{key}.{secrets.token_hex(4)}"
@@ -123,10 +124,34 @@ def _tidy(folder: Path) -> None:
                 (folder / name).unlink()
 
 
+# --- values as bytes ----------------------------------------------------------------------------
+
+
+def packed(value: object) -> bytes:
+    """A value of rebsync as bytes. RecursionError: it is nested too deeply."""
+    file = io.BytesIO()
+    _Writer(file, protocol=5).dump(value)
+    return file.getvalue()
+
+
+def unpacked(data: bytes) -> object:
+    """The value that bytes are made from. pickle.UnpicklingError: not all of it is rebsync's."""
+    return _Reader(io.BytesIO(data)).load()
+
+
+class _Writer(pickle.Pickler):
+    """Writes the one span that is no place by its name: it is told from others by identity."""
+
+    def reducer_override(self, value: object) -> Any:  # noqa: ANN401 - what pickle asks for
+        return "NOWHERE" if value is NOWHERE else NotImplemented
+
+
 class _Reader(pickle.Unpickler):
     """Makes values of rebsync's own classes only."""
 
     def find_class(self, module: str, name: str) -> object:
+        if (module, name) == (NOWHERE.__module__, "NOWHERE"):
+            return NOWHERE
         if module.startswith("rebsync.") or (module == "builtins" and name in _BUILTINS):
             found: object = super().find_class(module, name)
             if isinstance(found, type):

@@ -48,9 +48,9 @@ def merged_model(base: Given | None, today: Given, code: Given, favour: Favour) 
     told = [(d, mover) for d, mover in drift.differences if not isinstance(d, Undetermined)]
     movers: dict[Element, set[Mover]] = {}
     for difference, mover in told:
-        movers.setdefault(_whole(difference.element), set()).add(mover)
+        movers.setdefault(whole(difference.element), set()).add(mover)
     mine = _with_code(today, code, movers, {Mover.CODE})
-    open_ = [d for d, _ in told if _side_of(movers[_whole(d.element)]) is Mover.CONFLICT]
+    open_ = [d for d, _ in told if _side_of(movers[whole(d.element)]) is Mover.CONFLICT]
     if not open_ or favour is Favour.MODEL:
         return MergedModel(mine)
     theirs = _with_code(today, code, movers, {Mover.CODE, Mover.CONFLICT})
@@ -66,7 +66,7 @@ def as_code_says(today: Given, code: Given) -> str:
     comparison = compare(today, code)
     unknown = {d.element for d in comparison.differences if isinstance(d, Undetermined)}
     movers = {
-        _whole(d.element): {Mover.CODE} for d in comparison.differences if d.element not in unknown
+        whole(d.element): {Mover.CODE} for d in comparison.differences if d.element not in unknown
     }
     return _with_code(today, code, movers, {Mover.CODE})
 
@@ -83,7 +83,7 @@ def _side_of(movers: set[Mover]) -> Mover:
     return next(iter(movers)) if movers in ({Mover.MODEL}, {Mover.CODE}) else Mover.CONFLICT
 
 
-def _whole(element: Element) -> Element:
+def whole(element: Element) -> Element:
     """What is merged as one: a parameter together with the body that it is of."""
     if element.kind != "parameter":
         return element

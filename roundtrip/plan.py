@@ -29,12 +29,16 @@ class Action(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """The fate of one file: the text that is there (None: no file) and the one to be."""
+    """The fate of one file: the text that is there (None: no file) and the one to be.
+
+    `plain` is what is generated, without the edits that the new text keeps.
+    """
 
     path: str
     action: Action
     old: str | None
     new: str | None
+    plain: str | None = None
 
     def diff(self) -> Iterator[str]:
         """The change as a unified diff."""
@@ -74,7 +78,7 @@ def _step(folder: Path, path: str, text: str) -> Step:
     if base is not None and old == with_user_blocks(base, user_blocks(old)):
         return Step(path, Action.UPDATE, old, new)
     if base == text:
-        return Step(path, Action.KEEP, old, old)
+        return Step(path, Action.KEEP, old, old, new)
     return _merged(path, old, base, text)
 
 
@@ -89,7 +93,7 @@ def _merged(path: str, old: str, base: str | None, text: str) -> Step:
         )
         merged = merged_text(old, last, theirs, ("as edited", "as generated now"))
         if not merged.conflicts:
-            return Step(path, Action.MERGE, old, merged.text)
+            return Step(path, Action.MERGE, old, merged.text, new)
     return Step(path, Action.CONFLICT, old, new)
 
 
@@ -101,6 +105,13 @@ def _stale(folder: Path, path: str) -> list[Step]:
         edited = base is None or old != base
         steps.append(Step(path, Action.CONFLICT if edited else Action.DELETE, old, None))
     return [*steps, Step(BASE + path, Action.DELETE, base, None)]
+
+
+def aside(step: Step) -> Step:
+    """The same without keeping edits in the file: they are set aside as those of a conflict are."""
+    if step.action not in (Action.KEEP, Action.MERGE):
+        return step
+    return Step(step.path, Action.CONFLICT, step.old, step.plain)
 
 
 def name_to_keep(folder: Path, step: Step) -> str:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from rebsync import __version__
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.files import read_source
 from rebsync.records import dataclass
@@ -24,7 +26,8 @@ class Record:
     `model` is the name of the model's file; `path` leads to it from the package's folder, empty
     where that is not recorded. `digest` is that of the model's text, `files` those of the texts
     that were generated. `accepted` is how nodes are joined otherwise than generated, as a change
-    of the code that is in the model since.
+    of the code that is in the model since. `in_step` is the digest of edited code and this model
+    when all of it was last looked at and both said the same, empty where that was not so.
     """
 
     model: str
@@ -33,6 +36,7 @@ class Record:
     options: dict[str, Any]
     files: dict[str, str]
     accepted: frozenset[str] = frozenset()
+    in_step: str = ""
 
 
 def read_record(root: str) -> Record:
@@ -89,7 +93,8 @@ def _record(source: Source, data: object) -> Record:
             "options": dict(options),
             "files": dict(files),
         } if all(isinstance(k, str) and isinstance(v, str) for k, v in files.items()):
-            return Record(name, _path(data), digest, options, files, _accepted(data))
+            path, known = _path(data), _in_step(data)
+            return Record(name, path, digest, options, files, _accepted(data), known)
         case _:
             raise _damaged(source, NOWHERE, "a part of it is missing or of the wrong kind")
 
@@ -110,9 +115,26 @@ def _accepted(data: object) -> frozenset[str]:
             return frozenset()
 
 
-def with_accepted(manifest: str, accepted: Iterable[str]) -> str:
-    """The text of a manifest that accepts how some nodes are joined."""
-    told = sorted(accepted)
-    data = {k: v for k, v in json.loads(manifest).items() if k != "accepted"}
-    whole = {**data, "accepted": told} if told else data
+def _in_step(data: object) -> str:
+    match data:
+        case {"in_step": str(digest)}:
+            return digest
+        case _:
+            return ""
+
+
+def with_accepted(manifest: str, accepted: Iterable[str], in_step: str = "") -> str:
+    """The text of a manifest that accepts how some nodes are joined, and knows code by a digest."""
+    told = {"accepted": sorted(accepted), "in_step": in_step}
+    data = {k: v for k, v in json.loads(manifest).items() if k not in told}
+    whole = {**data, **{k: v for k, v in told.items() if v}}
     return json.dumps(whole, indent=2, ensure_ascii=False) + "\n"
+
+
+def told_in_step(record: Record, told: Iterable[str]) -> str:
+    """The digest of code and a model that say the same; `told` is all that the code depends on.
+
+    Another version of rebsync may read code otherwise, so that it does not know it by this.
+    """
+    parts = (__version__, record.digest, *told)
+    return hashlib.sha256("\0".join(parts).encode("utf-8", "surrogateescape")).hexdigest()

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import re
-from dataclasses import asdict
+from collections.abc import Iterator
+from dataclasses import asdict, fields
 from pathlib import Path
 
 from rebsync.config import Config, parse_config
@@ -26,13 +27,19 @@ def changed_settings(model: str, record: Record) -> tuple[Findings, ...]:
     if path.is_file():
         source = read_source(str(path))
         config = parse_config(source)
-    now = json.loads(json.dumps(asdict(config)))
     found = tuple(
         Diagnostic("RS955", _place(source, key), _message(key, record.options[key], value), _HINT)
-        for key, value in now.items()
+        for key, value in _recorded(config)
         if key not in _APART and key in record.options and record.options[key] != value
     )
     return (Findings(source, found),) if found else ()
+
+
+def _recorded(config: Config) -> Iterator[tuple[str, object]]:
+    """The settings as a manifest has them."""
+    for each in fields(config):
+        value: object = getattr(config, each.name)
+        yield each.name, [asdict(x) for x in value] if isinstance(value, tuple) else value
 
 
 def _message(key: str, old: object, new: object) -> str:

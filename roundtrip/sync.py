@@ -12,28 +12,27 @@ from pathlib import Path
 
 from rebsync import model as m
 from rebsync.config import Config, Maintainer, SensorBinding, parse_config
-from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
+from rebsync.diagnostics import Findings, RebsyncError, Severity
 from rebsync.files import read_source
 from rebsync.records import dataclass
 from rebsync.roundtrip.checked import Checked
 from rebsync.roundtrip.difference import (
     Comparison,
-    Difference,
     Place,
     Undetermined,
-    explain,
 )
 from rebsync.roundtrip.differences import compare
 from rebsync.roundtrip.digests import is_base_whole, is_text_of
 from rebsync.roundtrip.manifest import BASE, BASE_MODEL, FOLDER, MANIFEST, with_manifest
-from rebsync.roundtrip.merge_code import MergedCode, Stages, ancestors, merged_code, recorded_base
+from rebsync.roundtrip.merge_check import finding, read_with, wrongly_merged
+from rebsync.roundtrip.merge_code import Stages, ancestors, merged_code, recorded_base
 from rebsync.roundtrip.merge_models import Favour, as_code_says, merged_model
 from rebsync.roundtrip.models import code_given, model_given, parsed
 from rebsync.roundtrip.packages import SETTINGS
 from rebsync.roundtrip.recorded import Record, conflict_in, read_record, with_accepted
 from rebsync.roundtrip.sides import Given
 from rebsync.roundtrip.verdict import Mover
-from rebsync.source import NOWHERE, Source, Span
+from rebsync.source import NOWHERE, Source
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +84,8 @@ class _Syncing:
             raise RebsyncError(left)
         base = self._base(today)
         if refused := tuple(self._unread(compare(today, code.given), code.given)):
-            return Sync(self.checked, refused=refused, is_undetermined=True)
+            causes = (*filter(_is_of_file, self.checked.findings), *self._lost())
+            return Sync(self.checked, refused=causes or refused, is_undetermined=True)
         merged = merged_model(base, today, code.given, self.favour)
         told = _of_code(base or today, code.given)
         if merged.conflicts:
@@ -119,7 +119,14 @@ class _Syncing:
                     f"{difference.element} was changed in the code and cannot be taken into the"
                     f" model: {difference.why}"
                 )
-                yield _finding(place, "RS959", message, "write this in a way that extract reads")
+                yield finding(place, "RS959", message, "write this in a way that extract reads")
+
+    def _lost(self) -> Iterator[Findings]:
+        """Generated files that are gone, which is why elements are not whole."""
+        for name in self.checked.standing.missing:
+            place = Place(Source(f"{self.checked.kept.root}/{name}", ""), NOWHERE)
+            hint = "`rebsync generate` writes it anew"
+            yield finding(place, "RS969", "this generated file is not there", hint)
 
     # --- results --------------------------------------------------------------------------------
 
@@ -155,9 +162,13 @@ class _Syncing:
         if merged.conflicts:
             records = self._records(told, last)
             return Sync(self.checked, new_text, merged.texts, records, merged.conflicts, findings)
-        proof = compare(model, self._read_again(merged, code))
+        again = read_with(self.checked.standing.listing, merged.texts) if merged.texts else code
+        proof = compare(model, again)
         unknown = proof.is_undetermined or _has_unknown(findings)
-        if wrong := tuple(_wrong(d) for d in proof.differences if not isinstance(d, Undetermined)):
+        unread = {
+            d.element for d in compare(today, code).differences if isinstance(d, Undetermined)
+        }
+        if wrong := tuple(wrongly_merged(proof, unread, "take one side with --conflict")):
             return Sync(self.checked, findings=findings, refused=wrong)
         texts = {path: text for path, text in merged.texts.items() if self._differs(path, text)}
         records = self._records(model, now)
@@ -168,32 +179,6 @@ class _Syncing:
         if text is None or not file.is_file():
             return text is not None or file.is_file()
         return read_source(str(file)).text != text
-
-    def _read_again(self, merged: MergedCode, code: Given) -> Given:
-        """What the code says once it is merged."""
-        if not merged.texts:
-            return code
-        from rebsync.reverse.files.packages import is_read
-        from rebsync.reverse.files.reading import read
-        from rebsync.reverse.findings import Grade
-        from rebsync.reverse.recovery import extract
-        from rebsync.roundtrip.sides import Unread
-
-        chosen = read(self.checked.standing.listing)
-        files = dict(chosen.files)
-        for path, text in merged.texts.items():
-            folder, _, name = path.rpartition("/")
-            if text is None:
-                files.pop(path, None)
-            elif is_read(name, f"{folder}/" if folder else ""):
-                files[path] = Source(f"{self.checked.kept.root}/{path}", text)
-        extracted = extract(files)
-        unread = tuple(
-            Unread(Place(f.source, f.span), f.why, f.within)
-            for f in (*chosen.findings, *extracted.findings)
-            if f.grade is Grade.UNREADABLE
-        )
-        return Given(extracted.model, code.source, unread)
 
     # --- generation -----------------------------------------------------------------------------
 
@@ -287,24 +272,13 @@ def _is_settled(found: Findings) -> bool:
     return all(d.code in ("RS955", "RS964") for d in found.diagnostics)
 
 
+def _is_of_file(found: Findings) -> bool:
+    """Whether a finding is about a file that cannot be read at all."""
+    return all(d.code == "RS941" and d.span == NOWHERE for d in found.diagnostics)
+
+
 def _has_unknown(findings: tuple[Findings, ...]) -> bool:
     return any(d.code in ("RS941", "RS956") for f in findings for d in f.diagnostics)
-
-
-def _wrong(difference: Difference) -> Findings:
-    place = difference.right or difference.left
-    message = (
-        f"merged, {difference.element} of the code would not say what the model says:"
-        f" {explain(difference)}"
-    )
-    hint = "bring this element in step by hand, or take one side with --conflict"
-    return _finding(place, "RS968", message, hint)
-
-
-def _finding(place: Place | None, code: str, message: str, hint: str) -> Findings:
-    source = place.source if place is not None else Source("", "")
-    span = place.span if place is not None else NOWHERE
-    return Findings(source, (Diagnostic(code, Span(span.start, span.end), message, hint),))
 
 
 def relative(path: str, root: str) -> str:

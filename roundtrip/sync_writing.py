@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import os
 import subprocess
+from collections.abc import Mapping
 from pathlib import Path
 
-from rebsync.diagnostics import RebsyncError
+from rebsync.diagnostics import Findings, RebsyncError
 from rebsync.files import BOM, read_bytes
-from rebsync.roundtrip.manifest import MANIFEST
 from rebsync.roundtrip.merge_code import Stages
 from rebsync.roundtrip.sync import Sync, relative
+from rebsync.roundtrip.sync_records import with_what_holds
+from rebsync.source import Source
 from rebsync.writing import replace_tree
 
 
@@ -29,41 +31,23 @@ def write(sync: Sync) -> tuple[str, ...]:
     for path in texts:
         _refuse_link(Path(shown.get(path) or Path(root, path)), sync.checked.kept.tree)
         texts[path] = _marked(Path(root, path), texts[path])
-    texts |= {p: t for p, t in sync.records.items() if t is not None}
-    gone = [p for each in (sync.texts, sync.records) for p, t in each.items() if t is None]
-    written = replace_tree(root, texts, remove=gone)
-    _accept(sync)
+    records = with_what_holds(sync, texts)
+    texts |= {p: t for p, t in records.items() if t is not None}
+    gone = [p for each in (sync.texts, records) for p, t in each.items() if t is None]
+    try:
+        written = replace_tree(root, texts, remove=gone)
+    except RebsyncError as error:
+        raise RebsyncError([_as_shown(f, root, sync, shown) for f in error.findings]) from None
     _tell_git(sync)
     own = (path for path in written if not path.startswith(".rebsync/"))
     return tuple(shown.get(p) or f"{sync.checked.kept.root}/{p}" for p in own)
 
 
-def _accept(sync: Sync) -> None:
-    """Records how nodes are joined otherwise than would be generated now, but was told before.
-
-    Such is a server that somebody has written by hand: the model has it now, and the code is not
-    to be told of as edited once more.
-    """
-    kept = sync.checked.kept
-    if sync.conflicts or not sync.records:
-        return
-    from rebsync.roundtrip.difference import Comparison
-    from rebsync.roundtrip.digests import standing
-    from rebsync.roundtrip.recorded import read_record, with_accepted
-    from rebsync.roundtrip.wiring import odd_wiring
-
-    record = read_record(kept.root)
-    odd = odd_wiring(kept, record, standing(kept, record), Comparison(()))
-    told = {_subject(d.message) for f in sync.findings for d in f.diagnostics if d.code == "RS956"}
-    messages = sorted({d.message for f in odd for d in f.diagnostics})
-    accepted = [message for message in messages if _subject(message) not in told]
-    manifest = with_accepted(sync.records[MANIFEST] or "{}", accepted)
-    replace_tree(kept.root, {MANIFEST: manifest})
-
-
-def _subject(message: str) -> str:
-    """What a message is about, whatever it is now."""
-    return message.partition(" is ")[0]
+def _as_shown(found: Findings, root: str, sync: Sync, shown: Mapping[str, str]) -> Findings:
+    """A finding with the path of its file as the user knows it."""
+    name = relative(os.path.normpath(found.source.path), root)
+    path = shown.get(name) or f"{sync.checked.kept.root}/{name}"
+    return Findings(Source(path, found.source.text), found.diagnostics)
 
 
 def _refuse_link(file: Path, tree: str) -> None:

@@ -12,7 +12,8 @@ from rebsync.cli.amounts import amount, duration
 from rebsync.cli.status import Status, status_of, worst
 from rebsync.diagnostics import RebsyncError
 from rebsync.records import dataclass
-from rebsync.roundtrip.checked import Checked, check
+from rebsync.roundtrip.checked import Checked
+from rebsync.roundtrip.checking import Result, check_all
 from rebsync.roundtrip.outcome import IN_STEP, Outcome, verdict_of
 from rebsync.roundtrip.packages import Kept, find
 
@@ -68,12 +69,15 @@ def command(ctx: click.Context, /, paths: tuple[str, ...], style: str, **_: obje
     given = ctx.params
     packages = list(find(paths or (".",), given["model"]))
     told = _Told(style, given["output"])
-    return worst([told.tell(_outcome(kept, given)) for kept in packages] + [told.finish()])
+    every = zip(packages, check_all(packages, given["depth"]), strict=True)
+    found = [told.tell(_outcome(kept, result, given)) for kept, result in every]
+    return worst([*found, told.finish()])
 
 
-def _outcome(kept: Kept, given: dict[str, Any]) -> Outcome:
+def _outcome(kept: Kept, checked: Result, given: dict[str, Any]) -> Outcome:
+    if not isinstance(checked, Checked):
+        return Outcome(kept.root, None, RebsyncError(checked))
     try:
-        checked = check(kept, given["depth"])
         proof = _proof(checked, given) if given["verify"] else None
     except RebsyncError as error:
         return Outcome(kept.root, None, error)

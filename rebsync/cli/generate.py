@@ -14,7 +14,7 @@ from rebsync.config import FILE_NAME, TARGETS, Config, parse_config
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
 from rebsync.files import read_source
 from rebsync.report import print_report
-from rebsync.roundtrip.plan import Action, Step, name_to_keep, plan
+from rebsync.roundtrip.plan import Action, Step, aside, name_to_keep, plan
 from rebsync.source import NOWHERE, Source
 from rebsync.writing import alone_in, replace_tree
 
@@ -45,7 +45,8 @@ def command(
     config = _config(model)
     if target is not None:
         config = replace(config, target=target)
-    name, files = package_files(read_source(model), config, output)
+    source = read_source(model)
+    name, files = package_files(source, config, output)
     folder = Path(output) / name
     files = _with_accepted(folder, files)
     if only_list:
@@ -56,17 +57,33 @@ def command(
     with alone_in(str(folder)):
         if not force:
             _refuse_another_model(folder, f"{_stem(model)}.rebeca")
-        return _write(folder, plan(folder, files), force)
+        return _merged(folder, plan(folder, files), source, force)
+
+
+def _merged(folder: Path, steps: tuple[Step, ...], source: Source, force: bool) -> Status:
+    """Writes the files, if what is merged with edits says what the model says."""
+    if any(step.action in (Action.KEEP, Action.MERGE) for step in steps):
+        from rebsync.roundtrip.plan_proof import wrong_in
+
+        wrong = wrong_in(folder, steps, source)
+        if wrong and not force:
+            print_report(wrong, sys.stderr)
+            click.echo(f"{folder}: nothing was written", err=True)
+            return Status.FINDINGS
+        steps = tuple(aside(step) for step in steps) if wrong else steps
+    return _write(folder, steps, force)
 
 
 def _with_accepted(folder: Path, files: dict[str, str]) -> dict[str, str]:
-    """The files with what the manifest that is there accepts of edits by hand."""
+    """The files with what the manifest that is there says of edits by hand."""
     from rebsync.roundtrip.manifest import MANIFEST
     from rebsync.roundtrip.recorded import read_record, with_accepted
 
     with suppress(RebsyncError):
-        if accepted := read_record(str(folder)).accepted:
-            return {**files, MANIFEST: with_accepted(files[MANIFEST], accepted)}
+        record = read_record(str(folder))
+        if record.accepted or record.in_step:
+            manifest = with_accepted(files[MANIFEST], record.accepted, record.in_step)
+            return {**files, MANIFEST: manifest}
     return files
 
 

@@ -50,7 +50,7 @@ def _one(kept: Kept, conflict: str, dry_run: bool) -> Status:
     try:
         if dry_run:
             return _shown(_worked_out(kept, conflict))
-        with alone_in(kept.root):
+        with alone_in(kept.root, *_models_of(kept)):
             return _done(_worked_out(kept, conflict))
     except RebsyncError as error:
         print_report(error.findings, sys.stderr)
@@ -64,6 +64,17 @@ def _one(kept: Kept, conflict: str, dry_run: bool) -> Status:
         why = "something in it nests deeper than rebsync reads"
         print_report(RebsyncError.of(kept.root, "RS111", why).findings, sys.stderr)
         return Status.UNUSABLE
+
+
+def _models_of(kept: Kept) -> tuple[str, ...]:
+    """The model, which is to be written as well, if it is found."""
+    from rebsync.roundtrip.model_file import model_of
+    from rebsync.roundtrip.recorded import read_record
+
+    try:
+        return (kept.model or model_of(kept, read_record(kept.root)),)
+    except RebsyncError:
+        return ()  # what is wrong is told when it is worked out
 
 
 def _worked_out(kept: Kept, conflict: str) -> Sync:

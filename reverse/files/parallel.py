@@ -14,6 +14,7 @@ from concurrent.futures.process import BrokenProcessPool
 from functools import partial
 from itertools import chain
 from multiprocessing import get_context
+from operator import attrgetter
 from typing import TypeVar
 
 from rebsync.diagnostics import RebsyncError
@@ -21,8 +22,9 @@ from rebsync.reverse.files.packages import Listing
 from rebsync.reverse.files.reading import Chosen, all_listings, read
 
 T = TypeVar("T")
+G = TypeVar("G")
 
-_ENOUGH = 100_000  # bytes, from which on starting processes is paid back
+ENOUGH = 100_000  # bytes of code, from which on starting processes is paid back
 _AHEAD = 4  # packages for each process that are handed out before their turn
 
 
@@ -37,10 +39,10 @@ def each(paths: Iterable[str], work: Callable[[Chosen], T]) -> Iterator[T]:
     every = chain(first, listings)
     if len(first) < 2:
         yield from (work(read(listing)) for listing in first)
-    elif sum(listing.size for listing in first) < _ENOUGH or _processors() < 2:
+    elif sum(listing.size for listing in first) < ENOUGH or processors() < 2:
         yield from (_done(work, listing) for listing in every)
     else:
-        yield from _in_processes(every, partial(_done, work))
+        yield from in_processes(every, partial(_done, work), attrgetter("root"))
 
 
 def _first(listings: Iterator[Listing]) -> list[Listing]:
@@ -50,7 +52,7 @@ def _first(listings: Iterator[Listing]) -> list[Listing]:
     for listing in listings:
         found.append(listing)
         size += listing.size
-        if len(found) > 1 and size >= _ENOUGH:
+        if len(found) > 1 and size >= ENOUGH:
             break
     return found
 
@@ -65,13 +67,19 @@ def _done(work: Callable[[Chosen], T], listing: Listing) -> T:
 # --- processes ----------------------------------------------------------------------------------
 
 
-def _in_processes(listings: Iterator[Listing], task: Callable[[Listing], T]) -> Iterator[T]:
-    processes = _processors()
-    waiting: deque[tuple[Listing, Future[T]]] = deque()
+def in_processes(
+    every: Iterator[G], task: Callable[[G], T], root_of: Callable[[G], str]
+) -> Iterator[T]:
+    """What `task` makes of each, in their order, on all processors.
+
+    RebsyncError: one of them has ended the process that it was in; it tells the root of that.
+    """
+    processes = processors()
+    waiting: deque[tuple[G, Future[T]]] = deque()
     pool = _pool(processes)
     try:
-        for listing in listings:
-            waiting.append((listing, pool.submit(task, listing)))
+        for one in every:
+            waiting.append((one, pool.submit(task, one)))
             if len(waiting) >= processes * _AHEAD:
                 yield waiting[0][1].result()
                 waiting.popleft()
@@ -79,23 +87,23 @@ def _in_processes(listings: Iterator[Listing], task: Callable[[Listing], T]) -> 
             yield waiting[0][1].result()
             waiting.popleft()
     except BrokenProcessPool:
-        lost = [listing for listing, _ in waiting]
-        yield from (_alone(listing, task) for listing in chain(lost, listings))
+        lost = [one for one, _ in waiting]
+        yield from (_alone(one, task, root_of) for one in chain(lost, every))
     finally:
         pool.shutdown(wait=False, cancel_futures=True)
 
 
-def _alone(listing: Listing, task: Callable[[Listing], T]) -> T:
+def _alone(one: G, task: Callable[[G], T], root_of: Callable[[G], str]) -> T:
     """Does it in a process of its own, as one of several packages has ended the process it was in.
 
     RebsyncError: this package did.
     """
     with _pool(1) as pool:
         try:
-            return pool.submit(task, listing).result()
+            return pool.submit(task, one).result()
         except BrokenProcessPool:
             why = "reading this package ended the process that read it; memory may be short"
-            raise RebsyncError.of(listing.root, "RS806", why) from None
+            raise RebsyncError.of(root_of(one), "RS806", why) from None
 
 
 def _pool(processes: int) -> ProcessPoolExecutor:
@@ -111,7 +119,8 @@ def _begin() -> None:
     gc.freeze()
 
 
-def _processors() -> int:
+def processors() -> int:
+    """How many processors this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1

@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -16,6 +17,7 @@ import pytest
 from jsonschema import validate  # type: ignore[import-untyped]
 
 from rebsync.cli import main
+from rebsync.reverse.files import parallel
 from tests.cli.run import ROOT, environment, rebsync
 from tests.test_report import SCHEMA as SARIF
 
@@ -283,6 +285,33 @@ def test_packages_below_a_directory_each_have_a_verdict(check: Check, package: P
     heads = [line for line in shown.splitlines() if line.partition(":")[0].endswith("patrol")]
     assert [h.partition(": ")[2][:10] for h in heads] == ["the code i", "cannot be ", "in step"]
     assert check("a", "a/patrol", "patrol")[1].count("a/patrol: ") == 1
+
+
+def test_many_packages_are_read_by_several_processes(
+    check: Check, package: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("c", "b", "a"):
+        shutil.copytree(package.parent, package.parent / name, ignore=lambda *_: ["a", "b", "c"])
+    replace("a/patrol/src/robot.cpp", "mailbox_.delay(1)", "mailbox_.delay(3)")
+    Path("b/patrol/.rebsync/manifest.json").write_text("{")
+    Path("c/patrol.rebeca").write_text("reactiveclass {")
+    (package / "launch/patrol.launch").unlink()
+    monkeypatch.setattr(parallel, "processors", lambda: 1)
+    wanted = check(".")
+    shutil.rmtree(package.parent / ".cache/check")
+    started: list[int] = []
+    pool = parallel._pool
+    monkeypatch.setattr(parallel, "processors", lambda: 2)
+    monkeypatch.setattr(parallel, "ENOUGH", 1)
+
+    def starting(count: int) -> ProcessPoolExecutor:
+        started.append(count)
+        return pool(count)
+
+    monkeypatch.setattr(parallel, "_pool", starting)
+    assert check(".") == wanted
+    assert started == [2]
+    assert check(".") == wanted, "from the cache"
 
 
 def test_a_package_is_found_from_inside(

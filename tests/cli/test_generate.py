@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -150,6 +151,30 @@ def test_edits_elsewhere_in_a_file_are_merged(model: Path, end: str) -> None:
     assert source.read_bytes() == wanted.encode() != mine.encode()
     assert generate() == 0
     assert source.read_bytes() == wanted.encode()
+
+
+def test_what_is_merged_must_say_what_the_model_says(
+    model: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    more = "\n    x = x + 1;" * 4
+    text = MODEL.replace("delay(1);", f"int k = 1;\n    delay(k);{more}")
+    model.write_text(text)
+    generate()
+    source = Path("patrol/src/robot.cpp")
+    edited = re.sub(r"\bk\b", "pause", source.read_text())
+    source.write_text(edited)
+    assert main(["check"]) == 0, "it is called otherwise, no more"
+    model.write_text(text.replace(more, f"{more}\n    x = k;"))
+    before = tree(Path())
+    capsys.readouterr()
+    assert generate() == 1
+    shown = capsys.readouterr().err
+    assert "RS968 merged, msgsrv Robot.go of the code would not say what the model says" in shown
+    assert "nothing was written" in shown
+    assert tree(Path()) == before
+    assert generate("--force") == 0
+    assert Path(f"{source}.orig").read_text() == edited
+    assert main(["check"]) == 0
 
 
 def test_every_edit_that_was_forced_aside_is_kept(model: Path) -> None:

@@ -10,6 +10,9 @@ from pathlib import Path
 import pytest
 
 from rebsync.cli import main
+from rebsync.roundtrip.checked import check
+from rebsync.roundtrip.packages import find
+from rebsync.roundtrip.verdict import Verdict
 from tests.cli.test_check import MODEL, SOURCE, made, package, replace, snapshot
 
 __all__ = ["made", "package"]  # fixtures
@@ -70,6 +73,20 @@ def test_line_ends_and_marks_of_files_stay(sync: Run) -> None:
     assert sync()[0] == 0
     assert model.read_bytes() == wanted
     assert source.read_bytes() == code
+
+
+def test_edited_code_is_known_by_its_digest_afterwards(sync: Run) -> None:
+    replace(SOURCE, "  mailbox_.delay(1);", "  // slow\n  mailbox_.delay(1);")
+    replace(SOURCE, "n > 3", "n > 5")
+    assert sync()[0] == 0
+    (kept,) = find(["."])
+    assert check(kept).drift is None, "nothing was read"
+    assert main(["generate", "patrol.rebeca"]) == 0
+    assert check(kept).drift is None
+    replace(SOURCE, "// slow", "// slower")
+    drift = check(kept).drift
+    assert drift is not None, "it is other code now"
+    assert drift.verdict is Verdict.IN_STEP
 
 
 def test_a_dry_run_shows_the_patch_and_writes_nothing(sync: Run) -> None:

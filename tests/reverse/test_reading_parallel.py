@@ -20,8 +20,8 @@ COUNT = 24
 @pytest.fixture(autouse=True)
 def processes(monkeypatch: pytest.MonkeyPatch) -> None:
     """As if there were two processors, and little were enough for two processes."""
-    monkeypatch.setattr(parallel, "_processors", lambda: 2)
-    monkeypatch.setattr(parallel, "_ENOUGH", 100)
+    monkeypatch.setattr(parallel, "processors", lambda: 2)
+    monkeypatch.setattr(parallel, "ENOUGH", 100)
 
 
 @pytest.fixture
@@ -61,7 +61,7 @@ def test_one_package_needs_no_process(packages: Path) -> None:
 
 
 def test_little_needs_no_process(packages: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(parallel, "_ENOUGH", 1 << 20)
+    monkeypatch.setattr(parallel, "ENOUGH", 1 << 20)
     found = list(each([str(packages)], named))
     assert ({process for _, process in found}, len(found)) == ({os.getpid()}, COUNT)
 

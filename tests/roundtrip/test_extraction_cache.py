@@ -12,8 +12,9 @@ import pytest
 from rebsync import model as m
 from rebsync.grammars.parser import parse_model
 from rebsync.roundtrip import extraction_cache
+from rebsync.roundtrip.difference import Place
 from rebsync.roundtrip.extraction_cache import keep, kept, key_of
-from rebsync.source import Source, Span
+from rebsync.source import NOWHERE, Source, Span
 
 MODEL = parse_model(Source("a.rebeca", "reactiveclass A(2) { A() { } } main { A a():(); }")).model
 
@@ -33,6 +34,14 @@ def test_a_model_comes_back_with_its_places(folder: Path) -> None:
     assert [p.name for p in folder.iterdir()] == ["a"]
     assert kept("b", m.Model) is None
     assert kept("a", Source) is None
+
+
+def test_no_place_stays_no_place(folder: Path) -> None:
+    place = Place(Source("a.cpp", "a"), NOWHERE)
+    keep("a", place)
+    found = kept("a", Place)
+    assert found is not None
+    assert (str(found), found.line) == ("a.cpp", None)
 
 
 def put(path: Path, body: bytes) -> None:

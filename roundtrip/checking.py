@@ -1,0 +1,78 @@
+"""The verdicts on many packages: what must be read for them is read on all processors."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
+from typing import TypeAlias, cast
+
+from rebsync.diagnostics import Findings, RebsyncError
+from rebsync.roundtrip.checked import Begun, Checked, begin, finish
+from rebsync.roundtrip.packages import Kept
+
+# Findings say why it cannot be told how a package stands.
+Result: TypeAlias = "Checked | tuple[Findings, ...]"
+
+
+def check_all(packages: Iterable[Kept], depth: str) -> Iterator[Result]:
+    """How each package stands, in their order."""
+    begun = [_tried(kept.root, partial(begin, kept, depth)) for kept in packages]
+    pending = [b for b in begun if isinstance(b, Begun)]
+    finished = _in_processes(pending, depth) if _is_much(pending) else _in_turn(pending, depth)
+    for each in begun:
+        yield next(finished) if isinstance(each, Begun) else each
+
+
+def _tried(root: str, task: Callable[[], Checked | Begun]) -> Result | Begun:
+    try:
+        return task()
+    except RebsyncError as error:
+        return error.findings
+    except RecursionError:
+        return _too_deep(root)
+
+
+def _too_deep(root: str) -> tuple[Findings, ...]:
+    why = "something in it nests deeper than rebsync reads"
+    return RebsyncError.of(root, "RS111", why).findings
+
+
+def _finished(begun: Begun, depth: str) -> Result:
+    return cast("Result", _tried(begun.kept.root, lambda: finish(begun, depth)))
+
+
+def _in_turn(pending: list[Begun], depth: str) -> Iterator[Result]:
+    yield from (_finished(begun, depth) for begun in pending)
+
+
+# --- processes ----------------------------------------------------------------------------------
+
+
+def _is_much(pending: list[Begun]) -> bool:
+    """Whether more processes are worth while; what they need is loaded for that only."""
+    if len(pending) < 2:
+        return False
+    from rebsync.reverse.files.parallel import ENOUGH, processors
+
+    return sum(b.standing.listing.size for b in pending) >= ENOUGH and processors() > 1
+
+
+def _in_processes(pending: list[Begun], depth: str) -> Iterator[Result]:
+    from rebsync.reverse.files.parallel import in_processes
+    from rebsync.roundtrip.extraction_cache import unpacked
+
+    for data in in_processes(iter(pending), partial(_sent, depth), lambda b: b.kept.root):
+        yield cast("Result", unpacked(data))
+
+
+def _sent(depth: str, begun: Begun) -> bytes:
+    """The result in the form in which values keep what they are."""
+    from rebsync.roundtrip.extraction_cache import packed
+
+    try:
+        return packed(_finished(begun, depth))
+    except RecursionError:
+        return packed(_too_deep(begun.kept.root))
+    finally:
+        gc.collect()  # commands run without it, but this one may take long

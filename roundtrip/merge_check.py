@@ -1,0 +1,60 @@
+"""What a package says with some of its files changed, before any of them is written."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+
+from rebsync.diagnostics import Diagnostic, Findings
+from rebsync.reverse.files.packages import Listing, is_read
+from rebsync.roundtrip.difference import Comparison, Element, Place, explain
+from rebsync.roundtrip.merge_models import whole
+from rebsync.roundtrip.sides import Given, Unread
+from rebsync.source import NOWHERE, Source, Span
+
+
+def read_with(listing: Listing, texts: Mapping[str, str | None]) -> Given:
+    """What the code of a package says with other texts (None: without that file)."""
+    from rebsync.reverse.files.reading import read
+    from rebsync.reverse.findings import Grade
+    from rebsync.reverse.recovery import extract
+
+    chosen = read(listing)
+    files = dict(chosen.files)
+    for path, text in texts.items():
+        folder, _, name = path.rpartition("/")
+        if text is None:
+            files.pop(path, None)
+        elif is_read(name, f"{folder}/" if folder else ""):
+            files[path] = Source(f"{listing.root}/{path}", text)
+    extracted = extract(files)
+    unread = tuple(
+        Unread(Place(f.source, f.span), f.why, f.within)
+        for f in (*chosen.findings, *extracted.findings)
+        if f.grade is Grade.UNREADABLE
+    )
+    return Given(extracted.model, Source(listing.root, ""), unread)
+
+
+def wrongly_merged(
+    proof: Comparison, known: Collection[Element], way_out: str
+) -> Iterator[Findings]:
+    """The elements that would not say in the code what they say in the model, and what to do.
+
+    `known` are those of which that was so before, or which could not be read then.
+    """
+    for difference in proof.differences:
+        if whole(difference.element) in known or difference.element in known:
+            continue
+        message = (
+            f"merged, {difference.element} of the code would not say what the model says:"
+            f" {explain(difference)}"
+        )
+        hint = f"bring this element in step by hand, or {way_out}"
+        yield finding(difference.right or difference.left, "RS968", message, hint)
+
+
+def finding(place: Place | None, code: str, message: str, hint: str) -> Findings:
+    """A finding at a place of the model or of the code."""
+    source = place.source if place is not None else Source("", "")
+    span = place.span if place is not None else NOWHERE
+    return Findings(source, (Diagnostic(code, Span(span.start, span.end), message, hint),))

@@ -1,0 +1,254 @@
+"""The facts that join generated nodes: topics, priorities, remaps, fields of messages, programs.
+
+They are read from the texts alone, whatever the model says.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
+from itertools import chain
+from pathlib import Path
+from typing import TypeAlias
+
+from rebsync.diagnostics import RebsyncError
+from rebsync.files import read_source
+from rebsync.records import dataclass
+from rebsync.source import Source, Span
+
+PROGRAM, PLAYED, TYPE = "program", "played sensor", "type of a node"
+NOT_GIVEN = "not given"
+
+Facts: TypeAlias = "dict[tuple[str, str, str], list[Fact]]"
+
+_LAYOUT = re.compile(r" ?([^\w \"]) ?")
+_READ = re.compile(r"\b(\w+)\s*=\s*global\s*\.\s*param(?:<[^<>]*>)?\s*\(\s*(\"[^\"]*\")")
+_BEST = re.compile(r"\bmailbox_\s*\(\s*\w+\s*,[^,()]*(?:,\s*([^()]*?)\s*)?\)")
+_SENT_BY = re.compile(r"\bmailbox_\s*\.\s*receive\s*\(\s*(\w+)\s*,[^,]*,\s*([^,]*?)\s*,")
+_HASH = re.compile(r"#[^\n]*")
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+_REMARK = re.compile(r"<!--.*?-->", re.DOTALL)
+_SENSOR = re.compile(r'[:,]\s*(\w+)\s*[({]\s*\w+\s*,\s*("[^"]*")\s*[)}]')
+_PLAYED = re.compile(r'\bnode\s*\.\s*advertise\s*<[^;()]*>\s*\(\s*"([^"]*)"')
+_MADE = re.compile(r"\b(?:\w+\s*::\s*)*(\w+)\s+\w+\s*[({]\s*node\s*[,)}]")
+_OWNER = re.compile(r"\b(\w+)::\1\s*\(")
+_SUBSCRIBED = re.compile(r'\b(subscribe\w*)\s*(?:<[^;()]*>\s*)?\(\s*("[^"]*")\s*,')
+_HANDLER = re.compile(r"&\s*(?:\w+::)+(\w+)|\b(k[A-Z]\w*)")
+_ADVERTISED = re.compile(r"\b(\w+)\s*=\s*mailbox_\s*\.\s*(advertise\w*\s*<[^;]*?\([^;]*\))\s*;")
+_SERVER = re.compile(r'\bServer\s+(\w+)\s*\{\s*("[^"]*")\s*,\s*([^}]*?)\s*\}')
+_ENTRY = re.compile(r"^([ \t]*)(\w+):[ \t]*([^\n#]*?)[ \t]*(?:#.*)?$", re.MULTILINE)
+_BEARING = {
+    "mailbox": ("time_unit", "settle"),
+    "drive": ("cell_size", "kind", "heading", "move_time"),
+}
+_PROGRAM = re.compile(r"\b(add_executable|set_target_properties)\s*\(\s*(\S+)\s+([^)]*)\)")
+_COMPILED = re.compile(
+    r"\b(?:add|target)_(?:compile_\w+|definitions)\s*\(([^)]*)\)|_FLAGS\s+([^)]*)\)"
+)
+_OPTION = re.compile(r"(?:^|[\s\"])((?:-D|-U|-f|-include)\s*[^\s\"]+)")
+_USUAL = re.compile(r"\b(\w+)\s*\([^;{}]*\bWhen\s*&\s*\w+\s*=\s*([^;]*?)\s*\)\s*;")
+_CLASS = re.compile(r"\bclass\s+(\w+)[^;{]*\{")
+_SENDER = re.compile(
+    r"\b(\w+)::(\w+)\s*\([^;{}]*\bWhen\s*&[^;{}]*\)\s*\{(.*?)^\}", re.M | re.DOTALL
+)
+_CALLED = re.compile(r"\bmailbox_\s*\.\s*(?:post|publish)\s*\(")
+_BRANCH = re.compile(r"\b(?:if|for|while|switch|return|throw)\b|&&|\|\|")
+_FAR = 400  # characters within which a subscription names its handler
+_POSTED = re.compile(r"\bk[A-Z]\w*")
+_TAG = re.compile(r"<(/?)([\w-]+)((?:\s+[\w-]+\s*=\s*(?:\"[^\"]*\"|'[^']*'))*)\s*(/?)>")
+_ATTRIBUTE = re.compile(r"([\w-]+)\s*=\s*(?:\"([^\"]*)\"|'([^']*)')")
+_STATE = re.compile(r"^string server\nstring arguments$", re.MULTILINE)
+_FIELD = re.compile(r"^[ \t]*([\w/\[\]]+)[ \t]+(\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
+
+
+@dataclass(frozen=True, slots=True)
+class Fact:
+    """Something that joins nodes: its kind, whose it is, its name, what it is, and the place."""
+
+    kind: str
+    owner: str
+    name: str
+    value: str
+    source: Source
+    span: Span
+
+    @property
+    def key(self) -> tuple[str, str, str]:
+        """By what it is known in another state of the package."""
+        return self.kind, self.owner, self.name
+
+
+def facts_of(paths: Mapping[str, str]) -> Facts:
+    found: Facts = {}
+    for name, path in sorted(paths.items()):
+        with suppress(RebsyncError):  # what cannot be read, extraction lists
+            source = read_source(path)
+            for fact in _of_file(name, source):
+                found.setdefault(fact.key, []).append(fact)
+    return found
+
+
+def _of_file(name: str, source: Source) -> Iterable[Fact]:
+    if name.endswith(".msg"):
+        return _fields(source)
+    if name.endswith(".yaml"):
+        return _settings(source)
+    if name.endswith(".txt"):
+        return _programs(source)
+    is_launch = name.endswith(".launch")
+    text = (_REMARK if is_launch else _COMMENT).sub(lambda m: " " * len(m[0]), source.text)
+    if is_launch:
+        return _launched(source, text)
+    program = Path(name).stem
+    return chain(_joints(source, text), _sendings(source, text), _made(program, source, text))
+
+
+def _joints(source: Source, text: str) -> Iterator[Fact]:
+    """Subscriptions by the server that they are for, publishers, priorities."""
+    owner = _OWNER.search(text)
+    if owner is None:
+        return
+    servers = {m[1]: m[2].strip('"') for m in _SERVER.finditer(text)}
+    for m in _SERVER.finditer(text):
+        priority = _squeezed(m[3])
+        yield Fact("priority", owner[1], m[2].strip('"'), priority, source, Span(*m.span()))
+    for m in _READ.finditer(text):
+        yield Fact("parameter for", owner[1], m[1], m[2], source, Span(*m.span()))
+    for m in _BEST.finditer(text):
+        yield Fact("best priority", owner[1], "", m[1] or "none", source, Span(*m.span()))
+    for m in _SENT_BY.finditer(text):
+        name = servers.get(m[1], m[1])
+        yield Fact("sender", owner[1], name, _squeezed(m[2]), source, Span(*m.span()))
+    for m in _SENSOR.finditer(text):
+        yield Fact("sensor", owner[1], m[1], m[2], source, Span(*m.span(2)))
+    for m in _SUBSCRIBED.finditer(text):
+        server = _server_of(text, m.end(), servers)
+        yield Fact("subscription", owner[1], server, f"{m[1]} {m[2]}", source, Span(*m.span()))
+    for m in _ADVERTISED.finditer(text):
+        value = _squeezed(m[2])
+        yield Fact("publisher", owner[1], m[1], value, source, Span(*m.span()))
+
+
+def _made(program: str, source: Source, text: str) -> Iterator[Fact]:
+    """What a program makes a rebec of, or what sensors it plays."""
+    if "int main(" not in text:
+        return
+    for m in _MADE.finditer(text):
+        yield Fact(PROGRAM, program, "", m[1], source, Span(*m.span()))
+    for m in _PLAYED.finditer(text):
+        yield Fact(PLAYED, program, m[1], m[1], source, Span(*m.span()))
+
+
+def _sendings(source: Source, text: str) -> Iterator[Fact]:
+    """How functions that send do that: when, if not told, and how often."""
+    for m in _USUAL.finditer(text):
+        owners = [c[1] for c in _CLASS.finditer(text, 0, m.start())]
+        owner = owners[-1] if owners else ""
+        yield Fact("usual time", owner, m[1], _squeezed(m[2]), source, Span(*m.span()))
+    for m in _SENDER.finditer(text):
+        value = f"{len(_CALLED.findall(m[3]))} sent, {len(_BRANCH.findall(m[3]))} branches"
+        yield Fact("sending", m[1], m[2], value, source, Span(*m.span(2)))
+
+
+def _server_of(text: str, start: int, servers: Mapping[str, str]) -> str:
+    """The server that a subscription is for: what it, or else its handler, posts to."""
+    for method, constant in _HANDLER.findall(text[start : start + _FAR]):
+        if constant in servers:
+            return servers[constant]
+        if method:
+            return _posted_in(text, method, servers)
+    return ""
+
+
+def _posted_in(text: str, handler: str, servers: Mapping[str, str]) -> str:
+    """The server that a handler posts to; its own name if it posts to none."""
+    body = re.search(rf"::{handler}\s*\([^{{;]*\)\s*\{{(.*?)\n\}}", text, re.DOTALL)
+    for constant in _POSTED.findall(body[1]) if body is not None else ():
+        if constant in servers:
+            return servers[constant]
+    return handler
+
+
+def _launched(source: Source, text: str) -> Iterator[Fact]:
+    """Of each node its package, type, namespace and remaps; lists of rebecs.
+
+    Remaps outside of nodes, which all that follow have, are those of no node.
+    """
+    node = ""
+    spaces = list[str]()
+    for m in _TAG.finditer(text):
+        end, tag, rest, closed = m.groups()
+        given = {a[1]: a[2] if a[2] is not None else a[3] for a in _ATTRIBUTE.finditer(rest)}
+        span = Span(*m.span())
+        match tag:
+            case "group" if end:
+                spaces = spaces[:-1]
+            case "group" if not closed:
+                spaces.append(given.get("ns", ""))
+            case "node" if not end:
+                name = given.get("name", "")
+                node = "" if closed else name
+                given["ns"] = "/".join(filter(None, (*spaces, given.get("ns"))))
+                for key in ("pkg", "respawn", "ns"):
+                    yield Fact("node", name, key, given.get(key) or NOT_GIVEN, source, span)
+                yield Fact(TYPE, name, "", given.get("type", ""), source, span)
+            case "node":
+                node = ""
+            case "remap":
+                yield Fact("remap", node, given.get("from", ""), given.get("to", ""), source, span)
+            case "rosparam" if not end and not closed and "param" in given:
+                value = _squeezed(text[m.end() : text.find("</rosparam>", m.end())])
+                yield Fact("parameter", "", given["param"], value, source, span)
+            case "rosparam" if given.get("command") == "load":
+                value = given.get("file", "").rpartition("/")[2]
+                yield Fact("parameter file", "", value, "loaded", source, span)
+            case "param" if not node and _has_bearing(given.get("name", "")):
+                name, value = given["name"].strip("/"), given.get("value", "")
+                yield Fact("setting", "", name, value, source, span)
+            case _:
+                pass
+
+
+def _fields(source: Source) -> Iterator[Fact]:
+    message = Path(source.path).stem
+    if _STATE.search(source.text):
+        return  # what a node tells of itself, and no other takes
+    for m in _FIELD.finditer(source.text):
+        yield Fact("field", message, m[2], m[1], source, Span(*m.span()))
+
+
+def _settings(source: Source) -> Iterator[Fact]:
+    """What in the parameters of the run-time part has a bearing on what nodes do."""
+    section = ""
+    for m in _ENTRY.finditer(source.text):
+        if not m[1]:
+            section = m[2]
+        elif m[2] in _BEARING.get(section, ()):
+            yield Fact("parameter", "", f"{section}/{m[2]}", m[3], source, Span(*m.span(2)))
+
+
+def _has_bearing(name: str) -> bool:
+    section, _, rest = name.strip("/").partition("/")
+    return rest in _BEARING.get(section, ())
+
+
+def _programs(source: Source) -> Iterator[Fact]:
+    """The files that programs are made of, what these are called, how they are compiled."""
+    for m in _COMPILED.finditer(_HASH.sub(lambda m: " " * len(m[0]), source.text)):
+        for option in _OPTION.findall(m[1] or m[2] or ""):
+            yield Fact("compiler option", "", _squeezed(option), "given", source, Span(*m.span()))
+    for m in _PROGRAM.finditer(source.text):
+        command, target, rest = m.groups()
+        span = Span(*m.span(2))
+        if command == "set_target_properties":
+            yield Fact("name of a program", target, "", _squeezed(rest), source, span)
+            continue
+        for path in rest.split():
+            name = path.rpartition("/")[2]
+            yield Fact("source of a program", target, name, "there", source, span)
+
+
+def _squeezed(text: str) -> str:
+    """A text without layout."""
+    return _LAYOUT.sub(r"\1", " ".join(text.split()))

@@ -1,0 +1,194 @@
+"""Which publishers reach which subscriptions: names of topics, resolved as ROS does.
+
+Who is joined with whom is what counts. How a topic is called between nodes of a package does not.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+
+from rebsync.records import dataclass
+from rebsync.roundtrip.wiring_facts import NOT_GIVEN, PLAYED, PROGRAM, TYPE, Fact, Facts
+
+_INSTANCES = ("parameter", "", "mailbox/instances")
+_LISTED = re.compile(r"(\w+):\[([^\]]*)\]")
+_STRING = re.compile(r'"([^"]*)"')
+_NAME = re.compile(r"[~/]?\w+(?:/\w+)*\Z")
+_SENDING = frozenset({"publisher", PLAYED})
+TOPICS = frozenset({"publisher", "subscription", "sensor"})
+
+
+class _Unknown(Exception):
+    """A name that the texts do not tell."""
+
+
+@dataclass(frozen=True, slots=True)
+class _End:
+    """A publisher or subscription of a node; `rebec` is whom it is for, of a publisher to many.
+
+    The name is that of a member, or of the server that a subscription is for.
+    """
+
+    node: str
+    kind: str
+    name: str
+    message: str = ""
+    rebec: str = ""
+
+    @property
+    def plain(self) -> _End:
+        """The same whatever the member is called."""
+        return self if self.kind == "subscription" else replace(self, name="")
+
+
+@dataclass(frozen=True, slots=True)
+class Joined:
+    """`names` are those of all ends, before and after remapping.
+
+    `pairs` are publishers with the subscriptions that they reach; `alone` are the topics of ends
+    that reach nothing in the package.
+    """
+
+    names: frozenset[str]
+    pairs: frozenset[tuple[_End, _End]]
+    alone: frozenset[tuple[_End, str]]
+
+    def is_as(self, other: Joined) -> bool:
+        """Whether the same ends are joined, and the names of the others are the same."""
+        return (self.pairs, self.alone) == (other.pairs, other.alone)
+
+    def lacks(self, other: Joined) -> str | None:
+        """What of messages between nodes is no longer joined as it is here, if anything."""
+        before, now = self._messages(), other._messages()
+        for one, to in sorted(before - now, key=str):
+            return f"what {one.node} sends to {to.name} of {to.node} does not get there"
+        for one, to in sorted(now - before, key=str):
+            return f"what {one.node} sends as {one.message} also gets to {to.name} of {to.node}"
+        return None
+
+    def _messages(self) -> set[tuple[_End, _End]]:
+        return {(one.plain, to) for one, to in self.pairs if one.kind == "publisher"}
+
+
+def joined(facts: Facts) -> Joined | None:
+    """Who is joined with whom; None where the texts do not tell all names."""
+    nodes = [owner for kind, owner, _ in facts if kind == TYPE]
+    try:
+        ends = [each for node in nodes for each in _Node(facts, node).ends()]
+    except _Unknown:
+        return None
+    found = {
+        (one, other)
+        for one, _, topic in ends
+        for other, _, same in ends
+        if topic == same and one.kind in _SENDING and other.kind not in _SENDING
+    }
+    paired = {end for pair in found for end in pair}
+    alone = frozenset((end, topic) for end, _, topic in ends if end not in paired)
+    names = frozenset(name for _, *both in ends for name in both)
+    return Joined(names, frozenset(found), alone)
+
+
+def is_about(joined: Joined | None, facts: Facts, remap: Fact) -> bool:
+    """Whether a remap is of a topic, or to a topic, by which nodes of the package are joined."""
+    if joined is None or not remap.owner:
+        return joined is None or _common(remap) in joined.names
+    try:
+        return _Node(facts, remap.owner).resolved(remap.name) in joined.names
+    except _Unknown:
+        return True
+
+
+def _common(remap: Fact) -> str:
+    return f"/{remap.name.lstrip('/')}"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Node:
+    """A node that the launch file starts, with the names that are in it."""
+
+    facts: Facts
+    node: str
+
+    def ends(self) -> Iterator[tuple[_End, str, str]]:
+        """The ends of a node, each with its topic before and after remapping."""
+        remaps = {self.resolved(old): self.resolved(new) for old, new in self._remaps()}
+        for end, name in self._written():
+            full = self.resolved(name)
+            yield end, full, remaps.get(full, full)
+
+    def resolved(self, name: str) -> str:
+        """A name as ROS resolves it in this node."""
+        if not _NAME.match(name):
+            raise _Unknown
+        if name[0] == "/":
+            return name
+        space = self._value(("node", self.node, "ns"))
+        prefix = "" if space == NOT_GIVEN else f"/{space.strip('/')}"
+        return f"{prefix}/{self.node}/{name[1:]}" if name[0] == "~" else f"{prefix}/{name}"
+
+    def _remaps(self) -> Iterator[tuple[str, str]]:
+        for (kind, node, old), found in self.facts.items():
+            if kind == "remap" and node in (self.node, ""):
+                yield from ((old, fact.value) for fact in found)
+
+    def _value(self, key: tuple[str, str, str]) -> str:
+        """The value of the only fact of a key."""
+        values = {fact.value for fact in self.facts.get(key, ())}
+        if len(values) != 1:
+            raise _Unknown
+        return values.pop()
+
+    # --- ends -----------------------------------------------------------------------------------
+
+    def _written(self) -> Iterator[tuple[_End, str]]:
+        """The ends with their names in the code, private ones with `~`."""
+        program = self._value((TYPE, self.node, ""))
+        if (PROGRAM, program, "") not in self.facts and not self._plays(program):
+            return  # a node of others
+        if played := self._plays(program):
+            yield from ((_End(self.node, PLAYED, name), f"~{name}") for name in played)
+            return
+        class_ = self._value((PROGRAM, program, ""))
+        for (kind, owner, name), found in self.facts.items():
+            if owner == class_ and kind in TOPICS:
+                for fact in found:
+                    yield from self._of(fact, _End(self.node, kind, name))
+
+    def _plays(self, program: str) -> list[str]:
+        return [name for kind, owner, name in self.facts if (kind, owner) == (PLAYED, program)]
+
+    def _of(self, fact: Fact, end: _End) -> Iterator[tuple[_End, str]]:
+        match fact.kind, _STRING.findall(fact.value):
+            case "sensor", [topic]:
+                yield end, _private(topic)
+            case "subscription", [topic] if fact.value.startswith("subscribeOnBridge"):
+                yield end, f"control_bridge/{self.node}/{topic}"
+            case "subscription", [topic] if fact.value.startswith("subscribe "):
+                yield end, _private(topic)
+            case "publisher", [topic] if fact.value.startswith("advertise<"):
+                yield replace(end, message=_message(fact)), _private(topic)
+            case "publisher", [of, server] if fact.value.startswith("advertiseAll<"):
+                for rebec in self._instances(of):
+                    to = replace(end, message=_message(fact), rebec=rebec)
+                    yield to, f"~{of}/{rebec}/{server}"
+            case _:
+                raise _Unknown
+
+    def _instances(self, class_: str) -> list[str]:
+        for name, rebecs in _LISTED.findall(self._value(_INSTANCES)):
+            if name == class_:
+                return [rebec for rebec in rebecs.split(",") if rebec]
+        return []
+
+
+def _message(publisher: Fact) -> str:
+    """The type of what it publishes, without its package."""
+    return publisher.value.partition("<")[2].partition(">")[0].rpartition("::")[2]
+
+
+def _private(name: str) -> str:
+    """A name as a private node handle takes it."""
+    return name if name.startswith("/") else f"~{name}"

@@ -1,0 +1,5 @@
+"""What can go wrong around `rebsync sync`: each fault with what it says, and nothing is lost.
+
+`python -m tests.roundtrip.faults` makes every fault, interrupts a sync at every operation that
+writes, and prints a table.
+"""

@@ -1,0 +1,64 @@
+"""python -m tests.roundtrip.faults [--step N]"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from tests.roundtrip.faults.faults import FAULTS, outcome
+from tests.roundtrip.faults.interruptions import Stop, operations, tried
+from tests.roundtrip.faults.package import copied, prepare, run, snapshot
+
+
+def main(arguments: Sequence[str]) -> int:
+    """0 where each fault is told of, and nothing is lost by any."""
+    parser = argparse.ArgumentParser(prog="python -m tests.roundtrip.faults")
+    parser.add_argument("--step", type=int, default=1, help="every so many operations")
+    given = parser.parse_args(arguments)
+    with TemporaryDirectory() as folder:
+        made = Path(folder, "made")
+        made.mkdir()
+        Path(folder).chmod(0o755)
+        prepare(made)
+        return int(_faults(made) + _stops(made, given.step) > 0)
+
+
+def _faults(made: Path) -> int:
+    wrong = 0
+    print(f"{'fault':44} status  told")
+    for fault in FAULTS:
+        ended, broken = outcome(fault, made, made.parent / "tried")
+        first = next((x for x in ended.told.split("\n") if " RS" in x or "RS" in x), "")
+        print(f"{fault.name:44} {ended.status:>6}  {first[:110]}")
+        print("".join(f"    {each}\n" for each in broken), end="")
+        wrong += bool(broken)
+    return wrong
+
+
+def _stops(made: Path, step: int) -> int:
+    folder = made.parent / "tried"
+    copied(made, folder)
+    assert run(folder, "sync").status == 0
+    wanted = snapshot(folder)
+    count = operations(made, folder)
+    ends: Counter[tuple[str, int]] = Counter()
+    wrong = 0
+    for is_killed in (True, False):
+        for number in range(1, count + 1, step):
+            done = tried(made, wanted, folder, Stop(number, is_killed))
+            ends["killed" if is_killed else "failed", done.ended.status] += 1
+            for each in done.wrong:
+                print(f"operation {number}, {'killed' if is_killed else 'failed'}: {each}")
+            wrong += bool(done.wrong)
+    print(f"{count} operations that write; stopped at {sum(ends.values())}, {wrong} wrong")
+    for (how, status), number in sorted(ends.items()):
+        print(f"  {how}, exit status {status}: {number}")
+    return wrong
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
