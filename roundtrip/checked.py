@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from rebsync.roundtrip.verdict import Drift
 
 
+_READ = frozenset({"ros1-cpp"})
+
+
 @dataclass(frozen=True, slots=True)
 class Checked:
     """A package, and how it stands to its model.
@@ -75,7 +78,17 @@ def _about_base(kept: Kept, record: Record) -> tuple[Findings, ...]:
     return (Findings(Source(f"{kept.root}/{BASE_MODEL}", ""), (found,)),)
 
 
+def _refuse_dialect(kept: Kept, record: Record | None) -> None:
+    """Code that cannot be read back yet must not look as if it said nothing."""
+    target = record.options.get("target", "ros1-cpp") if record is not None else "ros1-cpp"
+    if target not in _READ:
+        message = f"code in {target} cannot be read yet"
+        hint = "`rebsync generate` still takes changes of the model into it"
+        raise RebsyncError.of(kept.root, "RS709", message, hint)
+
+
 def _compared(kept: Kept, model: str, record: Record | None, now: Standing, depth: str) -> Checked:
+    _refuse_dialect(kept, record)
     from rebsync.roundtrip.judged import judged
     from rebsync.roundtrip.runtime import edited
     from rebsync.roundtrip.verdict import undetermined
