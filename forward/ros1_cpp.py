@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
-from rebsync.forward.cpp_class import CppClass
-from rebsync.forward.cpp_expressions import CppExpressions
-from rebsync.forward.cpp_names import CppNames, class_names
-from rebsync.forward.cpp_statements import CppStatements
-from rebsync.forward.cpp_types import cpp_type, cpp_value
-from rebsync.forward.effects import hoisted, read_declarations
+from rebsync.forward import ros1_words
+from rebsync.forward.cpp_classes import classes, played_sensors
+from rebsync.forward.cpp_files import header, sensor_header, source
 from rebsync.forward.remarks import Remarks
-from rebsync.forward.ros1_class import header, sensor_header, source
-from rebsync.forward.ros1_constructors import node_main
+from rebsync.forward.ros1_constructors import (
+    access,
+    constructor_declarations,
+    constructor_definitions,
+    node_main,
+)
 from rebsync.forward.ros1_package import (
     cmake_lists,
     launch_file,
@@ -21,11 +20,8 @@ from rebsync.forward.ros1_package import (
     readme,
     ros1_type,
 )
-from rebsync.forward.sends import bodies
-from rebsync.forward.sensors import draws_of
 from rebsync.forward.templating import fill
 from rebsync.forward.topics import Topics
-from rebsync.model import MessageServer, ReactiveClass
 from rebsync.package import Field, NodeClass, Package
 from rebsync.static import Analysis
 
@@ -53,12 +49,12 @@ def render(
     }
     files.update(_messages(package))
     files.update(_runtime(package))
-    for c in _classes(package, analysis, topics, remarks).values():
+    for c in classes(package, analysis, topics, remarks, ros1_words).values():
         include = f"include/{package.name}/{c.node.file}"
-        files[f"{include}.h"] = header(c, model_name)
+        files[f"{include}.h"] = header(c, model_name, constructor_declarations(c), access(c))
         if c.node.interface:
             continue
-        files[f"src/{c.node.file}.cpp"] = source(c)
+        files[f"src/{c.node.file}.cpp"] = source(c, constructor_definitions(c))
         if c.node.executable:
             files[f"src/{c.node.file}_node.cpp"] = node_main(c)
         if any(s.draws for s in c.node.sensors):
@@ -105,85 +101,12 @@ def _field(field: Field) -> str:
     return f"{ros1_type(field.type)} {field.name}"
 
 
-def _classes(
-    package: Package, analysis: Analysis, topics: Topics, remarks: Remarks
-) -> Mapping[str, CppClass]:
-    names = class_names(package, topics.class_types)
-    found: dict[str, CppClass] = {}
-    for node in package.classes:
-        declaration = analysis.classes[node.name].declaration
-        reactive = declaration if isinstance(declaration, ReactiveClass) else None
-        expressions = CppExpressions(
-            analysis,
-            topics,
-            names[node.name],
-            topics.class_types,
-            _seen(node, reactive, names[node.name]),
-        )
-        own = list(bodies(reactive)) if reactive else []
-        found[node.name] = CppClass(
-            package,
-            node,
-            topics.class_types[node.name],
-            tuple(topics.class_types[b] for b in node.bases),
-            names[node.name],
-            CppStatements(
-                expressions, remarks, read_declarations(own, analysis), hoisted(own, analysis)
-            ),
-            _remarks_above(reactive, remarks) if reactive else {},
-        )
-    return found
-
-
-def _remarks_above(declaration: ReactiveClass, remarks: Remarks) -> dict[int, tuple[str, ...]]:
-    """For each body, the comments that stand before its member."""
-    found = {}
-    at = declaration.queue_span.end
-    for member in declaration.members:
-        body = getattr(member, "body", None)
-        if body is not None:
-            found[id(body)] = tuple(remarks.between(at, member.span.start))
-        at = member.span.end
-    return found
-
-
-def _seen(node: NodeClass, declaration: ReactiveClass | None, names: CppNames) -> dict[int, str]:
-    """For each `?(...)` of a sensor server, the C++ that samples the sensor."""
-    if declaration is None:
-        return {}
-    servers = {m.name: m for m in declaration.members if isinstance(m, MessageServer)}
-    return {
-        id(choice): f"{names.sensors[sensor.server]}.seen(&{function})"
-        for sensor in node.sensors
-        for choice, function in zip(
-            draws_of(servers[sensor.server]), names.seen[sensor.server], strict=True
-        )
-    }
-
-
 def _stand_in(package: Package, node: NodeClass) -> str:
-    sensors = [
-        {
-            "name": s.name,
-            "type": s.type,
-            "period": s.period,
-            "draws": [
-                (d.field, _choices(cpp_type(d.type), [cpp_value(v) for v in d.alternatives]))
-                for d in s.draws
-            ],
-        }
-        for s in node.sensors
-        if s.stands_in
-    ]
-    includes = sorted(f"{package.name}/{s['type']}.h" for s in sensors)
+    sensors = played_sensors(node)
     return fill(
         "ros1_cpp/stand_in.cpp.j2",
         package=package.name,
         node=node,
         sensors=sensors,
-        includes=includes,
+        includes=sorted(ros1_words.message_header(package.name, s.type) for s in sensors),
     )
-
-
-def _choices(type_: str, values: list[str]) -> str:
-    return f"std::initializer_list<{type_}>{{{', '.join(values)}}}"
