@@ -5,6 +5,8 @@ from __future__ import annotations
 from rebsync.forward import ros1_words
 from rebsync.forward.cpp_classes import classes, played_sensors
 from rebsync.forward.cpp_files import header, sensor_header, source
+from rebsync.forward.message_files import message_files
+from rebsync.forward.readme import readme
 from rebsync.forward.remarks import Remarks
 from rebsync.forward.ros1_constructors import (
     access,
@@ -17,22 +19,13 @@ from rebsync.forward.ros1_package import (
     launch_file,
     manifest,
     parameters,
-    readme,
-    ros1_type,
 )
 from rebsync.forward.templating import fill
 from rebsync.forward.topics import Topics
-from rebsync.package import Field, NodeClass, Package
+from rebsync.package import NodeClass, Package
 from rebsync.static import Analysis
 
-TIMING = ("int64 arrival", "int64 deadline")
-STATE_HEAD = (
-    "string server",
-    "string arguments",
-    "int64 arrival",
-    "int64 start",
-    "int64 now",
-)
+_SENSORS = "include/{package}/{file}_sensors.h"
 
 
 def render(
@@ -43,11 +36,11 @@ def render(
         "package.xml": manifest(package),
         "CMakeLists.txt": cmake_lists(package),
         ".clang-format": fill("ros1_cpp/clang-format.j2"),
-        "README.md": readme(package, model_name),
+        "README.md": readme(package, model_name, "ros1_cpp", _SENSORS),
         f"launch/{package.name}.launch": launch_file(package),
         "config/params.yaml": parameters(package),
     }
-    files.update(_messages(package))
+    files.update(message_files(package))
     files.update(_runtime(package))
     for c in classes(package, analysis, topics, remarks, ros1_words).values():
         include = f"include/{package.name}/{c.node.file}"
@@ -74,31 +67,6 @@ def _runtime(package: Package) -> dict[str, str]:
         f"include/{package.name}/{n}.h": fill(f"ros1_cpp/{n}.h.j2", package=package.name)
         for n in names
     }
-
-
-def _messages(package: Package) -> dict[str, str]:
-    files = {"msg/Timing.msg": _message(TIMING)}
-    for message in package.messages:
-        sender = ["string sender"] if message.carries_sender else []
-        lines = [f"{package.name}/Timing timing", *sender, *map(_field, message.fields)]
-        files[f"msg/{message.name}.msg"] = _message(lines)
-    for node in package.classes:
-        if node.executable:
-            lines = [*STATE_HEAD, *map(_field, node.state.fields)]
-            files[f"msg/{node.state.name}.msg"] = _message(lines)
-        for sensor in node.sensors:
-            if sensor.stands_in:
-                lines = [f"{ros1_type(d.type)} {d.field}" for d in sensor.draws]
-                files[f"msg/{sensor.type}.msg"] = _message(lines)
-    return files
-
-
-def _message(lines: list[str] | tuple[str, ...]) -> str:
-    return fill("ros1_cpp/message.msg.j2", lines=list(lines))
-
-
-def _field(field: Field) -> str:
-    return f"{ros1_type(field.type)} {field.name}"
 
 
 def _stand_in(package: Package, node: NodeClass) -> str:

@@ -21,11 +21,17 @@ RUNTIME_TYPES = RUNTIME_CLASSES | {
 }
 _FREE_FUNCTIONS = frozenset(
     {
-        *("after", "as", "deadline", "divide", "divideBy", "flatten", "narrow", "readArray"),
+        *("after", "as", "deadline", "declareArray", "described", "divide", "divideBy", "flatten"),
+        *("narrow", "readArray"),
         *("remainder", "remainderBy", "text", "to", "unflatten", "unused", "widen"),
     }
 )
-NO_CLASSES = CPP_KEYWORDS | RUNTIME_TYPES | _FREE_FUNCTIONS | {"kNull", "reportLine"}
+NO_CLASSES = (
+    CPP_KEYWORDS
+    | RUNTIME_TYPES
+    | _FREE_FUNCTIONS
+    | {"kNull", "msg", "rcl_interfaces", "rclcpp", "reportLine"}
+)
 RUNTIME_TOPICS = frozenset({"cmd_vel", "state"})
 RUNTIME_FIELDS = ("timing", "sender")
 STATE_FIELDS = ("server", "arguments", "arrival", "start", "now")
@@ -37,13 +43,14 @@ RUNTIME_CONSTANTS = frozenset(
     }
 )
 RUNTIME_FUNCTIONS = _FREE_FUNCTIONS | {
-    *("choose", "construct", "globalPriority", "mailbox", "priority", "publishState"),
+    *("choose", "construct", "create_publisher", "declare_parameter", "globalPriority"),
+    *("mailbox", "priority", "publishState"),
     *("shiftLeft", "shiftLeftBy", "shiftRight", "shiftRightBy"),
 }
 # What no local variable, parameter or function of a class may be called.
 RESERVED = CPP_KEYWORDS | RUNTIME_FUNCTIONS | RUNTIME_CONSTANTS | RUNTIME_TYPES
 # What the constructor of a class has beside the parameters of the model.
-OF_CONSTRUCTOR = frozenset({"node", "global"})
+OF_CONSTRUCTOR = frozenset({"global", "node", "options"})
 # What a known rebec's topics may not be called after.
 OWN_TOPICS = frozenset({"port", "sensor"})
 # Entries of the parameter server that no env variable may be called after.
