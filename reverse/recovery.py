@@ -20,6 +20,7 @@ from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.build.manifests import read_manifest
 from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.files.packages import CODE
+from rebsync.reverse.files.python_files import is_python
 from rebsync.reverse.findings import Finding, Findings
 from rebsync.reverse.generated.ros1_classes import Classes
 from rebsync.reverse.generated.ros1_messages import own_messages
@@ -48,18 +49,20 @@ _CODE = tuple(sorted(CODE))
 class Extracted:
     """The model of some files, what in them is not in it, and how many statements each body has.
 
-    `asking` are its calls to ROS, of which `graph` is made when it is first asked for.
+    `asking` are the calls to ROS of its C++, of which `graph` is made when it is first asked for;
+    `in_python` those of its Python.
     """
 
     model: m.Model
     findings: tuple[Finding, ...]
     statements: tuple[tuple[str, int], ...]
     asking: Asking = field(default_factory=lambda: Asking(Code()), compare=False)
+    in_python: Graph = field(default_factory=Graph, compare=False)
 
     @property
     def graph(self) -> Graph:
         """What the code asks of ROS."""
-        return self.asking.graph
+        return Graph(self.asking.graph.facts + self.in_python.facts)
 
 
 def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
@@ -93,8 +96,20 @@ def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
         system.note(findings)
     made = _System(code, classes, read, launch if only is None else None, started)
     main = _main(made, nodes, only is not None and len(files) > 1)
+    in_python = _python(files, findings, only)
     model = m.Model(tuple(made.heads() if read else ()), (*read, *nodes.classes), main)
-    return Extracted(model, tuple(findings.all), tuple(findings.statements.items()), asking)
+    statements = tuple(findings.statements.items())
+    return Extracted(model, tuple(findings.all), statements, asking, in_python)
+
+
+def _python(files: Mapping[str, Source], findings: Findings, only: str | None) -> Graph:
+    """What the files of Python ask of ROS; what of them is not in the model is listed."""
+    sources = {path: source for path, source in files.items() if is_python(path, source)}
+    if not sources:
+        return Graph()
+    from rebsync.reverse.python.recovery import read_python
+
+    return read_python(sources, findings, only)
 
 
 def _main(generated: _System, nodes: Nodes, is_part: bool) -> m.Main | None:

@@ -109,7 +109,8 @@ def _is_before(binding: Binding, use: Node) -> bool:
     if binding.how == "loop":
         return binding.node.start_byte <= use.start_byte and not _holds(binding.value, use)
     return binding.node.end_byte <= use.start_byte or (
-        binding.node.type == "for_in_clause" and binding.node.parent is not None
+        binding.node.type == "for_in_clause"
+        and binding.node.parent is not None
         and _holds(binding.node.parent, use)
     )
 
@@ -124,9 +125,14 @@ def _branch(node: Node) -> Node | None:
     if node.type == "function_definition":
         return None
     while above is not None and above.type not in _SCOPES:
-        if above.type in _BRANCHES and inner != above.child_by_field_name("condition"):
-            if above.type not in ("if_statement", "try_statement") or inner.type == "block":
-                return inner if above.type in ("if_statement", "try_statement") else above
+        by_blocks = above.type in ("if_statement", "try_statement")
+        is_condition = inner == above.child_by_field_name("condition")
+        if (
+            above.type in _BRANCHES
+            and not is_condition
+            and (not by_blocks or inner.type == "block")
+        ):
+            return inner if by_blocks else above
         inner, above = above, above.parent
     return None
 

@@ -80,10 +80,21 @@ def _calls(values: Values, call: Node, scope: Scope, function: Scope) -> bool:
     ways = values.ways(field(call, "function"), scope)
     functions = [w for w in ways if isinstance(w, Function)]
     if functions:
-        return any(f.scope is function for f in functions)
+        return any(_runs(values, f.scope, function) for f in functions)
     known = values.code.methods.get(function.name, [])
     is_open = not ways or not any(isinstance(w, (Class, Instance)) for w in ways)
     return is_open and function.is_method and len(known) == 1 and _is_member(call)
+
+
+def _runs(values: Values, called: Scope, function: Scope) -> bool:
+    """Whether a call of one function may run another: itself, or one that overrides it."""
+    from rebsync.reverse.python.py_lookup import lineage
+
+    if called is function:
+        return True
+    if not (called.is_method and function.is_method) or function.parent is None:
+        return False
+    return called.name == function.name and called.parent in lineage(values, function.parent)
 
 
 def _is_member(call: Node) -> bool:

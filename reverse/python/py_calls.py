@@ -8,7 +8,6 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.graph import (
-    Callback,
     Callbacks,
     ClientFact,
     Fact,
@@ -39,6 +38,7 @@ from rebsync.reverse.python.py_worth import (
     Length,
     Made,
     Nothing,
+    Value,
     Ways,
     distinct,
     resolved,
@@ -189,7 +189,7 @@ class _Facts:
         node = asked.given.get("type")
         if node is None:
             return self._unknown(asked, "the type is not given")
-        found: list[Resolved] = []
+        found: list[Value] = []
         for way in self.values.ways(node, asked.scope):
             if isinstance(way, External) and (name := interface_of(way.name)) is not None:
                 found.append(name)
@@ -197,8 +197,9 @@ class _Facts:
                 found.append(way)
             elif not isinstance(way, Nothing):
                 found.append(self.values.unknown("this is no type of ROS", node, asked.scope))
-        known = distinct(found)
-        return resolved(known, self.values.unknown("the type is not known", node, asked.scope))
+        return resolved(
+            distinct(found), self.values.unknown("the type is not known", node, asked.scope)
+        )
 
     def _callbacks(self, asked: Asked) -> Callbacks:
         node = asked.given.get("callback")
@@ -238,7 +239,11 @@ def _kept(call: Node) -> str:
     node = call
     while above is not None and above.type in ("parenthesized_expression", "await"):
         node, above = above, above.parent
-    if above is not None and above.type == "assignment" and above.child_by_field_name("right") == node:
+    if (
+        above is not None
+        and above.type == "assignment"
+        and above.child_by_field_name("right") == node
+    ):
         return text_of(field(above, "left"))
     if above is not None and above.type == "argument_list" and above.parent is not None:
         called = field(above.parent, "function")

@@ -102,15 +102,15 @@ def bound(values: Values, binding: Binding, name: str, scope: Scope) -> Ways:
 
     match binding.how:
         case "value":
-            return _unpacked(values, values.ways(binding.value, scope_at(values, binding, scope)), binding, scope)
+            return _unpacked(
+                values, values.ways(binding.value, scope_at(values, binding, scope)), binding, scope
+            )
         case "augmented":
             return _augmented(values, binding, name, scope)
         case "loop":
             inner = scope_at(values, binding, scope)
             rounds = each_of(values, binding.value, inner)
-            return distinct(
-                w for ways in rounds for w in _unpacked(values, ways, binding, scope)
-            )
+            return distinct(w for ways in rounds for w in _unpacked(values, ways, binding, scope))
         case "scope":
             return _declared(values, binding, scope)
         case "parameter":
@@ -141,7 +141,9 @@ def _unpacked(values: Values, ways: Ways, binding: Binding, scope: Scope) -> Way
                 case tuple() if index < len(value):
                     inner.append(value[index])
                 case _:
-                    inner.append(values.unknown("a part of what is not known", binding.value, scope))
+                    inner.append(
+                        values.unknown("a part of what is not known", binding.value, scope)
+                    )
         ways = tuple(inner)
     return ways
 
@@ -312,5 +314,3 @@ def _element(values: Values, node: Node, scope: Scope) -> Iterator[Value]:
                 yield Unresolved(holder.why, holder.place)
             case _:
                 yield values.unknown("an element of what is not known", node, scope)
-
-

@@ -58,7 +58,9 @@ def latched_of(values: Values, asked: Asked) -> Resolved:
             found += [_keeps(values, g, node, asked.scope) for g in given] or [False]
         else:
             found.append(False)
-    unknown = Unresolved("the durability is not known", values.unknown("", asked.name, asked.scope).place)
+    unknown = Unresolved(
+        "the durability is not known", values.unknown("", asked.name, asked.scope).place
+    )
     return resolved(distinct(found), unknown) if found else False
 
 
@@ -77,7 +79,7 @@ def _of_profile(values: Values, made: Made, key: str, node: Node, scope: Scope) 
     stored = scope.stores.get((text_of(node), key), [])
     seen = reaching(stored, node)
     later = [w for b in seen for w in bound(values, b, key, scope)]
-    plain, keywords = arguments_of(made.call)
+    _, keywords = arguments_of(made.call)
     first = values.ways(keywords[key], made.scope) if key in keywords else ()
     if seen and reaching([seen[0]], node) and _always(seen[0].node, node):
         return distinct(later)

@@ -89,7 +89,7 @@ def _external(values: Values, name: str, call: Node, scope: Scope) -> Iterable[V
     if name in _PARTIAL:
         return _partial(values, plain, scope)
     if is_time(name):
-        return [_length(values, last, plain, keywords, call, scope)]
+        return [_length(values, plain, keywords, call, scope)]
     if name in ("rospy.get_param", "rospy.get_param_cached"):
         return [_parameter(values, plain, keywords, call, scope)]
     if name == "rospy.resolve_name" and plain:
@@ -150,7 +150,7 @@ def _cast(name: str, value: Value) -> Value:
         case bool() | int() | float() if name == "str":
             return str(value)
         case bool() | int() | float() if name in ("int", "float", "bool"):
-            return {"int": int, "float": float, "bool": bool}[name](value)
+            return int(value) if name == "int" else float(value) if name == "float" else bool(value)
         case str() if name in ("int", "float"):
             try:
                 return int(value) if name == "int" else float(value)
@@ -181,7 +181,11 @@ def _partial(values: Values, plain: list[Node], scope: Scope) -> Iterator[Value]
 
 
 def _length(
-    values: Values, name: str, plain: list[Node], keywords: dict[str, Node], call: Node, scope: Scope
+    values: Values,
+    plain: list[Node],
+    keywords: dict[str, Node],
+    call: Node,
+    scope: Scope,
 ) -> Value:
     """A span of time, from seconds and nanoseconds."""
     parts = dict(zip(("secs", "nsecs"), plain, strict=False)) | keywords
@@ -213,9 +217,7 @@ def _parameter(
 # --- methods ------------------------------------------------------------------------------------
 
 
-def _method(
-    values: Values, holder: Value, name: str, call: Node, scope: Scope
-) -> Iterable[Value]:
+def _method(values: Values, holder: Value, name: str, call: Node, scope: Scope) -> Iterable[Value]:
     match holder:
         case str():
             return _text_method(values, holder, name, call, scope)
@@ -235,9 +237,7 @@ def _method(
             return [_what(values, name, call, scope)]
 
 
-def _text_method(
-    values: Values, text: str, name: str, call: Node, scope: Scope
-) -> Iterable[Value]:
+def _text_method(values: Values, text: str, name: str, call: Node, scope: Scope) -> Iterable[Value]:
     if name == "format":
         return filled(values, text, call, scope)
     plain, _ = arguments_of(call)
@@ -348,5 +348,3 @@ def declared_together(
         if len(parts) > 1:
             name = values.text(parts[0], scope)
             yield (f"{space}.{name}" if space and name else name), parts[1]
-
-

@@ -90,5 +90,3 @@ def filled(values: Values, text: str, call: Node, scope: Scope) -> Ways:
         unknown = values.unknown("a format that is not followed", call, scope)
         parts.append((unknown,) if found is None or is_open else values.ways(found, scope))
     return values.join([*parts, (text[at:],)], call, scope)
-
-

@@ -10,13 +10,10 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.graph import FromParameter, Place, Plain, Resolved, Unresolved
-from rebsync.reverse.python.py_index import PyCode, Scope, arguments_of
+from rebsync.reverse.python.py_index import PyCode, Scope
 from rebsync.reverse.python.py_tree import field, named, number_of, string_parts, text_of
 from rebsync.reverse.python.py_worth import (
     MOST,
-    Declared,
-    External,
-    Instance,
     Items,
     Length,
     Nothing,
@@ -169,7 +166,9 @@ class Values:
 
     def _operation(self, node: Node, scope: Scope) -> Iterable[Value]:
         if node.type == "unary_operator":
-            return [self._negated(v, node, scope) for v in self.ways(field(node, "argument"), scope)]
+            return [
+                self._negated(v, node, scope) for v in self.ways(field(node, "argument"), scope)
+            ]
         left = self.ways(field(node, "left"), scope)
         operator = text_of(field(node, "operator"))
         right = self.ways(field(node, "right"), scope)
@@ -208,7 +207,7 @@ class Values:
             return result if result is not None else none()
 
         match a, b:
-            case (bool() | int() | float() | str()), (bool() | int() | float() | str()):
+            case ((bool() | int() | float() | str()), (bool() | int() | float() | str())):
                 return on(a, b)
             case (str(), _) | (_, str()) if operator == "+":
                 return joined((a, b), none)
@@ -216,11 +215,11 @@ class Values:
                 return none()
             case FromParameter(), (int() | float()):
                 return used(a, "", f" {operator} {b!r}", lambda v: on(v, b))
-            case (int() | float()), FromParameter():
+            case ((int() | float()), FromParameter()):
                 return used(b, f"{a!r} {operator} ", "", lambda v: on(a, v))
             case Length(seconds), (int() | float()) if isinstance(seconds, (int, float)):
                 return _length(on(seconds, b)) or none()
-            case (int() | float()), Length(seconds) if isinstance(seconds, (int, float)):
+            case ((int() | float()), Length(seconds)) if isinstance(seconds, (int, float)):
                 return _length(on(a, seconds)) or none()
             case Items(first), Items(second) if operator == "+":
                 return Items((*first, *second))
@@ -232,5 +231,3 @@ class Values:
 
 def _length(value: Value) -> Length | None:
     return Length(value) if isinstance(value, (int, float)) else None
-
-

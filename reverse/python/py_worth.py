@@ -125,23 +125,27 @@ def distinct(values: Iterable[Value]) -> Ways:
     """Each value once; what is equal but of another type, as 1 and True, is not the same."""
     found: list[Value] = []
     for value in values:
-        if not any(type(v) is type(value) and v == value for v in found):
+        if not any(_same(v, value) for v in found):
             found.append(value)
     return tuple(found)
 
 
 def resolved(ways: Ways, otherwise: Unresolved) -> Resolved:
     """The ways as a value of a graph; what is nothing does not count beside something."""
-    found = [_plain(v, otherwise) for v in ways if not isinstance(v, Nothing)]
-    known = distinct(v for v in found if v is not None)
-    if not known:
+    values: list[Resolved] = []
+    for way in ways:
+        value = _plain(way, otherwise) if not isinstance(way, Nothing) else None
+        if value is not None and not any(_same(value, v) for v in values):
+            values.append(value)
+    defaults = [v.default for v in values if isinstance(v, FromParameter) and not v.expression]
+    values = [v for v in values if not any(_same(d, v) for d in defaults)]
+    if not values:
         return otherwise
-    values = tuple(v for v in known if _is_resolved(v))
-    return values[0] if len(values) == 1 else OneOf(values)
+    return values[0] if len(values) == 1 else OneOf(tuple(values))
 
 
-def _is_resolved(value: object) -> bool:
-    return isinstance(value, (bool, int, float, str, tuple, FromParameter, Unresolved))
+def _same(one: object, other: object) -> bool:
+    return type(one) is type(other) and one == other
 
 
 def _plain(value: Value, otherwise: Unresolved) -> Resolved | None:

@@ -96,9 +96,7 @@ _DECLARE = Access.DECLARE
 NODE: dict[str, Ask] = {
     "create_publisher": _PUBLISHER,
     "create_lifecycle_publisher": _PUBLISHER,
-    "create_subscription": _rclpy(
-        Kind.SUBSCRIPTION, "type", "name", "callback", "depth", least=4
-    ),
+    "create_subscription": _rclpy(Kind.SUBSCRIPTION, "type", "name", "callback", "depth", least=4),
     "create_timer": _rclpy(Kind.TIMER, "period", "callback", "", "", "autostart", least=2),
     "create_rate": _rclpy(Kind.RATE, "hz", least=1),
     "create_service": _rclpy(Kind.SERVICE, "type", "name", "callback", least=3),
@@ -156,9 +154,6 @@ PRESETS = {
     "ACTION_STATUS_DEFAULT": 1,
     "BEST_AVAILABLE": 10,
 }
-
-# Where none of these is, nothing is asked of ROS; `rebsync:` is in generated code.
-WORDS = (b"rospy", b"rclpy", b"message_filters", b"rebsync:")
 
 
 def is_time(name: str) -> bool:
