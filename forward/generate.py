@@ -65,6 +65,10 @@ def _renderer(target: str) -> Renderer:
             from rebsync.forward import ros1_cpp
 
             return ros1_cpp.render
+        case "ros1-py":
+            from rebsync.forward import ros1_py
+
+            return ros1_py.render
         case "ros2-cpp":
             from rebsync.forward import ros2_cpp
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from rebsync.names import CPP_KEYWORDS, carry, uncarry
+from rebsync.names import CPP_KEYWORDS, PYTHON_KEYWORDS, carry, uncarry
 
 RUNTIME_CLASSES = frozenset(
     {
@@ -80,3 +80,30 @@ def uncarry_local(carried: str, reserved: Collection[str], functions: Collection
 
 # The headers of generated packages that are the same for every model.
 RUNTIME_HEADERS = ("mailbox", "startup", "values", "drive", "sensor")
+
+# --- Python -------------------------------------------------------------------------------------
+
+# What the module of a class names, beside its messages and classes.
+PYTHON_GLOBALS = frozenset(
+    {
+        *("AT_ONCE", "Any", "Array", "Byte", "Drive", "Float", "Literal", "Mailbox", "NULL"),
+        *("NO_PRIORITY", "Publishers", "QUEUE_SIZE", "Rebec", "Sensor", "Served", "Server"),
+        *("Short", "TYPE_CHECKING", "Timing", "When", "array", "before", "boolean", "copied"),
+        *("divide", "flatten", "float32", "float64", "global_priority", "int16", "int32", "int8"),
+        *("modulus", "power", "priority", "put", "put_item", "quotient", "read_array", "rclpy"),
+        *("remainder", "rospy", "rounds", "shift_left", "shift_right", "square_root", "switch"),
+        *("text", "to", "to_boolean", "to_byte", "to_double", "to_float", "to_int", "to_rebec"),
+        *("to_short", "unflatten", "sensors"),
+    }
+)
+_PYTHON_BUILTINS = frozenset({"bool", "float", "int", "lambda", "property", "super"})
+# What no local variable, parameter, handler or method may be called.
+PYTHON_RESERVED = (
+    PYTHON_KEYWORDS
+    | PYTHON_GLOBALS
+    | _PYTHON_BUILTINS
+    | {"_drive", "_mailbox", "_publish_state", "_state_pub", "_wire"}
+    | {"ABC", "abstractmethod", "block", "construct", "mailbox", "msg", "node", "self", "served"}
+    | {"when"}
+)
+PYTHON_MEMBERS = frozenset({"drive", "mailbox", "node", "publish_state", "state_pub", "wire"})
