@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import field, replace
 from fractions import Fraction
+from math import prod
 
 from tree_sitter import Node
 
@@ -25,6 +26,7 @@ from rebsync.reverse.findings import Finding, Findings
 from rebsync.reverse.generated.ros1_classes import Classes
 from rebsync.reverse.generated.ros1_messages import own_messages
 from rebsync.reverse.generated.ros1_names import variable_name
+from rebsync.reverse.generated.ros2_words import made_in
 from rebsync.reverse.graph import Graph
 from rebsync.reverse.launch.launched import Launch, LaunchedNode
 from rebsync.reverse.launch.parameters import Parameter
@@ -156,7 +158,8 @@ class _System:
     def heads(self) -> Iterator[m.Env]:
         """The constants of the model: all global parameters but those of the run-time part."""
         used = dict(self._used())
-        given = {p.name.lstrip("/"): p for p in self.launch.parameters} if self.launch else {}
+        common = self.launch.parameters if self.launch else ()
+        given = {p.name.lstrip("/").removeprefix("env/"): p for p in common}
         for key in [*given, *(k for k in used if k not in given)]:
             first = key.partition("/")[0]
             if first in RESERVED_GLOBALS or "/" in key:
@@ -167,7 +170,7 @@ class _System:
                 continue
             if type_ is None:
                 type_, name = _marked_type(given[key]) or (_type_of_value(value), "")
-            initial = initial_of(_as(value, type_))
+            initial = initial_of(_as(_shaped(value, type_.dimensions), type_))
             span = given[key].source.within(given[key].span) if key in given else NOWHERE
             declarator = m.Declarator(name or uncarry(key, self._taken()), initial, span)
             yield m.Env(m.Declaration(type_, (declarator,), span=span), span)
@@ -247,7 +250,7 @@ class _System:
         for program in self.programs:
             if node.type not in (program.name, program.stem):
                 continue
-            for made, keys in _made(program.main):
+            for made, keys in (*_made(program.main), *made_in(self.code, program.main)):
                 if class_name(made) in names:
                     return class_name(made), keys
         return None
@@ -326,6 +329,15 @@ def _constant(node: Node) -> Value | None:
             return None if None in inner else tuple(v for v in inner if v is not None)
         case _:
             return -0x80000000 if text == "INT32_MIN" else None
+
+
+def _shaped(value: Value, lengths: tuple[int, ...]) -> Value:
+    """An array of several dimensions whose values stand one after the other, as in ROS 2."""
+    if not isinstance(value, tuple) or len(lengths) < 2 or any(isinstance(v, tuple) for v in value):
+        return value
+    step = prod(lengths[1:])
+    rows = (value[i : i + step] for i in range(0, len(value), step))
+    return tuple(_shaped(row, lengths[1:]) for row in rows)
 
 
 def _as(value: Value, type_: m.Type) -> Value:

@@ -36,11 +36,11 @@ from rebsync.reverse.generated.ros1_timers import (
     timers_of,
 )
 from rebsync.reverse.generated.ros1_values import initial_values
+from rebsync.reverse.generated.ros2_words import is_of_ros
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppField, CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, text_of
 
-_ROS = frozenset({"Publisher", "Publishers", "Subscriber", "Timer", "WallTimer", "NodeHandle"})
 _PLUMBING = frozenset({"mailbox", "publishState"})
 
 
@@ -194,7 +194,7 @@ class Classes:
                 continue
             type_ = type_of(member.type)
             if type_ is None:
-                if text_of(member.type).rpartition("::")[2] not in _ROS:
+                if not is_of_ros(text_of(member.type)):
                     why = f'the model has no type "{text_of(member.type)}"'
                     unread = Unread(member.cpp.span(member.node), why)
                     self.findings.unreadable(member.cpp.source, unread, owner.name)
@@ -361,7 +361,7 @@ class Classes:
         if (advertised := roles.publishers.get(member.name)) is not None:
             return publisher(advertised, self.roles, self.messages)
         if type_of(member.type) is None:
-            return Outside(reaches=text_of(member.type).startswith("ros::"))
+            return Outside(reaches=text_of(member.type).startswith(("ros::", "rclcpp::")))
         return Variable(variable_name(roles, member), type_of(member.type))
 
     def _scope(self, owner: CppClass) -> Scope:

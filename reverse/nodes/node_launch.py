@@ -7,11 +7,13 @@ from collections.abc import Mapping
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.launch.launch_files import read_launch
+from rebsync.reverse.launch.launch_python import SUFFIX as PYTHON
+from rebsync.reverse.launch.launch_python import read_python_launch
 from rebsync.reverse.launch.launch_values import Surroundings
 from rebsync.reverse.launch.launched import Launch
 from rebsync.source import Source
 
-_SUFFIX = ".launch"
+_SUFFIXES = (".launch", PYTHON)
 _HINT = "name the launch file instead of the package to have its system"
 
 
@@ -33,7 +35,7 @@ class System:
 
 def is_launch(path: str) -> bool:
     """Whether a file is a launch file."""
-    return path.endswith(_SUFFIX)
+    return path.endswith(_SUFFIXES)
 
 
 def system_of(files: Mapping[str, Source], package: str, only: str | None = None) -> System | None:
@@ -44,7 +46,7 @@ def system_of(files: Mapping[str, Source], package: str, only: str | None = None
 
     surroundings = Surroundings(load, lambda _: "")
     paths = [only] if only is not None else sorted(p for p in files if is_launch(p))
-    read = [(files[p], read_launch(files[p], surroundings)) for p in paths]
+    read = [(files[p], _read(files[p], surroundings)) for p in paths]
     if not read:
         return None
     best = max(read, key=lambda each: _size(each[1], package))
@@ -52,6 +54,12 @@ def system_of(files: Mapping[str, Source], package: str, only: str | None = None
     others = [(s, launch) for s, launch in read if id(s) not in included and _size(launch, package)]
     whole = {id(s) for _, launch in others for s in launch.sources[1:]}
     return System(best[1], tuple(each for each in others if id(each[0]) not in whole))
+
+
+def _read(source: Source, surroundings: Surroundings) -> Launch:
+    if not source.path.endswith(PYTHON):
+        return read_launch(source, surroundings)
+    return read_python_launch(source, surroundings.load)
 
 
 def _size(launch: Launch, package: str) -> int:

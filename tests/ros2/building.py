@@ -1,4 +1,4 @@
-"""Compiles generated ROS 2 packages against the stub of rclcpp, with messages by the real rosidl."""
+"""Compiles generated ROS 2 packages: real messages by rosidl, and the stub of rclcpp."""
 
 from __future__ import annotations
 

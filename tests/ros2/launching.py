@@ -41,7 +41,7 @@ class _Share:
     package: str
 
 
-def _node(**facts: Any) -> dict[str, Any]:
+def _node(**facts: object) -> dict[str, Any]:
     return facts
 
 
@@ -110,7 +110,7 @@ def _given(table: Mapping[str, Any]) -> dict[str, Any]:
     return {key: _evaluated(value) for key, value in table.items()}
 
 
-def _evaluated(value: Any) -> Any:
+def _evaluated(value: object) -> object:
     """launch_ros reads text as YAML, but for what has a type."""
     match value:
         case _Typed(typed, _):

@@ -40,13 +40,13 @@ def _lines(node: Launched) -> Iterator[str]:
         yield f"remap\t{before}\t{after}"
 
 
-def _typed(value: Any) -> list[str]:
+def _typed(value: object) -> list[str]:
     if isinstance(value, list):
         return [f"{type(value[0]).__name__}s", *map(_text, value)]
     return [type(value).__name__, _text(value)]
 
 
-def _text(value: Any) -> str:
+def _text(value: object) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
