@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import field, replace
 from fractions import Fraction
 from math import prod
+from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -40,6 +41,9 @@ from rebsync.reverse.syntax.cpp_tree import named, parse, part, text_of
 from rebsync.reverse.syntax.unparsed import unparsed
 from rebsync.source import NOWHERE, Source
 from rebsync.static.values import converted
+
+if TYPE_CHECKING:
+    from rebsync.reverse.python.recovery import PythonPart
 
 _ENV_MARKER = re.compile(r"# *rebsync: env (?P<type>[a-z]+)(?P<lengths>(?:\[\d+\])*) (?P<name>\S+)")
 _MANIFEST = "package.xml"
@@ -96,22 +100,28 @@ def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
         ).read()
     if system is not None and only is None and (read or nodes.classes):
         system.note(findings)
-    made = _System(code, classes, read, launch if only is None else None, started)
+    python = _python(files, findings, only)
+    if python is not None:
+        read = (*read, *python.classes)
+    made = _System(code, classes, read, launch if only is None else None, started, python)
     main = _main(made, nodes, only is not None and len(files) > 1)
-    in_python = _python(files, findings, only)
     model = m.Model(tuple(made.heads() if read else ()), (*read, *nodes.classes), main)
     statements = tuple(findings.statements.items())
+    in_python = python.graph if python is not None else Graph()
     return Extracted(model, tuple(findings.all), statements, asking, in_python)
 
 
-def _python(files: Mapping[str, Source], findings: Findings, only: str | None) -> Graph:
-    """What the files of Python ask of ROS; what of them is not in the model is listed."""
+def _python(
+    files: Mapping[str, Source], findings: Findings, only: str | None
+) -> PythonPart | None:
+    """What the files of Python say; what of them is not in the model is listed."""
     sources = {path: source for path, source in files.items() if is_python(path, source)}
     if not sources:
-        return Graph()
+        return None
     from rebsync.reverse.python.recovery import read_python
 
-    return read_python(sources, findings, only)
+    messages = {type_.rpartition("/")[2] for type_ in own_messages(files)}
+    return read_python(sources, findings, only, messages)
 
 
 def _main(generated: _System, nodes: Nodes, is_part: bool) -> m.Main | None:
@@ -152,6 +162,7 @@ class _System:
     read: tuple[m.ReactiveClass | m.Interface, ...]
     launch: Launch | None
     programs: tuple[Program, ...]
+    python: PythonPart | None = None
 
     # --- constants ------------------------------------------------------------------------------
 
@@ -178,6 +189,7 @@ class _System:
     def _used(self) -> Iterator[tuple[str, tuple[m.Type, str, Value | None]]]:
         """The global parameters that classes read: type, name, and default."""
         names = {c.name for c in self.read}
+        yield from self.python.used if self.python is not None else ()
         for owner in self.code.classes.values():
             roles = self.classes.roles[owner.name]
             for member in owner.fields:
@@ -253,6 +265,8 @@ class _System:
             for made, keys in (*_made(program.main), *made_in(self.code, program.main)):
                 if class_name(made) in names:
                     return class_name(made), keys
+        if self.python is not None and isinstance(node.type, str):
+            return self.python.started(node.type)
         return None
 
     def _bound(self, node: LaunchedNode, key: str) -> m.Expression | None:
