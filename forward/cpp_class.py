@@ -8,6 +8,7 @@ from rebsync.forward.cpp_layout import call_lines, indented
 from rebsync.forward.cpp_names import CppNames
 from rebsync.forward.cpp_statements import CppStatements
 from rebsync.forward.cpp_types import cpp_type, stored_type
+from rebsync.forward.cpp_words import CppWords
 from rebsync.forward.lineage import ancestors, base_of, interfaces
 from rebsync.model import Annotation, Block, Parameter
 from rebsync.package import Function, NodeClass, Package, Subscription
@@ -35,6 +36,7 @@ class CppClass:
     names: CppNames
     statements: CppStatements
     above: Mapping[int, tuple[str, ...]]
+    words: CppWords
 
     @property
     def ancestors(self) -> list[NodeClass]:

@@ -88,9 +88,9 @@ def shims(c: CppClass) -> tuple[Piece, ...]:
 
 def _shim(c: CppClass, server: Subscription) -> Piece:
     message = server.message
-    values = [_unpacked(f, p) for f, p in zip(message.fields, server.parameters, strict=True)]
+    values = [_unpacked(c, f, p) for f, p in zip(message.fields, server.parameters, strict=True)]
     name = c.names.shims[server.key]
-    head = f"const {message.name}::ConstPtr& msg"
+    head = f"const {c.words.received(message.name)}& msg"
     sender = "msg->sender" if message.carries_sender else '""'
     text = f"text({', '.join(values)})" if values else '""'
     capture = "this, msg" if values else "this"
@@ -111,12 +111,13 @@ def _called(c: CppClass, name: str, parameters: tuple[Parameter, ...], hiding: l
     return f"this->{function}" if function in hiding else function
 
 
-def _unpacked(field: Field, parameter: Parameter) -> str:
+def _unpacked(c: CppClass, field: Field, parameter: Parameter) -> str:
     """The field of a received message as a value of the parameter's type."""
     type_ = parameter.type
     if type_.dimensions:
         return f"unflatten<{cpp_type(type_)}>(msg->{field.name})"
-    return f"msg->{field.name}" + (" != 0" if type_.name == "boolean" else "")
+    text = f"msg->{field.name}"
+    return c.words.truth(text) if type_.name == "boolean" else text
 
 
 # --- out ----------------------------------------------------------------------------------------
@@ -147,7 +148,7 @@ def _send(c: CppClass, publisher: Publisher) -> Piece:
     if publisher.known is None:
         passed.insert(0, "const std::string& to_")
         where = f"to({member}, to_)"
-    lines = [f"{message.name} msg_;"]
+    lines = [f"{c.words.message(message.name)} msg_;"]
     lines += [
         stored_in("msg_.", f, c.names.local(p.name))
         for f, p in zip(message.fields, publisher.parameters, strict=True)

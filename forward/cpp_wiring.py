@@ -8,7 +8,6 @@ from rebsync.forward.cpp_messages import own_subscriptions, stored_in
 from rebsync.forward.cpp_names import publisher_place
 from rebsync.forward.cpp_types import cpp_type, cpp_value
 from rebsync.model import Type
-from rebsync.names import graph_name
 from rebsync.package import Draw, Sensor
 
 
@@ -32,44 +31,23 @@ def members(c: CppClass) -> list[str]:
 def ros_members(c: CppClass) -> list[str]:
     """Publishers, subscribers and sensors."""
     lines = [
-        f"  Sensor<{s.type.replace('/', '::')}> {c.names.sensors[s.server]};"
-        for s in c.node.sensors
+        f"  Sensor<{c.words.message(s.type)}> {c.names.sensors[s.server]};" for s in c.node.sensors
     ]
     for publisher in c.node.publishers:
-        kind = "ros::Publisher" if publisher.known is not None else "Publishers"
-        lines.append(f"  {kind} {c.names.publishers[publisher_place(publisher)]};")
-    lines += [f"  ros::Subscriber {c.names.subscribers[s.key]};" for s in own_subscriptions(c)]
+        kind = c.words.publisher if publisher.known is not None else c.words.publishers
+        lines.append(
+            f"  {kind(publisher.message.name)} {c.names.publishers[publisher_place(publisher)]};"
+        )
+    lines += [
+        f"  {c.words.subscriber(s.message.name)} {c.names.subscribers[s.key]};"
+        for s in own_subscriptions(c)
+    ]
     return lines
 
 
 def wiring(c: CppClass) -> list[str]:
-    """The body of the constructor: parameters, publishers, subscriptions."""
-    return [*_parameters_read(c), *_advertised(c), *_subscribed(c)]
-
-
-def _parameters_read(c: CppClass) -> list[str]:
-    """Reads what the launch file and config/params.yaml set."""
-    lines = []
-    for known in c.node.known:
-        key = f"knownrebecs/{graph_name(known.name)}"
-        lines.append(f'{c.names.members[known.name]} = node.param<std::string>("{key}", "");')
-    if c.node.env:
-        lines.append("const ros::NodeHandle global;")
-    for env in c.node.env:
-        lines += _read_env(c.names.env[env.name], env.key, env.type, cpp_value(env.value))
-    return lines
-
-
-def _read_env(member: str, key: str, type_: Type, value: str) -> list[str]:
-    if type_.dimensions:
-        return [f"{member} = {value};", f'readArray(global, "{key}", {member});']
-    match type_.name:
-        case "byte" | "short":
-            return [f'{member} = narrow<{cpp_type(type_)}>(global.param("{key}", {value}));']
-        case "float":
-            return [f'{member} = static_cast<float>(global.param("{key}", {value}));']
-        case _:
-            return [f'{member} = global.param("{key}", {value});']
+    """The part of the constructor's body that makes publishers and subscriptions."""
+    return [*_advertised(c), *_subscribed(c)]
 
 
 def _advertised(c: CppClass) -> list[str]:
@@ -77,7 +55,7 @@ def _advertised(c: CppClass) -> list[str]:
     lines = []
     for publisher in c.node.publishers:
         member = c.names.publishers[publisher_place(publisher)]
-        message = publisher.message.name
+        message = c.words.message(publisher.message.name)
         if publisher.known is not None:
             lines.append(f'{member} = mailbox_.advertise<{message}>("{publisher.topic}");')
         else:
@@ -109,17 +87,18 @@ def seen_functions(c: CppClass) -> list[tuple[str, str, str, str]]:
         for index, (draw, name) in enumerate(
             zip(sensor.draws, c.names.seen[sensor.server], strict=True)
         ):
-            read = _read(sensor, draw, index)
-            type_ = sensor.type.replace("/", "::")
+            read = _read(c, sensor, draw, index)
+            type_ = c.words.message(sensor.type)
             used = sensor.stands_in or "msg" in read
             parameter = f"const {type_}& {'msg' if used else '/* msg */'}"
             found.append((cpp_type(draw.type), name, parameter, read))
     return found
 
 
-def _read(sensor: Sensor, draw: Draw, index: int) -> str:
+def _read(c: CppClass, sensor: Sensor, draw: Draw, index: int) -> str:
     if sensor.stands_in:
-        return f"msg.{draw.field}" + (" != 0" if draw.type.name == "boolean" else "")
+        field = f"msg.{draw.field}"
+        return c.words.truth(field) if draw.type.name == "boolean" else field
     if sensor.seen and index == 0:
         return sensor.seen
     return cpp_value(draw.alternatives[0]) if draw.alternatives else "{}"

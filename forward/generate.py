@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from importlib.resources import files
+from typing import TypeAlias
 
 from rebsync.config import Config
+from rebsync.diagnostics import RebsyncError
 from rebsync.forward.remarks import Comment, Remarks
+from rebsync.forward.topics import Topics
 from rebsync.forward.view import view
 from rebsync.model import Model
 from rebsync.names import CPP_KEYWORDS, PYTHON_KEYWORDS, snake_case
+from rebsync.package import Package
 from rebsync.static import Analysis
 
 _ROS_PACKAGES = frozenset(
@@ -18,6 +23,9 @@ _ROS_PACKAGES = frozenset(
         *("rosconsole", "roscpp", "rosgraph_msgs", "roslaunch", "rospy", "sensor_msgs", "std_msgs"),
     }
 )
+
+
+Renderer: TypeAlias = Callable[[Package, Analysis, Topics, Remarks, str], dict[str, str]]
 
 
 def package_name(stem: str, config: Config) -> str:
@@ -45,7 +53,30 @@ def generate(
     stem: str,
 ) -> dict[str, str]:
     """The files of the package by path; `analysis` must be free of errors."""
-    from rebsync.forward.ros1_cpp import render
-
     package, topics = view(model, analysis, config, package_name(stem, config))
+    render = _renderer(config.target)
     return render(package, analysis, topics, Remarks(comments), f"{stem}.rebeca")
+
+
+def _renderer(target: str) -> Renderer:
+    """What writes a package in a dialect. RebsyncError: nothing does yet."""
+    match target:
+        case "ros1-cpp":
+            from rebsync.forward import ros1_cpp
+
+            return ros1_cpp.render
+        case "ros1-py":
+            from rebsync.forward import ros1_py
+
+            return ros1_py.render
+        case "ros2-cpp":
+            from rebsync.forward import ros2_cpp
+
+            return ros2_cpp.render
+        case _:
+            raise RebsyncError.of(
+                "rebsync.toml",
+                "RS709",
+                f"packages in {target} cannot be generated yet",
+                "choose another target",
+            )

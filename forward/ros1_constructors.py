@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from rebsync.forward.cpp_class import CppClass, braced
 from rebsync.forward.cpp_layout import call_lines
-from rebsync.forward.cpp_types import cpp_type, parameter_type
+from rebsync.forward.cpp_types import cpp_type, cpp_value, parameter_type
 from rebsync.forward.cpp_wiring import wiring
 from rebsync.forward.templating import fill
 from rebsync.model import Type
+from rebsync.names import graph_name
 from rebsync.package import ConstructorOf
 
 
@@ -15,6 +16,15 @@ def _parameters(c: CppClass, constructor: ConstructorOf) -> list[str]:
     """The node and the model's own."""
     own = [f"{parameter_type(p.type)} {c.names.argument(p.name)}" for p in constructor.parameters]
     return ["const ros::NodeHandle& node", *own]
+
+
+def access(c: CppClass) -> list[str]:
+    """What `main` reaches the rebec by."""
+    if not c.owns_mailbox:
+        return []
+    polymorphic = bool(c.node.bases or c.node.inherited_from or c.node.abstract)
+    destructor = [f"  virtual ~{c.type_name}() = default;"] if polymorphic else []
+    return [*destructor, "", "  Mailbox& mailbox() { return mailbox_; }"]
 
 
 def _wiring_parameters(queue_length: int | None = None) -> list[str]:
@@ -50,27 +60,28 @@ def constructor_definitions(c: CppClass) -> list[list[str]]:
         head = call_lines(f"{c.type_name}::{c.type_name}", _wiring_parameters(), "")
         initial = _initialisers(c, ("inherited", "queue_length", "best_priority"))
         unused = ["unused(inherited);"] if c.owns_mailbox else []
-        definitions.append(_with_initialisers(head, initial, [*unused, *wiring(c)]))
+        lines = [*unused, *_parameters_read(c), *wiring(c)]
+        definitions.append(with_initialisers(head, initial, lines))
     return definitions
 
 
 def _constructor(c: CppClass, constructor: ConstructorOf, wires_itself: bool) -> list[str]:
     parameters = _parameters(c, constructor)
     head = call_lines(f"{c.type_name}::{c.type_name}", parameters, "")
-    best = _best_priority(c)
+    best = best_priority(c)
     queue = (str(c.node.queue_length), *([best] if best else []))
     if wires_itself:
         initial = _initialisers(c, ("Inherited()", queue[0], best or "kNoPriority"))
     else:
         initial = [f"{c.type_name}(Inherited(), node, {queue[0]}, {best or 'kNoPriority'})"]
-    lines = wiring(c) if wires_itself else []
+    lines = [*_parameters_read(c), *wiring(c)] if wires_itself else []
     state = f'advertise<{c.node.state.name}>("state", kQueueSize, true)'
     lines.append(f"state_pub_ = ros::NodeHandle(node).{state};")
     lines.append("mailbox_.onServed([this](const Served& served) { publishState(served); });")
     if constructor.body is not None:
         names = [p.split()[-1] for p in parameters[1:]]
         lines.append(f"mailbox_.construct([=] {{ construct({', '.join(names)}); }});")
-    return _with_initialisers(head, initial, lines)
+    return with_initialisers(head, initial, lines)
 
 
 def _initialisers(c: CppClass, values: tuple[str, str, str]) -> list[str]:
@@ -92,11 +103,36 @@ def _initialisers(c: CppClass, values: tuple[str, str, str]) -> list[str]:
     return found
 
 
+def _parameters_read(c: CppClass) -> list[str]:
+    """Reads what the launch file and config/params.yaml set."""
+    lines = []
+    for known in c.node.known:
+        key = f"knownrebecs/{graph_name(known.name)}"
+        lines.append(f'{c.names.members[known.name]} = node.param<std::string>("{key}", "");')
+    if c.node.env:
+        lines.append("const ros::NodeHandle global;")
+    for env in c.node.env:
+        lines += _read_env(c.names.env[env.name], env.key, env.type, cpp_value(env.value))
+    return lines
+
+
+def _read_env(member: str, key: str, type_: Type, value: str) -> list[str]:
+    if type_.dimensions:
+        return [f"{member} = {value};", f'readArray(global, "{key}", {member});']
+    match type_.name:
+        case "byte" | "short":
+            return [f'{member} = narrow<{cpp_type(type_)}>(global.param("{key}", {value}));']
+        case "float":
+            return [f'{member} = static_cast<float>(global.param("{key}", {value}));']
+        case _:
+            return [f'{member} = global.param("{key}", {value});']
+
+
 def _is_interface(c: CppClass, name: str) -> bool:
     return c.package.node_class(name).interface
 
 
-def _with_initialisers(head: list[str], initial: list[str], lines: list[str]) -> list[str]:
+def with_initialisers(head: list[str], initial: list[str], lines: list[str]) -> list[str]:
     first = f"    : {initial[0]}"
     rest = [f"      {i}" for i in initial[1:]]
     listed = [line + "," for line in (first, *rest)]
@@ -104,7 +140,7 @@ def _with_initialisers(head: list[str], initial: list[str], lines: list[str]) ->
     return [*head, *braced(listed, lines)]
 
 
-def _best_priority(c: CppClass) -> str:
+def best_priority(c: CppClass) -> str:
     own = [c.node, *c.ancestors]
     priorities = [s.priority for n in own for s in n.subscriptions if s.priority is not None]
     return str(min(priorities)) if priorities else ""

@@ -12,7 +12,7 @@ from rebsync.source import Source
 from rebsync.toml import Table, read_toml
 
 FILE_NAME = "rebsync.toml"
-TARGETS = ("ros1-cpp",)
+TARGETS = ("ros1-cpp", "ros1-py", "ros2-cpp", "ros2-py")
 DRIVES = ("holonomic", "differential")
 
 Drive: TypeAlias = Literal["holonomic", "differential"]

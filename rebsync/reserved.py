@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from rebsync.names import CPP_KEYWORDS, carry, uncarry
+from rebsync.names import CPP_KEYWORDS, PYTHON_KEYWORDS, carry, uncarry
 
 RUNTIME_CLASSES = frozenset(
     {
@@ -21,11 +21,17 @@ RUNTIME_TYPES = RUNTIME_CLASSES | {
 }
 _FREE_FUNCTIONS = frozenset(
     {
-        *("after", "as", "deadline", "divide", "divideBy", "flatten", "narrow", "readArray"),
+        *("after", "as", "deadline", "declareArray", "described", "divide", "divideBy", "flatten"),
+        *("narrow", "readArray"),
         *("remainder", "remainderBy", "text", "to", "unflatten", "unused", "widen"),
     }
 )
-NO_CLASSES = CPP_KEYWORDS | RUNTIME_TYPES | _FREE_FUNCTIONS | {"kNull", "reportLine"}
+NO_CLASSES = (
+    CPP_KEYWORDS
+    | RUNTIME_TYPES
+    | _FREE_FUNCTIONS
+    | {"kNull", "msg", "rcl_interfaces", "rclcpp", "reportLine"}
+)
 RUNTIME_TOPICS = frozenset({"cmd_vel", "state"})
 RUNTIME_FIELDS = ("timing", "sender")
 STATE_FIELDS = ("server", "arguments", "arrival", "start", "now")
@@ -37,13 +43,14 @@ RUNTIME_CONSTANTS = frozenset(
     }
 )
 RUNTIME_FUNCTIONS = _FREE_FUNCTIONS | {
-    *("choose", "construct", "globalPriority", "mailbox", "priority", "publishState"),
+    *("choose", "construct", "create_publisher", "declare_parameter", "globalPriority"),
+    *("mailbox", "priority", "publishState"),
     *("shiftLeft", "shiftLeftBy", "shiftRight", "shiftRightBy"),
 }
 # What no local variable, parameter or function of a class may be called.
 RESERVED = CPP_KEYWORDS | RUNTIME_FUNCTIONS | RUNTIME_CONSTANTS | RUNTIME_TYPES
 # What the constructor of a class has beside the parameters of the model.
-OF_CONSTRUCTOR = frozenset({"node", "global"})
+OF_CONSTRUCTOR = frozenset({"global", "node", "options"})
 # What a known rebec's topics may not be called after.
 OWN_TOPICS = frozenset({"port", "sensor"})
 # Entries of the parameter server that no env variable may be called after.
@@ -73,3 +80,30 @@ def uncarry_local(carried: str, reserved: Collection[str], functions: Collection
 
 # The headers of generated packages that are the same for every model.
 RUNTIME_HEADERS = ("mailbox", "startup", "values", "drive", "sensor")
+
+# --- Python -------------------------------------------------------------------------------------
+
+# What the module of a class names, beside its messages and classes.
+PYTHON_GLOBALS = frozenset(
+    {
+        *("AT_ONCE", "Any", "Array", "Byte", "Drive", "Float", "Literal", "Mailbox", "NULL"),
+        *("NO_PRIORITY", "Publishers", "QUEUE_SIZE", "Rebec", "Sensor", "Served", "Server"),
+        *("Short", "TYPE_CHECKING", "Timing", "When", "array", "before", "boolean", "copied"),
+        *("divide", "flatten", "float32", "float64", "global_priority", "int16", "int32", "int8"),
+        *("modulus", "power", "priority", "put", "put_item", "quotient", "read_array", "rclpy"),
+        *("remainder", "rospy", "rounds", "shift_left", "shift_right", "square_root", "switch"),
+        *("text", "to", "to_boolean", "to_byte", "to_double", "to_float", "to_int", "to_rebec"),
+        *("to_short", "unflatten", "sensors"),
+    }
+)
+_PYTHON_BUILTINS = frozenset({"bool", "float", "int", "lambda", "property", "super"})
+# What no local variable, parameter, handler or method may be called.
+PYTHON_RESERVED = (
+    PYTHON_KEYWORDS
+    | PYTHON_GLOBALS
+    | _PYTHON_BUILTINS
+    | {"_drive", "_mailbox", "_publish_state", "_state_pub", "_wire"}
+    | {"ABC", "abstractmethod", "block", "construct", "mailbox", "msg", "node", "self", "served"}
+    | {"when"}
+)
+PYTHON_MEMBERS = frozenset({"drive", "mailbox", "node", "publish_state", "state_pub", "wire"})

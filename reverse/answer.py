@@ -12,6 +12,7 @@ from rebsync.printing import print_model
 from rebsync.records import dataclass
 from rebsync.reverse.build.manifests import read_manifest
 from rebsync.reverse.files.packages import CODE
+from rebsync.reverse.files.python_files import is_python
 from rebsync.reverse.files.reading import Chosen
 from rebsync.reverse.graph import Graph
 from rebsync.reverse.graph_json import graph_data
@@ -90,7 +91,7 @@ def _model(extracted: Extracted) -> str | None:
 def _graph(given: Chosen, extracted: Extracted) -> Graph:
     """What the nodes ask of ROS: in the file that is asked for, if it is code."""
     asked = given.files.get(given.only or "")
-    if asked is None or Path(asked.path).suffix not in CODE:
+    if asked is None or not (Path(asked.path).suffix in CODE or is_python(asked.path, asked)):
         return extracted.graph
     path = asked.path
     return Graph(tuple(f for f in extracted.graph.facts if f.site.place.source.path == path))

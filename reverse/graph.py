@@ -184,13 +184,14 @@ class RateFact:
 
 
 class Access(Enum):
-    """What is done with a parameter; SEARCH is a look-up upwards."""
+    """What is done with a parameter; SEARCH is a look-up upwards, DECLARE that of ROS 2."""
 
     GET = "get"
     SET = "set"
     HAS = "has"
     DELETE = "delete"
     SEARCH = "search"
+    DECLARE = "declare"
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,6 +6,8 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import field, replace
 from fractions import Fraction
+from math import prod
+from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -20,10 +22,12 @@ from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.build.manifests import read_manifest
 from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.files.packages import CODE
+from rebsync.reverse.files.python_files import is_python
 from rebsync.reverse.findings import Finding, Findings
 from rebsync.reverse.generated.ros1_classes import Classes
 from rebsync.reverse.generated.ros1_messages import own_messages
 from rebsync.reverse.generated.ros1_names import variable_name
+from rebsync.reverse.generated.ros2_words import made_in
 from rebsync.reverse.graph import Graph
 from rebsync.reverse.launch.launched import Launch, LaunchedNode
 from rebsync.reverse.launch.parameters import Parameter
@@ -38,6 +42,9 @@ from rebsync.reverse.syntax.unparsed import unparsed
 from rebsync.source import NOWHERE, Source
 from rebsync.static.values import converted
 
+if TYPE_CHECKING:
+    from rebsync.reverse.python.recovery import PythonPart
+
 _ENV_MARKER = re.compile(r"# *rebsync: env (?P<type>[a-z]+)(?P<lengths>(?:\[\d+\])*) (?P<name>\S+)")
 _MANIFEST = "package.xml"
 _TIME_UNIT = "/mailbox/time_unit"
@@ -48,18 +55,20 @@ _CODE = tuple(sorted(CODE))
 class Extracted:
     """The model of some files, what in them is not in it, and how many statements each body has.
 
-    `asking` are its calls to ROS, of which `graph` is made when it is first asked for.
+    `asking` are the calls to ROS of its C++, of which `graph` is made when it is first asked for;
+    `in_python` those of its Python.
     """
 
     model: m.Model
     findings: tuple[Finding, ...]
     statements: tuple[tuple[str, int], ...]
     asking: Asking = field(default_factory=lambda: Asking(Code()), compare=False)
+    in_python: Graph = field(default_factory=Graph, compare=False)
 
     @property
     def graph(self) -> Graph:
         """What the code asks of ROS."""
-        return self.asking.graph
+        return Graph(self.asking.graph.facts + self.in_python.facts)
 
 
 def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
@@ -95,10 +104,26 @@ def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
         ).read()
     if system is not None and only is None and (read or nodes.classes):
         system.note(findings)
-    made = _System(code, classes, read, launch if only is None else None, started)
+    python = _python(files, findings, only)
+    if python is not None:
+        read = (*read, *python.classes)
+    made = _System(code, classes, read, launch if only is None else None, started, python)
     main = _main(made, nodes, only is not None and len(files) > 1)
     model = m.Model(tuple(made.heads() if read else ()), (*read, *nodes.classes), main)
-    return Extracted(model, tuple(findings.all), tuple(findings.statements.items()), asking)
+    statements = tuple(findings.statements.items())
+    in_python = python.graph if python is not None else Graph()
+    return Extracted(model, tuple(findings.all), statements, asking, in_python)
+
+
+def _python(files: Mapping[str, Source], findings: Findings, only: str | None) -> PythonPart | None:
+    """What the files of Python say; what of them is not in the model is listed."""
+    sources = {path: source for path, source in files.items() if is_python(path, source)}
+    if not sources:
+        return None
+    from rebsync.reverse.python.recovery import read_python
+
+    messages = {type_.rpartition("/")[2] for type_ in own_messages(files)}
+    return read_python(sources, findings, only, messages)
 
 
 def _main(generated: _System, nodes: Nodes, is_part: bool) -> m.Main | None:
@@ -139,13 +164,15 @@ class _System:
     read: tuple[m.ReactiveClass | m.Interface, ...]
     launch: Launch | None
     programs: tuple[Program, ...]
+    python: PythonPart | None = None
 
     # --- constants ------------------------------------------------------------------------------
 
     def heads(self) -> Iterator[m.Env]:
         """The constants of the model: all global parameters but those of the run-time part."""
         used = dict(self._used())
-        given = {p.name.lstrip("/"): p for p in self.launch.parameters} if self.launch else {}
+        common = self.launch.parameters if self.launch else ()
+        given = {p.name.lstrip("/").removeprefix("env/"): p for p in common}
         for key in [*given, *(k for k in used if k not in given)]:
             first = key.partition("/")[0]
             if first in RESERVED_GLOBALS or "/" in key:
@@ -156,7 +183,7 @@ class _System:
                 continue
             if type_ is None:
                 type_, name = _marked_type(given[key]) or (_type_of_value(value), "")
-            initial = initial_of(_as(value, type_))
+            initial = initial_of(_as(_shaped(value, type_.dimensions), type_))
             span = given[key].source.within(given[key].span) if key in given else NOWHERE
             declarator = m.Declarator(name or uncarry(key, self._taken()), initial, span)
             yield m.Env(m.Declaration(type_, (declarator,), span=span), span)
@@ -164,6 +191,7 @@ class _System:
     def _used(self) -> Iterator[tuple[str, tuple[m.Type, str, Value | None]]]:
         """The global parameters that classes read: type, name, and default."""
         names = {c.name for c in self.read}
+        yield from self.python.used if self.python is not None else ()
         for owner in self.code.classes.values():
             roles = self.classes.roles[owner.name]
             for member in owner.fields:
@@ -236,9 +264,11 @@ class _System:
         for program in self.programs:
             if node.type not in (program.name, program.stem):
                 continue
-            for made, keys in _made(program.main):
+            for made, keys in (*_made(program.main), *made_in(self.code, program.main)):
                 if class_name(made) in names:
                     return class_name(made), keys
+        if self.python is not None and isinstance(node.type, str):
+            return self.python.started(node.type)
         return None
 
     def _bound(self, node: LaunchedNode, key: str) -> m.Expression | None:
@@ -315,6 +345,15 @@ def _constant(node: Node) -> Value | None:
             return None if None in inner else tuple(v for v in inner if v is not None)
         case _:
             return -0x80000000 if text == "INT32_MIN" else None
+
+
+def _shaped(value: Value, lengths: tuple[int, ...]) -> Value:
+    """An array of several dimensions whose values stand one after the other, as in ROS 2."""
+    if not isinstance(value, tuple) or len(lengths) < 2 or any(isinstance(v, tuple) for v in value):
+        return value
+    step = prod(lengths[1:])
+    rows = (value[i : i + step] for i in range(0, len(value), step))
+    return tuple(_shaped(row, lengths[1:]) for row in rows)
 
 
 def _as(value: Value, type_: m.Type) -> Value:

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from rebsync.roundtrip.verdict import Drift, Mover
 
 
+_READ = frozenset({"ros1-cpp"})
+
+
 @dataclass(frozen=True, slots=True)
 class Checked:
     """A package, and how it stands to its model.
@@ -102,6 +105,15 @@ def _about_base(kept: Kept, record: Record) -> tuple[Findings, ...]:
     return (Findings(Source(f"{kept.root}/{BASE_MODEL}", ""), (found,)),)
 
 
+def _refuse_dialect(kept: Kept, record: Record | None) -> None:
+    """Code that cannot be read back yet must not look as if it said nothing."""
+    target = record.options.get("target", "ros1-cpp") if record is not None else "ros1-cpp"
+    if target not in _READ:
+        message = f"code in {target} cannot be read yet"
+        hint = "`rebsync generate` still takes changes of the model into it"
+        raise RebsyncError.of(kept.root, "RS709", message, hint)
+
+
 def finish(begun: Begun, depth: str) -> Checked:
     """How a package stands, from its models. RebsyncError: one of these cannot be read."""
     from rebsync.roundtrip.judged import judged
@@ -109,6 +121,7 @@ def finish(begun: Begun, depth: str) -> Checked:
     from rebsync.roundtrip.verdict import undetermined
 
     kept, model, record, now = begun.kept, begun.model, begun.record, begun.standing
+    _refuse_dialect(kept, record)
     has_base = record is not None and is_base_whole(kept, record)
     found = judged(kept, model, record.digest if record and has_base else None, now, depth)
     drift, findings = found.drift, found.findings

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping
-from dataclasses import field
+from dataclasses import field, replace
 from pathlib import Path
 
 from rebsync import model as m
@@ -194,7 +194,7 @@ class _Syncing:
             message = f"the package was {old} when its code was generated, and is {new} now"
             hint = "`rebsync generate` writes the new package beside the old one"
             raise RebsyncError.of(str(path), "RS955", message, hint)
-        return config
+        return replace(config, target=options.target)
 
     @property
     def _stem(self) -> str:

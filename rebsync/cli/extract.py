@@ -101,7 +101,8 @@ class _Told:
         print_report(given.findings, sys.stderr)
         if given.model is None:
             self.asks |= given.asks
-            if not (self.several and given.asks):
+            is_open = given.asks and given.grade == "unreadable"
+            if not (self.several and given.asks) and not is_open:
                 return None
             print_report(_nothing(given.root, True).findings, sys.stderr)
             return Status.UNDETERMINED

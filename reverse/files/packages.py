@@ -11,6 +11,7 @@ from pathlib import Path
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import operating_on, os_mistake
 from rebsync.records import dataclass
+from rebsync.reverse.files.python_files import SUFFIX, is_script, may_be_script
 
 MANIFEST = "package.xml"
 HEADERS = frozenset({".h", ".hh", ".hpp", ".hxx", ".cuh", ".ipp", ".tpp", ".inl", ".H"})
@@ -140,7 +141,7 @@ class _Walk:
 def is_read(name: str, inside: str) -> bool:
     """Whether a file of this name in a directory (with a slash after it) is read at all."""
     suffix = _suffix(name)
-    if suffix in CODE:
+    if suffix in CODE or suffix == SUFFIX:
         return True
     return (suffix in _OTHERS or name in _NAMED) and not _TESTS & set(inside.split("/"))
 
@@ -153,7 +154,7 @@ def _suffix(name: str) -> str:
 
 def _add(listing: Listing, entry: os.DirEntry[str], inside: str) -> None:
     """Puts a file among those to read, or those that cannot be."""
-    if not is_read(entry.name, inside):
+    if not is_read(entry.name, inside) and not _is_script(entry):
         return
     suffix = _suffix(entry.name)
     name = inside + shown(entry.name)
@@ -164,9 +165,27 @@ def _add(listing: Listing, entry: os.DirEntry[str], inside: str) -> None:
         return
     if stat.S_ISREG(found.st_mode):
         listing.files[name] = entry.path
-        listing.size += found.st_size if suffix in CODE else 0
+        listing.size += found.st_size if suffix in CODE or suffix == SUFFIX else 0
     else:
         listing.odd[name] = "this is no regular file"
+
+
+def _is_script(entry: os.DirEntry[str]) -> bool:
+    """Whether a file without a suffix says in its first line that Python runs it.
+
+    A link to a file that has one is another name for it.
+    """
+    if not may_be_script(entry.name):
+        return False
+    try:
+        if entry.is_symlink() and os.path.realpath(entry.path).endswith(SUFFIX):
+            return False
+        if not stat.S_ISREG(entry.stat().st_mode):
+            return False
+        with Path(entry.path).open("rb") as file:
+            return is_script(file.read(80))
+    except OSError:
+        return False  # nothing says that it is code
 
 
 def _is_built(entry: os.DirEntry[str]) -> bool:

@@ -11,6 +11,7 @@ from rebsync.diagnostics import RebsyncError
 from rebsync.files import BOM, read_bytes
 from rebsync.records import dataclass
 from rebsync.reverse.files.packages import CODE, Listing, listings, shown
+from rebsync.reverse.files.python_files import SUFFIX, is_script, relevant_python
 from rebsync.reverse.files.relevance import relevant
 from rebsync.reverse.findings import Finding, Grade
 from rebsync.source import NOWHERE, Source, Span
@@ -19,6 +20,7 @@ _MUCH = 4 << 20
 _LATIN = "rebsync-latin-1"
 _HINT = "save the file as UTF-8"
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+_PYTHON_COMMENT = re.compile(r"#[^\n]*")
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,24 +69,33 @@ def all_listings(paths: Iterable[str]) -> Iterator[Listing]:
 
 
 def _has_code(listing: Listing) -> bool:
-    return any(Path(name).suffix in CODE for name in listing.files)
+    return any(_is_code(name) for name in listing.files)
+
+
+def _is_code(name: str) -> bool:
+    """Whether a file is code by its name; a script without a suffix is no other that is read."""
+    suffix = Path(name).suffix
+    return suffix in CODE or suffix == SUFFIX or not suffix
 
 
 def read(listing: Listing) -> Chosen:
     """The files of a package that matter."""
     findings = [_listed(listing, name, why) for name, why in listing.odd.items()]
-    texts, code = dict[str, bytes](), dict[str, bytes]()
+    texts, code, python = dict[str, bytes](), dict[str, bytes](), dict[str, bytes]()
     for name, path in listing.files.items():
         try:
             data = read_bytes(path)
         except RebsyncError as error:
             if name == listing.only:
                 raise
-            if Path(name).suffix in CODE:
+            if _is_code(name):
                 findings.append(_listed(listing, name, _message(error)))
             continue
-        (code if Path(name).suffix in CODE else texts)[name] = data
-    wanted = relevant(code, listing.only)
+        suffix = Path(name).suffix
+        is_python = suffix == SUFFIX or (not suffix and is_script(data))
+        (code if suffix in CODE else python if is_python else texts)[name] = data
+    wanted = relevant(code, listing.only) | relevant_python(python, listing.only)
+    code |= python
     files: dict[str, Source] = {}
     for name in sorted([*texts, *wanted]):
         source = _text(listing, name, code.get(name) or texts.get(name, b""), findings)
@@ -101,7 +112,7 @@ def read(listing: Listing) -> Chosen:
 def _text(listing: Listing, name: str, data: bytes, findings: list[Finding]) -> Source | None:
     """The text of a file; None where it has none, which is then listed if it is code."""
     path = shown(listing.files[name])
-    is_code = Path(name).suffix in CODE
+    is_code = _is_code(name)
     why, hint = _unreadable(data)
     if why:
         if is_code:
@@ -109,7 +120,7 @@ def _text(listing: Listing, name: str, data: bytes, findings: list[Finding]) -> 
         return None
     text = data.removeprefix(BOM).decode("utf-8", _LATIN)
     source = Source(path, text.replace("\0", " "))
-    if is_code and (at := _first_odd(data, text)) is not None:
+    if is_code and (at := _first_odd(data, text, name)) is not None:
         why = f"a byte that is not UTF-8 is read as Latin-1: {text[at]!r}"
         if text[at] == "\0":
             why, hint = "a NUL byte is read as a blank", "take it out"
@@ -129,7 +140,7 @@ def _unreadable(data: bytes) -> tuple[str, str]:
     return "", ""
 
 
-def _first_odd(data: bytes, text: str) -> int | None:
+def _first_odd(data: bytes, text: str, name: str) -> int | None:
     """Where, outside of comments, the first byte is that is not UTF-8, or NUL."""
     try:
         data.decode("utf-8")
@@ -138,7 +149,8 @@ def _first_odd(data: bytes, text: str) -> int | None:
             return None
     except UnicodeDecodeError:
         odd = "\0" + "".join(map(chr, range(0x80, 0x100)))
-    blank = _COMMENT.sub(lambda m: " " * len(m[0]), text)
+    comment = _COMMENT if Path(name).suffix in CODE else _PYTHON_COMMENT
+    blank = comment.sub(lambda m: " " * len(m[0]), text)
     return next((i for i, c in enumerate(blank) if c in odd), None)
 
 

@@ -42,11 +42,11 @@ from rebsync.reverse.generated.ros1_timers import (
     timers_of,
 )
 from rebsync.reverse.generated.ros1_values import initial_values
+from rebsync.reverse.generated.ros2_words import is_of_ros
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppField, CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, text_of
 
-_ROS = frozenset({"Publisher", "Publishers", "Subscriber", "Timer", "WallTimer", "NodeHandle"})
 _PLUMBING = frozenset({"mailbox", "publishState"})
 
 
@@ -171,7 +171,7 @@ class Classes:
                 continue
             type_ = declared_type(self.code, member.type)
             if type_ is None:
-                if text_of(member.type).rpartition("::")[2] not in _ROS:
+                if not is_of_ros(text_of(member.type)):
                     why = f'the model has no type "{text_of(member.type)}"'
                     unread = Unread(member.cpp.span(member.node), why)
                     self.findings.unreadable(member.cpp.source, unread, owner.name)
@@ -338,7 +338,7 @@ class Classes:
         if (advertised := roles.publishers.get(member.name)) is not None:
             return publisher(advertised, self.roles, self.messages)
         if declared_type(self.code, member.type) is None:
-            return Outside(reaches=text_of(member.type).startswith("ros::"))
+            return Outside(reaches=text_of(member.type).startswith(("ros::", "rclcpp::")))
         return Variable(variable_name(roles, member), declared_type(self.code, member.type))
 
     def _called(self, function: CppFunction) -> Called:

@@ -13,6 +13,7 @@ from rebsync.reserved import RESERVED, RUNTIME_MEMBERS
 from rebsync.reverse.bodies.cpp_types import type_of
 from rebsync.reverse.bodies.scope import Runtime
 from rebsync.reverse.generated.ros1_roles import Roles
+from rebsync.reverse.generated.ros2_words import message_name
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppField, CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, text_of
 
@@ -79,7 +80,7 @@ def state_types(code: Code, owner: CppClass) -> Iterator[str]:
             for statement in named(function.body)[:1]:
                 type_ = statement.child_by_field_name("type")
                 if type_ is not None:
-                    yield text_of(type_)
+                    yield message_name(text_of(type_))
 
 
 def enumerators(code: Code) -> dict[str, int]:

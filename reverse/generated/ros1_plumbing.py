@@ -14,11 +14,12 @@ from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_roles import Roles, Taken, call_in
 from rebsync.reverse.generated.ros1_timers import timers_of
+from rebsync.reverse.generated.ros2_words import SETS_UP, arguments_in
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
-_SETS_UP = frozenset({"param", "advertise", "advertiseAll", "readArray", "unused"})
+_SETS_UP = SETS_UP | {"param", "advertise", "advertiseAll", "readArray", "unused"}
 _SUBSCRIBES = frozenset({"subscribe", "subscribeOnBridge"})
 _TELLS = frozenset({"flatten", "publish"})
 
@@ -77,11 +78,21 @@ def _odd_in_constructor(
 ) -> Iterator[Node]:
     """Statements that neither set up anything nor prepare that."""
     timers = {t.call.node.id for t in timers_of(code, owner, roles)}
+    arguments = dict(arguments_in(function))
     for statement in working(function.body):
         given = text_of(statement).partition("=")[0].removeprefix("this->")
         prepares = given.startswith("const ros::NodeHandle ") or given.strip() in roles.globals
+        prepares = prepares or _declared_by(statement) in arguments
         if not prepares and not _sets_up(statement, function, roles, timers):
             yield statement
+
+
+def _declared_by(statement: Node) -> str:
+    """The variable that a statement declares, if it declares one."""
+    declarator = statement.child_by_field_name("declarator")
+    if statement.type != "declaration" or declarator is None:
+        return ""
+    return text_of(declarator.child_by_field_name("declarator") or declarator)
 
 
 def _sets_up(statement: Node, function: CppFunction, roles: Roles, timers: Container[int]) -> bool:
@@ -100,7 +111,8 @@ def _sets_up(statement: Node, function: CppFunction, roles: Roles, timers: Conta
         case "onServed":
             return _hands_on(call, "publishState", None)
         case "construct":
-            return _hands_on(call, "construct", [p.name for p in function.parameters])
+            given = [*(p.name for p in function.parameters), *dict(arguments_in(function))]
+            return _hands_on(call, "construct", given)
         case name if name in _SUBSCRIBES:
             callback = call.arguments[-1] if call.arguments else None
             lambda_ = callback is not None and callback.type == "lambda_expression"

@@ -18,6 +18,12 @@ from rebsync.records import dataclass
 from rebsync.reserved import OWN_TOPICS
 from rebsync.reverse.bodies.scope import Sends
 from rebsync.reverse.generated.ros1_idle import working
+from rebsync.reverse.generated.ros2_words import (
+    constant_of_model,
+    declared_array,
+    known_rebec,
+    message_name,
+)
 from rebsync.reverse.syntax.cpp_calls import CppCall, assigned_in, call_of, calls_in, string_of
 from rebsync.reverse.syntax.cpp_declarations import parameters_in, whole_number
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction, CppParameter
@@ -63,10 +69,7 @@ class Taken:
     @property
     def type(self) -> str:
         """The message's type, without its package."""
-        text = text_of(self.message.type)
-        for end in ("::ConstPtr", "ConstPtr", "::Ptr"):
-            text = text.removesuffix(end)
-        return text.rpartition("::")[2]
+        return message_name(text_of(self.message.type))
 
 
 @dataclass(slots=True)
@@ -161,6 +164,10 @@ def _wired(roles: Roles, constructor: CppFunction) -> None:
     for member, value in assigned_in(constructor.body):
         for call in calls_in(value):
             _member(roles, member, call)
+    for member, value in assigned_in(constructor.body):
+        declared = call_of(value)
+        if declared is not None and (array := declared_array(declared)) is not None:
+            roles.globals[member] = array
     for call in calls_in(constructor.body) if _says(constructor, b"readArray") else ():
         if call.name == "readArray" and len(call.arguments) == 3:
             key = string_of(call.arguments[1])
@@ -184,6 +191,10 @@ def _member(roles: Roles, member: str, call: CppCall) -> None:
             roles.known[member] = original(first.partition("/")[2])
         case "param", "global" if len(call.arguments) == 2:
             roles.globals[member] = first, call.arguments[1]
+        case "declare_parameter", "" if (known := known_rebec(first)) is not None:
+            roles.known[member] = original(known)
+        case "declare_parameter", "" if (env := constant_of_model(first)) is not None:
+            roles.globals[member] = env, call.arguments[1]
         case "subscribe", on if on in _OWN_HANDLES and len(call.arguments) in (3, 4):
             if _is_deep(call.arguments[1]):
                 roles.wired.add(call.node.id)
@@ -192,7 +203,7 @@ def _member(roles: Roles, member: str, call: CppCall) -> None:
             roles.wired.add(call.node.id)
             known, _, key = first.rpartition("/")
             to = uncarry(known, OWN_TOPICS)
-            roles.publishers[member] = Advertised(to, key, text_of(call.types[0]))
+            roles.publishers[member] = Advertised(to, key, message_name(text_of(call.types[0])))
         case "subscribe" | "subscribeOnBridge", "mailbox_" if len(call.arguments) == 3:
             roles.wired.add(call.node.id)
             roles.on_bridge = roles.on_bridge or call.name == "subscribeOnBridge"
@@ -200,7 +211,7 @@ def _member(roles: Roles, member: str, call: CppCall) -> None:
         case "advertiseAll", "mailbox_" if call.types and len(call.arguments) == 2:
             roles.wired.add(call.node.id)
             key = string_of(call.arguments[1]) or ""
-            roles.publishers[member] = Advertised(None, key, text_of(call.types[0]))
+            roles.publishers[member] = Advertised(None, key, message_name(text_of(call.types[0])))
 
 
 def _queue_length(constructor: CppFunction) -> int | None:

@@ -7,12 +7,14 @@ from collections.abc import Collection, Mapping, Sequence
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.launch.launch_files import read_launch
+from rebsync.reverse.launch.launch_python import SUFFIX as PYTHON
+from rebsync.reverse.launch.launch_python import read_python_launch
 from rebsync.reverse.launch.launch_values import Surroundings
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.nodes.node_programs import Program
 from rebsync.source import Source
 
-_SUFFIX = ".launch"
+_SUFFIXES = (".launch", PYTHON)
 _ELSEWHERE = (
     "no launch file starts a program of these files: the model has one rebec for each object"
 )
@@ -45,7 +47,7 @@ class System:
 
 def is_launch(path: str) -> bool:
     """Whether a file is a launch file."""
-    return path.endswith(_SUFFIX)
+    return path.endswith(_SUFFIXES)
 
 
 def system_of(
@@ -64,7 +66,7 @@ def system_of(
 
     surroundings = Surroundings(load, lambda _: "")
     paths = [only] if only is not None else sorted(p for p in files if is_launch(p))
-    read = [(files[p], read_launch(files[p], surroundings)) for p in paths]
+    read = [(files[p], _read(files[p], surroundings)) for p in paths]
     if not read:
         return None
     names = {name for p in programs for name in (p.name, p.stem)}
@@ -79,6 +81,12 @@ def system_of(
 def _known(launch: Launch, names: Collection[str]) -> int:
     """How many nodes it starts that are among the programs, or nodelets."""
     return sum(not n.test and (n.type in names or n.nodelet is not None) for n in launch.nodes)
+
+
+def _read(source: Source, surroundings: Surroundings) -> Launch:
+    if not source.path.endswith(PYTHON):
+        return read_launch(source, surroundings)
+    return read_python_launch(source, surroundings.load)
 
 
 def _size(launch: Launch, package: str) -> int:

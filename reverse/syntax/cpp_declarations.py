@@ -18,6 +18,7 @@ WRAPPERS = frozenset(
 )
 TYPES = frozenset({"class_specifier", "struct_specifier", "enum_specifier"})
 _DECLARATORS = frozenset({"pointer_declarator", "reference_declarator", "array_declarator"})
+_ROOT = "rclcpp::Node"
 
 # One type, with its scope or, after `using`, without.
 _STD = re.compile(r"^(?:::)?std::(?=\w+\Z)")
@@ -256,5 +257,7 @@ def bases_of(node: Node) -> Iterator[str]:
     for clause in node.named_children:
         if clause.type == "base_class_clause":
             for base in clause.named_children:
+                if text_of(base) == _ROOT:
+                    continue  # what every node of rclcpp is
                 if base.type in ("type_identifier", "qualified_identifier", "template_type"):
                     yield unscoped(base)

@@ -79,7 +79,7 @@ def parse(source: Source) -> Cpp:
     """The tree of a file; where the text is no C++ it has error nodes."""
     text = readable(source.text)
     data = text.encode("utf-8", "surrogatepass")
-    wide = None if len(data) == len(text) else _wide(text)
+    wide = byte_places(text, data)
     root = _parser().parse(data).root_node
     deep: list[tuple[int, int]] = []
     while may_be_deep(data) and (parts := list(deep_parts(root))):
@@ -154,8 +154,13 @@ def _with_negations(data: bytes, places: Iterable[int]) -> bytes:
     return bytes(changed)
 
 
-def _wide(text: str) -> tuple[list[int], list[int]]:
-    """The byte behind each character that is not ASCII, and how many bytes too many come before."""
+def byte_places(text: str, data: bytes) -> tuple[list[int], list[int]] | None:
+    """The byte behind each character that is not ASCII, and how many bytes too many come before.
+
+    None where each character is one byte.
+    """
+    if len(data) == len(text):
+        return None
     ends: list[int] = []
     surplus: list[int] = []
     more = 0

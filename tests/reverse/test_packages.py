@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from rebsync.config import parse_config
-from rebsync.forward.ros1_package import ros1_type
+from rebsync.forward.message_files import field_type
 from rebsync.forward.view import view
 from rebsync.grammars.parser import parse_model
 from rebsync.package import NodeClass, Package
@@ -116,7 +116,7 @@ def test_messages_are_those_of_the_servers(name: str) -> None:
         fields = [(f.type, f.name, f.length) for f in read[f"msg/{message.name}.msg"].fields]
         assert (f"{name}/Timing", "timing", None) in fields
         for field in message.fields:
-            element, _, length = ros1_type(field.type).rstrip("]").partition("[")
+            element, _, length = field_type(field.type).rstrip("]").partition("[")
             assert (element, field.name, int(length) if length else None) in fields
 
 

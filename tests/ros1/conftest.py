@@ -13,7 +13,7 @@ import pytest
 from tests.ros1.workspace import SYSTEM_PATH, Workspace, build, missing_ros
 
 _HERE = Path(__file__).parent
-_TEMPLATES = _HERE.parents[1] / "forward" / "templates" / "ros1_cpp"
+_TEMPLATES = _HERE.parents[1] / "forward" / "templates"
 HEADERS = ("drive.h", "mailbox.h", "sensor.h", "startup.h", "values.h")
 
 Build = Callable[[str, Sequence[Path]], Workspace]
@@ -60,9 +60,13 @@ def render(name: str, package: str) -> str:
     """A file of the run-time part of a package."""
     loader = jinja2.FileSystemLoader(_TEMPLATES)
     environment = jinja2.Environment(
-        loader=loader, undefined=jinja2.StrictUndefined, keep_trailing_newline=True
+        loader=loader,
+        undefined=jinja2.StrictUndefined,
+        keep_trailing_newline=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
     )
-    return environment.get_template(f"{name}.j2").render(package=package)
+    return environment.get_template(f"ros1_cpp/{name}.j2").render(package=package)
 
 
 def _shared(factory: pytest.TempPathFactory) -> Path:

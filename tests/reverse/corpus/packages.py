@@ -28,6 +28,22 @@ PACKAGES = {
     "autorally": ("autorally_core", "autorally_control"),
 }
 
+# Those whose nodes in Python the facts cover: the folder of the checkout, and the packages in it.
+PYTHON = {
+    "autorally-python": ("autorally", ("autorally_core", "autorally_control", "autorally_gazebo")),
+    "ros_tutorials-python": ("ros_tutorials", ("rospy_tutorials",)),
+    "teleop_twist_keyboard-python": ("teleop_twist_keyboard", (".",)),
+    "turtlebot3-python": ("turtlebot3", ("turtlebot3_teleop", "turtlebot3_example")),
+    "examples-python": ("examples", ("rclpy",)),
+    "demos-python": (
+        "demos",
+        (
+            *("demo_nodes_py", "lifecycle_py", "quality_of_service_demo/rclpy", "topic_monitor"),
+            "action_tutorials/action_tutorials_py",
+        ),
+    ),
+}
+
 
 def facts_of(name: str) -> list[Json]:
     """The facts of a repository."""

@@ -11,12 +11,16 @@ from pathlib import Path
 from rebsync.records import dataclass
 from rebsync.reverse.calls.ros_calls import graph_of
 from rebsync.reverse.files.packages import CODE
+from rebsync.reverse.files.python_files import is_python
 from rebsync.reverse.files.reading import Chosen, packages
 from rebsync.reverse.graph_json import graph_data
+from rebsync.reverse.python.py_calls import graph_of as python_graph
+from rebsync.reverse.python.py_index import PyCode
+from rebsync.reverse.python.py_tree import parse as parse_python
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
 from tests.reverse.corpus.compare import Comparison, answers_of, compare
-from tests.reverse.corpus.packages import PACKAGES, facts_of
+from tests.reverse.corpus.packages import PACKAGES, PYTHON, facts_of
 from tests.reverse.corpus.values import Json
 
 # What a reason says of one place only.
@@ -55,6 +59,25 @@ def results(folder: Path, bodies: bool = False) -> Iterator[Result]:
     for name in PACKAGES:
         if (folder / name).is_dir():
             yield result(name, folder / name, bodies)
+    for name, (checkout, _) in PYTHON.items():
+        if (folder / checkout).is_dir():
+            yield python_result(name, folder / checkout)
+
+
+def python_result(name: str, root: Path) -> Result:
+    """The Python of a repository whose checkout is in a directory."""
+    start = time.perf_counter()
+    given = list(packages(str(root / package) for package in PYTHON[name][1]))
+    code = [[s for p, s in sorted(c.files.items()) if is_python(p, s)] for c in given]
+    answers = [
+        {**answer, "file": Path(answer["file"]).relative_to(root).as_posix()}
+        for sources in code
+        for answer in answers_of(graph_data(python_graph(PyCode.of(map(parse_python, sources)))))
+    ]
+    seconds = time.perf_counter() - start
+    every = [source for sources in code for source in sources]
+    size = sum(len(source.text) for source in every)
+    return Result(name, compare(facts_of(name), answers), len(every), size, seconds)
 
 
 def result(name: str, root: Path, bodies: bool = False) -> Result:

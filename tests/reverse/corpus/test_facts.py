@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from tests.reverse.corpus.compare import KINDS, compare
-from tests.reverse.corpus.packages import PACKAGES, facts_of
+from tests.reverse.corpus.packages import PACKAGES, PYTHON, facts_of
 from tests.reverse.corpus.values import RIGHT, Json
 
 HERE = Path(__file__).parent
@@ -78,7 +78,7 @@ def test_the_figures_of_the_page(title: str, names: list[str]) -> None:
     assert shown == [*figures, len(facts), len(nameless) - nodelets, nodelets]
 
 
-@pytest.mark.parametrize("name", PACKAGES)
+@pytest.mark.parametrize("name", [*PACKAGES, *PYTHON])
 def test_facts_agree_with_themselves(name: str) -> None:
     facts = facts_of(name)
     found = compare(facts, map(answer_to, facts))

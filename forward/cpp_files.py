@@ -1,6 +1,8 @@
-"""The header and the source of one class in ROS 1 C++."""
+"""The header and the source of one class in C++."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 from rebsync.forward.cpp_class import CppClass, Piece, braced
 from rebsync.forward.cpp_messages import own_subscriptions, sends, server_constants, shims
@@ -8,29 +10,34 @@ from rebsync.forward.cpp_types import class_type, is_text, parameter_type
 from rebsync.forward.cpp_warnings import silenced
 from rebsync.forward.cpp_wiring import members, ros_members, seen_functions, state_lines
 from rebsync.forward.lineage import base_of, shared_interfaces
-from rebsync.forward.ros1_constructors import constructor_declarations, constructor_definitions
 from rebsync.forward.templating import fill
 from rebsync.model import Cast, Declaration, Parameter, walk
 from rebsync.package import NodeClass
 from rebsync.printing import print_line
 
 
-def header(c: CppClass, model_name: str) -> str:
-    """`include/<package>/<class>.h`."""
+def header(
+    c: CppClass, model_name: str, constructors: list[str], access: list[str], root: str = ""
+) -> str:
+    """`include/<package>/<class>.h`; `access` is what ROS asks of the class besides.
+
+    `root` is the class that those without a base descend from.
+    """
     package, node = c.package.name, c.node
     shared = shared_interfaces(c.package)
-    bases = ", ".join(
+    bases = [
         f"public {'virtual ' if name in shared else ''}{type_}"
         for name, type_ in zip(node.bases, c.base_types, strict=True)
-    )
-    polymorphic = bool(node.bases or node.inherited_from or node.abstract)
+    ]
+    if root and c.owns_mailbox:
+        bases.insert(0, f"public {root}")
     groups = [g for g in _function_groups(c) if g]
     return fill(
-        "ros1_cpp/class.h.j2",
+        "cpp/class.h.j2",
         package=package,
         c=c,
         model_name=model_name,
-        guard=f"{package}_{node.file}_H".upper(),
+        guard=c.words.guard(package, node.file),
         system_includes=_system_includes(node),
         includes=_includes(c),
         markers=[
@@ -38,12 +45,11 @@ def header(c: CppClass, model_name: str) -> str:
             f"{'interface' if node.interface else 'reactiveclass'} {node.name}",
         ],
         rebecs=_rebec_types(c),
-        bases=f" : {bases}" if bases else "",
-        polymorphic=polymorphic,
-        owns_mailbox=c.owns_mailbox,
+        bases=f" : {', '.join(bases)}" if bases else "",
+        access_lines=access,
         access="protected" if node.inherited_from else "private",
         handlers=c.handlers(),
-        constructor_declarations=constructor_declarations(c),
+        constructor_declarations=constructors,
         function_groups=groups,
         member_groups=_member_groups(c),
     )
@@ -82,33 +88,36 @@ def _member_groups(c: CppClass) -> list[list[str]]:
     runtime = ["  Mailbox mailbox_;"] if c.owns_mailbox else []
     if c.owns_drive:
         runtime.append("  Drive drive_;")
-    state = ["  ros::Publisher state_pub_;"] if c.node.executable else []
+    state = [f"  {c.words.publisher(c.node.state.name)} state_pub_;"] if c.node.executable else []
     return [g for g in (runtime, members(c), [*ros_members(c), *state]) if g]
 
 
 # --- source -------------------------------------------------------------------------------------
 
 
-def source(c: CppClass) -> str:
-    """`src/<class>.cpp`."""
+def source(c: CppClass, constructors: list[list[str]], closing: Sequence[str] = ()) -> str:
+    """`src/<class>.cpp`; the `closing` lines stand behind its namespace."""
     pieces = [*c.constructs(), *c.handlers(), *c.forwards(), *c.functions()]
     pieces += [*shims(c), *sends(c)]
-    definitions = constructor_definitions(c)
+    definitions = [*constructors]
     definitions += [list(p.definition) for p in pieces if p.definition]
     if c.node.executable:
         definitions.append(_publish_state(c))
     package = c.package.name
-    includes = [f"{package}/{c.node.state.name}.h"] if c.node.executable else []
+    includes = []
+    if c.node.executable and not c.words.TYPED_PUBLISHERS:
+        includes.append(c.words.message_header(package, c.node.state.name))
     if any(s.draws for s in c.node.sensors):
-        includes.append(f"{package}/{c.node.file}_sensors.h")
+        includes.append(f"{package}/{c.node.file}_sensors.{c.words.HEADER}")
     return fill(
-        "ros1_cpp/class.cpp.j2",
+        "cpp/class.cpp.j2",
         package=package,
         c=c,
         includes=sorted(includes),
         servers=server_constants(c),
         definitions=definitions,
         declared=_declared_types(c),
+        closing=closing,
         silenced=silenced(c.statements.expressions.analysis.classes[c.node.name].declaration),
     )
 
@@ -134,14 +143,14 @@ def _declared_types(c: CppClass) -> list[str]:
 
 def _publish_state(c: CppClass) -> list[str]:
     lines = [
-        f"{c.node.state.name} msg;",
+        f"{c.words.message(c.node.state.name)} msg;",
         "msg.server = served.server;",
         "msg.arguments = served.arguments;",
         "msg.arrival = served.arrival;",
         "msg.start = served.start;",
         "msg.now = served.now;",
         *state_lines(c),
-        "state_pub_.publish(msg);",
+        f"{c.words.published('state_pub_')}(msg);",
     ]
     return braced([f"void {c.type_name}::publishState(const Served& served)"], lines)
 
@@ -173,27 +182,25 @@ def _includes(c: CppClass) -> list[str]:
     if c.node.sensors:
         names.add("sensor")
     names |= {c.package.node_class(b).file for b in c.node.bases}
-    names |= {s.message.name for s in own_subscriptions(c)} if not c.node.interface else set()
-    names |= {p.message.name for p in c.node.publishers}
-    found = {f"{package}/{n}.h" for n in names}
-    found |= {sensor_include(package, s.type) for s in c.node.sensors}
+    found = {f"{package}/{n}.{c.words.HEADER}" for n in names}
+    types = {s.type for s in c.node.sensors} | {p.message.name for p in c.node.publishers}
+    if not c.node.interface:
+        types |= {s.message.name for s in own_subscriptions(c)}
+    if c.node.executable and c.words.TYPED_PUBLISHERS:
+        types.add(c.node.state.name)
+    found |= {c.words.message_header(package, t) for t in types}
     return sorted(found)
-
-
-def sensor_include(package: str, type_: str) -> str:
-    """The header of a sensor's message type."""
-    return f"{type_}.h" if "/" in type_ else f"{package}/{type_}.h"
 
 
 def sensor_header(c: CppClass) -> str:
     """`include/<package>/<class>_sensors.h`: the user's part of the sensors."""
     package = c.package.name
-    types = {sensor_include(package, s.type) for s in c.node.sensors}
+    types = {c.words.message_header(package, s.type) for s in c.node.sensors}
     return fill(
-        "ros1_cpp/sensors.h.j2",
+        "cpp/sensors.h.j2",
         package=package,
         c=c,
-        guard=f"{package}_{c.node.file}_SENSORS_H".upper(),
+        guard=c.words.guard(package, f"{c.node.file}_sensors"),
         system_includes=["cstdint"],
         includes=sorted(types),
         seen=seen_functions(c),

@@ -1,0 +1,64 @@
+"""The message types of a package: what its .msg files say."""
+
+from __future__ import annotations
+
+from math import prod
+
+from rebsync.model import Type
+from rebsync.package import Field, Package
+
+TIMING = ("int64 arrival", "int64 deadline")
+STATE_HEAD = (
+    "string server",
+    "string arguments",
+    "int64 arrival",
+    "int64 start",
+    "int64 now",
+)
+FIELD_TYPES = {
+    "byte": "int8",
+    "short": "int16",
+    "int": "int32",
+    "float": "float32",
+    "double": "float64",
+    "boolean": "bool",
+}
+
+
+def field_type(type_: Type) -> str:
+    """The type of a message field; arrays of several dimensions are flattened."""
+    element = FIELD_TYPES.get(type_.name, "string")
+    return f"{element}[{prod(type_.dimensions)}]" if type_.dimensions else element
+
+
+def message_names(package: Package) -> list[str]:
+    """The message types of a package."""
+    names = {"Timing"} | {m.name for m in package.messages}
+    names |= {c.state.name for c in package.classes if c.executable}
+    return sorted(names | {s.type for c in package.classes for s in c.sensors if s.stands_in})
+
+
+def message_files(package: Package) -> dict[str, str]:
+    """`msg/*.msg` by their paths; both generations of ROS read them."""
+    files = {"msg/Timing.msg": _message(TIMING)}
+    for message in package.messages:
+        sender = ["string sender"] if message.carries_sender else []
+        lines = [f"{package.name}/Timing timing", *sender, *map(_field, message.fields)]
+        files[f"msg/{message.name}.msg"] = _message(lines)
+    for node in package.classes:
+        if node.executable:
+            lines = [*STATE_HEAD, *map(_field, node.state.fields)]
+            files[f"msg/{node.state.name}.msg"] = _message(lines)
+        for sensor in node.sensors:
+            if sensor.stands_in:
+                lines = [f"{field_type(d.type)} {d.field}" for d in sensor.draws]
+                files[f"msg/{sensor.type}.msg"] = _message(lines)
+    return files
+
+
+def _message(lines: list[str] | tuple[str, ...]) -> str:
+    return "\n".join(lines) + "\n"
+
+
+def _field(field: Field) -> str:
+    return f"{field_type(field.type)} {field.name}"

@@ -1,0 +1,39 @@
+"""What a module of Python imports: the names that its text uses, and no others."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+
+from rebsync.forward.py_layout import INDENT, LINE_LENGTH
+
+_NOT_CODE = re.compile(r'#[^\n]*|"(?:\\.|[^"\\\n])*"')
+_WORD = re.compile(r"(?<![\w.])[^\W\d]\w*")
+
+
+def words_of(lines: Iterable[str]) -> set[str]:
+    """The names that code uses, attributes apart."""
+    return set(_WORD.findall(_NOT_CODE.sub("", "\n".join(lines))))
+
+
+def imports(used: set[str], modules: Mapping[str, Iterable[str]]) -> list[str]:
+    """The statements that import what is used of the modules, in the order of these."""
+    lines: list[str] = []
+    for module, names in modules.items():
+        found = sorted(set(names) & used, key=_order)
+        if found:
+            lines += _import(module, found)
+    return lines
+
+
+def _order(name: str) -> tuple[int, str]:
+    """Constants, classes, functions: as ruff sorts them."""
+    kind = 0 if name.isupper() and len(name) > 1 else 1 if name[0].isupper() else 2
+    return kind, name
+
+
+def _import(module: str, names: list[str]) -> list[str]:
+    whole = f"from {module} import {', '.join(names)}"
+    if len(whole) <= LINE_LENGTH:
+        return [whole]
+    return [f"from {module} import (", *(f"{INDENT}{n}," for n in names), ")"]

@@ -1,0 +1,158 @@
+"""What the parts of a class are called in Python."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import field
+
+from rebsync.forward.topics import Signature, signature
+from rebsync.model import Parameter
+from rebsync.names import carry, graph_name, unique
+from rebsync.package import NodeClass, Package, Publisher, Subscription
+from rebsync.records import dataclass
+from rebsync.reserved import PYTHON_MEMBERS, PYTHON_RESERVED
+
+Place = tuple[str, str]
+
+
+@dataclass(slots=True)
+class PyNames:
+    """The names of one class, those of its ancestors included; `used` are its attributes."""
+
+    members: dict[str, str] = field(default_factory=dict)
+    env: dict[str, str] = field(default_factory=dict)
+    sends: dict[Place, str] = field(default_factory=dict)
+    publishers: dict[Place, str] = field(default_factory=dict)
+    self_sends: dict[str, str] = field(default_factory=dict)
+    servers: dict[str, str] = field(default_factory=dict)
+    shims: dict[str, str] = field(default_factory=dict)
+    subscribers: dict[str, str] = field(default_factory=dict)
+    sensors: dict[str, str] = field(default_factory=dict)
+    seen: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    used: set[str] = field(default_factory=set)
+    globals: set[str] = field(default_factory=set)
+    types: frozenset[str] = frozenset()
+    apart: Mapping[Signature, str] = field(default_factory=dict)
+
+    def local(self, name: str) -> str:
+        """A local variable or parameter: the model's own name where it hides nothing."""
+        return carry(name, PYTHON_RESERVED | self.types)
+
+    def function(self, name: str, parameters: tuple[Parameter, ...]) -> str:
+        """A handler or method: the model's own name where Python has one function of that name."""
+        carried = carry(name, PYTHON_RESERVED)
+        suffix = self.apart.get(signature(name, parameters))
+        return carried if suffix is None else f"{carried}__{suffix}"
+
+
+def publisher_place(publisher: Publisher) -> Place:
+    """The key of a publisher in `PyNames`."""
+    if publisher.known is not None:
+        return f"known {publisher.known}", publisher.key
+    return f"any {publisher.target}", publisher.key
+
+
+def class_names(package: Package, class_types: Mapping[str, str]) -> dict[str, PyNames]:
+    """The names of every class of a package."""
+    found: dict[str, PyNames] = {}
+    types = {m.name for m in package.messages} | {c.state.name for c in package.classes}
+    types |= {s.type.rpartition("/")[2] for c in package.classes for s in c.sensors}
+    types |= set(class_types.values())
+    apart = _apart(package)
+    for node in sorted(package.classes, key=lambda c: _depth(package, c)):
+        names = PyNames(types=frozenset(types), apart=apart)
+        for base in node.bases:
+            _inherit(names, found[base])
+        _own(names, node)
+        found[node.name] = names
+    return found
+
+
+def _apart(package: Package) -> dict[Signature, str]:
+    """What tells overloads apart, of which Python has none: the types of their parameters."""
+    groups: dict[str, dict[Signature, None]] = {}
+    for node in package.classes:
+        declared = [(s.server, s.parameters) for s in node.subscriptions]
+        declared += [(f.name, f.parameters) for f in node.functions]
+        for name, parameters in declared:
+            groups.setdefault(name, {})[signature(name, parameters)] = None
+    return {
+        wanted: "_".join(_word(t) for t in wanted[1]) or "void"
+        for group in groups.values()
+        if len(group) > 1
+        for wanted in group
+    }
+
+
+def _word(type_: str) -> str:
+    name, _, lengths = type_.partition("[")
+    return "_".join([graph_name(name), *lengths.replace("]", "").split("[")]).rstrip("_")
+
+
+def _depth(package: Package, node: NodeClass) -> int:
+    return 1 + max((_depth(package, package.node_class(b)) for b in node.bases), default=0)
+
+
+def _inherit(names: PyNames, base: PyNames) -> None:
+    names.members.update(base.members)
+    names.env.update(base.env)
+    names.sends.update(base.sends)
+    names.publishers.update(base.publishers)
+    names.self_sends.update(base.self_sends)
+    names.shims.update(base.shims)
+    names.subscribers.update(base.subscribers)
+    names.sensors.update(base.sensors)
+    names.used |= base.used
+
+
+def _own(names: PyNames, node: NodeClass) -> None:
+    used = names.used
+    used |= {names.function(f.name, f.parameters) for f in node.functions}
+    used |= {names.function(s.server, s.parameters) for s in node.subscriptions}
+    for name in (*(m.name for m in node.members), *(k.name for k in node.known)):
+        names.members[name] = _member(name, used)
+    for variable in node.env:
+        names.env[variable.name] = _member(variable.name, used)
+    for sensor in node.sensors:
+        server = graph_name(sensor.server)
+        names.sensors[sensor.server] = unique(f"_{server}_sensor", used)
+        names.seen[sensor.server] = tuple(
+            unique(f"seen_{server}", names.globals) for _ in sensor.draws
+        )
+    for subscription in node.subscriptions:
+        _name_server(names, subscription)
+    for publisher in node.publishers:
+        _name_publisher(names, publisher)
+    for send in node.self_sends:
+        if send.key not in names.self_sends:
+            names.self_sends[send.key] = unique(f"send_self_{send.key}", used)
+
+
+def _member(name: str, used: set[str]) -> str:
+    return unique(f"_{carry(name, PYTHON_MEMBERS)}", used)
+
+
+def _name_server(names: PyNames, subscription: Subscription) -> None:
+    key = subscription.key
+    if key not in names.shims:
+        names.shims[key] = unique(f"_receive_{key}", names.used)
+        names.subscribers[key] = unique(f"_{key}_sub", names.used)
+
+
+def server_constant(names: PyNames, key: str) -> str:
+    """The name of a server's descriptor in the module of a class."""
+    if key not in names.servers:
+        names.servers[key] = unique(f"_{graph_name(key).upper()}", names.globals)
+    return names.servers[key]
+
+
+def _name_publisher(names: PyNames, publisher: Publisher) -> None:
+    place, key = publisher_place(publisher), publisher.key
+    if publisher.known is not None:
+        known = graph_name(publisher.known)
+        helper, member = f"send_{known}_{key}", f"_{known}_{key}_pub"
+    else:
+        target = graph_name(publisher.target)
+        helper, member = f"send_{target}_{key}_to", f"_{target}_{key}_pubs"
+    names.sends[place] = unique(helper, names.used)
+    names.publishers[place] = unique(member, names.used)

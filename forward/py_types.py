@@ -1,0 +1,72 @@
+"""The types of the model in Python."""
+
+from __future__ import annotations
+
+from rebsync.forward.cpp_types import class_type, is_text
+from rebsync.model import Type
+from rebsync.package import Value
+
+_PLAIN = {
+    "byte": "Byte",
+    "short": "Short",
+    "int": "int",
+    "float": "Float",
+    "double": "float",
+    "boolean": "bool",
+    "void": "None",
+}
+# What makes a value of a type out of another.
+_FORMATS = {
+    "byte": "int8",
+    "short": "int16",
+    "int": "int32",
+    "float": "float32",
+    "double": "float64",
+    "boolean": "boolean",
+}
+
+
+def py_type(type_: Type) -> str:
+    """`int`, `Array[bool, Literal[2]]`, `Rebec[Robot]` for the name of a rebec."""
+    text = _PLAIN.get(type_.name) or f"Rebec[{class_type(type_.name)}]"
+    for length in reversed(type_.dimensions):
+        text = f"Array[{text}, Literal[{length}]]"
+    return text
+
+
+def py_format(type_: Type) -> str:
+    """What converts to the type: `int32`, `float32`, `Rebec`."""
+    return _FORMATS.get(type_.name, "Rebec")
+
+
+def plain_type(type_: Type) -> str:
+    """The class whose call gives the value of what is unset: `int()`, `Byte()`, `Rebec()`."""
+    return _PLAIN.get(type_.name, "Rebec")
+
+
+def unset_value(type_: Type) -> str:
+    """What a variable holds that nothing has been stored in."""
+    if type_.dimensions:
+        return f"array({plain_type(type_)}, {', '.join(map(str, type_.dimensions))})"
+    return f"{plain_type(type_)}()"
+
+
+def from_message(value: str, type_: Type) -> str:
+    """A field of a message as a value of the type."""
+    if type_.dimensions:
+        lengths = ", ".join(map(str, type_.dimensions))
+        return f"unflatten({value}, {py_format(type_)}, {lengths})"
+    return f"Rebec({value})" if is_text(type_) else value
+
+
+def py_value(value: Value) -> str:
+    """A constant in Python."""
+    match value:
+        case bool():
+            return "True" if value else "False"
+        case str():
+            return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+        case tuple():
+            return f"Array([{', '.join(py_value(v) for v in value)}])"
+        case _:
+            return repr(value)

@@ -1,0 +1,162 @@
+"""How a class of nodes in Python is set up: its members, publishers and subscriptions."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from rebsync.forward.lineage import base_of
+from rebsync.forward.py_class import PyClass
+from rebsync.forward.py_layout import call_lines, indented
+from rebsync.forward.py_messages import own_subscriptions, to_message
+from rebsync.forward.py_names import publisher_place
+from rebsync.forward.py_types import py_type, unset_value
+from rebsync.model import Type
+from rebsync.names import graph_name
+from rebsync.package import ConstructorOf, GlobalParameter
+
+
+class PyWords(Protocol):
+    """What one generation of ROS has other words for."""
+
+    def mailbox(self, arguments: str) -> str:
+        """Makes the mailbox of a node."""
+
+    def private(self, topic: str) -> str:
+        """A topic below the node's own name."""
+
+    def drive(self) -> str:
+        """Makes the drive of a robot."""
+
+    def sensor(self, topic: str, type_: str) -> str:
+        """Makes a sensor."""
+
+    def known(self, key: str) -> str:
+        """The name of a known rebec, as the launch file tells it."""
+
+    def env(self, env: GlobalParameter) -> str:
+        """The value of a constant of the model."""
+
+    def state(self, type_: str) -> str:
+        """Makes the publisher of the node's state."""
+
+    def initialised(self, c: PyClass) -> list[str]:
+        """What a constructor does before all else."""
+
+
+def class_lines(c: PyClass, words: PyWords) -> list[list[str]]:
+    """The constructor, and what an heir calls instead of it."""
+    if c.node.interface:
+        return []
+    wires_itself = c.node.executable and not c.node.inherited_from
+    found = []
+    if c.node.executable:
+        own = _wired(c, words, *_capacity(c)) if wires_itself else [f"self._wire({_call(c)})"]
+        found.append(_constructor(c, words, own))
+    if not wires_itself:
+        default = f" = {c.node.queue_length}" if not c.node.executable else ""
+        best = " = NO_PRIORITY" if default else ""
+        passed = ["self", f"queue_length: int{default}", f"best_priority: int{best}"]
+        lines = _wired(c, words, "queue_length", "best_priority")
+        found.append([*call_lines("def _wire(", passed, ") -> None:"), *indented(lines)])
+    return found
+
+
+def _constructor(c: PyClass, words: PyWords, wired: list[str]) -> list[str]:
+    chosen = constructor_of(c)
+    names = [c.names.local(p.name) for p in chosen.parameters]
+    passed = [f"{n}: {py_type(p.type)}" for n, p in zip(names, chosen.parameters, strict=True)]
+    lines = [*words.initialised(c), *wired]
+    lines.append(f"self._state_pub = {words.state(c.node.state.name)}")
+    lines.append("self._mailbox.on_served(self._publish_state)")
+    if chosen.body is not None:
+        construct = f"self.{c.construct(chosen)}"
+        body = f"lambda: {construct}({', '.join(names)})" if names else construct
+        lines += call_lines("self._mailbox.construct(", [body])
+    return [*call_lines("def __init__(", ["self", *passed], ") -> None:"), *indented(lines)]
+
+
+def constructor_of(c: PyClass) -> ConstructorOf:
+    """The constructor that `main` uses."""
+    chosen = [i for i in c.node.constructors if i.runs]
+    return (chosen or c.node.constructors)[0]
+
+
+def _capacity(c: PyClass) -> tuple[str, str]:
+    own = [c.node, *c.ancestors]
+    priorities = [s.priority for n in own for s in n.subscriptions if s.priority is not None]
+    return str(c.node.queue_length), str(min(priorities)) if priorities else ""
+
+
+def _call(c: PyClass) -> str:
+    queue, best = _capacity(c)
+    return f"{queue}, {best or 'NO_PRIORITY'}"
+
+
+def _wired(c: PyClass, words: PyWords, queue: str, best: str) -> list[str]:
+    arguments = f"{queue}, {best}" if best else queue
+    if base_of(c.package, c.node) is None:
+        lines = [f"self._mailbox = {words.mailbox(arguments)}"]
+    else:
+        lines = [f"super()._wire({arguments if best else f'{queue}, NO_PRIORITY'})"]
+    if c.owns_drive:
+        lines.append(f"self._drive = {words.drive()}")
+    for sensor in c.node.sensors:
+        made = words.sensor(f"sensor/{sensor.name}", sensor.type.rpartition("/")[2])
+        lines.append(f"self.{c.names.sensors[sensor.server]} = {made}")
+    return [*lines, *_members(c, words), *_publishers(c, words), *_subscriptions(c, words)]
+
+
+def _members(c: PyClass, words: PyWords) -> list[str]:
+    """State variables, known rebecs and env values, each with its marker beside it."""
+    names = c.names
+    lines = [
+        f"self.{names.members[m.name]}: {py_type(m.type)} = {unset_value(m.type)}"
+        f"  # rebsync: statevar {m.path}"
+        for m in c.node.members
+    ]
+    for known in c.node.known:
+        value = words.known(f"knownrebecs/{graph_name(known.name)}")
+        typed = f"self.{names.members[known.name]}: {py_type(Type(known.type))}"
+        lines.append(f"{typed} = {value}  # rebsync: knownrebec {known.path}")
+    lines += [
+        f"self.{names.env[e.name]}: {py_type(e.type)} = {words.env(e)}  # rebsync: env {e.name}"
+        for e in c.node.env
+    ]
+    return lines
+
+
+def _publishers(c: PyClass, words: PyWords) -> list[str]:
+    lines = []
+    for publisher in c.node.publishers:
+        member = c.names.publishers[publisher_place(publisher)]
+        topic, message = words.private(publisher.topic), publisher.message.name
+        if publisher.known is not None:
+            made = call_lines(f"self.{member} = self._mailbox.advertise(", [f'"{topic}"', message])
+        else:
+            arguments = [f'"{publisher.topic}"', f'"{publisher.key}"', message]
+            made = call_lines(f"self.{member} = self._mailbox.advertise_all(", arguments)
+        lines += made
+    return lines
+
+
+def _subscriptions(c: PyClass, words: PyWords) -> list[str]:
+    lines = []
+    for server in own_subscriptions(c):
+        member, shim = c.names.subscribers[server.key], c.names.shims[server.key]
+        function = "subscribe_on_bridge" if server.on_bridge else "subscribe"
+        topic = server.topic if server.on_bridge else words.private(server.topic)
+        arguments = [f'"{topic}"', server.message.name, f"self.{shim}"]
+        lines += call_lines(f"self.{member} = self._mailbox.{function}(", arguments)
+    return lines
+
+
+def publish_state(c: PyClass) -> list[str]:
+    """What publishes the served message and the state variables, inherited ones included."""
+    heads = ("server", "arguments", "arrival", "start", "now")
+    lines = [f"msg = {c.node.state.name}()", *(f"msg.{h} = served.{h}" for h in heads)]
+    lines += [
+        f"msg.{f.name} = {to_message(f, f'self.{c.names.members[f.source]}')}"
+        for f in c.node.state.fields
+    ]
+    lines.append("self._state_pub.publish(msg)")
+    return ["def _publish_state(self, served: Served) -> None:", *indented(lines)]

@@ -1,0 +1,154 @@
+"""ROS 1 Python (rospy, Noetic): a package value as the files of a catkin package."""
+
+from __future__ import annotations
+
+from rebsync.forward.message_files import message_files, message_names
+from rebsync.forward.py_class import PyClass
+from rebsync.forward.py_classes import classes, played_sensors
+from rebsync.forward.py_imports import words_of
+from rebsync.forward.py_layout import call_lines
+from rebsync.forward.py_module import VALUES, class_module, sensors_module
+from rebsync.forward.py_types import from_message, plain_type, py_format, py_value
+from rebsync.forward.py_wiring import constructor_of
+from rebsync.forward.readme import readme
+from rebsync.forward.remarks import Remarks
+from rebsync.forward.ros1_package import launch_file, parameters
+from rebsync.forward.templating import fill
+from rebsync.forward.topics import Topics
+from rebsync.model import Type
+from rebsync.package import GlobalParameter, NodeClass, Package
+from rebsync.static import Analysis
+
+_SENSORS = "src/{package}/{file}_sensors.py"
+_FOLDER = "ros1_py"
+
+
+class Rospy:
+    """The words of rospy."""
+
+    def mailbox(self, arguments: str) -> str:
+        return f"Mailbox({arguments})"
+
+    def private(self, topic: str) -> str:
+        return f"~{topic}"
+
+    def drive(self) -> str:
+        return "Drive(self._mailbox)"
+
+    def sensor(self, topic: str, type_: str) -> str:
+        return f'Sensor("~{topic}", {type_})'
+
+    def known(self, key: str) -> str:
+        return f'Rebec(rospy.get_param("~{key}", ""))'
+
+    def env(self, env: GlobalParameter) -> str:
+        value = py_value(env.value)
+        if env.type.dimensions:
+            lengths = ", ".join(map(str, env.type.dimensions))
+            return f'read_array("{env.key}", {value}, {py_format(env.type)}, {lengths})'
+        read = f'rospy.get_param("{env.key}", {value})'
+        whole = env.type.name in ("int", "boolean")
+        return read if whole else f"{py_format(env.type)}({read})"
+
+    def state(self, type_: str) -> str:
+        return f'rospy.Publisher("~state", {type_}, queue_size=QUEUE_SIZE, latch=True)'
+
+    def initialised(self, c: PyClass) -> list[str]:
+        return []
+
+
+def render(
+    package: Package, analysis: Analysis, topics: Topics, remarks: Remarks, model_name: str
+) -> dict[str, str]:
+    """The files of the package by path, relative to its folder."""
+    source = f"src/{package.name}"
+    files: dict[str, str] = {
+        "package.xml": fill(
+            f"{_FOLDER}/package.xml.j2", package=package, depends=_depends(package)
+        ),
+        "setup.py": fill(f"{_FOLDER}/setup.py.j2", package=package.name),
+        "ruff.toml": fill("py/ruff.toml.j2"),
+        "README.md": readme(package, model_name, _FOLDER, _SENSORS),
+        f"launch/{package.name}.launch": launch_file(package),
+        "config/params.yaml": parameters(package),
+        f"{source}/__init__.py": f'"""The rebecs of {model_name} as ROS nodes."""\n',
+    }
+    files.update(message_files(package))
+    files.update(_runtime(package))
+    for c in classes(package, analysis, topics, remarks).values():
+        files[f"{source}/{c.node.file}.py"] = class_module(c, Rospy(), model_name, ("rospy",))
+        if c.node.executable:
+            files[f"scripts/{c.node.file}_node"] = _node(c)
+        if any(s.draws for s in c.node.sensors):
+            files[f"{source}/{c.node.file}_sensors.py"] = sensors_module(c)
+        if any(s.stands_in for s in c.node.sensors):
+            files[f"scripts/{c.node.file}_stand_in"] = _stand_in(package, c.node)
+    scripts = sorted(p for p in files if p.startswith("scripts/"))
+    files["CMakeLists.txt"] = _cmake_lists(package, scripts)
+    return dict(sorted(files.items()))
+
+
+def _runtime(package: Package) -> dict[str, str]:
+    names = ["mailbox", "startup"]
+    if any(c.moves for c in package.classes):
+        names.append("drive")
+    if any(c.sensors for c in package.classes):
+        names.append("sensor")
+    paths = {n: f"{_FOLDER}/{n}.py.j2" for n in names} | {"values": "py/values.py.j2"}
+    return {
+        f"src/{package.name}/{n}.py": fill(path, package=package.name) for n, path in paths.items()
+    }
+
+
+def _depends(package: Package) -> list[str]:
+    found = {"rosgraph_msgs", "rospy", "std_msgs"}
+    if any(c.moves for c in package.classes):
+        found.add("geometry_msgs")
+    for node in package.classes:
+        found |= {s.type.partition("/")[0] for s in node.sensors if "/" in s.type}
+    return sorted(found - {package.name})
+
+
+def _cmake_lists(package: Package, scripts: list[str]) -> str:
+    depends = _depends(package)
+    return fill(
+        f"{_FOLDER}/CMakeLists.txt.j2",
+        package=package.name,
+        build_depends=sorted([*depends, "message_generation"]),
+        run_depends=sorted([*depends, "message_runtime"]),
+        messages=message_names(package),
+        scripts=scripts,
+    )
+
+
+def _node(c: PyClass) -> str:
+    """`scripts/<class>_node`: reads the constructor's arguments and runs one rebec."""
+    constructor = constructor_of(c)
+    pairs = zip(constructor.keys, constructor.parameters, strict=True)
+    arguments = [_argument(key, parameter.type) for key, parameter in pairs]
+    return fill(
+        f"{_FOLDER}/node.j2",
+        c=c,
+        package=c.package.name,
+        construction=call_lines(f"rebec = {c.type_name}(", arguments),
+        formats=sorted(words_of(arguments) & set(VALUES)),
+    )
+
+
+def _argument(key: str, type_: Type) -> str:
+    """A private parameter as an argument of the constructor."""
+    unset = '""' if plain_type(type_) == "Rebec" else "False" if type_.name == "boolean" else "0"
+    read = f'rospy.get_param("~{key}", {unset})'
+    if type_.name in ("int", "boolean"):
+        return read
+    if plain_type(type_) == "Rebec":
+        return from_message(read, type_)
+    return f"{py_format(type_)}({read})"
+
+
+def _stand_in(package: Package, node: NodeClass) -> str:
+    sensors = played_sensors(node)
+    types = sorted({s.type for s in sensors})
+    return fill(
+        f"{_FOLDER}/stand_in.j2", package=package.name, node=node, sensors=sensors, types=types
+    )

@@ -1,0 +1,85 @@
+"""ROS 2 C++ (rclcpp, Humble and later): a package value as the files of an ament package."""
+
+from __future__ import annotations
+
+from rebsync.forward import ros2_words
+from rebsync.forward.cpp_class import CppClass
+from rebsync.forward.cpp_classes import classes, played_sensors
+from rebsync.forward.cpp_files import header, sensor_header, source
+from rebsync.forward.message_files import message_files
+from rebsync.forward.readme import readme
+from rebsync.forward.remarks import Remarks
+from rebsync.forward.ros2_constructors import (
+    ROOT,
+    access,
+    constructor_declarations,
+    constructor_definitions,
+    node_main,
+    registration,
+)
+from rebsync.forward.ros2_package import cmake_lists, launch_file, manifest, parameters
+from rebsync.forward.templating import fill
+from rebsync.forward.topics import Topics
+from rebsync.package import NodeClass, Package
+from rebsync.static import Analysis
+
+_SENSORS = "include/{package}/{file}_sensors.hpp"
+
+
+def render(
+    package: Package, analysis: Analysis, topics: Topics, remarks: Remarks, model_name: str
+) -> dict[str, str]:
+    """The files of the package by path, relative to its folder."""
+    found = list(classes(package, analysis, topics, remarks, ros2_words).values())
+    files: dict[str, str] = {
+        "package.xml": manifest(package),
+        "CMakeLists.txt": cmake_lists(package, found),
+        ".clang-format": fill("ros2_cpp/clang-format.j2"),
+        "README.md": readme(package, model_name, "ros2_cpp", _SENSORS),
+        f"launch/{package.name}.launch.py": launch_file(package),
+        "config/params.yaml": parameters(package),
+    }
+    files.update(message_files(package))
+    files.update(_runtime(package))
+    for c in found:
+        files.update(_class_files(c, model_name))
+    return dict(sorted(files.items()))
+
+
+def _runtime(package: Package) -> dict[str, str]:
+    names = ["mailbox", "startup", "values"]
+    if any(c.moves for c in package.classes):
+        names.append("drive")
+    if any(c.sensors for c in package.classes):
+        names.append("sensor")
+    return {
+        f"include/{package.name}/{n}.hpp": fill(f"ros2_cpp/{n}.hpp.j2", package=package.name)
+        for n in names
+    }
+
+
+def _class_files(c: CppClass, model_name: str) -> dict[str, str]:
+    include = f"include/{c.package.name}/{c.node.file}"
+    declared = header(c, model_name, constructor_declarations(c), access(c), ROOT)
+    files = {f"{include}.hpp": declared}
+    if c.node.interface:
+        return files
+    files[f"src/{c.node.file}.cpp"] = source(c, constructor_definitions(c), registration(c))
+    if c.node.executable:
+        files[f"src/{c.node.file}_node.cpp"] = node_main(c)
+    if any(s.draws for s in c.node.sensors):
+        files[f"{include}_sensors.hpp"] = sensor_header(c)
+    if any(s.stands_in for s in c.node.sensors):
+        files[f"src/{c.node.file}_stand_in.cpp"] = _stand_in(c.package, c.node)
+    return files
+
+
+def _stand_in(package: Package, node: NodeClass) -> str:
+    sensors = played_sensors(node)
+    return fill(
+        "ros2_cpp/stand_in.cpp.j2",
+        package=package.name,
+        node=node,
+        sensors=sensors,
+        includes=sorted(ros2_words.message_header(package.name, s.type) for s in sensors),
+    )

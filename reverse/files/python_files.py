@@ -1,0 +1,71 @@
+"""Which files are Python, and which of them can matter: told from names and bytes alone."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+
+from rebsync.source import Source
+
+SUFFIX = ".py"
+# Where none of these is, nothing is asked of ROS; `rebsync:` is in generated code.
+_WORDS = (b"rospy", b"rclpy", b"message_filters", b"rebsync:")
+_SCRIPT = re.compile(rb"#![^\n]*\bpython")
+_HEAD = 80  # bytes, in which the first line of a script says who runs it
+_IMPORT = re.compile(
+    rb"^[ \t]*(?:from[ \t]+([\w.]+)[ \t]+import[ \t]+|import[ \t]+)([^#\n]*)", re.M
+)
+_NAME = re.compile(rb"\w+")
+
+
+def is_script(head: bytes) -> bool:
+    """Whether the first bytes of a file say that Python runs it."""
+    return _SCRIPT.match(head[:_HEAD]) is not None
+
+
+def may_be_script(name: str) -> bool:
+    """Whether a file of this name may be a script: it has no suffix."""
+    return "." not in name and not name.isupper() and name != "Makefile"
+
+
+def is_python(path: str, source: Source) -> bool:
+    """Whether a file that was read is Python."""
+    if path.endswith(SUFFIX):
+        return True
+    if not may_be_script(path.rpartition("/")[2]):
+        return False
+    return is_script(source.text[:_HEAD].encode("utf-8", "replace"))
+
+
+def relevant_python(code: Mapping[str, bytes], only: str | None = None) -> set[str]:
+    """Those of some files of Python that can matter: those of ROS, and what they import."""
+    kept = {name for name, data in code.items() if name == only or _of_ros(data)}
+    if not kept or len(kept) == len(code):
+        return kept
+    by_name: dict[bytes, list[str]] = {}
+    for path in code:
+        by_name.setdefault(_module(path).encode(), []).append(path)
+    waiting = list(kept)
+    while waiting:
+        names = set(_imported(code[waiting.pop()]))
+        fresh = {path for name in names for path in by_name.get(name, ())} - kept
+        kept |= fresh
+        waiting += fresh
+    return kept
+
+
+def _of_ros(data: bytes) -> bool:
+    return any(word in data for word in _WORDS)
+
+
+def _module(path: str) -> str:
+    folder, _, name = path.rpartition("/")
+    stem = name.removesuffix(SUFFIX)
+    return folder.rpartition("/")[2] if stem == "__init__" else stem
+
+
+def _imported(data: bytes) -> Iterator[bytes]:
+    """All names in imports: of modules, and of what may be modules."""
+    for source, names in _IMPORT.findall(data):
+        yield from _NAME.findall(source)
+        yield from _NAME.findall(names)

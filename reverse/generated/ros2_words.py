@@ -1,0 +1,81 @@
+"""What generated code for ROS 2 says differently from that for ROS 1."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from tree_sitter import Node
+
+from rebsync.reverse.syntax.cpp_calls import CppCall, calls_in, string_of
+from rebsync.reverse.syntax.cpp_index import Code, CppFunction
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+
+DECLARES = "declare_parameter"
+SETS_UP = frozenset({"create_publisher", DECLARES, "declareArray", "start"})
+_POINTERS = ("::ConstSharedPtr", "::SharedPtr", "::ConstPtr", "ConstPtr", "::Ptr")
+_ROS = frozenset(
+    {
+        *("NodeHandle", "Publisher", "Publishers", "Subscriber", "Subscription", "Timer"),
+        *("TimerBase", "WallTimer"),
+    }
+)
+_MADE = re.compile(r"std::make_shared<\s*([\w:]+)\s*>\Z")
+_KNOWN, _ENV = "knownrebecs.", "env."
+
+
+def message_name(type_: str) -> str:
+    """A message type without its package, and without what points at it."""
+    for end in _POINTERS:
+        type_ = type_.removesuffix(end)
+    return type_.rpartition("::")[2]
+
+
+def is_of_ros(type_: str) -> bool:
+    """Whether it is the type of a publisher, a subscription or a timer."""
+    plain = type_.removesuffix("::SharedPtr").partition("<")[0]
+    return plain.rpartition("::")[2] in _ROS
+
+
+def known_rebec(key: str) -> str | None:
+    """The known rebec that a parameter names, as its graph name."""
+    return key.removeprefix(_KNOWN) if key.startswith(_KNOWN) else None
+
+
+def constant_of_model(key: str) -> str | None:
+    """The entry of `env` that a parameter is."""
+    return key.removeprefix(_ENV) if key.startswith(_ENV) else None
+
+
+def declared_array(call: CppCall) -> tuple[str, Node] | None:
+    """The entry of `env` that `declareArray(*this, "env.x", T{...}, ...)` is, and its values."""
+    if call.name != "declareArray" or len(call.arguments) != 4:
+        return None
+    key = constant_of_model(string_of(call.arguments[1]) or "")
+    values = call.arguments[2].child_by_field_name("value")
+    return (key, values) if key and values is not None else None
+
+
+def arguments_in(constructor: CppFunction) -> Iterator[tuple[str, str]]:
+    """The arguments of the model's constructor: the local variable, and the parameter it is of."""
+    for statement in named(constructor.body) if constructor.body is not None else []:
+        declarator = statement.child_by_field_name("declarator")
+        if statement.type != "declaration" or declarator is None:
+            continue
+        for call in calls_in(declarator.child_by_field_name("value")):
+            key = string_of(call.arguments[0]) if call.arguments else None
+            if call.name == DECLARES and key is not None:
+                yield text_of(part(declarator, "declarator")), key
+
+
+def made_in(code: Code, main: CppFunction) -> Iterator[tuple[str, list[str]]]:
+    """The nodes that a program's `main` makes, and the parameters that their constructors take."""
+    for call in calls_in(main.body):
+        made = _MADE.match(call.name)
+        if made is None:
+            continue
+        type_ = made[1]
+        owner = code.classes.get(type_.rpartition("::")[2])
+        functions = code.functions_of(owner) if owner is not None else ()
+        own = [f for f in functions if owner is not None and f.name == owner.name]
+        yield type_, [key for f in own for _, key in arguments_in(f)]

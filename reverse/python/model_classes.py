@@ -1,0 +1,293 @@
+"""Classes of generated Python as reactive classes and interfaces."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from dataclasses import field as with_default
+from dataclasses import replace
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.names import original
+from rebsync.records import dataclass
+from rebsync.reverse.bodies.written import annotation
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.python.model_expressions import Expressions, Names
+from rebsync.reverse.python.model_roles import EnvUse, Roles, Sends, plain_name, roles_of
+from rebsync.reverse.python.model_statements import Statements
+from rebsync.reverse.python.model_types import class_name, markers_above, type_of
+from rebsync.reverse.python.py_callbacks import body_of
+from rebsync.reverse.python.py_index import PyCode, Scope, classes_in
+from rebsync.reverse.python.py_lookup import lineage
+from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_values import Values
+from rebsync.source import Source
+
+# The modules of the run-time part, and a class that each has.
+_RUNTIME = {
+    "mailbox": "Mailbox",
+    "startup": "Startup",
+    "values": "Violation",
+    "drive": "Drive",
+    "sensor": "Sensor",
+}
+
+
+@dataclass(eq=False)
+class Classes:
+    """Reads the classes of some code that have a mailbox, and the interfaces of these.
+
+    `messages` are the names of the package's message types, which names of the model give way to.
+    """
+
+    code: PyCode
+    findings: Findings
+    messages: Collection[str] = ()
+    roles: dict[int, Roles] = with_default(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self._values = Values(self.code)
+        self._owners = [c for c in classes_in(self.code) if not is_runtime_file(c.py.source)]
+        self._lines: dict[int, list[Scope]] = {}
+        if not any("Mailbox(" in s.py.source.text for s in self.code.modules.values()):
+            self._owners = []
+        for owner in self._owners:
+            self.roles[id(owner)] = roles_of(self.code, owner)
+        reached = {id(c) for o in self._owners if self._has_mailbox(o) for c in self.line(o)}
+        self._owners = [o for o in self._owners if id(o) in reached or _is_marked(o)]
+        self._types = frozenset({*self.messages, *(o.name for o in self._owners)})
+        self._servers = {k: v for o in self._owners for k, v in self._of(o).messages.items()}
+
+    def line(self, owner: Scope) -> list[Scope]:
+        """A class and those above it, nearest first."""
+        if id(owner) not in self._lines:
+            found = lineage(self._values, owner)
+            self._lines[id(owner)] = [c for c in found if isinstance(c, Scope)]
+        return self._lines[id(owner)]
+
+    @property
+    def owners(self) -> list[Scope]:
+        """The classes of Python that are of the model."""
+        return self._owners
+
+    def read(self, path: str | None = None) -> tuple[m.ReactiveClass | m.Interface, ...]:
+        """All of them in the order of the code, or those of a file."""
+        return tuple(
+            self._reactive(o) if self._has_mailbox(o) else self._interface(o)
+            for o in self._owners
+            if path is None or o.py.source.path == path
+        )
+
+    def env(self) -> Iterator[EnvUse]:
+        """The constants that classes read."""
+        return (e for o in self._owners for e in self._of(o).env.values())
+
+    def _of(self, owner: Scope) -> Roles:
+        if id(owner) not in self.roles:
+            self.roles[id(owner)] = roles_of(self.code, owner)
+        return self.roles[id(owner)]
+
+    def _has_mailbox(self, owner: Scope) -> bool:
+        return any(self._of(c).has_mailbox for c in self.line(owner))
+
+    # --- classes --------------------------------------------------------------------------------
+
+    def _interface(self, owner: Scope) -> m.Interface:
+        functions = self._of(owner).functions.values()
+        servers = tuple(self._server(owner, f, plain_name(f, self._types)) for f in functions)
+        extends = tuple(class_name(c.name) for c in self.line(owner)[1:] if self._is_base(owner, c))
+        span = owner.py.span(owner.node)
+        return m.Interface(class_name(owner.name), servers, extends, _annotations(owner), span)
+
+    def _is_base(self, owner: Scope, above: Scope) -> bool:
+        """Whether a class is named among the bases of another."""
+        bases = owner.node.child_by_field_name("superclasses")
+        names = [text_of(b) for b in named(bases)] if bases is not None else []
+        return above.name in names
+
+    def _reactive(self, owner: Scope) -> m.ReactiveClass:
+        roles = self._of(owner)
+        members: list[m.ClassMember] = []
+        known = [self._variable(owner, *v) for v in roles.known.values()]
+        state = [self._variable(owner, *v) for v in roles.state.values()]
+        members += [m.KnownRebecs(tuple(known))] if known else []
+        members += [m.StateVars(tuple(state))] if state else []
+        members += self._constructors(owner)
+        rest = [f for f in roles.functions.values() if self._is_of_model(owner, f)]
+        served = {f.name: self._served(owner, f) for f in rest}
+        members += [self._server(owner, f, s) for f in rest if (s := served[f.name]) is not None]
+        members += [self._method(owner, f) for f in rest if served[f.name] is None]
+        bases = [c for c in self.line(owner)[1:] if self._is_base(owner, c)]
+        extends = [class_name(c.name) for c in bases if self._has_mailbox(c)]
+        return m.ReactiveClass(
+            class_name(owner.name),
+            self._queue_length(owner),
+            tuple(members),
+            not roles.is_executable,
+            extends[0] if extends else None,
+            tuple(class_name(c.name) for c in bases if not self._has_mailbox(c)),
+            tuple(self._shown(owner)),
+            owner.py.span(owner.node),
+        )
+
+    def _queue_length(self, owner: Scope) -> int:
+        return self._of(owner).queue_length or 1
+
+    def _shown(self, owner: Scope) -> Iterator[m.Annotation]:
+        """The annotations of the markers; without markers, those that the set-up shows."""
+        markers = markers_above(owner.py, owner.node)
+        if any(x.startswith("reactiveclass ") for x in markers):
+            yield from _annotations(owner)
+            return
+        if self._of(owner).has_drive:
+            yield m.Annotation("Robot")
+        if self._of(owner).on_bridge:
+            yield m.Annotation("Controller")
+
+    def _variable(self, owner: Scope, name: str, type_: m.Type, statement: Node) -> m.Declaration:
+        span = owner.py.span(statement)
+        return m.Declaration(type_, (m.Declarator(name, None, span),), span=span)
+
+    # --- functions ------------------------------------------------------------------------------
+
+    def _is_of_model(self, owner: Scope, function: Scope) -> bool:
+        name = function.name
+        return not (self._of(owner).is_plumbing(name) or _is_constructor(name))
+
+    def _served(self, owner: Scope, function: Scope) -> str | None:
+        """The server whose messages a function serves, here or in a class above."""
+        for above in self.line(owner):
+            roles = self._of(above)
+            if function.name in roles.handlers:
+                return roles.handlers[function.name]
+            if not self._has_mailbox(above) and function.name in roles.functions:
+                return plain_name(function, self._types)
+        return None
+
+    def _server(self, owner: Scope, function: Scope, name: str) -> m.MessageServer:
+        within = f"{class_name(owner.name)}.{name}"
+        return m.MessageServer(
+            name,
+            self._parameters(owner, function, within),
+            self._body(owner, function, within),
+            _is_abstract(function) and self._has_mailbox(owner),
+            tuple(self._server_annotations(owner, function, name)),
+            function.py.span(function.node),
+        )
+
+    def _server_annotations(
+        self, owner: Scope, function: Scope, name: str
+    ) -> Iterator[m.Annotation]:
+        if any(x.startswith("msgsrv ") for x in markers_above(function.py, function.node)):
+            yield from _annotations(function)
+            return
+        if any(original(s) == name or s == name for s in self._of(owner).sensors):
+            yield m.Annotation("Sensor")
+        for above in self.line(owner):
+            if function.name in self._of(above).shown:
+                yield from self._of(above).shown[function.name]
+                return
+
+    def _method(self, owner: Scope, function: Scope) -> m.Method:
+        name = plain_name(function, self._types)
+        within = f"{class_name(owner.name)}.{name}"
+        result = type_of(function.node.child_by_field_name("return_type"))
+        return m.Method(
+            result or m.Type("void"),
+            name,
+            self._parameters(owner, function, within),
+            self._body(owner, function, within),
+            _is_abstract(function),
+            _annotations(function),
+            function.py.span(function.node),
+        )
+
+    def _constructors(self, owner: Scope) -> Iterator[m.Constructor]:
+        name = class_name(owner.name)
+        for function in self._of(owner).functions.values():
+            if _is_constructor(function.name):
+                yield m.Constructor(
+                    name,
+                    self._parameters(owner, function, name),
+                    self._body(owner, function, name),
+                    _annotations(function),
+                    function.py.span(function.node),
+                )
+
+    # --- bodies ---------------------------------------------------------------------------------
+
+    def _parameters(self, owner: Scope, function: Scope, within: str) -> tuple[m.Parameter, ...]:
+        found = []
+        reader = self._reader(owner, function, within)
+        for node in named(field(function.node, "parameters"))[1:]:
+            span = function.py.span(node)
+            type_ = type_of(node.child_by_field_name("type"))
+            if type_ is None:
+                why = f'the model has no type for "{text_of(node)}"'
+                self.findings.unreadable(function.py.source, Unread(span, why), within)
+            plain = text_of(named(node)[0]) if node.type == "typed_parameter" else text_of(node)
+            found.append(m.Parameter(type_ or m.Type("int"), reader.local(plain), span))
+        return tuple(found)
+
+    def _body(self, owner: Scope, function: Scope, within: str) -> m.Block | None:
+        if _is_abstract(function):
+            return None
+        reader = self._reader(owner, function, within)
+        for parameter in function.parameters[1:]:
+            reader.expressions.locals[parameter.name] = reader.local(parameter.name)
+        self.findings.statements[within] += 0
+        return reader.block(body_of(function), field(function.node, "body"))
+
+    def _reader(self, owner: Scope, function: Scope, within: str) -> Statements:
+        expressions = Expressions(function.py, self._names(owner))
+        return Statements(expressions, self.findings, within, self._types)
+
+    def _names(self, owner: Scope) -> Names:
+        variables: dict[str, str] = {}
+        sends: dict[str, Sends] = {}
+        functions: dict[str, str] = {}
+        for above in reversed(self.line(owner)):
+            roles = self._of(above)
+            variables |= {a: v[0] for a, v in (roles.state | roles.known).items()}
+            variables |= {a: e.name for a, e in roles.env.items()}
+            sends |= {f: self._resolved(s) for f, s in roles.sends.items()}
+            for name, function in roles.functions.items():
+                if not roles.is_plumbing(name) and not _is_constructor(name):
+                    served = self._served(above, function)
+                    functions[name] = served or plain_name(function, self._types)
+        return Names(variables, sends, functions)
+
+    def _resolved(self, sends: Sends) -> Sends:
+        """A send by the name that the server has in the model, which its message type tells."""
+        message, _, key = sends.server.partition(" ")
+        if not key:
+            return sends
+        server = self._servers.get(message, original(key.partition("__")[0]))
+        return replace(sends, server=server)
+
+
+def is_runtime_file(source: Source) -> bool:
+    """Whether a file is a module of the run-time part, which is the same in all packages."""
+    stem = source.path.rpartition("/")[2].removesuffix(".py")
+    return stem in _RUNTIME and f"\nclass {_RUNTIME[stem]}" in source.text
+
+
+def _is_marked(owner: Scope) -> bool:
+    kinds = ("interface ", "reactiveclass ")
+    return any(x.startswith(kinds) for x in markers_above(owner.py, owner.node))
+
+
+def _is_constructor(name: str) -> bool:
+    return name == "construct" or name.startswith("construct__")
+
+
+def _is_abstract(function: Scope) -> bool:
+    return "abstractmethod" in function.decorators
+
+
+def _annotations(scope: Scope) -> tuple[m.Annotation, ...]:
+    """The annotations that markers above something hold."""
+    span = scope.py.span(scope.node)
+    markers = markers_above(scope.py, scope.node)
+    return tuple(a for x in markers if (a := annotation(x, span)) is not None)

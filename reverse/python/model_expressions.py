@@ -1,0 +1,343 @@
+"""Expressions of generated Python, as the model has them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import field as with_default
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.names import original
+from rebsync.records import dataclass
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.python.model_roles import Sends
+from rebsync.reverse.python.model_types import call_parts, string_value
+from rebsync.reverse.python.py_tree import Py, field, named, text_of
+
+_CLOCK = {
+    "now": "now",
+    "arrival": "currentMessageArrival",
+    "expiry": "currentMessageDeadline",
+    "waiting_time": "currentMessageWaitingTime",
+    "sender": "sender",
+}
+_CASTS = {
+    "to_byte": "byte",
+    "to_short": "short",
+    "to_int": "int",
+    "to_float": "float",
+    "to_double": "double",
+    "to_boolean": "boolean",
+}
+_FORMATS = frozenset({"int8", "int16", "int32", "float32", "float64", "boolean"})
+_OPERATIONS = {
+    "divide": "/",
+    "quotient": "/",
+    "remainder": "%",
+    "modulus": "%",
+    "shift_left": "<<",
+    "shift_right": ">>",
+}
+_UPDATES = {
+    "add": "+",
+    "subtract": "-",
+    "multiply": "*",
+    "divide": "/",
+    "remainder": "%",
+    "shift_left": "<<",
+    "shift_right": ">>",
+    "all_of": "&",
+    "any_of": "|",
+    "one_of": "^",
+}
+_WORDS = {"and": "&&", "or": "||"}
+_LEVELS = {"or": 2, "and": 3, "|": 6, "^": 7, "&": 8, "<<": 9, ">>": 9, "+": 10, "-": 10}
+_LEVELS |= dict.fromkeys("*/%", 11)
+_NOT, _COMPARISON, _UNARY = 4, 5, 12
+_TEMPORARY = re.compile(r"op\d+_\Z")
+
+
+@dataclass(frozen=True, slots=True)
+class Names:
+    """What the names of a class stand for: attributes, sends and functions, ancestors included."""
+
+    variables: Mapping[str, str]
+    sends: Mapping[str, Sends]
+    functions: Mapping[str, str]
+
+
+@dataclass(eq=False, slots=True)
+class Expressions:
+    """Reads the expressions of one body; `locals` are its variables by their names in Python."""
+
+    py: Py
+    names: Names
+    locals: dict[str, str] = with_default(default_factory=dict)
+    kept: dict[str, Node] = with_default(default_factory=dict)
+
+    def read(self, node: Node) -> m.Expression:
+        """An expression. Unread: the model has none for it."""
+        span = self.py.span(node)
+        match node.type:
+            case "integer":
+                return m.IntLiteral(int(text_of(node), 0), span)
+            case "float":
+                return m.FloatLiteral(text_of(node), span)
+            case "true" | "false":
+                return m.BoolLiteral(node.type == "true", span)
+            case "string":
+                return m.StringLiteral(text_of(node), span)
+            case "identifier":
+                return self._name(node)
+            case "attribute":
+                return self._attribute(node)
+            case "subscript":
+                return self._element(node)
+            case "parenthesized_expression":
+                return self._in_parentheses(node)
+            case "call":
+                return self._call(node)
+            case _:
+                return self._operation(node)
+
+    def unread(self, node: Node, why: str) -> Unread:
+        return Unread(self.py.span(node), why)
+
+    def _operation(self, node: Node) -> m.Expression:
+        span = self.py.span(node)
+        match node.type:
+            case "not_operator":
+                return m.Unary("!", self._operand(field(node, "argument"), _NOT), span)
+            case "unary_operator":
+                operator = text_of(field(node, "operator"))
+                return m.Unary(operator, self._operand(field(node, "argument"), _UNARY), span)
+            case "boolean_operator" | "binary_operator":
+                operator = text_of(field(node, "operator"))
+                level = _LEVELS.get(operator)
+                if level is None:
+                    raise self.unread(node, f'the model has no operator "{operator}"')
+                left = self._operand(field(node, "left"), level)
+                right = self._operand(field(node, "right"), level + 1)
+                return m.Binary(_WORDS.get(operator, operator), left, right, span)
+            case "comparison_operator":
+                return self._comparison(node)
+            case "conditional_expression":
+                then, condition, otherwise = named(node)
+                parts = self.read(condition), self.read(then), self.read(otherwise)
+                return m.Conditional(*parts, span)
+            case "named_expression":
+                target = self._name(field(node, "name"))
+                return self.stored(target, field(node, "name"), field(node, "value"), node)
+            case _:
+                raise self.unread(node, "the model has no such expression")
+
+    def _comparison(self, node: Node) -> m.Expression:
+        operands = named(node)
+        operators = [text_of(c) for c in node.children_by_field_name("operators")]
+        if len(operands) != 2 or operators[0] not in ("<", "<=", ">", ">=", "==", "!="):
+            raise self.unread(node, "the model has no such comparison")
+        level = _COMPARISON + 1
+        left, right = (self._operand(o, level) for o in operands)
+        return m.Binary(operators[0], left, right, self.py.span(node))
+
+    def _operand(self, node: Node, least: int) -> m.Expression:
+        """An operand; parentheses that only Python needs around it are none of the model's."""
+        if node.type == "parenthesized_expression":
+            core = node
+            while core.type == "parenthesized_expression" and named(core):
+                core = named(core)[0]
+            level = {"not_operator": _NOT, "comparison_operator": _COMPARISON}.get(core.type)
+            if level is not None and level < least:
+                return self.read(named(node)[0])
+        return self.read(node)
+
+    def _in_parentheses(self, node: Node) -> m.Expression:
+        inner = named(node)[0]
+        if inner.type == "named_expression":
+            name = text_of(field(inner, "name"))
+            if _TEMPORARY.match(name):
+                self.kept[name] = field(inner, "value")
+                return self.read(field(inner, "value"))
+            return self.read(inner)
+        return m.Paren(self.read(inner), self.py.span(node))
+
+    # --- names ----------------------------------------------------------------------------------
+
+    def _name(self, node: Node) -> m.Expression:
+        text, span = text_of(node), self.py.span(node)
+        if text == "NULL":
+            return m.NullLiteral(span)
+        if text in self.kept:
+            return self.read(self.kept[text])
+        if text not in self.locals:
+            raise self.unread(node, f'the model has no variable "{text}"')
+        return m.Name(self.locals[text], span)
+
+    def _attribute(self, node: Node) -> m.Expression:
+        span, name = self.py.span(node), text_of(field(node, "attribute"))
+        variable = self.names.variables.get(name)
+        if text_of(field(node, "object")) != "self" or variable is None:
+            raise self.unread(node, f'the model has no variable "{text_of(node)}"')
+        if variable in self.locals.values():
+            return m.Member(m.Self(span), variable, span)
+        return m.Name(variable, span)
+
+    def _element(self, node: Node) -> m.Expression:
+        target = self.read(field(node, "value"))
+        return m.Index(target, self._index(field(node, "subscript")), self.py.span(node))
+
+    def _index(self, node: Node) -> m.Expression:
+        """An index: as it is, kept in a temporary, or checked by `at`."""
+        if node.type == "parenthesized_expression" and named(node)[0].type == "named_expression":
+            kept = named(node)[0]
+            if _TEMPORARY.match(text_of(field(kept, "name"))):
+                self.kept[text_of(field(kept, "name"))] = field(kept, "value")
+                return self._index(field(kept, "value"))
+        if node.type == "identifier" and text_of(node) in self.kept:
+            return self._index(self.kept[text_of(node)])
+        called, arguments = call_parts(node) or ("", [])
+        if called.endswith(".at") and _TEMPORARY.match(called.removesuffix(".at")):
+            return self.read(arguments[0])
+        return self.read(node)
+
+    # --- assignments ----------------------------------------------------------------------------
+
+    def stored(
+        self, target: m.Expression, place: Node, value: Node, whole: Node, statement: bool = False
+    ) -> m.Expression:
+        """An assignment: `x = int32.add(x, 1)` is what the model writes `x++`, or `++x`."""
+        span = self.py.span(whole)
+        called, arguments = call_parts(value) or ("", [])
+        holder, _, method = called.partition(".")
+        if holder in _FORMATS and method in _UPDATES and len(arguments) == 2:
+            operator = _UPDATES[method]
+            if operator in "+-" and text_of(arguments[1]) == "1":
+                if statement:
+                    return m.Postfix(operator * 2, target, span)
+                return m.Unary(operator * 2, target, span)
+            return m.Assign(f"{operator}=", target, self.read(arguments[1]), span)
+        return m.Assign("=", target, self.read(value), span)
+
+    def _put_item(self, node: Node, arguments: list[Node]) -> m.Expression:
+        values, index, value = arguments
+        target = m.Index(self._kept_values(values), self._index(index), self.py.span(node))
+        return self.stored(target, index, value, node)
+
+    def _kept_values(self, node: Node) -> m.Expression:
+        return self.read(node)
+
+    def _before(self, node: Node, arguments: list[Node]) -> m.Expression:
+        target = self.read(arguments[0])
+        update = re.search(r"\.(add|subtract)\(", text_of(arguments[1]))
+        if update is None:
+            raise self.unread(node, "the model has no such expression")
+        return m.Postfix("++" if update[1] == "add" else "--", target, self.py.span(node))
+
+    # --- calls ----------------------------------------------------------------------------------
+
+    def _call(self, node: Node) -> m.Expression:
+        called, arguments = call_parts(node) or ("", [])
+        if called in _FORMATS and len(arguments) == 1:
+            return self._converted(called, arguments[0])
+        if called in _CASTS and len(arguments) == 1:
+            return m.Cast(m.Type(_CASTS[called]), self.read(arguments[0]), self.py.span(node))
+        if called in _OPERATIONS and len(arguments) == 2:
+            left, right = map(self.read, arguments)
+            return m.Binary(_OPERATIONS[called], left, right, self.py.span(node))
+        if called.startswith(("self.", "super().")):
+            return self._own_call(node, called, arguments)
+        return self._function(node, called, arguments)
+
+    def _converted(self, called: str, node: Node) -> m.Expression:
+        """A conversion that the model implies; of a literal it tells its type."""
+        if node.type == "float" and called == "float64":
+            return m.FloatLiteral(f"{text_of(node)}d", self.py.span(node))
+        return self.read(node)
+
+    def _function(self, node: Node, called: str, arguments: list[Node]) -> m.Expression:
+        span = self.py.span(node)
+        match called, len(arguments):
+            case "power", 2:
+                return m.Call(None, "pow", tuple(map(self.read, arguments)), span=span)
+            case "square_root", 1:
+                return m.Call(None, "sqrt", (self.read(arguments[0]),), span=span)
+            case "copied", 1:
+                return self.read(arguments[0])
+            case "to_rebec", 2:
+                type_ = m.Type(original(string_value(arguments[0]) or ""))
+                return m.Cast(type_, self.read(arguments[1]), span)
+            case "put", 3:
+                name = string_value(arguments[1]) or ""
+                variable = self.names.variables.get(name)
+                if variable is None:
+                    raise self.unread(node, f'the model has no variable "{name}"')
+                hidden = variable in self.locals.values()
+                target = m.Member(m.Self(span), variable) if hidden else m.Name(variable, span)
+                return self.stored(target, arguments[1], arguments[2], node)
+            case "put_item", 3:
+                return self._put_item(node, arguments)
+            case "before", 2:
+                return self._before(node, arguments)
+            case _:
+                raise self.unread(node, f'the model has no function "{called}"')
+
+    def _own_call(self, node: Node, called: str, arguments: list[Node]) -> m.Expression:
+        if called.startswith("self._mailbox."):
+            return self._mailbox(node, called.removeprefix("self._mailbox."), arguments)
+        holder, _, name = called.rpartition(".")
+        span = self.py.span(node)
+        sends = self.names.sends.get(name)
+        if sends is not None and holder == "self":
+            return self._send(node, sends, arguments)
+        function = self.names.functions.get(name)
+        if function is None:
+            raise self.unread(node, f'the model has no function "{called}"')
+        target = m.Super(span) if holder == "super()" else None
+        return m.Call(target, function, tuple(map(self.read, arguments)), span=span)
+
+    def _mailbox(self, node: Node, name: str, arguments: list[Node]) -> m.Expression:
+        span = self.py.span(node)
+        match name, len(arguments):
+            case "self", 0:
+                return m.Self(span)
+            case _, 0 if name in _CLOCK:
+                return m.Name(_CLOCK[name], span)
+            case "choose", 1 | 2 if arguments[0].type == "list":
+                return m.Choice(tuple(map(self.read, named(arguments[0]))), span)
+            case "is_a", 2:
+                type_ = m.Type(original(string_value(arguments[1]) or ""))
+                return m.InstanceOf(self.read(arguments[0]), type_, span)
+            case "delay" | "assertion", _:
+                return m.Call(None, name, tuple(map(self.read, arguments)), span=span)
+            case _:
+                raise self.unread(node, f'the model has no function "{name}"')
+
+    def _send(self, node: Node, sends: Sends, arguments: list[Node]) -> m.Expression:
+        span = self.py.span(node)
+        expected = sends.arguments + (sends.known is None)
+        if not expected <= len(arguments) <= expected + 1:
+            raise self.unread(node, f"this sends with {expected} arguments")
+        target: m.Expression
+        if sends.known is None:
+            target = self._receiver(arguments[0])
+        else:
+            target = m.Self(span) if sends.known == "self" else m.Name(sends.known, span)
+        values = tuple(map(self.read, arguments[expected - sends.arguments : expected]))
+        times = self._times(arguments[expected]) if len(arguments) > expected else {}
+        return m.Call(target, sends.server, values, times.get("after"), times.get("deadline"), span)
+
+    def _receiver(self, node: Node) -> m.Expression:
+        """Who gets a message: what is no name or call stands in parentheses."""
+        found = self.read(node)
+        return m.Paren(found) if isinstance(found, (m.Cast, m.Conditional, m.Choice)) else found
+
+    def _times(self, node: Node) -> dict[str, m.Expression]:
+        if node.type == "identifier" and text_of(node) == "AT_ONCE":
+            return {}
+        called = text_of(field(node, "function")) if node.type == "call" else ""
+        given = named(field(node, "arguments")) if called == "When" else []
+        if called != "When" or any(g.type != "keyword_argument" for g in given):
+            raise self.unread(node, "this is no time of a send")
+        return {text_of(field(g, "name")): self.read(field(g, "value")) for g in given}

@@ -1,0 +1,292 @@
+"""What the members and functions of a class of generated Python are for.
+
+They are known by what they do: a handler is what a subscription puts into the mailbox, a function
+that publishes or posts is a send. Markers only tell names that the code had to change.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator
+from dataclasses import field as with_default
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.names import carry, original, uncarry
+from rebsync.records import dataclass
+from rebsync.reserved import OWN_TOPICS, PYTHON_MEMBERS, PYTHON_RESERVED
+from rebsync.reverse.python.model_types import (
+    call_parts,
+    is_unset,
+    markers_above,
+    markers_beside,
+    string_value,
+    type_of,
+)
+from rebsync.reverse.python.py_callbacks import body_of
+from rebsync.reverse.python.py_index import FUNCTION, PyCode, Scope
+from rebsync.reverse.python.py_tree import field, named, text_of
+
+_RUNTIME = {"_mailbox", "_drive", "_state_pub"}
+_PLUMBING = {"__init__", "_wire", "_publish_state", "mailbox"}
+_SENSOR = "_sensor"
+
+
+@dataclass(frozen=True, slots=True)
+class Sends:
+    """A function that sends: `known` as in the model, "self", or None for any rebec of a class."""
+
+    known: str | None
+    server: str
+    arguments: int
+
+
+@dataclass(frozen=True, slots=True)
+class EnvUse:
+    """A constant of the model that a class reads: its key and what stands in for it."""
+
+    key: str
+    name: str
+    type: m.Type
+    default: Node | None
+
+
+@dataclass(eq=False, slots=True)
+class Roles:
+    """Of one class alone: what its attributes and functions stand for, by their names in Python."""
+
+    owner: Scope
+    functions: dict[str, Scope] = with_default(default_factory=dict)
+    state: dict[str, tuple[str, m.Type, Node]] = with_default(default_factory=dict)
+    known: dict[str, tuple[str, m.Type, Node]] = with_default(default_factory=dict)
+    env: dict[str, EnvUse] = with_default(default_factory=dict)
+    publishers: dict[str, tuple[str | None, str, str]] = with_default(default_factory=dict)
+    handlers: dict[str, str] = with_default(default_factory=dict)
+    shown: dict[str, tuple[m.Annotation, ...]] = with_default(default_factory=dict)
+    messages: dict[str, str] = with_default(default_factory=dict)
+    sends: dict[str, Sends] = with_default(default_factory=dict)
+    shims: set[str] = with_default(default_factory=set)
+    topics: dict[str, str] = with_default(default_factory=dict)
+    sensors: set[str] = with_default(default_factory=set)
+    has_mailbox: bool = False
+    has_drive: bool = False
+    on_bridge: bool = False
+    queue_length: int | None = None
+
+    def is_plumbing(self, name: str) -> bool:
+        """Whether a function is none of the model's."""
+        return name in _PLUMBING or name in self.shims or name in self.sends
+
+    @property
+    def is_executable(self) -> bool:
+        return "_publish_state" in self.functions
+
+
+def roles_of(code: PyCode, owner: Scope) -> Roles:
+    """Reads what the constructor of a class sets up, and what its functions do with it."""
+    roles = Roles(owner)
+    for bindings in owner.names.values():
+        for binding in bindings:
+            if binding.how == "scope":
+                scope = code.scope_of(binding.node, owner.py)
+                if scope.kind == FUNCTION:
+                    roles.functions[scope.name] = scope
+    for name in ("__init__", "_wire"):
+        if name in roles.functions:
+            _wired(roles, roles.functions[name])
+    servers = servers_of(owner.module)
+    for function in roles.functions.values():
+        if function.name not in _PLUMBING:
+            _does(roles, function, servers)
+    return roles
+
+
+def servers_of(module: Scope) -> dict[str, tuple[str, tuple[m.Annotation, ...]]]:
+    """The descriptors of a module: `_X = Server("x", priority(1))`."""
+    found = {}
+    for name, bindings in module.names.items():
+        for binding in bindings:
+            parts = call_parts(binding.value) if binding.how == "value" else None
+            if parts is None or parts[0] != "Server" or not parts[1]:
+                continue
+            server = string_value(parts[1][0])
+            if server is not None:
+                found[name] = server, tuple(_priority(parts[1][1:]))
+    return found
+
+
+def _priority(arguments: list[Node]) -> Iterator[m.Annotation]:
+    for node in arguments:
+        parts = call_parts(node)
+        kinds = {"priority": "priority", "global_priority": "globalPriority"}
+        if parts is not None and parts[0] in kinds and len(parts[1]) == 1:
+            text = text_of(parts[1][0])
+            value: m.Expression = m.IntLiteral(int(text.lstrip("-")))
+            value = m.Unary("-", value) if text.startswith("-") else value
+            yield m.Annotation(kinds[parts[0]], (value,))
+
+
+# --- set up -------------------------------------------------------------------------------------
+
+
+def _wired(roles: Roles, function: Scope) -> None:
+    for statement in body_of(function):
+        inner = named(statement)[0] if statement.type == "expression_statement" else None
+        if inner is not None and inner.type == "call":
+            _called(roles, inner)
+        elif inner is not None and inner.type == "assignment":
+            left = text_of(field(inner, "left"))
+            value = inner.child_by_field_name("right")
+            if left.startswith("self.") and value is not None:
+                _member(roles, function, left.removeprefix("self."), inner, value)
+    for parameter in function.parameters:
+        if parameter.default is not None and text_of(parameter.default).isdecimal():
+            roles.queue_length = roles.queue_length or int(text_of(parameter.default))
+
+
+def _called(roles: Roles, call: Node) -> None:
+    """`self._wire(4, NO_PRIORITY)` says how long the queue is."""
+    function, arguments = call_parts(call) or ("", [])
+    if function.endswith("._wire") and arguments and text_of(arguments[0]).isdecimal():
+        roles.queue_length = int(text_of(arguments[0]))
+
+
+def _member(roles: Roles, function: Scope, name: str, statement: Node, value: Node) -> None:
+    called, arguments = call_parts(value) or ("", [])
+    type_ = type_of(statement.child_by_field_name("type"))
+    if called == "Mailbox":
+        roles.has_mailbox = True
+        lengths = [int(text_of(a)) for a in arguments if text_of(a).isdecimal()]
+        passed = text_of(arguments[-2]) if len(arguments) > 1 else ""
+        if (lengths and not passed.isidentifier()) or (lengths and passed in ("self", "node")):
+            roles.queue_length = lengths[0]
+    elif called == "Drive":
+        roles.has_drive = True
+    elif called == "Sensor":
+        roles.sensors.add(original(name.removeprefix("_").removesuffix(_SENSOR)))
+    elif called.startswith("self._mailbox."):
+        _connected(roles, name, called.removeprefix("self._mailbox."), arguments)
+    elif type_ is not None and name not in _RUNTIME:
+        _variable(roles, function, name, statement, value, type_)
+
+
+def _connected(roles: Roles, member: str, method: str, arguments: list[Node]) -> None:
+    first = string_value(arguments[0]) if arguments else None
+    topic = (first or "").removeprefix("~/").removeprefix("~")
+    if method == "advertise" and len(arguments) == 2:
+        known, _, key = topic.rpartition("/")
+        message = text_of(arguments[1])
+        roles.publishers[member] = uncarry(known, OWN_TOPICS), key, message
+    elif method == "advertise_all" and len(arguments) == 3:
+        key = string_value(arguments[1]) or ""
+        roles.publishers[member] = None, key, text_of(arguments[2])
+    elif method in ("subscribe", "subscribe_on_bridge") and len(arguments) == 3:
+        roles.on_bridge = roles.on_bridge or method == "subscribe_on_bridge"
+        roles.topics[text_of(arguments[2]).removeprefix("self.")] = topic
+
+
+def _variable(
+    roles: Roles, function: Scope, attribute: str, statement: Node, value: Node, type_: m.Type
+) -> None:
+    markers = markers_beside(function.py, statement)
+    name = variable_name(attribute, markers)
+    read = parameter_read(value)
+    if is_unset(value):
+        roles.state[attribute] = name, type_, statement
+    elif read is not None and read[0].startswith("knownrebecs/"):
+        known = original(read[0].partition("/")[2])
+        roles.known[attribute] = known, type_, statement
+    elif read is not None:
+        roles.env[attribute] = EnvUse(read[0], name, type_, read[1])
+
+
+def parameter_read(value: Node) -> tuple[str, Node | None] | None:
+    """The parameter that a value reads, wherever in it, and what stands in for it."""
+    called, arguments = call_parts(value) or ("", [])
+    strings = [(i, s) for i, a in enumerate(arguments) if (s := string_value(a)) is not None]
+    if strings and ("param" in called or "read_array" in called or "known" in called):
+        index, key = strings[0]
+        default = arguments[index + 1] if index + 1 < len(arguments) else None
+        return key.removeprefix("~"), default
+    for argument in arguments:
+        found = parameter_read(argument)
+        if found is not None:
+            return found
+    return None
+
+
+def variable_name(attribute: str, markers: Collection[str]) -> str:
+    """The model's name of an attribute, from its marker unless it was renamed."""
+    for marker in markers:
+        kind, path, *_ = [*marker.split(), "", ""]
+        name = path.rpartition(".")[2]
+        carried = re.escape(carry(name, PYTHON_MEMBERS)) if name else ""
+        if kind in ("statevar", "env", "knownrebec") and re.fullmatch(
+            rf"_{carried}(_\d+)?", attribute
+        ):
+            return name
+    return uncarry(attribute.removeprefix("_"), PYTHON_MEMBERS)
+
+
+# --- what functions do --------------------------------------------------------------------------
+
+
+def _does(
+    roles: Roles, function: Scope, servers: dict[str, tuple[str, tuple[m.Annotation, ...]]]
+) -> None:
+    for statement in body_of(function):
+        inner = named(statement)[0] if statement.type == "expression_statement" else None
+        called, arguments = call_parts(inner) or ("", [])
+        passed = [p.name for p in function.parameters[1:]]
+        if called == "self._mailbox.receive" and len(arguments) == 5:
+            _received(roles, function, arguments, servers)
+        elif called == "self._mailbox.post" and arguments and "when" in passed:
+            server = servers.get(text_of(arguments[0]), ("", ()))[0]
+            roles.sends[function.name] = Sends("self", server, len(passed) - 1)
+        elif called == "self._mailbox.publish" and len(arguments) == 3 and "when" in passed:
+            _published(roles, function, arguments[0], passed)
+
+
+def _received(
+    roles: Roles,
+    function: Scope,
+    arguments: list[Node],
+    servers: dict[str, tuple[str, tuple[m.Annotation, ...]]],
+) -> None:
+    server, annotations = servers.get(text_of(arguments[0]), ("", ()))
+    served = arguments[4]
+    if served.type == "lambda":
+        served = field(field(served, "body"), "function")
+    handler = text_of(served).removeprefix("self.")
+    if not server or not handler.isidentifier():
+        return
+    roles.shims.add(function.name)
+    roles.handlers[handler] = server
+    port = roles.topics.get(function.name, "").startswith("port/")
+    roles.shown[handler] = (*((m.Annotation("Port"),) if port else ()), *annotations)
+    parameter = field(function.node, "parameters").named_children[-1]
+    message = parameter.child_by_field_name("type")
+    if message is not None:
+        roles.messages[text_of(message)] = server
+
+
+def _published(roles: Roles, function: Scope, publisher: Node, passed: list[str]) -> None:
+    parts = call_parts(publisher)
+    member = parts[1][0] if parts is not None and parts[0] == "to" else publisher
+    found = roles.publishers.get(text_of(member).removeprefix("self."))
+    if found is not None:
+        known, key, message = found
+        count = len(passed) - 1 - (known is None)
+        roles.sends[function.name] = Sends(known, f"{message} {key}", count)
+
+
+def plain_name(function: Scope, types: Collection[str]) -> str:
+    """The model's name of a function, from its marker unless it was renamed."""
+    name = function.name.partition("__")[0] if function.name[:2] != "__" else function.name
+    for marker in markers_above(function.py, function.node):
+        kind, path, *_ = [*marker.split(), "", ""]
+        told = path.rpartition(".")[2]
+        if kind in ("msgsrv", "method") and carry(told, PYTHON_RESERVED) == name:
+            return told
+    return uncarry(name, PYTHON_RESERVED)

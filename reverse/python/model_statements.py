@@ -1,0 +1,289 @@
+"""Statements of generated Python, as the model has them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import field as with_default
+from dataclasses import replace
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.names import uncarry
+from rebsync.records import dataclass
+from rebsync.reserved import PYTHON_RESERVED
+from rebsync.reverse.bodies.written import annotation
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.python.model_expressions import Expressions
+from rebsync.reverse.python.model_types import call_parts, is_unset, markers_above, type_of
+from rebsync.reverse.python.py_tree import field, named, text_of
+
+_AGAIN = re.compile(r"(.+?)__\d+\Z")
+_HOISTED = "local "
+
+
+@dataclass(eq=False, slots=True)
+class Statements:
+    """Reads the bodies of one function; `within` names it where something is listed.
+
+    `hoisted` are the locals that a switch declares before it, `cases` the names of the switches
+    around a statement, innermost last.
+    """
+
+    expressions: Expressions
+    findings: Findings
+    within: str
+    types: frozenset[str] = frozenset()
+    hoisted: dict[str, m.Type] = with_default(default_factory=dict)
+    cases: list[str] = with_default(default_factory=list)
+
+    def block(self, nodes: list[Node], span_of: Node) -> m.Block:
+        """The statements of a suite."""
+        return m.Block(tuple(self._all(nodes)), span=self.expressions.py.span(span_of))
+
+    def local(self, name: str) -> str:
+        """The model's name of a local variable or parameter."""
+        return uncarry(name, PYTHON_RESERVED | self.types)
+
+    def _all(self, nodes: list[Node]) -> Iterator[m.Statement]:
+        found: list[m.Statement] = []
+        waiting = list(nodes)
+        while waiting:
+            node = waiting.pop(0)
+            try:
+                if self._goes_on(node, waiting):
+                    found.append(m.Continue(span=self.expressions.py.span(node)))
+                    waiting.pop(0)
+                    continue
+                read = self._with_annotations(node, self._statement(node, found))
+            except Unread as unread:
+                self.findings.unreadable(self.expressions.py.source, unread, self.within)
+                read = []
+            self.findings.statements[self.within] += 1
+            found += read
+        return iter(found)
+
+    def _goes_on(self, node: Node, after: list[Node]) -> bool:
+        """`case_.go_on()` and the `break` behind it: a `continue` of the loop around the switch."""
+        inner = named(node)[0] if node.type == "expression_statement" else node
+        called, _ = call_parts(inner) or ("", [])
+        is_last = bool(after) and after[0].type == "break_statement"
+        return bool(self.cases) and called == f"{self.cases[-1]}.go_on" and is_last
+
+    def _with_annotations(self, node: Node, read: list[m.Statement]) -> list[m.Statement]:
+        span = self.expressions.py.span(node)
+        markers = markers_above(self.expressions.py, node)
+        given = tuple(a for x in markers if (a := annotation(x, span)) is not None)
+        if given and read:
+            read[-1] = _annotated(read[-1], given)
+        return read
+
+    def _statement(self, node: Node, before: list[m.Statement]) -> list[m.Statement]:
+        span = self.expressions.py.span(node)
+        match node.type:
+            case "pass_statement":
+                return []
+            case "expression_statement":
+                return self._effect(node)
+            case "if_statement":
+                return self._if(node)
+            case "while_statement":
+                condition = self.expressions.read(field(node, "condition"))
+                return [m.While(condition, self._suite(field(node, "body")), span=span)]
+            case "for_statement":
+                return self._for(node, before)
+            case "with_statement" if "block()" in text_of(node).partition(":")[0]:
+                return [self._suite(field(node, "body"))]
+            case "return_statement":
+                return self._return(node)
+            case "break_statement":
+                return [m.Break(span=span)]
+            case "continue_statement":
+                return [m.Continue(span=span)]
+            case _:
+                raise Unread(span, "the model has no such statement")
+
+    def _suite(self, node: Node) -> m.Block:
+        outer, self.cases = self.cases, []
+        found = self.block(named(node), node)
+        self.cases = outer
+        return found
+
+    def _branch(self, node: Node) -> m.Block:
+        return self.block(named(node), node)
+
+    def _return(self, node: Node) -> list[m.Statement]:
+        values = named(node)
+        if values and is_unset(values[0]):
+            return []  # only Python wants one here
+        value = self.expressions.read(values[0]) if values else None
+        return [m.Return(value, span=self.expressions.py.span(node))]
+
+    # --- effects --------------------------------------------------------------------------------
+
+    def _effect(self, node: Node) -> list[m.Statement]:
+        inner, span = named(node)[0], self.expressions.py.span(node)
+        if inner.type == "ellipsis":
+            return [m.Empty(span=span)]
+        if inner.type == "string":
+            return []
+        if inner.type == "assignment":
+            return self._assigned(inner)
+        called, arguments = call_parts(inner) or ("", [])
+        if called == "self._drive.move" and len(arguments) == 2:
+            cells = tuple(map(self._cell, ("X", "Y"), arguments))
+            return [m.Empty((m.Annotation("Move", cells, span),), span)]
+        return [m.ExpressionStatement(self.expressions.read(inner), span=span)]
+
+    def _cell(self, axis: str, node: Node) -> m.Expression:
+        found = _bare(self.expressions.read(node))
+        match found:
+            case m.IntLiteral(0):
+                return m.Name(axis)
+            case m.Unary("-", operand) if node.type == "unary_operator":
+                return m.Binary("-", m.Name(axis), _bare(operand))
+            case _:
+                return m.Binary("+", m.Name(axis), found)
+
+    def _assigned(self, node: Node) -> list[m.Statement]:
+        span, left = self.expressions.py.span(node), field(node, "left")
+        value = field(node, "right")
+        name = text_of(left)
+        type_ = type_of(node.child_by_field_name("type"))
+        if type_ is not None and left.type == "identifier":
+            if any(x.startswith(_HOISTED) for x in markers_above(self.expressions.py, node)):
+                self.hoisted[name] = type_
+                return []
+            return [self._declared(name, type_, value, node)]
+        if name in self.hoisted:
+            return [self._declared(name, self.hoisted.pop(name), value, node)]
+        target = self.expressions.read(left)
+        stored = self.expressions.stored(target, left, value, node, statement=True)
+        return [m.ExpressionStatement(stored, span=span)]
+
+    def _declared(self, name: str, type_: m.Type, value: Node, node: Node) -> m.Local:
+        span = self.expressions.py.span(node)
+        initial = self._initial(value)
+        again = _AGAIN.match(name)
+        plain = self.local(again[1] if again is not None else name)
+        self.expressions.locals[name] = plain
+        declarator = m.Declarator(plain, initial, span)
+        return m.Local(m.Declaration(type_, (declarator,), span=span), span=span)
+
+    def _initial(self, value: Node) -> m.Initializer | None:
+        if is_unset(value):
+            return None
+        called, arguments = call_parts(value) or ("", [])
+        if called == "Array" and len(arguments) == 1 and arguments[0].type == "list":
+            values = tuple(v for a in named(arguments[0]) if (v := self._initial(a)) is not None)
+            return m.ArrayInitializer(values, self.expressions.py.span(value))
+        return self.expressions.read(value)
+
+    # --- control --------------------------------------------------------------------------------
+
+    def _if(self, node: Node) -> list[m.Statement]:
+        if self._only_goes_on(node):
+            return []
+        parts = [node, *node.children_by_field_name("alternative")]
+        otherwise: m.Statement | None = None
+        conditions = [
+            self.expressions.read(field(p, "condition")) for p in parts if p.type != "else_clause"
+        ]
+        bodies = []
+        for part in parts:
+            name = "body" if part.type == "else_clause" else "consequence"
+            bodies.append(self._branch(field(part, name)))
+        if parts[-1].type == "else_clause":
+            otherwise = bodies.pop()
+        for condition, body, part in reversed(list(zip(conditions, bodies, parts, strict=False))):
+            otherwise = m.If(condition, body, otherwise, span=self.expressions.py.span(part))
+        assert otherwise is not None
+        return [otherwise]
+
+    def _only_goes_on(self, node: Node) -> bool:
+        """`if case_.goes_on:` behind a switch, which the switch has said already."""
+        return re.fullmatch(r"case\d*_\.goes_on", text_of(field(node, "condition"))) is not None
+
+    def _for(self, node: Node, before: list[m.Statement]) -> list[m.Statement]:
+        called, arguments = call_parts(field(node, "right")) or ("", [])
+        name = text_of(field(node, "left"))
+        if called == "switch" and len(arguments) == 1:
+            return [self._switch(node, name, arguments[0])]
+        if called != "rounds":
+            raise Unread(self.expressions.py.span(node), "the model has no such loop")
+        return [self._rounds(node, name, before)]
+
+    def _rounds(self, node: Node, name: str, before: list[m.Statement]) -> m.For:
+        """`for again_ in rounds():` with its step and its condition first."""
+        nodes = named(field(node, "body"))
+        updates: tuple[m.Expression, ...] = ()
+        condition: m.Expression | None = None
+        if nodes and nodes[0].type == "if_statement" and _asks(nodes[0]) == name:
+            steps = self._branch(field(nodes.pop(0), "consequence")).statements
+            updates = tuple(s.expression for s in steps if isinstance(s, m.ExpressionStatement))
+        if nodes and nodes[0].type == "if_statement" and _ends(nodes[0]):
+            asked = field(nodes.pop(0), "condition")
+            inner = field(asked, "argument")
+            read = self.expressions.read(inner)
+            condition = read.inner if isinstance(read, m.Paren) else read
+        outer, self.cases = self.cases, []
+        body = self.block(nodes, field(node, "body"))
+        self.cases = outer
+        initial = _taken(before, condition, updates)
+        return m.For(initial, condition, updates, body, span=self.expressions.py.span(node))
+
+    def _switch(self, node: Node, name: str, subject: Node) -> m.Switch:
+        read = self.expressions.read(subject)
+        self.cases.append(name)
+        cases = [self._case(c) for c in named(field(node, "body")) if c.type == "if_statement"]
+        self.cases.pop()
+        return m.Switch(read, tuple(cases), span=self.expressions.py.span(node))
+
+    def _case(self, node: Node) -> m.Case:
+        called, arguments = call_parts(field(node, "condition")) or ("", [])
+        is_default = called.endswith(".default")
+        value = None if is_default else self.expressions.read(arguments[0])
+        body = self._branch(field(node, "consequence"))
+        return m.Case(value, body.statements, span=self.expressions.py.span(node))
+
+
+def _asks(node: Node) -> str:
+    return text_of(field(node, "condition"))
+
+
+def _ends(node: Node) -> bool:
+    """`if not condition: break`."""
+    body = named(field(node, "consequence"))
+    is_break = len(body) == 1 and body[0].type == "break_statement"
+    return is_break and field(node, "condition").type == "not_operator"
+
+
+def _taken(
+    before: list[m.Statement], condition: m.Expression | None, updates: tuple[m.Expression, ...]
+) -> m.Declaration | tuple[m.Expression, ...]:
+    """What stands directly before a loop and gives its variable a value, taken out of there."""
+    parts = [e for e in (condition, *updates) if e is not None]
+    used = {n.name for e in parts for n in m.walk(e) if isinstance(n, m.Name)}
+    match before[-1:]:
+        case [m.Local(declaration, annotations=())] if declaration.declarators[0].name in used:
+            before.pop()
+            return declaration
+        case [m.ExpressionStatement(m.Assign("=", m.Name(name)) as first, annotations=())]:
+            if name in used:
+                before.pop()
+                return (first,)
+    return ()
+
+
+def _bare(expression: m.Expression) -> m.Expression:
+    while isinstance(expression, m.Paren):
+        expression = expression.inner
+    if isinstance(expression, m.Binary):
+        left, right = _bare(expression.left), _bare(expression.right)
+        return m.Binary(expression.operator, left, right)
+    return expression
+
+
+def _annotated(statement: m.Statement, given: tuple[m.Annotation, ...]) -> m.Statement:
+    return replace(statement, annotations=(*given, *statement.annotations))

@@ -1,0 +1,102 @@
+"""Types, names and markers of generated Python, as the model has them."""
+
+from __future__ import annotations
+
+import re
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.names import uncarry
+from rebsync.reserved import NO_CLASSES
+from rebsync.reverse.python.py_tree import Py, field, named, text_of
+
+_PLAIN = {
+    "Byte": "byte",
+    "Short": "short",
+    "int": "int",
+    "Float": "float",
+    "float": "double",
+    "bool": "boolean",
+    "None": "void",
+}
+_MARKER = re.compile(r"#\s*rebsync:\s*(.*?)\s*$")
+_UNSET = re.compile(r"(?:int|Byte|Short|Float|float|bool|Rebec)\(\)\Z|array\(")
+
+
+def class_name(text: str) -> str:
+    """The reactive class of a Python class."""
+    return uncarry(text, NO_CLASSES)
+
+
+def type_of(node: Node | None) -> m.Type | None:
+    """The type that an annotation says; None for what the model has no type for."""
+    if node is None:
+        return None
+    if node.type == "type":
+        return type_of(named(node)[0]) if named(node) else None
+    if node.type in ("identifier", "none"):
+        plain = _PLAIN.get(text_of(node))
+        return m.Type(plain) if plain is not None else None
+    if node.type == "generic_type":
+        head, parameters = named(node)[0], named(named(node)[1])
+    elif node.type == "subscript":
+        head, *parameters = named(node)
+    else:
+        return None
+    return _generic(text_of(head), parameters)
+
+
+def _generic(head: str, parameters: list[Node]) -> m.Type | None:
+    if head == "Rebec" and len(parameters) == 1:
+        return m.Type(class_name(text_of(parameters[0]).rpartition(".")[2]))
+    if head != "Array" or len(parameters) != 2:
+        return None
+    inner = type_of(parameters[0])
+    length = re.search(r"\d+", text_of(parameters[1]))
+    if inner is None or length is None:
+        return None
+    return m.Type(inner.name, (int(length[0]), *inner.dimensions))
+
+
+def is_unset(node: Node) -> bool:
+    """Whether a value is that of a variable that nothing has been stored in."""
+    return node.type == "call" and _UNSET.match(text_of(node)) is not None
+
+
+def markers_above(py: Py, node: Node) -> list[str]:
+    """The markers in the comments on the lines directly above something."""
+    above = node.parent
+    if above is not None and above.type == "decorated_definition":
+        node = above
+    found: list[str] = []
+    number = py.source.position(py.span(node).start).line - 1
+    while number > 0 and (line := py.source.line(number).strip()).startswith("#"):
+        match = _MARKER.match(line)
+        if match is not None:
+            found.append(match[1])
+        number -= 1
+    return found[::-1]
+
+
+def markers_beside(py: Py, node: Node) -> list[str]:
+    """The marker at the end of the line on which something ends."""
+    span = py.span(node)
+    position = py.source.position(span.end)
+    rest = py.source.line(position.line)[position.column - 1 :]
+    match = _MARKER.search(rest)
+    return [match[1]] if match is not None else []
+
+
+def string_value(node: Node | None) -> str | None:
+    """The text of a plain string."""
+    if node is None or node.type != "string":
+        return None
+    return "".join(text_of(c) for c in node.children[1:-1])
+
+
+def call_parts(node: Node | None) -> tuple[str, list[Node]] | None:
+    """The text of what is called, and the arguments, for a call without names for these."""
+    if node is None or node.type != "call":
+        return None
+    return text_of(field(node, "function")), named(field(node, "arguments"))

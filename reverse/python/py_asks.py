@@ -1,0 +1,156 @@
+"""Which calls ask ROS for something, and which argument has which role."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reverse.python.py_index import Scope, arguments_of, last_name
+from rebsync.reverse.python.py_lookup import lineage
+from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.reverse.python.py_values import Values
+from rebsync.reverse.python.py_worth import (
+    Bound,
+    Class,
+    External,
+    Function,
+    Instance,
+    Made,
+    Value,
+)
+from rebsync.reverse.python.vocabulary import (
+    FILTER,
+    FILTER_OF_RCLPY,
+    FILTER_OF_ROSPY,
+    NODE,
+    NODES,
+    RCLPY,
+    ROSPY,
+    Ask,
+)
+
+_NAMES = frozenset({*NODE, *ROSPY, "__init__", "create_node", "Node", "Subscriber"})
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Asked:
+    """A call that asks for something; `given` are its arguments by their roles."""
+
+    ask: Ask
+    call: Node
+    scope: Scope
+    given: dict[str, Node]
+
+    @property
+    def name(self) -> Node:
+        """The name of what is called, at which the call is said to stand."""
+        called = field(self.call, "function")
+        return field(called, "attribute") if called.type == "attribute" else called
+
+
+def asked_in(values: Values) -> Iterator[Asked]:
+    """All such calls, in the order of files and places."""
+    for call, scope in values.code.calls:
+        name = last_name(field(call, "function"))
+        ask = _ask(values, name, call, scope)
+        if ask is not None:
+            yield Asked(ask, call, scope, roles(ask, call))
+
+
+def roles(ask: Ask, call: Node) -> dict[str, Node]:
+    """The arguments of a call by their roles."""
+    plain, keywords = arguments_of(call)
+    given = {role: node for role, node in zip(ask.arguments, plain, strict=False) if role}
+    return given | {ask.role_of(k): v for k, v in keywords.items()}
+
+
+def _ask(values: Values, name: str, call: Node, scope: Scope) -> Ask | None:
+    if name == "__init__":
+        return _constructor(values, call, scope)
+    if name not in _NAMES and not _may_be_renamed(values, name, scope):
+        return None
+    for value in values.ways(field(call, "function"), scope):
+        ask = _of(values, value, call)
+        if ask is not None:
+            return ask
+    return _by_shape(values, name, call, scope)
+
+
+def _may_be_renamed(values: Values, name: str, scope: Scope) -> bool:
+    """Whether a name is bound in its module otherwise than by a definition: `Pub = rospy.X`."""
+    bindings = scope.module.names.get(name, ())
+    return any(b.how in ("import", "value") for b in bindings)
+
+
+def _of(values: Values, value: Value, call: Node) -> Ask | None:
+    match value:
+        case External(name) if name == FILTER:
+            return FILTER_OF_RCLPY if _is_of_rclpy(call) else FILTER_OF_ROSPY
+        case External(name) if name.startswith("rospy."):
+            return ROSPY.get(name.removeprefix("rospy."))
+        case External(name):
+            return RCLPY.get(name)
+        case Bound(Instance(owner), name):
+            return NODE.get(name) if is_node(values, owner) else None
+        case Bound(Made(by), name) if by in RCLPY or by in NODES:
+            return NODE.get(name)
+        case _:
+            return None
+
+
+def _is_of_rclpy(call: Node) -> bool:
+    """A subscriber of message_filters is made of a node in ROS 2, of a name in ROS 1."""
+    plain, keywords = arguments_of(call)
+    return len(plain) >= 3 or "qos_profile" in keywords
+
+
+def _by_shape(values: Values, name: str, call: Node, scope: Scope) -> Ask | None:
+    """A call of a node's method on an object of which nothing is known."""
+    called = field(call, "function")
+    ask = NODE.get(name)
+    if ask is None or called.type != "attribute":
+        return None
+    plain, keywords = arguments_of(call)
+    if len(plain) + len(keywords) < ask.least:
+        return None
+    ways = values.ways(called, scope)
+    if any(isinstance(w, (Function, Class, External)) for w in ways):
+        return None
+    holders = values.ways(field(called, "object"), scope)
+    known = [h for h in holders if isinstance(h, (Made, External)) and not _is_ros(h)]
+    return None if known else ask
+
+
+def _is_ros(value: Made | External) -> bool:
+    name = value.by if isinstance(value, Made) else value.name
+    return name.startswith(("rclpy.", "rclpy"))
+
+
+def _constructor(values: Values, call: Node, scope: Scope) -> Ask | None:
+    """`super().__init__(name)` in a class that is a node by what is directly above it."""
+    owner, called = scope.owner, field(call, "function")
+    if owner is None or called.type != "attribute":
+        return None
+    above = lineage(values, owner)[1:]
+    nearest = next((c for c in above if not isinstance(c, Scope) or "__init__" in c.names), None)
+    if not isinstance(nearest, External) or not (set(_names(above)) & NODES):
+        return None
+    holder = field(called, "object")
+    if holder.type == "call" and text_of(field(holder, "function")) == "super":
+        return RCLPY["rclpy.node.Node"]
+    ways = values.ways(holder, scope)
+    if any(isinstance(w, External) and w.name in NODES for w in ways):
+        ask = RCLPY["rclpy.node.Node"]
+        return Ask(ask.kind, ("", *ask.arguments), ask.names)
+    return None
+
+
+def _names(above: list[Scope | External]) -> Iterator[str]:
+    return (c.name for c in above if isinstance(c, External))
+
+
+def is_node(values: Values, owner: Scope) -> bool:
+    """Whether the objects of a class are nodes of ROS 2."""
+    return bool(set(_names(lineage(values, owner))) & NODES)

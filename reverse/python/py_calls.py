@@ -1,0 +1,265 @@
+"""What the nodes in some files of Python ask of ROS: the same value that is read from C++."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reverse.graph import (
+    Callbacks,
+    ClientFact,
+    Fact,
+    FromParameter,
+    Graph,
+    NodeFact,
+    OneOf,
+    ParameterFact,
+    Place,
+    PublisherFact,
+    RateFact,
+    Resolved,
+    ServiceFact,
+    Site,
+    SubscriptionFact,
+    TimerFact,
+    Unresolved,
+)
+from rebsync.reverse.python.py_asks import Asked, asked_in
+from rebsync.reverse.python.py_callbacks import callbacks_of, filtered
+from rebsync.reverse.python.py_index import CLASS, FUNCTION, PyCode, Scope, arguments_of
+from rebsync.reverse.python.py_quality import depth_of, latched_of
+from rebsync.reverse.python.py_results import declared_together
+from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_values import Values
+from rebsync.reverse.python.py_worth import (
+    External,
+    Length,
+    Made,
+    Nothing,
+    Value,
+    Ways,
+    distinct,
+    resolved,
+)
+from rebsync.reverse.python.vocabulary import FILTER, Kind, interface_of
+
+
+def graph_of(code: PyCode) -> Graph:
+    """All that some files ask of ROS."""
+    return PyAsking(code).graph
+
+
+@dataclass(eq=False)
+class PyAsking:
+    """The calls to ROS of some files, of which the graph is made when it is asked for."""
+
+    code: PyCode
+
+    @property
+    def graph(self) -> Graph:
+        facts = _Facts(Values(self.code))
+        return Graph(tuple(f for asked in asked_in(facts.values) for f in facts.of(asked)))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Facts:
+    """Makes facts of calls."""
+
+    values: Values
+
+    def of(self, asked: Asked) -> Iterator[Fact]:
+        kind = asked.ask.kind
+        match kind:
+            case Kind.DECLARED:
+                yield from self._declared(asked)
+            case Kind.SET:
+                yield from self._set(asked)
+            case Kind.PARAMETER:
+                yield self._parameter(asked)
+            case Kind.PUBLISHER | Kind.SUBSCRIPTION | Kind.SINGLE:
+                yield self._channel(asked)
+            case _:
+                yield self._other(asked)
+
+    def _other(self, asked: Asked) -> Fact:
+        site = site_of(asked)
+        match asked.ask.kind:
+            case Kind.NODE:
+                anonymous = self._value("anonymous", asked, False) is True
+                return NodeFact(site, self._name(asked), anonymous)
+            case Kind.TIMER:
+                one_shot = self._value("one_shot", asked, False)
+                autostart = self._value("autostart", asked, True)
+                period = self._seconds(asked)
+                return TimerFact(site, period, one_shot, self._callbacks(asked), autostart)
+            case Kind.RATE:
+                unknown = self._unknown(asked, "the frequency is not given")
+                return RateFact(site, self._value("hz", asked, unknown))
+            case Kind.SERVICE:
+                callbacks = self._callbacks(asked)
+                return ServiceFact(site, self._name(asked), self._type(asked), callbacks)
+            case _:
+                return ClientFact(site, self._name(asked), self._type(asked))
+
+    def _channel(self, asked: Asked) -> Fact:
+        site, name, type_ = site_of(asked), self._name(asked), self._type(asked)
+        depth = depth_of(self.values, asked)
+        if asked.ask.kind is Kind.PUBLISHER:
+            return PublisherFact(site, name, type_, depth, latched_of(self.values, asked))
+        if asked.ask.kind is Kind.SINGLE:
+            return SubscriptionFact(site, name, type_, 1, (), True)
+        return SubscriptionFact(site, name, type_, depth, self._callbacks(asked))
+
+    # --- parameters -----------------------------------------------------------------------------
+
+    def _parameter(self, asked: Asked) -> ParameterFact:
+        ask, given = asked.ask, asked.given
+        default = self._given(given.get("default"), asked.scope)
+        value = self._given(given.get("value"), asked.scope) if "value" in ask.arguments else None
+        access = ask.access
+        assert access is not None
+        return ParameterFact(site_of(asked), self._name(asked), access, default, value)
+
+    def _given(self, node: Node | None, scope: Scope) -> Resolved | None:
+        """A default; None where it is nothing, or only the kind of values."""
+        if node is None:
+            return None
+        ways = self.values.ways(node, scope)
+        known = tuple(w for w in ways if not isinstance(w, (Nothing, External)))
+        unknown = self.values.unknown("it is computed", node, scope)
+        return resolved(known, unknown) if known or not ways else None
+
+    def _declared(self, asked: Asked) -> Iterator[Fact]:
+        site, access = site_of(asked), asked.ask.access
+        assert access is not None
+        found = list(declared_together(self.values, asked.call, asked.scope))
+        for name, default in found:
+            known: Resolved = name if name is not None else self._unknown(asked, "a computed name")
+            yield ParameterFact(site, known, access, self._given(default, asked.scope))
+        if not found:
+            why = "parameters whose list is not written here"
+            yield ParameterFact(site, self._unknown(asked, why), access)
+
+    def _set(self, asked: Asked) -> Iterator[Fact]:
+        """What `set_parameters` sets, one parameter after the other."""
+        site, access = site_of(asked), asked.ask.access
+        assert access is not None
+        node = asked.given.get("parameters")
+        items = named(node) if node is not None and node.type in ("list", "tuple") else []
+        for item in items:
+            for way in self.values.ways(item, asked.scope):
+                if isinstance(way, Made) and way.by.endswith("Parameter"):
+                    plain, keywords = arguments_of(way.call)
+                    parts = dict(zip(("name", "", "value"), plain, strict=False)) | keywords
+                    if "name" in parts:
+                        name = self.values.value(parts["name"], way.scope)
+                        value = self._given(parts.get("value"), way.scope)
+                        yield ParameterFact(site, name, access, None, value)
+        if not items:
+            yield ParameterFact(site, self._unknown(asked, "a list that is computed"), access)
+
+    # --- arguments ------------------------------------------------------------------------------
+
+    def _name(self, asked: Asked) -> Resolved:
+        node = asked.given.get("name")
+        if node is None:
+            return self._unknown(asked, "the name is not given")
+        return private(self.values.value(node, asked.scope))
+
+    def _value(self, role: str, asked: Asked, otherwise: Resolved) -> Resolved:
+        node = asked.given.get(role)
+        if node is None:
+            return otherwise
+        ways = self.values.ways(node, asked.scope)
+        if ways and all(isinstance(w, Nothing) for w in ways):
+            return otherwise
+        return self.values.value(node, asked.scope)
+
+    def _seconds(self, asked: Asked) -> Resolved:
+        node = asked.given.get("period")
+        if node is None:
+            return self._unknown(asked, "the period is not given")
+        ways: Ways = self.values.ways(node, asked.scope)
+        lengths = tuple(w for w in ways if isinstance(w, Length))
+        return resolved(lengths or ways, self.values.unknown("it is computed", node, asked.scope))
+
+    def _type(self, asked: Asked) -> Resolved:
+        node = asked.given.get("type")
+        if node is None:
+            return self._unknown(asked, "the type is not given")
+        found: list[Value] = []
+        for way in self.values.ways(node, asked.scope):
+            if isinstance(way, External) and (name := interface_of(way.name)) is not None:
+                found.append(name)
+            elif isinstance(way, Unresolved):
+                found.append(way)
+            elif not isinstance(way, Nothing):
+                found.append(self.values.unknown("this is no type of ROS", node, asked.scope))
+        return resolved(
+            distinct(found), self.values.unknown("the type is not known", node, asked.scope)
+        )
+
+    def _callbacks(self, asked: Asked) -> Callbacks:
+        node = asked.given.get("callback")
+        if node is not None:
+            return callbacks_of(self.values, node, asked.scope)
+        called = text_of(field(asked.call, "function"))
+        found = filtered(self.values, asked) if called.endswith(FILTER.rpartition(".")[2]) else ()
+        return found or (self._unknown(asked, "the callback is registered elsewhere"),)
+
+    def _unknown(self, asked: Asked, why: str) -> Unresolved:
+        return self.values.unknown(why, asked.name, asked.scope)
+
+
+def site_of(asked: Asked) -> Site:
+    """Where a call stands, and where the code keeps what it gives."""
+    scope = asked.scope
+    start, end = asked.name.start_byte, asked.call.end_byte
+    place = Place(scope.py.source, scope.py.source.within(scope.py.characters(start, end)))
+    return Site(owner_of(scope), None, scope.py, asked.call, place, _kept(asked.call))
+
+
+def owner_of(scope: Scope) -> str | None:
+    """The class that code stands in; else the function; None outside of both."""
+    at: Scope | None = scope
+    function = None
+    while at is not None:
+        if at.kind == CLASS:
+            return at.name
+        if at.kind == FUNCTION and function is None:
+            function = at.name
+        at = at.parent
+    return function
+
+
+def _kept(call: Node) -> str:
+    above = call.parent
+    node = call
+    while above is not None and above.type in ("parenthesized_expression", "await"):
+        node, above = above, above.parent
+    if (
+        above is not None
+        and above.type == "assignment"
+        and above.child_by_field_name("right") == node
+    ):
+        return text_of(field(above, "left"))
+    if above is not None and above.type == "argument_list" and above.parent is not None:
+        called = field(above.parent, "function")
+        if called.type == "attribute" and text_of(field(called, "attribute")) == "append":
+            return text_of(field(called, "object"))
+    return ""
+
+
+def private(name: Resolved) -> Resolved:
+    """A name as it is written: one below the name of the node is private."""
+    match name:
+        case str():
+            return name.replace("~/", "~") if name.startswith("~/") else name
+        case OneOf(values):
+            return OneOf(tuple(private(v) for v in values))
+        case FromParameter() | Unresolved():
+            return name
+        case _:
+            return name

@@ -1,0 +1,85 @@
+"""What imports bring: modules of the files, or names of what is elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import PurePosixPath
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync.reverse.build.common_messages import COMMON
+from rebsync.reverse.python.py_bindings import Binding
+from rebsync.reverse.python.py_index import PyCode, Scope
+from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.reverse.python.py_worth import External, Module, Ways
+
+if TYPE_CHECKING:
+    from rebsync.reverse.python.py_values import Values
+
+
+def imported(values: Values, binding: Binding, name: str, scope: Scope) -> Ways:
+    """What an import binds to a name."""
+    from rebsync.reverse.python.py_lookup import bound
+
+    item = binding.value
+    wanted = text_of(field(item, "name") if item.type == "aliased_import" else item)
+    if binding.node.type == "import_statement":
+        dotted = wanted if item.type == "aliased_import" else wanted.partition(".")[0]
+        module = module_named(values.code, dotted, scope.module)
+        return (Module(module) if module is not None else External(dotted),)
+    source = _module_of(binding.node)
+    module = module_named(values.code, source, scope.module)
+    if module is not None and wanted in module.names and module is not scope.module:
+        return tuple(w for b in module.names[wanted] for w in bound(values, b, wanted, module))
+    inner = module_named(values.code, f"{source.rstrip('.')}.{wanted}", scope.module)
+    if source.endswith("."):
+        inner = module_named(values.code, source + wanted, scope.module)
+    return (Module(inner) if inner is not None else External(f"{source}.{wanted}"),)
+
+
+def star_imported(code: PyCode, module: Scope, name: str) -> Module | External | None:
+    """What `from x import *` may bring under a name: what is known comes before what is not."""
+    others: list[str] = []
+    for binding in module.names.get("*", []):
+        source = _module_of(binding.node)
+        found = module_named(code, source, module)
+        if found is not None and name in found.names:
+            return Module(found)
+        if found is None:
+            others.append(source)
+    if not name[:1].isupper():
+        return None
+    interfaces = [s for s in others if s.endswith((".msg", ".srv"))]
+    known = [s for s in interfaces if f"{s.rpartition('.')[0]}/{name}" in COMMON]
+    chosen = known or (interfaces if len(interfaces) == 1 else [])
+    return External(f"{chosen[0]}.{name}") if chosen else None
+
+
+def _module_of(node: Node) -> str:
+    return text_of(field(node, "module_name")).replace(" ", "")
+
+
+def module_named(code: PyCode, dotted: str, of: Scope) -> Scope | None:
+    """The file that a module's name stands for, seen from another file."""
+    here = PurePosixPath(of.py.source.path).parent
+    if dotted.startswith("."):
+        rest = dotted.lstrip(".")
+        for _ in range(len(dotted) - len(rest) - 1):
+            here = here.parent
+        base = here.joinpath(*rest.split(".")) if rest else here
+        return next((code.modules[p] for p in _files(base) if p in code.modules), None)
+    parts = dotted.split(".")
+    for path in _files(here.joinpath(*parts)):
+        if path in code.modules:
+            return code.modules[path]
+    if len(parts) == 1:
+        return None
+    tails = tuple(_files(PurePosixPath("/").joinpath(*parts)))
+    found = [m for p, m in code.modules.items() if f"/{p}".endswith(tails)]
+    return found[0] if len(found) == 1 else None
+
+
+def _files(base: PurePosixPath) -> Iterator[str]:
+    yield f"{base}.py"
+    yield f"{base}/__init__.py"

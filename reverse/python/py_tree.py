@@ -1,0 +1,113 @@
+"""Python text to a syntax tree, with places in the text as the rest of rebsync counts them.
+
+The grammar reads what both generations of Python write: `print` as a statement, backticks, `<>`.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+
+import tree_sitter_python
+from tree_sitter import Language, Node, Parser
+
+from rebsync.records import dataclass
+from rebsync.reverse.findings import Finding, Grade
+from rebsync.reverse.syntax.cpp_tree import Cpp, byte_places
+from rebsync.source import Source
+
+_HINT = "mend the syntax, so that the whole file can be read"
+_SHOWN = 3  # places that are listed for one file; a text that is no Python has very many
+_ESCAPE = re.compile(r"\\(\r?\n|x[0-9a-fA-F]{2}|u[0-9a-fA-F]{4}|[0-7]{1,3}|.)", re.DOTALL)
+_ESCAPED = {"n": "\n", "t": "\t", "r": "\r", "a": "\a", "b": "\b", "f": "\f", "v": "\v"}
+
+
+@dataclass(frozen=True)
+class Py(Cpp):
+    """One file of Python and its tree, with the same places as one of C++."""
+
+
+@cache
+def _parser() -> Parser:
+    return Parser(Language(tree_sitter_python.language()))
+
+
+def parse(source: Source) -> Py:
+    """The tree of a file; where the text is no Python it has error nodes."""
+    data = source.text.encode("utf-8", "surrogatepass")
+    root = _parser().parse(data).root_node
+    return Py(source, root, byte_places(source.text, data))
+
+
+def unparsed(py: Py) -> list[Finding]:
+    """The places where a file is no Python: what is there is not in the model."""
+    found: list[Finding] = []
+    waiting = [py.root]
+    while waiting and len(found) < _SHOWN:
+        node = waiting.pop()
+        if node.type == "ERROR" or node.is_missing:
+            why = "this is no Python that can be read"
+            found.append(Finding(Grade.UNREADABLE, py.source, py.span(node), why, _HINT))
+        elif node.has_error:
+            waiting += reversed(node.children)
+    return found
+
+
+def text_of(node: Node) -> str:
+    """The text of a node."""
+    text = node.text
+    return text.decode("utf-8", "replace") if text else ""
+
+
+def named(node: Node) -> list[Node]:
+    """The named children of a node but for comments."""
+    return [c for c in node.named_children if c.type != "comment"]
+
+
+def field(node: Node, name: str) -> Node:
+    """The child that the grammar promises; the node itself where a broken text lacks it."""
+    return node.child_by_field_name(name) or node
+
+
+def string_parts(node: Node) -> list[str | Node]:
+    """The texts of a string, and the expressions within a formatted one, in their order."""
+    start = node.children[0]
+    prefix = text_of(start).rstrip("\"'`").lower()
+    found: list[str | Node] = []
+    for child in node.children[1:]:
+        if child.type == "interpolation":
+            found.append(child)
+        elif child.type == "string_content":
+            found += _content(child, "r" in prefix, "f" in prefix)
+    return found
+
+
+def _content(node: Node, is_raw: bool, is_formatted: bool) -> list[str | Node]:
+    text = text_of(node)
+    if is_formatted:
+        text = text.replace("{{", "{").replace("}}", "}")
+    return [text if is_raw or "\\" not in text else _ESCAPE.sub(_escaped, text)]
+
+
+def _escaped(match: re.Match[str]) -> str:
+    text = match[1]
+    if text[0] in "xu" and len(text) > 1:
+        return chr(int(text[1:], 16))
+    if text.isdigit():
+        return chr(int(text, 8))
+    if text.endswith("\n"):
+        return ""
+    return _ESCAPED.get(text, text if text in "\\'\"" else "\\" + text)
+
+
+def number_of(node: Node) -> int | float | None:
+    """The number that a literal says, Python 2's `0777` and `10L` included; None: no such."""
+    text = text_of(node).replace("_", "").rstrip("lL")
+    try:
+        if node.type == "float":
+            return float(text)
+        if re.fullmatch(r"0[0-7]+", text):
+            return int(text, 8)
+        return int(text, 0)
+    except ValueError:
+        return None

@@ -1,0 +1,129 @@
+"""From files of Python to classes of the model, what starts them, and what they ask of ROS."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.package import Value
+from rebsync.records import dataclass
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.graph import (
+    Callback,
+    Callbacks,
+    Fact,
+    Graph,
+    ServiceFact,
+    SubscriptionFact,
+    TimerFact,
+)
+from rebsync.reverse.python.model_classes import Classes, is_runtime_file
+from rebsync.reverse.python.model_roles import parameter_read
+from rebsync.reverse.python.model_types import call_parts, class_name
+from rebsync.reverse.python.py_calls import graph_of
+from rebsync.reverse.python.py_index import PyCode
+from rebsync.reverse.python.py_tree import field, named, number_of, parse, text_of, unparsed
+from rebsync.source import Source
+
+_WHY = "the statements of hand-written Python are not read, only what the node asks of ROS"
+_HINT = "--format json tells what it asks of ROS"
+_STAND_IN = "_stand_in"
+
+# The constants that classes read: by key the type, the name in the model, and the default.
+Used = tuple[str, tuple[m.Type, str, "Value | None"]]
+
+
+@dataclass(frozen=True, eq=False)
+class PythonPart:
+    """What files of Python say: classes of the model, and all that they ask of ROS."""
+
+    graph: Graph
+    classes: tuple[m.ReactiveClass | m.Interface, ...] = ()
+    used: tuple[Used, ...] = ()
+    code: PyCode | None = None
+
+    def started(self, program: str) -> tuple[str, list[str]] | None:
+        """The class that a program makes a rebec of, and its private parameters."""
+        names = {c.name for c in self.classes}
+        for call, scope in self.code.calls if self.code is not None else ():
+            path = scope.py.source.path.rpartition("/")[2]
+            made = class_name(text_of(field(call, "function")))
+            if program in (path, path.removesuffix(".py")) and made in names:
+                arguments = named(field(call, "arguments"))
+                keys = [r[0] for a in arguments if (r := parameter_read(a)) is not None]
+                return made, keys
+        return None
+
+
+def read_python(
+    sources: Mapping[str, Source],
+    findings: Findings,
+    only: str | None = None,
+    messages: Collection[str] = (),
+) -> PythonPart:
+    """What some files say; each callback whose body is not in the model is listed.
+
+    With `only` the classes of that file; `messages` are the message types of the package.
+    """
+    trees = [parse(source) for _, source in sorted(sources.items())]
+    findings.all += [f for py in trees for f in unparsed(py)]
+    code = PyCode.of(trees)
+    graph = graph_of(code)
+    asked = sources.get(only) if only is not None else None
+    path = asked.path if asked is not None else None
+    classes = Classes(code, findings, messages)
+    read = classes.read(path) if asked is not None or only is None else ()
+    _list_callbacks(graph, classes, findings, path)
+    used = tuple((e.key, (e.type, e.name, constant(e.default))) for e in classes.env())
+    return PythonPart(graph, read, used, code)
+
+
+def constant(node: Node | None) -> Value | None:
+    """A constant of Python: a number, a truth value, or an array of these."""
+    match node.type if node is not None else None:
+        case "true" | "false":
+            return node is not None and node.type == "true"
+        case "integer" | "float":
+            return number_of(node) if node is not None else None
+        case "unary_operator" if node is not None:
+            inner = constant(field(node, "argument"))
+            return -inner if isinstance(inner, (int, float)) else None
+        case "call":
+            called, arguments = call_parts(node) or ("", [])
+            if called == "Array" and len(arguments) == 1:
+                values = [constant(v) for v in named(arguments[0])]
+                return None if None in values else tuple(v for v in values if v is not None)
+            return constant(arguments[0]) if len(arguments) == 1 else None
+        case _:
+            return None
+
+
+# --- what is not read ---------------------------------------------------------------------------
+
+
+def _list_callbacks(graph: Graph, classes: Classes, findings: Findings, path: str | None) -> None:
+    listed = set()
+    for callback in _of_people(graph, classes):
+        place = callback.place
+        key = place.source.path, place.span.start
+        if key not in listed and path in (None, place.source.path):
+            listed.add(key)
+            unread = Unread(place.span, _WHY, _HINT)
+            findings.unreadable(place.source, unread, callback.name or "lambda")
+
+
+def _of_people(graph: Graph, classes: Classes) -> Iterator[Callback]:
+    """The callbacks that stand in no generated code."""
+    own = {(o.name, o.py.source.path) for o in classes.owners}
+    for fact in graph.facts:
+        path = fact.site.place.source.path
+        is_made = (fact.site.owner or "", path) in own or path.endswith(_STAND_IN)
+        if is_made or is_runtime_file(fact.site.place.source):
+            continue
+        yield from (c for c in _callbacks(fact) if isinstance(c, Callback))
+
+
+def _callbacks(fact: Fact) -> Callbacks:
+    return fact.callbacks if isinstance(fact, (SubscriptionFact, TimerFact, ServiceFact)) else ()

@@ -1,0 +1,110 @@
+"""Compiles generated ROS 2 packages: real messages by rosidl, and the stub of rclcpp."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from collections.abc import Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+HERE = Path(__file__).parent
+STUB = HERE / "stub"
+INTERFACES = HERE / "interfaces"
+_PATH = "/usr/bin:/bin"
+_WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Werror")
+_STANDARD = ("-std=c++17", "-fwrapv")
+_RUNTIME = ("rosidl_runtime_cpp", "rosidl_runtime_c", "rosidl_typesupport_interface")
+
+
+class BuildError(Exception):
+    """A tool failed; the text is what it said."""
+
+
+def missing_rosidl() -> str | None:
+    """Why messages cannot be made here, or None."""
+    for tool in ("rosidl", "g++"):
+        if shutil.which(tool, path=_PATH) is None:
+            return f"no {tool}"
+    return None if Path("/usr/include/rosidl_runtime_cpp").exists() else "no rosidl_runtime_cpp"
+
+
+def _tool(command: Sequence[str], directory: Path | None = None) -> str:
+    done = subprocess.run(
+        command,
+        cwd=directory,
+        env={"PATH": _PATH, "LANG": "C.UTF-8", "HOME": os.environ.get("HOME", "/")},
+        capture_output=True,
+        text=True,
+    )
+    if done.returncode != 0:
+        raise BuildError(done.stdout + done.stderr)
+    return done.stdout
+
+
+def make_messages(packages: Iterable[Path], out: Path) -> None:
+    """The C++ headers of the .msg files of packages, each in a folder of its own below `out`."""
+    for package in packages:
+        files = [str(p.relative_to(package)) for p in sorted(package.glob("msg/*.msg"))]
+        name = package.name
+        _tool(["rosidl", "generate", "-o", str(out / name), "-t", "cpp", name, *files], package)
+
+
+def interfaces() -> list[Path]:
+    """The messages of other packages that generated ones use."""
+    return sorted(p for p in INTERFACES.iterdir() if p.is_dir())
+
+
+def _flags(package: Path, headers: Path) -> list[str]:
+    system = [f"/usr/include/{name}" for name in _RUNTIME]
+    found = [f"-I{package / 'include'}"]
+    for folder in [STUB / "include", headers, *map(Path, system)]:
+        found += ["-isystem", str(folder)]
+    return [*_STANDARD, *_WARNINGS, *found]
+
+
+def complaints(package: Path, headers: Path) -> list[str]:
+    """What the compiler says about the sources of a package."""
+
+    def check(source: Path) -> str:
+        try:
+            return _tool(["g++", "-fsyntax-only", *_flags(package, headers), str(source)])
+        except BuildError as error:
+            return str(error)
+
+    with ThreadPoolExecutor(2) as pool:
+        return [text for text in pool.map(check, sorted(package.glob("src/*.cpp"))) if text]
+
+
+def build_driver(package: Path, headers: Path, out: Path) -> Path:
+    """One program of all executables of a package, which runs a whole system."""
+    out.mkdir(parents=True, exist_ok=True)
+    mains = [p.stem for p in sorted(package.glob("src/*.cpp")) if "int main(" in p.read_text()]
+    table = out / "mains.cpp"
+    table.write_text(_table(mains))
+    sources = [*sorted(package.glob("src/*.cpp")), table, STUB / "driver.cpp"]
+
+    def compile_(source: Path) -> str:
+        renamed = [f"-Dmain=main_of_{source.stem}"] if source.stem in mains else []
+        target = out / f"{source.stem}.o"
+        _tool(["g++", "-c", *_flags(package, headers), *renamed, str(source), "-o", str(target)])
+        return str(target)
+
+    with ThreadPoolExecutor(2) as pool:
+        objects = list(pool.map(compile_, sources))
+    program = out / "driver"
+    _tool(["g++", *objects, "-pthread", "-o", str(program)])
+    return program
+
+
+def _table(mains: Sequence[str]) -> str:
+    declared = "".join(f"int main_of_{name}(int, char**);\n" for name in mains)
+    entries = ", ".join(f'{{"{name}", main_of_{name}}}' for name in mains)
+    return (
+        "#include <map>\n#include <string>\n"
+        f"{declared}using Main = int (*)(int, char**);\n"
+        "const std::map<std::string, Main>& mains();\n"
+        "const std::map<std::string, Main>& mains() {\n"
+        f"  static const std::map<std::string, Main> all{{{entries}}};\n  return all;\n}}\n"
+    )

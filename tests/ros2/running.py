@@ -1,0 +1,86 @@
+"""Runs a generated package on the stub of rclcpp and reads what happened."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from tests.ros1.recording import ERROR, WARNING, Heard, Logged, Recording, Served
+from tests.ros2.launching import Launched, launched
+
+_LEVELS = {"WARN": WARNING, "ERROR": ERROR}
+_BODY = ("server", "arguments", "arrival", "start", "now")
+
+
+class RunError(Exception):
+    """The run did not come to its end; the text is what it printed."""
+
+
+def run(package: Path, driver: Path, directory: Path, until: float) -> Recording:
+    """Run the package's launch file for that many seconds of its clock."""
+    system = directory / "system.txt"
+    system.write_text("".join(f"{line}\n" for n in launched(package) for line in _lines(n)))
+    done = subprocess.run(
+        [str(driver), str(system), str(until)], capture_output=True, text=True, timeout=120
+    )
+    if done.returncode != 0:
+        raise RunError(f"{done.returncode}: {done.stderr}\n{done.stdout[-2000:]}")
+    return _recording(done.stdout)
+
+
+def _lines(node: Launched) -> Iterator[str]:
+    yield f"node\t{node.executable}\t{node.name}"
+    for name, value in node.parameters.items():
+        yield "\t".join(["param", name, *_typed(value)])
+    for before, after in node.remappings:
+        yield f"remap\t{before}\t{after}"
+
+
+def _typed(value: object) -> list[str]:
+    if isinstance(value, list):
+        return [f"{type(value[0]).__name__}s", *map(_text, value)]
+    return [type(value).__name__, _text(value)]
+
+
+def _text(value: object) -> str:
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _recording(output: str) -> Recording:
+    lines = [line.split("\t") for line in output.splitlines()]
+    messages = [(int(t), topic, text) for kind, t, topic, text in _of(lines, "message")]
+    starts = [t for t, topic, _ in messages if topic.endswith("/startup")]
+    zero = max(starts, default=0)
+    heard = tuple(Heard(topic, _seconds(t, zero), _fields(text)) for t, topic, text in messages)
+    log = tuple(
+        Logged(node, _LEVELS[level], _seconds(int(t), zero), text)
+        for _, t, level, node, text in _of(lines, "log")
+    )
+    served = tuple(_served(m) for m in heard if set(_BODY) <= set(m.fields))
+    return Recording(served, heard, log, (), output)
+
+
+def _of(lines: list[list[str]], kind: str) -> list[list[str]]:
+    return [line for line in lines if line[0] == kind]
+
+
+def _seconds(nanoseconds: int, zero: int) -> float:
+    return round((nanoseconds - zero) / 1e9, 6)
+
+
+def _fields(text: str) -> dict[str, Any]:
+    fields = yaml.load(text, yaml.CSafeLoader)
+    assert isinstance(fields, dict)
+    return fields
+
+
+def _served(message: Heard) -> Served:
+    fields = message.fields
+    state = {name: value for name, value in fields.items() if name not in _BODY}
+    rebec = message.topic.strip("/").rsplit("/", 1)[0]
+    server, arguments, arrival, start, now = (fields[name] for name in _BODY)
+    return Served(rebec, server, arguments, arrival, start, now, message.stamp, state)

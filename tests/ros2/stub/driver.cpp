@@ -1,0 +1,140 @@
+// Runs the executables of a package, each as a thread, under a clock that jumps from timer to timer.
+//
+// Usage: driver SYSTEM UNTIL, where SYSTEM has lines of fields set apart by tabs: `node EXECUTABLE
+// NAME`, followed by the `param NAME TYPE VALUE...` and `remap FROM TO` of that node; and UNTIL is
+// the time of the end in seconds. What happens goes to standard output, one line each.
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <rclcpp/rclcpp.hpp>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+using Main = int (*)(int, char**);
+const std::map<std::string, Main>& mains();  // by the name of the executable
+
+namespace {
+
+struct Process {
+  Main main;
+  rclcpp::fake::Arguments arguments;
+};
+
+std::vector<std::string> fields(const std::string& line) {
+  std::vector<std::string> found;
+  std::istringstream in(line);
+  for (std::string field; std::getline(in, field, '\t');) found.push_back(field);
+  return found;
+}
+
+template <class T, class Read>
+std::vector<T> all(const std::vector<std::string>& line, Read read) {
+  std::vector<T> values;
+  for (std::size_t i = 3; i < line.size(); ++i) values.push_back(read(line[i]));
+  return values;
+}
+
+rclcpp::ParameterValue value(const std::vector<std::string>& line) {
+  using rclcpp::ParameterValue;
+  const auto truth = [](const std::string& text) { return text == "true"; };
+  const auto whole = [](const std::string& text) { return int64_t{std::stoll(text)}; };
+  const auto number = [](const std::string& text) { return std::stod(text); };
+  const auto itself = [](const std::string& text) { return text; };
+  const std::string& type = line[2];
+  const std::string first = line.size() > 3 ? line[3] : "";
+  if (type == "bool") return ParameterValue(truth(first));
+  if (type == "int") return ParameterValue(whole(first));
+  if (type == "float") return ParameterValue(number(first));
+  if (type == "bools") return ParameterValue(all<bool>(line, truth));
+  if (type == "ints") return ParameterValue(all<int64_t>(line, whole));
+  if (type == "floats") return ParameterValue(all<double>(line, number));
+  if (type == "strs") return ParameterValue(all<std::string>(line, itself));
+  return ParameterValue(first);
+}
+
+std::vector<Process> read(const char* path) {
+  std::vector<Process> processes;
+  std::ifstream in(path);
+  for (std::string text; std::getline(in, text);) {
+    const std::vector<std::string> line = fields(text);
+    if (line[0] == "node") {
+      processes.push_back({mains().at(line[1]), {line[2], {}, {}}});
+    } else if (line[0] == "param") {
+      processes.back().arguments.overrides.emplace(line[1], value(line));
+    } else {
+      processes.back().arguments.remaps[line[1]] = line[2];
+    }
+  }
+  return processes;
+}
+
+// Of each thread: what it does, and how often it has stopped to wait.
+std::map<std::string, std::string> threads() {
+  std::map<std::string, std::string> found;
+  const std::string own = std::filesystem::read_symlink("/proc/thread-self").filename();
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task")) {
+    if (entry.path().filename() == own) continue;
+    std::ifstream in(entry.path() / "status");
+    std::string& facts = found[entry.path().filename()];
+    for (std::string line; std::getline(in, line);) {
+      if (line.rfind("State", 0) == 0 || line.rfind("voluntary", 0) == 0) facts += line;
+    }
+  }
+  return found;
+}
+
+// Until every thread waits, and none has woken while the others were looked at.
+void settle() {
+  for (auto before = threads();; std::this_thread::yield()) {
+    const auto now = threads();
+    bool quiet = now == before;
+    for (const auto& thread : now) {
+      quiet = quiet && thread.second.find("S (sleeping)") != std::string::npos;
+    }
+    if (quiet) return;
+    before = now;
+  }
+}
+
+void awaitStartup(std::size_t rebecs) {
+  for (int i = 0; i < 1000 && rclcpp::fake::middleware().written("/startup") < rebecs; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
+std::size_t countRebecs(const std::vector<Process>& processes) {
+  std::size_t count = 0;
+  for (const auto& p : processes) count += p.arguments.overrides.count("mailbox.rebecs");
+  return count;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) return 2;
+  const std::vector<Process> processes = read(argv[1]);
+  auto& middleware = rclcpp::fake::middleware();
+  const int64_t end = middleware.now() + static_cast<int64_t>(std::stod(argv[2]) * 1e9);
+  std::vector<std::thread> running;
+  for (const Process& process : processes) {
+    running.emplace_back([process] {
+      rclcpp::fake::arguments() = process.arguments;
+      process.main(0, nullptr);
+    });
+  }
+  awaitStartup(countRebecs(processes));
+  settle();
+  for (int64_t next = middleware.next(); next >= 0 && next <= end; next = middleware.next()) {
+    middleware.advance(next);
+    settle();
+  }
+  middleware.record("end", "");
+  middleware.shut_down();
+  for (std::thread& thread : running) thread.join();
+  return 0;
+}

@@ -1,0 +1,225 @@
+// rclcpp in one process: nodes with an executor each, topics, timers and a simulated clock.
+// Written by hand for tests; what it accepts is less than what rclcpp accepts.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <rcl_interfaces/msg/parameter_descriptor.hpp>
+#include <rclcpp/middleware.hpp>
+#include <rclcpp/parameters.hpp>
+#include <rclcpp/qos.hpp>
+#include <rclcpp/time.hpp>
+#include <sstream>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace rclcpp {
+
+inline void init(int /* argc */, const char* const* /* argv */) {}
+inline bool ok() { return !fake::middleware().is_shut_down(); }
+inline void shutdown() { fake::middleware().shut_down(); }
+
+class Clock {
+ public:
+  using SharedPtr = std::shared_ptr<Clock>;
+  Time now() const { return Time(fake::middleware().now(), RCL_ROS_TIME); }
+  rcl_clock_type_t get_clock_type() const { return RCL_ROS_TIME; }
+};
+
+class Logger {
+ public:
+  explicit Logger(std::string name) : name_(std::move(name)) {}
+  const char* get_name() const { return name_.c_str(); }
+
+ private:
+  std::string name_;
+};
+
+namespace fake {
+
+/// What a process is told on its command line; each thread of the driver stands for a process.
+struct Arguments {
+  std::string name;
+  std::map<std::string, std::string> remaps;
+  std::map<std::string, ParameterValue> overrides;
+};
+
+inline Arguments& arguments() {
+  thread_local Arguments of_this_process;
+  return of_this_process;
+}
+
+}  // namespace fake
+
+class NodeOptions {};
+
+template <class M>
+class Publisher {
+ public:
+  using SharedPtr = std::shared_ptr<Publisher>;
+  explicit Publisher(std::shared_ptr<fake::Writer> writer) : writer_(std::move(writer)) {}
+
+  void publish(const M& message) const {
+    std::ostringstream text;
+    to_flow_style_yaml(message, text);
+    writer_->write(std::make_shared<const M>(message), text.str());
+  }
+  const char* get_topic_name() const { return writer_->topic().c_str(); }
+  std::size_t get_subscription_count() const { return writer_->matched(); }
+
+ private:
+  std::shared_ptr<fake::Writer> writer_;
+};
+
+template <class M>
+class Subscription {
+ public:
+  using SharedPtr = std::shared_ptr<Subscription>;
+  explicit Subscription(std::shared_ptr<fake::Reader> reader) : reader_(std::move(reader)) {}
+  const char* get_topic_name() const { return reader_->topic.c_str(); }
+
+ private:
+  std::shared_ptr<fake::Reader> reader_;
+};
+
+class TopicEndpointInfo {
+ public:
+  TopicEndpointInfo(std::string node, QoS qos) : node_(std::move(node)), qos_(qos) {}
+  const std::string& node_name() const { return node_; }
+  const QoS& qos_profile() const { return qos_; }
+
+ private:
+  std::string node_;
+  QoS qos_;
+};
+
+class Node {
+ public:
+  using SharedPtr = std::shared_ptr<Node>;
+
+  explicit Node(const std::string& name, const NodeOptions& /* options */ = NodeOptions())
+      : arguments_(fake::arguments()), name_(arguments_.name.empty() ? name : arguments_.name) {
+    fake::middleware().add(executor_);
+  }
+  virtual ~Node() = default;
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+
+  const char* get_name() const { return name_.c_str(); }
+  Time now() const { return clock_->now(); }
+  Clock::SharedPtr get_clock() { return clock_; }
+  Logger get_logger() const { return Logger(name_); }
+  const std::shared_ptr<fake::Executor>& fake_executor() const { return executor_; }
+
+  template <class M>
+  std::shared_ptr<Publisher<M>> create_publisher(const std::string& topic, const QoS& qos) {
+    return std::make_shared<Publisher<M>>(fake::middleware().writer(resolve(topic), qos));
+  }
+
+  template <class M, class Callback>
+  std::shared_ptr<Subscription<M>> create_subscription(
+      const std::string& topic, const QoS& qos, Callback callback) {
+    static_assert(std::is_invocable_v<Callback, std::shared_ptr<const M>>);
+    const auto reader = std::make_shared<fake::Reader>(
+        resolve(topic), name_, qos, executor_, [callback](const fake::Data& data) {
+          callback(std::static_pointer_cast<const M>(data));
+        });
+    fake::middleware().add(reader);
+    return std::make_shared<Subscription<M>>(reader);
+  }
+
+  template <class T>
+  T declare_parameter(const std::string& name, const T& value,
+      const rcl_interfaces::msg::ParameterDescriptor& /* descriptor */ = {}) {
+    const ParameterValue fallback(value);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (declared_.count(name) > 0) throw exceptions::ParameterAlreadyDeclaredException(name);
+    const auto found = arguments_.overrides.find(name);
+    const ParameterValue chosen = found == arguments_.overrides.end() ? fallback : found->second;
+    if (!chosen.has_type_of(fallback)) throw exceptions::InvalidParameterTypeException(name);
+    declared_.emplace(name, chosen);
+    return chosen.get<T>();
+  }
+  bool has_parameter(const std::string& name) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return declared_.count(name) > 0;
+  }
+  Parameter get_parameter(const std::string& name) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return Parameter(name, declared_.at(name));
+  }
+
+  std::vector<TopicEndpointInfo> get_subscriptions_info_by_topic(const std::string& topic) const {
+    std::vector<TopicEndpointInfo> found;
+    for (const auto& reader : fake::middleware().readers(topic)) {
+      found.emplace_back(reader->node, reader->qos);
+    }
+    return found;
+  }
+
+ private:
+  std::string resolve(const std::string& topic) const {
+    const auto remap = arguments_.remaps.find(topic);
+    const std::string& name = remap == arguments_.remaps.end() ? topic : remap->second;
+    if (name.rfind("~/", 0) == 0) return "/" + name_ + name.substr(1);
+    return name.front() == '/' ? name : "/" + name;
+  }
+
+  const fake::Arguments arguments_;
+  const std::string name_;
+  const Clock::SharedPtr clock_ = std::make_shared<Clock>();
+  const std::shared_ptr<fake::Executor> executor_ = std::make_shared<fake::Executor>();
+  mutable std::mutex mutex_;
+  std::map<std::string, ParameterValue> declared_;
+};
+
+class TimerBase {
+ public:
+  using SharedPtr = std::shared_ptr<TimerBase>;
+  void cancel() { alarm_->cancelled = true; }
+  ~TimerBase() { cancel(); }
+  std::shared_ptr<fake::Alarm> alarm_;
+};
+
+template <class NodeT, class Callback>
+TimerBase::SharedPtr create_timer(
+    NodeT node, const Clock::SharedPtr& /* clock */, const Duration& period, Callback callback) {
+  const auto timer = std::make_shared<TimerBase>();
+  const std::weak_ptr<TimerBase> weak = timer;
+  timer->alarm_ = std::make_shared<fake::Alarm>(node->fake_executor(), [weak, callback] {
+    const TimerBase::SharedPtr held = weak.lock();
+    if (!held || held->alarm_->cancelled) return;
+    if constexpr (std::is_invocable_v<Callback, TimerBase&>) {
+      callback(*held);
+    } else {
+      callback();
+    }
+  });
+  fake::middleware().set(timer->alarm_, period.nanoseconds());
+  return timer;
+}
+
+inline void spin(const std::shared_ptr<Node>& node) {
+  node->fake_executor()->run([] { return ok(); });
+}
+
+}  // namespace rclcpp
+
+#define RCLCPP_ERROR_STREAM(logger, stream) RCLCPP_FAKE_LOG("ERROR", logger, stream)
+#define RCLCPP_WARN_STREAM_THROTTLE(logger, clock, milliseconds, stream) \
+  do {                                                                   \
+    static_cast<void>((clock).now());                                    \
+    static_cast<void>(milliseconds);                                     \
+    RCLCPP_FAKE_LOG("WARN", logger, stream);                             \
+  } while (false)
+#define RCLCPP_FAKE_LOG(level, logger, stream)                               \
+  do {                                                                       \
+    std::ostringstream fake_text;                                            \
+    fake_text << stream;                                                     \
+    rclcpp::fake::middleware().log(level, (logger).get_name(), fake_text.str()); \
+  } while (false)
