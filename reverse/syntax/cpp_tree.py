@@ -115,14 +115,9 @@ def _told_from_lists(
     for place in places:
         changed[place] = ord(";")
     better = _parser().parse(bytes(changed)).root_node
-    if _errors(better) < _errors(root):
+    if sum(1 for _ in _errors(better)) < sum(1 for _ in _errors(root)):
         return bytes(changed), better, places
     return data, root, frozenset()
-
-
-def _errors(root: Node) -> int:
-    found = by_types(root, ("ERROR", "MISSING"))
-    return sum(map(len, found.values()))
 
 
 def _taken_for_destructors(root: Node, data: bytes) -> Iterator[int]:
@@ -131,7 +126,7 @@ def _taken_for_destructors(root: Node, data: bytes) -> Iterator[int]:
     There the grammar looks for the name of a destructor, and finds an error; with `!` it does not.
     """
     for node in _errors(root):
-        if node.parent is not None and node.parent.type in _ELEMENTS:
+        if node.is_error and node.parent is not None and node.parent.type in _ELEMENTS:
             sign = _INVERTED.match(data, node.start_byte)
             if sign is not None:
                 yield sign.end() - 1
@@ -141,7 +136,7 @@ def _errors(root: Node) -> Iterator[Node]:
     waiting = [root]
     while waiting:
         node = waiting.pop()
-        if node.is_error:
+        if node.is_error or node.is_missing:
             yield node
         if node.has_error:
             waiting += reversed(node.children)
