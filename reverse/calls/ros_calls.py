@@ -22,8 +22,8 @@ from rebsync.reverse.roscpp_vocabulary import (
     NODELETS,
     RATES,
     TRANSPORTS,
-    WORDS,
     Ask,
+    words_in,
 )
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
@@ -78,13 +78,13 @@ def _calls_in(code: Code, values: Values, without: Collection[str]) -> Iterator[
     """The calls but for those in functions of some classes, or of that name."""
     for cpp in code.files:
         data = values.texts.data(cpp)
-        for match in WORDS.finditer(data):
-            place = cpp.root.descendant_for_byte_range(match.start(), match.end())
-            if place is None or place.start_byte != match.start() or place.named_child_count:
+        for start, end, word in words_in(data):
+            place = cpp.root.descendant_for_byte_range(start, end)
+            if place is None or place.start_byte != start or place.named_child_count:
                 continue
             if owner_of(values, cpp, place) in without:
                 continue
-            for asked in _asked(values, cpp, place, match.group().decode()):
+            for asked in _asked(values, cpp, place, word):
                 if asked.site.owner not in without:
                     yield asked
 
