@@ -23,18 +23,8 @@ _NODES = (
     *(b"NodeHandle", b"odelet", b"NODELET", b"ros::init", b"ros::spin", b"rclcpp", b"rebsync:"),
     *(b"Timer", b"Publisher", b"Subscriber", b"ServiceServer", b"ServiceClient", b"Mailbox"),
     *(b"advertise", b"subscribe", b"Rate", b"param::", b".param", b">param", b"getParam"),
-    *(
-        b"setParam",
-        b"hasParam",
-        b"deleteParam",
-        b"searchParam",
-        b"topic::",
-        b"service::",
-        b"actionlib",
-        b"dynamic_reconfigure",
-        b"message_filters",
-    ),
-    b"image_transport",
+    *(b"setParam", b"hasParam", b"deleteParam", b"searchParam", b"topic::", b"service::"),
+    *(b"actionlib", b"dynamic_reconfigure", b"message_filters", b"image_transport"),
 )
 _MUCH = 200_000  # bytes, from which on comparing names is quicker than reading it all
 _INCLUDE = re.compile(rb'#[ \t]*include[ \t]*["<](?:[^">\n]*/)?([^">\n/]+)[">]')
