@@ -206,7 +206,7 @@ _NAMES = frozenset(
 )
 _FUNCTIONS = frozenset(name for _, name in FUNCTIONS) - _NAMES
 _PLAIN = tuple(name.encode() for name in sorted(_NAMES))
-_WORDS = re.compile(rb"(?:" + b"|".join(sorted(_PLAIN, key=len, reverse=True)) + rb")\b")
+_WORDS = re.compile(rb"(?:" + b"|".join(sorted(_PLAIN, reverse=True)) + rb")\b")
 _SCOPED = re.compile(rb"::\s*(" + "|".join(sorted(_FUNCTIONS)).encode() + rb")\b")
 _WORD = re.compile(rb"\w")
 
