@@ -70,7 +70,7 @@ def _clear(size: int) -> None:
     Commands run without that, but this one may take long; a collection takes some hundredths of a
     second, as long as reading a small package.
     """
-    global _since  # noqa: PLW0603
+    global _since
     _since += size
     if _since >= _WASTE:
         _since = 0
