@@ -163,12 +163,14 @@ class Sends:
     """A function that fills a message from its arguments and sends it.
 
     To the known rebec `known`; or to itself, `known` being "self"; or, `known` being None, to the
-    rebec that the first argument names. The last argument, if there is one more, is the time.
+    rebec that the first argument names. The last argument, if there is one more, is the time; where
+    it is left out, that is `usual`.
     """
 
     known: str | None
     server: str
     arguments: int
+    usual: tuple[Cpp, Node] | None = None
 
 
 @dataclass(frozen=True, slots=True)

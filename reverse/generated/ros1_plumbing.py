@@ -12,7 +12,7 @@ from tree_sitter import Node
 
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.ros1_idle import working
-from rebsync.reverse.generated.ros1_roles import Roles, Taken, call_in
+from rebsync.reverse.generated.ros1_roles import Roles, Taken, best_priority, call_in, number_of
 from rebsync.reverse.generated.ros1_timers import timers_of
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
@@ -60,9 +60,33 @@ def check_plumbing(
             why = "no constructor has this run"
         else:
             continue
+        if function.name == owner.name and (told := _odd_priority(code, function, lineage)):
+            why = "the mailbox is told of another priority than its most urgent server has"
+            unread = Unread(function.cpp.span(told), why)
+            findings.unreadable(function.cpp.source, unread, f"{owner.name}.{function.name}")
         for node in odd:
             unread = Unread(function.cpp.span(node), why)
             findings.unreadable(function.cpp.source, unread, f"{owner.name}.{function.name}")
+
+
+def _odd_priority(code: Code, function: CppFunction, lineage: Sequence[Roles]) -> Node | None:
+    """The initialiser that tells the mailbox another best priority than that of its servers."""
+    best = best_priority(lineage)
+    for initialiser in named(function.initialisers) if function.initialisers is not None else ():
+        name, *_, values = named(initialiser)
+        given = named(values)
+        if text_of(name) == "mailbox_" and len(given) in (2, 3):
+            told = given[2:]
+        elif len(given) == 4 and text_of(given[0]).startswith("Inherited"):
+            told = given[3:]
+        else:
+            continue
+        if any(text_of(a) in ("queue_length", "best_priority") for a in given):
+            continue  # what heirs hand on
+        number = number_of(code, function.cpp, told[0]) if told else None
+        if number != best or (told and number is None and text_of(told[0]) != "kNoPriority"):
+            return initialiser
+    return None
 
 
 def _is_constructed(code: Code, owner: CppClass) -> bool:
@@ -158,21 +182,33 @@ def _tells_of_message(code: Code, owner: CppClass, taken: Taken) -> bool:
 
 
 def _asks_for_sender(code: Code, owner: CppClass, taken: Taken) -> bool:
-    """Whether what serves a message asks who has sent it."""
-    functions = {
-        f.name: f for c in reversed(code.lineage(owner.name)) for f in code.functions_of(c)
-    }
-    waiting, seen = [taken.handler or taken.function.name], set[str]()
+    """Whether what serves a message asks who has sent it; what it sends is served apart."""
+    called = call_in(taken.call.arguments[-1])
+    if called is None or taken.handler is None:
+        return any(_is_question(call) for call in code.calls_of(taken.function))
+    lineage = reversed(code.lineage(owner.name))
+    functions: dict[tuple[str, int], CppFunction] = {}
+    for function in (f for c in lineage for f in code.functions_of(c)):
+        key = function.name, len(function.parameters)
+        if "When" in function.types[-1:] or functions.get(key, function).types != function.types:
+            functions.pop(key, None)  # one that sends, or one of several that only types tell
+        else:
+            functions[key] = function
+    waiting, seen = [(taken.handler, len(called[1]))], set[tuple[str, int]]()
     while waiting:
-        function = functions.get(waiting.pop())
-        if function is None or function.name in seen:
+        key = waiting.pop()
+        if key in seen or key not in functions:
             continue
-        seen.add(function.name)
-        for call in code.calls_of(function):
-            if call.name == "sender" and call.on == "mailbox_":
+        seen.add(key)
+        for call in code.calls_of(functions[key]):
+            if _is_question(call):
                 return True
-            waiting.append(call.name)
+            waiting.append((call.name.rpartition("::")[2], len(call.arguments)))
     return False
+
+
+def _is_question(call: CppCall) -> bool:
+    return call.name == "sender" and call.on == "mailbox_"
 
 
 def _hands_fields_on(taken: Taken, order: Collection[str] | None) -> bool:
