@@ -101,11 +101,25 @@ class Publishes:
 
 
 @dataclass(frozen=True, slots=True)
+class Switch:
+    """The state variables of a timer that is stopped and started, and its period in units."""
+
+    running: str
+    stale: str
+    period: int
+
+
+@dataclass(frozen=True, slots=True)
 class TimerOf:
-    """A timer whose callback is a server."""
+    """A timer whose callback is a server.
+
+    Of one that is stopped and started `switch` says whether it runs and how many messages of it
+    that wait do not count any more: two state variables, and the units between two messages.
+    """
 
     server: str
     periodic: bool = True
+    switch: Switch | None = None
 
 
 @dataclass(frozen=True, slots=True)

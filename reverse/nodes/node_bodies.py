@@ -96,7 +96,8 @@ class Bodies:
             elif isinstance(fact, TimerFact) and kept:
                 server = next((s for s in self.servers if fact in s.timers), None)
                 if server is not None:
-                    members[kept] = TimerOf(server.name, fact.one_shot is not True)
+                    switch = self.setup.switches.get(server.name)
+                    members[kept] = TimerOf(server.name, fact.one_shot is not True, switch)
             elif kept and isinstance(fact, _HANDLES):
                 members[kept] = Outside()
         members |= self._in_containers()

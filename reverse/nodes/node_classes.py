@@ -10,6 +10,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_conversions import converted_to
 from rebsync.reverse.bodies.cpp_effects import is_outside
+from rebsync.reverse.bodies.cpp_timers import without_stale
 from rebsync.reverse.bodies.cpp_unknowns import choice
 from rebsync.reverse.bodies.rewriting import rewritten
 from rebsync.reverse.findings import Findings, Unread
@@ -85,12 +86,17 @@ class NodeClass:
         delays = any(map(takes_time, found)) or any(map(takes_time, methods))
         if delays:
             self._note_beats()
-        return [
-            replace(s, body=repeated(s.body, send(s.name, setup.periodic[s.name]), delays))
-            if s.name in setup.periodic and s.body is not None
-            else s
-            for s in found
-        ]
+        return [self._repeated(s, delays) for s in found]
+
+    def _repeated(self, server: m.MessageServer, delays: bool) -> m.MessageServer:
+        """The server of a timer with what makes it go on."""
+        setup, body = self.bodies.setup, server.body
+        if body is None or server.name not in setup.periodic:
+            return server
+        body = repeated(body, send(server.name, setup.periodic[server.name]), delays)
+        if server.name in setup.switches:
+            body = without_stale(body, setup.switches[server.name])
+        return replace(server, body=body)
 
     def _begun(
         self, body: m.Block, servers: Sequence[m.MessageServer], methods: Sequence[m.Method]
