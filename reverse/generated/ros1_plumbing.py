@@ -7,17 +7,23 @@ generated. Anything else is listed: the model would not show it.
 from __future__ import annotations
 
 from collections.abc import Collection, Container, Iterator, Mapping, Sequence
+from math import prod
+from typing import TypeAlias
 
 from tree_sitter import Node
 
+from rebsync.model import Type
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.ros1_idle import working
+from rebsync.reverse.generated.ros1_names import declared_type
 from rebsync.reverse.generated.ros1_roles import Roles, Taken, best_priority, call_in, number_of
 from rebsync.reverse.generated.ros1_timers import timers_of
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.static.types import PRIMITIVES
 
+_Fields: TypeAlias = "Mapping[str, Mapping[str, Type | None]]"
 _SETS_UP = frozenset({"param", "advertise", "advertiseAll", "readArray", "unused"})
 _SUBSCRIBES = frozenset({"subscribe", "subscribeOnBridge"})
 _TELLS = frozenset({"flatten", "publish"})
@@ -27,7 +33,7 @@ def check_plumbing(
     code: Code,
     owner: CppClass,
     all_roles: Mapping[str, Roles],
-    fields: Mapping[str, Collection[str]],
+    fields: _Fields,
     findings: Findings,
 ) -> None:
     """Lists what a class does outside of its bodies that the model cannot show.
@@ -159,17 +165,35 @@ def _odd_in_shim(
     owner: CppClass,
     function: CppFunction,
     roles: Roles,
-    fields: Mapping[str, Collection[str]],
+    fields: _Fields,
 ) -> Iterator[Node]:
     """The whole body, unless it hands every field on once, in the message's order."""
     received = [t for t in roles.taken if t.shim == function.node]
     statements = working(function.body)
     if len(statements) != 1 or len(received) != 1:
         yield from statements
-    elif not _hands_fields_on(received[0], fields.get(received[0].type)):
-        yield received[0].call.arguments[-1]
-    elif not _tells_of_message(code, owner, received[0]):
-        yield received[0].call.node
+        return
+    (taken,) = received
+    known = fields.get(taken.type)
+    if not (_hands_fields_on(taken, known) and _fits(code, owner, taken, known or {})):
+        yield taken.call.arguments[-1]
+    elif not _tells_of_message(code, owner, taken):
+        yield taken.call.node
+
+
+def _fits(code: Code, owner: CppClass, taken: Taken, fields: Mapping[str, Type | None]) -> bool:
+    """Whether fields are of the types of the handler's parameters, so that no value is cut."""
+    every = (f for c in code.lineage(owner.name) for f in code.functions_of(c))
+    own = [f for f in every if f.name == taken.handler and len(f.parameters) == len(fields)]
+    taking = ([declared_type(code, p.type) for p in f.parameters] for f in own)
+    return not own or any(all(map(_is_kept, fields.values(), types)) for types in taking)
+
+
+def _is_kept(field: Type | None, type_: Type | None) -> bool:
+    """Whether a field has all values of a parameter; a rebec's name is a string."""
+    if field is None or type_ is None:
+        return type_ is None or type_.name not in PRIMITIVES
+    return field.name == type_.name and prod(field.dimensions) == prod(type_.dimensions)
 
 
 def _tells_of_message(code: Code, owner: CppClass, taken: Taken) -> bool:
