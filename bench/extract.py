@@ -2,10 +2,11 @@
 
     python bench/extract.py [DIRECTORY] [--size MB] [--packages N] [--profile]
 
-Without a directory, packages are made whose code has so many megabytes (default 4, the size of
-ros_comm). `bare` is tree-sitter's parse of all files of C++, without looking at the trees;
-`one process` is reading and extracting all packages in turn, `ratio` the one over the other;
-`all processors` is what a command does, by the clock; the others are seconds of the processor.
+Without a directory, packages are made whose code has so many megabytes (default 2.3, the size of
+ros_comm) and is mixed as there. `bare` is tree-sitter's parse of all files of C++, without looking
+at the trees; `one process` is reading and extracting all packages in turn, `ratio` the one over the
+other; `all processors` is what a command does, by the clock; the others are seconds of the
+processor.
 `--packages` makes N small packages and prints the memory on the way. Peak memory is that of the
 largest process.
 """
@@ -46,7 +47,7 @@ def main() -> None:
         if root is None:
             root, size = made, 0
             while size < options.size * 1e6:
-                size += write_packages(Path(made) / str(size), 5, seed=size)
+                size += write_packages(Path(made) / str(size), 4, seed=size)
         compare(root)
         if options.profile:
             profile(root)
@@ -55,7 +56,7 @@ def main() -> None:
 def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     parser.add_argument("directory", nargs="?")
-    parser.add_argument("--size", type=float, default=4.0, metavar="MB")
+    parser.add_argument("--size", type=float, default=2.3, metavar="MB")
     parser.add_argument("--packages", type=int, default=0, metavar="N")
     parser.add_argument("--profile", action="store_true")
     return parser.parse_args()

@@ -1,4 +1,8 @@
-"""ROS 1 packages such as people write, made by chance: nodes, their helpers, and libraries."""
+"""ROS 1 packages such as people write, made by chance: nodes, their helpers, and libraries.
+
+Their shares of the code are those of ros_comm (2.26 MB): a quarter in files that ask something of
+ROS, half in what is read with them, and a quarter in packages that have no node.
+"""
 
 from __future__ import annotations
 
@@ -26,8 +30,7 @@ NODE_HEADER = """\
 #include <std_msgs/Int32.h>
 #include <std_msgs/String.h>
 
-#include "{package}/{lib}.h"
-
+{includes}
 namespace {package} {{
 
 /// Takes {topic} and tells others what it makes of it.
@@ -226,7 +229,7 @@ WORDS = (
 
 
 def package(name: str, chance: random.Random, nodes: int = 2, libraries: int = 4) -> dict[str, str]:
-    """The files of a package; the node classes use the first library, not the others."""
+    """The files of a package; the node classes include all of its libraries."""
     files = {
         "package.xml": f"<package format='2'><name>{name}</name><version>1.0.0</version>"
         "<description>made</description><maintainer email='a@b.c'>a</maintainer>"
@@ -239,17 +242,20 @@ def package(name: str, chance: random.Random, nodes: int = 2, libraries: int = 4
     launched = []
     for index in range(nodes):
         node = f"{chance.choice(WORDS)}_node_{index}"
-        _node(files, name, node, modules[0], chance)
+        _node(files, name, node, modules, chance)
         launched.append(f"  <node pkg='{name}' type='{node}' name='{node}'/>\n")
         files["CMakeLists.txt"] += f"add_executable({node} src/{node}.cpp src/{node}_main.cpp)\n"
     files[f"launch/{name}.launch"] = f"<launch>\n{''.join(launched)}</launch>\n"
     return files
 
 
-def _node(files: dict[str, str], name: str, node: str, lib: str, chance: random.Random) -> None:
+def _node(
+    files: dict[str, str], name: str, node: str, libraries: list[str], chance: random.Random
+) -> None:
+    includes = "".join(f'#include "{name}/{library}.h"\n' for library in libraries)
     values = {
         **_names(name, node, chance),
-        **{"lib": lib, "libcls": _class(lib), "topic": chance.choice(WORDS)},
+        **{"includes": includes, "libcls": _class(libraries[0]), "topic": chance.choice(WORDS)},
     }
     methods = [f"weigh{chance.choice(WORDS).title()}{i}" for i in range(chance.randint(4, 9))]
     servers = "  void onMessage(const std_msgs::Int32::ConstPtr& msg);\n"
@@ -293,11 +299,11 @@ def _defined(values: dict[str, object], methods: list[str], chance: random.Rando
 
 
 def write_packages(root: Path, count: int, seed: int = 1, libraries: int = 4) -> int:
-    """Writes so many packages, and gives the bytes of their code."""
+    """Writes so many packages, and gives the bytes of their code; each fourth has no node."""
     chance, size = random.Random(seed), 0
     for number in range(count):
-        name = f"pack_{number}"
-        for path, text in package(name, chance, libraries=libraries).items():
+        name, nodes = f"pack_{number}", 2 if number % 4 < 3 else 0
+        for path, text in package(name, chance, nodes, libraries + (not nodes) * 2).items():
             target = root / name / path
             target.parent.mkdir(parents=True, exist_ok=True)
             target.write_text(text, encoding="utf-8")

@@ -6,6 +6,7 @@ Each entry names a call, the kind of thing it asks for, and what its arguments a
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from enum import Enum
 
 from rebsync.records import dataclass
@@ -191,21 +192,31 @@ ANONYMOUS = "AnonymousName"
 # Functions of classes that programs outside of the files call.
 ENTRIES = frozenset({"main", "onInit", "run"})
 
-# Words without which a file asks for nothing.
-WORDS = re.compile(
-    rb"\b(?:"
-    + "|".join(
-        sorted(
-            {
-                *HANDLE,
-                *(name for methods in TRANSPORTS.values() for name in methods),
-                *(name for _, name in FUNCTIONS),
-                *FILTERS,
-                *RATES,
-                *NODELETS,
-            },
-            key=lambda word: (-len(word), word),
-        )
-    ).encode()
-    + rb")\b"
+# Words without which a file asks for nothing: names of methods, classes and macros, and, only after
+# a scope, those of functions.
+_NAMES = frozenset(
+    {
+        *HANDLE,
+        *(name for methods in TRANSPORTS.values() for name in methods),
+        *(name for scope, name in FUNCTIONS if not scope),
+        *FILTERS,
+        *RATES,
+        *NODELETS,
+    }
 )
+_FUNCTIONS = frozenset(name for _, name in FUNCTIONS) - _NAMES
+_PLAIN = tuple(name.encode() for name in sorted(_NAMES))
+_WORDS = re.compile(rb"(?:" + b"|".join(sorted(_PLAIN, reverse=True)) + rb")\b")
+_SCOPED = re.compile(rb"::\s*(" + "|".join(sorted(_FUNCTIONS)).encode() + rb")\b")
+_WORD = re.compile(rb"\w")
+
+
+def words_in(data: bytes) -> Iterator[tuple[int, int, str]]:
+    """The places of words of the vocabulary, from the first: start, end, and the word."""
+    found = [(m.start(1), m.end(1)) for m in _SCOPED.finditer(data)]
+    if any(name in data for name in _PLAIN):
+        matches = (m.span() for m in _WORDS.finditer(data))
+        found += (m for m in matches if not _WORD.match(data, m[0] - 1, m[0]))
+        found.sort()
+    for start, end in found:
+        yield start, end, data[start:end].decode()

@@ -97,3 +97,14 @@ def is_plain(expression: m.Expression) -> bool:
             return True
         case _:
             return False
+
+
+def cell(axis: str, offset: m.Expression) -> m.Expression:
+    """`X`, `X + 1`, `X - 1` for an offset."""
+    match offset:
+        case m.IntLiteral(0):
+            return m.Name(axis)
+        case m.Unary("-", operand):
+            return m.Binary("-", m.Name(axis), operand)
+        case _:
+            return m.Binary("+", m.Name(axis), offset)

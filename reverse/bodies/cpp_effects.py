@@ -11,7 +11,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_misread import first_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this
 from rebsync.reverse.bodies.cpp_roots import identifiers_in, is_element, is_modelled, path_in, root
-from rebsync.reverse.bodies.known_functions import ACTS, LOOKS, takes_values, type_takes_values
+from rebsync.reverse.bodies.known_functions import LOOKS, acts, takes_values, type_takes_values
 from rebsync.reverse.bodies.scope import (
     Called,
     Ignored,
@@ -267,8 +267,8 @@ class Effects:
             self._held(node, name, call)
         else:
             self._method(call, name)
-        if name in ACTS:
-            raise self._touches(node, f'"{text_of(function)}" {ACTS[name]}')
+        if (does := acts(call)) is not None:
+            raise self._touches(node, f'"{text_of(function)}" {does}')
         if known or takes_values(call):
             for argument in call.arguments:
                 self.check(argument)
@@ -309,7 +309,7 @@ class Effects:
             inside._inner = {p.name for p in function.parameters}
             try:
                 inside.check(function.body)
-            except Touches:
+            except (Touches, RecursionError):  # what leads too deep may do anything
                 self.scope.calm[key] = False
         return self.scope.calm[key]
 

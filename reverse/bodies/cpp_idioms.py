@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import islice
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_expressions import CppExpressions
 
 _LEAST = -0x80000000
+_LARGE = 200  # parts of an expression
 _LIMITS = {
     **{"INT_MAX": 2**31 - 1, "INT_MIN": _LEAST, "INT32_MAX": 2**31 - 1, "INT32_MIN": _LEAST},
     **{"INT8_MAX": 127, "INT8_MIN": -128, "INT16_MAX": 2**15 - 1, "INT16_MIN": -(2**15)},
@@ -105,9 +107,14 @@ def _calm(reader: CppExpressions, nodes: Sequence[Node]) -> list[m.Expression]:
     read = [as_number(reader.scope, reader.read(n)) for n in nodes]
     for node, value in zip(nodes, read, strict=True):
         check_whole(reader, node)
-        if not is_calm(value):
+        if not is_calm(value) or _is_large(value):
             raise reader.unread(node, "the model would do this more than once", "use a local")
     return read
+
+
+def _is_large(value: m.Expression) -> bool:
+    """Whether an expression has too many parts to stand in the model several times."""
+    return len(list(islice(m.walk(value), _LARGE))) == _LARGE
 
 
 def _least(reader: CppExpressions, nodes: Sequence[Node], name: str) -> m.Expression:

@@ -29,6 +29,7 @@ from rebsync.reverse.bodies.scope import (
     Variable,
 )
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
+from rebsync.reverse.syntax.cpp_depth import DEEPEST
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 if TYPE_CHECKING:
@@ -46,6 +47,9 @@ def inlined(
     key = body.start_byte, inside.cpp.source.path
     if key in reader.shared.running or len(reader.shared.running) >= _DEEPEST:
         raise reader.unread(node, "a function that calls itself has no end here")
+    depth = _depth(node)
+    if reader.shared.depth + depth > DEEPEST:
+        raise reader.unread(node, "with the body of this function it nests too deep")
     if len(arguments) > len(parameters):
         raise reader.unread(node, "there are more arguments here than parameters")
     needed, single = len(reader.before), _single(body)
@@ -54,6 +58,7 @@ def inlined(
     for parameter in parameters[len(arguments) :]:
         reader.before += _left_out(reader, inside, parameter, node)
     reader.shared.running.append(key)
+    reader.shared.depth += depth
     try:
         if single is not None:
             found: Meaning | None = _value(inside, single, result)
@@ -62,9 +67,18 @@ def inlined(
             found = _body(reader, inside, body, result)
     finally:
         reader.shared.running.pop()
+        reader.shared.depth -= depth
     if len(reader.before) > needed:
         _check_place(reader, node)
     return found
+
+
+def _depth(node: Node) -> int:
+    """How deep a call stands in its function."""
+    depth, above = 0, node.parent
+    while above is not None and above.type != "function_definition":
+        depth, above = depth + 1, above.parent
+    return depth
 
 
 def _single(body: Node) -> Node | None:

@@ -31,15 +31,17 @@ MOVE = "@Move"
 def is_runtime(reader: CppExpressions, node: Node) -> bool:
     """Whether an expression names a member of the run-time part."""
     name = text_of(node)
-    member = reader.scope.members.get(name)
-    return name not in reader.scope.locals and isinstance(member, Runtime)
+    own = name.removeprefix("this->")
+    hidden = name == own and name in reader.scope.locals
+    return not hidden and isinstance(reader.scope.members.get(own), Runtime)
 
 
 def built_in(
     reader: CppExpressions, node: Node, target: Node, name: Node, arguments: Sequence[Node]
 ) -> m.Expression:
     """A call of a function of the run-time part."""
-    member, span = reader.scope.members[text_of(target)], reader.cpp.span(node)
+    member = reader.scope.members[text_of(target).removeprefix("this->")]
+    span = reader.cpp.span(node)
     function = text_of(part(name, "name") if name.type == "template_method" else name)
     if isinstance(member, Runtime) and member.kind == "drive" and function == "move":
         return reader.calls(node, None, MOVE, arguments)
@@ -108,7 +110,12 @@ def send(
     else:
         target = m.Name(sends.known, reader.cpp.span(node))
     values = tuple(reader.read(a) for a in arguments[expected - sends.arguments : expected])
-    last = times(reader, arguments[expected]) if len(arguments) > expected else {}
+    if len(arguments) > expected:
+        last = times(reader, arguments[expected])
+    elif sends.usual is not None:
+        last = times(replace(reader, cpp=sends.usual[0]), sends.usual[1])
+    else:
+        last = {}
     after, deadline = last.get("after"), last.get("deadline")
     return m.Call(target, sends.server, values, after, deadline, reader.cpp.span(node))
 

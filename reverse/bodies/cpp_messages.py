@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
@@ -36,6 +37,9 @@ if TYPE_CHECKING:
 
 _POINTER = re.compile(r"(?:::)?(?:Const)?(?:Shared|Unique|Weak)?Ptr$")
 _SHARED = re.compile(r"(?:::)?(?:boost|std)::(?:shared|unique)_ptr<(.*)>$")
+# A field of something, with those of it; what gives the last of them a value.
+_CHAIN = re.compile(r"(?:\.|->)\s*(\w+(?:\s*\.\s*\w+)*)")
+_SET = re.compile(r"\s*=[^=]")
 _MAKES = re.compile(r"(?:::)?(?:boost|std)::make_(?:shared|unique)<(.*)>$")
 
 
@@ -130,20 +134,25 @@ def needed(reader: CppStatements, type_: str) -> Mapping[str, m.Type]:
             sent |= {p for take in function.takes or () if isinstance(take, tuple) for p in take}
         if isinstance(function, Inline):
             texts.append(text_of(function.function.node))
-    text = "\n".join(texts)
+    read = _read_in("\n".join(texts))
     return {
         path: of
         for path, of in reader.scope.messages[type_].items()
-        if of is not None and (path in sent or _is_read(path, text))
+        if of is not None and (path in sent or path in read)
     }
 
 
-def _is_read(path: str, text: str) -> bool:
-    pieces = path.split(".")
-    if any(piece not in text for piece in pieces):
-        return False  # most of them: much quicker than a search for all
-    spelled = r"\s*\.\s*".join(map(re.escape, pieces))
-    return bool(re.search(rf"(?:\.|->)\s*{spelled}\b(?!\s*=[^=])", text))
+@lru_cache(maxsize=8)
+def _read_in(text: str) -> frozenset[str]:
+    """The paths of fields that a text reads: of `msg.pose.x` those are `pose`, `pose.x` and `x`."""
+    found = set[str]()
+    for chain in _CHAIN.finditer(text):
+        pieces = [piece.strip() for piece in chain[1].split(".")]
+        set_ = _SET.match(text, chain.end()) is not None
+        last = len(pieces) - set_
+        for end in range(1, last + 1):
+            found.update(".".join(pieces[start:end]) for start in range(end))
+    return frozenset(found)
 
 
 def declare(

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Scope
+from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Publishes, Record, Scope
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 _SAME = frozenset({"std::move", "std::ref", "std::cref", "boost::ref", "boost::cref"})
@@ -27,8 +28,19 @@ def resolve(scope: Scope, node: Node) -> Meaning | None:
             return _field(scope, node)
         case "call_expression":
             return _handed_on(scope, node)
+        case "subscript_expression":
+            return _element(scope, part(node, "argument"), named(part(node, "indices")))
         case _:
             return None
+
+
+def _element(scope: Scope, container: Node, keys: Sequence[Node]) -> Meaning | None:
+    """A publisher that is kept in a map or vector, by a key that stands in the code."""
+    if len(keys) != 1 or keys[0].type not in ("string_literal", "number_literal"):
+        return None
+    name = text_of(container).removeprefix("this->")
+    kept = scope.members.get(f"{name}[{text_of(keys[0])}]") if name not in scope.locals else None
+    return kept if isinstance(kept, Publishes) else None
 
 
 def _field(scope: Scope, node: Node) -> Meaning | None:
@@ -62,6 +74,8 @@ def _handed_on(scope: Scope, node: Node) -> Meaning | None:
         if text_of(part(function, "field")) == "get":
             return resolve(scope, part(function, "argument"))
         return None
+    if function.type == "field_expression" and text_of(part(function, "field")) == "at":
+        return _element(scope, part(function, "argument"), arguments)
     if len(arguments) == 1 and text_of(function) in _SAME:
         return resolve(scope, arguments[0])
     return None

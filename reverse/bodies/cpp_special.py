@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies import cpp_messages, cpp_plain_locals
+from rebsync.reverse.bodies import cpp_messages, cpp_plain_locals, cpp_timers
 from rebsync.reverse.bodies.building import bare, negated
 from rebsync.reverse.bodies.cpp_conversions import as_boolean, as_number, converted_to
 from rebsync.reverse.bodies.cpp_effects import Effects, Touches, is_outside
@@ -168,7 +168,7 @@ def _called(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
     if (stored := _from_seconds(reader, node)) is not None:
         return _statement(reader, node, stored)
     if function.type == "field_expression" and not is_this(part(function, "argument")):
-        _check_timer(reader, node, function)
+        return cpp_timers.switched(reader, node, function)
     return None
 
 
@@ -248,15 +248,6 @@ def _starts(reader: CppStatements, node: Node, timer: TimerOf) -> Iterator[m.Sta
         why = "a timer that still runs is stopped by this; the model lets it go off as well"
         reader.findings.unreadable(reader.cpp.source, Unread(span, why), reader.within)
     yield m.ExpressionStatement(m.Call(m.Self(), timer.server, (), length, None, span), (), span)
-
-
-def _check_timer(reader: CppStatements, node: Node, function: Node) -> None:
-    meaning = resolve(reader.scope, part(function, "argument"))
-    name = text_of(part(function, "field"))
-    if isinstance(meaning, TimerOf) and name in ("start", "stop", "setPeriod"):
-        why = "the model cannot stop, start or change what it sent itself for later"
-        hint = "let the callback look at a variable that says whether it is wanted"
-        raise reader.unread(node, why, hint)
 
 
 # --- exceptions ---------------------------------------------------------------------------------

@@ -18,7 +18,7 @@ from rebsync.reverse.bodies import (
     cpp_special,
     cpp_users,
 )
-from rebsync.reverse.bodies.building import bare, is_calm, is_effect
+from rebsync.reverse.bodies.building import bare, cell, is_calm, is_effect
 from rebsync.reverse.bodies.cpp_effects import Effects, Touches, is_outside
 from rebsync.reverse.bodies.cpp_expressions import MOVE, CppExpressions
 from rebsync.reverse.bodies.cpp_unknowns import Demote
@@ -125,8 +125,8 @@ class CppStatements:
             users = cpp_users.block_after(self, markers, users)
             if users is not None and not self.scope.open:
                 yield from self._of_user(node, users)
-            elif node.id in self.scope.instead or not self._is_outside(node):
-                yield from self._one(node, annotations, local)
+            else:
+                yield from self._unless_outside(node, annotations, local)
 
     def _of_user(self, node: Node, block: Effects) -> Iterator[m.Statement]:
         """Nothing for what a user's block does, unless it touches what the model has."""
@@ -134,6 +134,18 @@ class CppStatements:
             block.check(node)
         except Touches as touches:
             yield from self._unreadable(node, touches)
+
+    def _unless_outside(
+        self, node: Node, annotations: tuple[m.Annotation, ...], local: bool
+    ) -> Iterator[m.Statement]:
+        """What stands for a statement that is not outside, if it can be read at all."""
+        try:
+            if node.id in self.scope.instead or not self._is_outside(node):
+                yield from self._one(node, annotations, local)
+        except RecursionError:
+            unread = self.unread(node, "this leads deeper than it can be read")
+            self.findings.unreadable(self.cpp.source, unread, self.within)
+            yield m.Empty((m.Annotation("Unreadable"),), self.cpp.span(node))
 
     def _is_outside(self, node: Node) -> bool:
         """Whether a statement that people wrote touches nothing of the model."""
@@ -310,7 +322,7 @@ class CppStatements:
         read = self.effect(expression)
         if isinstance(read, m.Call) and read.name == MOVE:
             cells = zip(("X", "Y"), read.arguments, strict=False)
-            move = m.Annotation("Move", tuple(_cell(axis, offset) for axis, offset in cells))
+            move = m.Annotation("Move", tuple(cell(axis, offset) for axis, offset in cells))
             yield m.Empty((*annotations, move), span)
             return
         yield from self.done(node, read, annotations)
@@ -379,14 +391,3 @@ class CppStatements:
         """Whether a block only holds locals of a switch, and the switch."""
         comments = [text_of(c) for c in node.named_children if c.type == "comment"]
         return any(t.startswith("local ") for t in markers_in(comments))
-
-
-def _cell(axis: str, offset: m.Expression) -> m.Expression:
-    """`X`, `X + 1`, `X - 1` for an offset."""
-    match offset:
-        case m.IntLiteral(0):
-            return m.Name(axis)
-        case m.Unary("-", operand):
-            return m.Binary("-", m.Name(axis), operand)
-        case _:
-            return m.Binary("+", m.Name(axis), offset)

@@ -26,6 +26,8 @@ ACTS = {
     **dict.fromkeys(("subscribe", "createTimer", "createWallTimer"), "asks for callbacks"),
     **dict.fromkeys(("advertiseService", "createSteadyTimer"), "asks for callbacks"),
 }
+# Free functions that wait for what comes from elsewhere, as long as they are told to, or for ever.
+_AWAITS = frozenset({"select", "pselect", "poll", "ppoll", "epoll_wait", "epoll_pwait"})
 ASSERTS = frozenset({"ROS_ASSERT", "ROS_ASSERT_MSG", "assert", "BOOST_ASSERT", "ROS_BREAK"})
 ACTS |= dict.fromkeys(ASSERTS, "checks")
 # Member functions that only look at an array, a number, a publisher, a timer, or in the mailbox of
@@ -46,7 +48,6 @@ _VALUES = frozenset(
             "fclose",
             "ioctl",
             "open",
-            "select",
             "setParam",
             "socket",
             "write",
@@ -74,6 +75,14 @@ _CONVERSION = re.compile(
     r"(?:::)?(?:u?int(?:8|16|32|64)?(?:_t)?|float|double|bool|char|long|short|unsigned|size_t)\Z"
 )
 _LIBRARIES = re.compile(r"(?:::)?(?:std|boost|ros|tf2?|tf2_ros|Eigen|cv|pcl|\w+_msgs|\w+_srvs)::")
+
+
+def acts(call: CppCall) -> str | None:
+    """What a call does to the node by its name: it takes time, or ends it; None for others."""
+    name = call.name.rpartition("::")[2]
+    if name in _AWAITS and call.target is None:
+        return "waits"
+    return ACTS.get(name)
 
 
 def takes_values(call: CppCall) -> bool:

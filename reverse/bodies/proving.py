@@ -166,15 +166,17 @@ class Proof:
     # --- what conditions say --------------------------------------------------------------------
 
     def _assume(self, condition: m.Expression, holds: bool) -> None:
-        if not is_calm(condition):
-            return
+        if is_calm(condition):
+            self._assumed(condition, holds)
+
+    def _assumed(self, condition: m.Expression, holds: bool) -> None:
         match bare(condition):
             case m.Unary("!", inner):
-                self._assume(inner, not holds)
+                self._assumed(inner, not holds)
             case m.Binary("&&" | "||" as operator, left, right):
                 if (operator == "&&") is holds:
-                    self._assume(left, holds)
-                    self._assume(right, holds)
+                    self._assumed(left, holds)
+                    self._assumed(right, holds)
             case m.Binary(operator, left, right) if operator in _COMPARES:
                 sign = operator if holds else _OPPOSITE[operator]
                 self._compared(left, sign, right)

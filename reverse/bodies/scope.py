@@ -101,11 +101,25 @@ class Publishes:
 
 
 @dataclass(frozen=True, slots=True)
+class Switch:
+    """The state variables of a timer that is stopped and started, and its period in units."""
+
+    running: str
+    stale: str
+    period: int
+
+
+@dataclass(frozen=True, slots=True)
 class TimerOf:
-    """A timer whose callback is a server."""
+    """A timer whose callback is a server.
+
+    Of one that is stopped and started `switch` says whether it runs and how many messages of it
+    that wait do not count any more: two state variables, and the units between two messages.
+    """
 
     server: str
     periodic: bool = True
+    switch: Switch | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,12 +177,14 @@ class Sends:
     """A function that fills a message from its arguments and sends it.
 
     To the known rebec `known`; or to itself, `known` being "self"; or, `known` being None, to the
-    rebec that the first argument names. The last argument, if there is one more, is the time.
+    rebec that the first argument names. The last argument, if there is one more, is the time; where
+    it is left out, that is `usual`.
     """
 
     known: str | None
     server: str
     arguments: int
+    usual: tuple[Cpp, Node] | None = None
 
 
 @dataclass(frozen=True, slots=True)

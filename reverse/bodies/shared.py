@@ -14,7 +14,8 @@ class Shared:
 
     `demoted` are locals, or fields of local messages, whose values the model cannot know;
     `names` are the names of the model that all locals got, `kept` those that no other may have,
-    `made` those of locals that the code does not have; `running` are the functions that are read.
+    `made` those of locals that the code does not have; `running` are the functions that are read,
+    each at the place of its call, which is so many levels of code deep: `depth`.
     `wide` are the bits of locals that hold more than an `int`, by their names in the model.
     """
 
@@ -24,6 +25,7 @@ class Shared:
     made: set[str] = field(default_factory=set)
     wide: dict[str, int] = field(default_factory=dict)
     running: list[tuple[int, str]] = field(default_factory=list)
+    depth: int = 0
 
     def add(self, variable: Variable) -> None:
         """Keeps in mind what a local can hold; of two of a name the one without a sign."""

@@ -22,12 +22,12 @@ from rebsync.reverse.roscpp_vocabulary import (
     NODELETS,
     RATES,
     TRANSPORTS,
-    WORDS,
     Ask,
+    words_in,
 )
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
-from rebsync.reverse.values.cpp_flow import declaration_of, made_of
+from rebsync.reverse.values.cpp_flow import climb, declaration_of, made_of
 from rebsync.reverse.values.cpp_values import Values
 
 _TEMPLATES = ("template_type", "template_function", "template_method")
@@ -78,13 +78,13 @@ def _calls_in(code: Code, values: Values, without: Collection[str]) -> Iterator[
     """The calls but for those in functions of some classes, or of that name."""
     for cpp in code.files:
         data = values.texts.data(cpp)
-        for match in WORDS.finditer(data):
-            place = cpp.root.descendant_for_byte_range(match.start(), match.end())
-            if place is None or place.start_byte != match.start() or place.named_child_count:
+        for start, end, word in words_in(data):
+            place = cpp.root.descendant_for_byte_range(start, end)
+            if place is None or place.start_byte != start or place.named_child_count:
                 continue
             if owner_of(values, cpp, place) in without:
                 continue
-            for asked in _asked(values, cpp, place, match.group().decode()):
+            for asked in _asked(values, cpp, place, word):
                 if asked.site.owner not in without:
                     yield asked
 
@@ -132,11 +132,23 @@ def _of_function(
     if above.type != "call_expression" or part(above, "function") != node:
         return
     ask = FUNCTIONS.get((scope, name))
-    if ask is None:
+    if ask is None or _is_own(above, scope):
         return
     given = tuple(named(part(above, "arguments")))
     if scope or (len(given) >= len(ask.arguments) - 1 and not values.calls.functions(cpp, above)):
         yield Asked(ask, site_of(values, cpp, place, above), given, _types(last))
+
+
+def _is_own(call: Node, scope: str) -> bool:
+    """Whether a call stands in the scope of the function: in the client library's own code."""
+    around = call
+    for wanted in (scope, "ros"):
+        above = climb(around, lambda n: n.type == "namespace_definition") if scope else None
+        name = above.child_by_field_name("name") if above is not None else None
+        if above is None or name is None or text_of(name) != wanted:
+            return False
+        around = above
+    return True
 
 
 def _of_method(

@@ -25,6 +25,8 @@ T = TypeVar("T")
 G = TypeVar("G")
 
 ENOUGH = 100_000  # bytes of code, from which on starting processes is paid back
+_WASTE = 300_000  # bytes of code, after which what they left in memory is cleared away
+_since = 0  # bytes read since the last time, in this process
 _AHEAD = 4  # packages for each process that are handed out before their turn
 
 
@@ -61,7 +63,20 @@ def _done(work: Callable[[Chosen], T], listing: Listing) -> T:
     try:
         return work(read(listing))
     finally:
-        gc.collect()  # commands run without it, but this one may take long
+        _clear(listing.size)
+
+
+def _clear(size: int) -> None:
+    """Collects what is no longer used once so much code was read that there may be much of it.
+
+    Commands run without that, but this one may take long; a collection takes some hundredths of a
+    second, as long as reading a small package.
+    """
+    global _since
+    _since += size
+    if _since >= _WASTE:
+        _since = 0
+        gc.collect()
 
 
 # --- processes ----------------------------------------------------------------------------------

@@ -17,6 +17,15 @@ _WORDS = (
     *(b"ROS_", b"image_transport", b"message_filters", b"dynamic_reconfigure", b"actionlib"),
     *(b"rclcpp", b"rebsync:", b"Mailbox"),
 )
+# Where none of these is in any file of a package, it has no node: it uses types of messages, or
+# spans of time, or logs.
+_NODES = (
+    *(b"NodeHandle", b"odelet", b"NODELET", b"ros::init", b"ros::spin", b"rclcpp", b"rebsync:"),
+    *(b"Timer", b"Publisher", b"Subscriber", b"ServiceServer", b"ServiceClient", b"Mailbox"),
+    *(b"advertise", b"subscribe", b"Rate", b"param::", b".param", b">param", b"getParam"),
+    *(b"setParam", b"hasParam", b"deleteParam", b"searchParam", b"topic::", b"service::"),
+    *(b"actionlib", b"dynamic_reconfigure", b"message_filters", b"image_transport"),
+)
 _MUCH = 200_000  # bytes, from which on comparing names is quicker than reading it all
 _INCLUDE = re.compile(rb'#[ \t]*include[ \t]*["<](?:[^">\n]*/)?([^">\n/]+)[">]')
 _NAME = re.compile(rb"(?<![\w.])(?<!->)[A-Za-z_]\w*")
@@ -51,6 +60,8 @@ _KEYWORDS = _WORDS_OF_CPP | frozenset(
 
 def relevant(code: Mapping[str, bytes], only: str | None = None) -> set[str]:
     """Those of some files of code that can matter; `only` is one that does, whatever is in it."""
+    if only not in code and not any(_of_nodes(data) for data in code.values()):
+        return set()
     kept = {name for name, data in code.items() if name == only or _of_ros(data)}
     if not kept or len(kept) == len(code):
         return kept
@@ -59,6 +70,10 @@ def relevant(code: Mapping[str, bytes], only: str | None = None) -> set[str]:
     if others < _MUCH or others < sum(len(code[name]) for name in kept):
         return tied
     return _named(code, kept, tied - kept)
+
+
+def _of_nodes(data: bytes) -> bool:
+    return any(word in data for word in _NODES)
 
 
 def _of_ros(data: bytes) -> bool:

@@ -8,8 +8,8 @@ from collections.abc import Collection, Iterator
 from tree_sitter import Node
 
 from rebsync.model import Type
-from rebsync.names import carry, uncarry
-from rebsync.reserved import RESERVED, RUNTIME_MEMBERS
+from rebsync.names import carry, free_name, uncarry
+from rebsync.reserved import RESERVED, RESERVED_GLOBALS, RUNTIME_MEMBERS
 from rebsync.reverse.bodies.cpp_types import type_of
 from rebsync.reverse.bodies.scope import Runtime
 from rebsync.reverse.generated.ros1_roles import Roles
@@ -30,10 +30,19 @@ def runtime_of(member: CppField) -> Runtime | None:
 
 
 def variable_name(roles: Roles, member: CppField) -> str:
-    """The model's name of a member variable, from its marker unless it was renamed."""
+    """The model's name of a member variable: that of the known rebec or constant that it holds."""
     known = roles.known.get(member.name)
     if known is not None:
         return known
+    name = _own_name(member)
+    if member.name not in roles.globals:
+        return name
+    key, _ = roles.globals[member.name]
+    return name if key in (name, free_name(name, {name})) else uncarry(key, RESERVED_GLOBALS)
+
+
+def _own_name(member: CppField) -> str:
+    """The model's name behind a member's, from its marker unless it was renamed."""
     for marker in member.markers:
         kind, path, *_ = [*marker.split(), "", ""]
         name = path.rpartition(".")[2]

@@ -7,18 +7,24 @@ generated. Anything else is listed: the model would not show it.
 from __future__ import annotations
 
 from collections.abc import Collection, Container, Iterator, Mapping, Sequence
+from math import prod
+from typing import TypeAlias
 
 from tree_sitter import Node
 
+from rebsync.model import Type
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.ros1_idle import working
-from rebsync.reverse.generated.ros1_roles import Roles, Taken, call_in
+from rebsync.reverse.generated.ros1_names import declared_type
+from rebsync.reverse.generated.ros1_roles import Roles, Taken, best_priority, call_in, number_of
 from rebsync.reverse.generated.ros1_timers import timers_of
 from rebsync.reverse.generated.ros2_words import SETS_UP, arguments_in
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.static.types import PRIMITIVES
 
+_Fields: TypeAlias = "Mapping[str, Mapping[str, Type | None]]"
 _SETS_UP = SETS_UP | {"param", "advertise", "advertiseAll", "readArray", "unused"}
 _SUBSCRIBES = frozenset({"subscribe", "subscribeOnBridge"})
 _TELLS = frozenset({"flatten", "publish"})
@@ -28,7 +34,7 @@ def check_plumbing(
     code: Code,
     owner: CppClass,
     all_roles: Mapping[str, Roles],
-    fields: Mapping[str, Collection[str]],
+    fields: _Fields,
     findings: Findings,
 ) -> None:
     """Lists what a class does outside of its bodies that the model cannot show.
@@ -61,9 +67,33 @@ def check_plumbing(
             why = "no constructor has this run"
         else:
             continue
+        if function.name == owner.name and (told := _odd_priority(code, function, lineage)):
+            why = "the mailbox is told of another priority than its most urgent server has"
+            unread = Unread(function.cpp.span(told), why)
+            findings.unreadable(function.cpp.source, unread, f"{owner.name}.{function.name}")
         for node in odd:
             unread = Unread(function.cpp.span(node), why)
             findings.unreadable(function.cpp.source, unread, f"{owner.name}.{function.name}")
+
+
+def _odd_priority(code: Code, function: CppFunction, lineage: Sequence[Roles]) -> Node | None:
+    """The initialiser that tells the mailbox another best priority than that of its servers."""
+    best = best_priority(lineage)
+    for initialiser in named(function.initialisers) if function.initialisers is not None else ():
+        name, *_, values = named(initialiser)
+        given = named(values)
+        if text_of(name) == "mailbox_" and len(given) in (2, 3):
+            told = given[2:]
+        elif len(given) == 4 and text_of(given[0]).startswith("Inherited"):
+            told = given[3:]
+        else:
+            continue
+        if any(text_of(a) in ("queue_length", "best_priority") for a in given):
+            continue  # what heirs hand on
+        number = number_of(code, function.cpp, told[0]) if told else None
+        if number != best or (told and number is None and text_of(told[0]) != "kNoPriority"):
+            return initialiser
+    return None
 
 
 def _is_constructed(code: Code, owner: CppClass) -> bool:
@@ -147,17 +177,35 @@ def _odd_in_shim(
     owner: CppClass,
     function: CppFunction,
     roles: Roles,
-    fields: Mapping[str, Collection[str]],
+    fields: _Fields,
 ) -> Iterator[Node]:
     """The whole body, unless it hands every field on once, in the message's order."""
     received = [t for t in roles.taken if t.shim == function.node]
     statements = working(function.body)
     if len(statements) != 1 or len(received) != 1:
         yield from statements
-    elif not _hands_fields_on(received[0], fields.get(received[0].type)):
-        yield received[0].call.arguments[-1]
-    elif not _tells_of_message(code, owner, received[0]):
-        yield received[0].call.node
+        return
+    (taken,) = received
+    known = fields.get(taken.type)
+    if not (_hands_fields_on(taken, known) and _fits(code, owner, taken, known or {})):
+        yield taken.call.arguments[-1]
+    elif not _tells_of_message(code, owner, taken):
+        yield taken.call.node
+
+
+def _fits(code: Code, owner: CppClass, taken: Taken, fields: Mapping[str, Type | None]) -> bool:
+    """Whether fields are of the types of the handler's parameters, so that no value is cut."""
+    every = (f for c in code.lineage(owner.name) for f in code.functions_of(c))
+    own = [f for f in every if f.name == taken.handler and len(f.parameters) == len(fields)]
+    taking = ([declared_type(code, p.type) for p in f.parameters] for f in own)
+    return not own or any(all(map(_is_kept, fields.values(), types)) for types in taking)
+
+
+def _is_kept(field: Type | None, type_: Type | None) -> bool:
+    """Whether a field has all values of a parameter; a rebec's name is a string."""
+    if field is None or type_ is None:
+        return type_ is None or type_.name not in PRIMITIVES
+    return field.name == type_.name and prod(field.dimensions) == prod(type_.dimensions)
 
 
 def _tells_of_message(code: Code, owner: CppClass, taken: Taken) -> bool:
@@ -170,21 +218,33 @@ def _tells_of_message(code: Code, owner: CppClass, taken: Taken) -> bool:
 
 
 def _asks_for_sender(code: Code, owner: CppClass, taken: Taken) -> bool:
-    """Whether what serves a message asks who has sent it."""
-    functions = {
-        f.name: f for c in reversed(code.lineage(owner.name)) for f in code.functions_of(c)
-    }
-    waiting, seen = [taken.handler or taken.function.name], set[str]()
+    """Whether what serves a message asks who has sent it; what it sends is served apart."""
+    called = call_in(taken.call.arguments[-1])
+    if called is None or taken.handler is None:
+        return any(_is_question(call) for call in code.calls_of(taken.function))
+    lineage = reversed(code.lineage(owner.name))
+    functions: dict[tuple[str, int], CppFunction] = {}
+    for function in (f for c in lineage for f in code.functions_of(c)):
+        key = function.name, len(function.parameters)
+        if "When" in function.types[-1:] or functions.get(key, function).types != function.types:
+            functions.pop(key, None)  # one that sends, or one of several that only types tell
+        else:
+            functions[key] = function
+    waiting, seen = [(taken.handler, len(called[1]))], set[tuple[str, int]]()
     while waiting:
-        function = functions.get(waiting.pop())
-        if function is None or function.name in seen:
+        key = waiting.pop()
+        if key in seen or key not in functions:
             continue
-        seen.add(function.name)
-        for call in code.calls_of(function):
-            if call.name == "sender" and call.on == "mailbox_":
+        seen.add(key)
+        for call in code.calls_of(functions[key]):
+            if _is_question(call):
                 return True
-            waiting.append(call.name)
+            waiting.append((call.name.rpartition("::")[2], len(call.arguments)))
     return False
+
+
+def _is_question(call: CppCall) -> bool:
+    return call.name == "sender" and call.on == "mailbox_"
 
 
 def _hands_fields_on(taken: Taken, order: Collection[str] | None) -> bool:

@@ -6,7 +6,7 @@ that publishes or posts is a send. Names and markers decide nothing here.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import field
 from typing import TypeAlias
 
@@ -28,6 +28,7 @@ from rebsync.reverse.syntax.cpp_calls import CppCall, assigned_in, call_of, call
 from rebsync.reverse.syntax.cpp_declarations import parameters_in, whole_number
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction, CppParameter
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+from rebsync.static.constants import constant
 
 _SENSOR = "_sensor_"
 _DEEP = 100
@@ -136,13 +137,21 @@ def _priority(code: Code, function: CppFunction, call: CppCall) -> Iterator[m.An
     found = code.constant(function.cpp, text_of(call.arguments[0]))
     for given in calls_in(found[1] if found is not None else None):
         if given.name in ("priority", "globalPriority") and len(given.arguments) == 1:
-            number = _number(code, function.cpp, given.arguments[0])
+            number = number_of(code, function.cpp, given.arguments[0])
             if number is not None:
                 value = m.IntLiteral(abs(number))
                 yield m.Annotation(given.name, (value if number >= 0 else m.Unary("-", value),))
 
 
-def _number(code: Code, cpp: Cpp, node: Node) -> int | None:
+def best_priority(lineage: Iterable[Roles]) -> int | None:
+    """The priority of the most urgent server of a class; None if no server has any."""
+    overloads = (each for roles in lineage for each in roles.annotations.values())
+    given = (a.arguments or () for each in overloads for shown in each for a in shown)
+    found = [constant(argument) for arguments in given for argument in arguments]
+    return min((int(n) for n in found if n is not None), default=None)
+
+
+def number_of(code: Code, cpp: Cpp, node: Node) -> int | None:
     """A whole number, or that of a constant."""
     found = code.constant(cpp, text_of(node))
     return whole_number(found[1] if found is not None else node)

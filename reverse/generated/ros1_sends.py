@@ -6,6 +6,7 @@ Whatever else a function does makes it a function of the model, whose body shows
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from tree_sitter import Node
 
@@ -16,7 +17,9 @@ from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_roles import Advertised, Roles, call_in, server_of
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
-from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+
+_AT_ONCE = frozenset({"When()", "When{}", "{}"})
 
 
 def add_sends(
@@ -44,8 +47,18 @@ def add_sends(
             if odd := _odd_send(function, sends, lineage, fields, senders):
                 roles.odd_sends[function.name] = odd
             else:
-                roles.sends[function.name] = sends
+                roles.sends[function.name] = replace(sends, usual=_usual(owner, function))
             break
+
+
+def _usual(owner: CppClass, function: CppFunction) -> tuple[Cpp, Node] | None:
+    """The time at which a function sends where its caller says none; None for at once."""
+    for declared in (function, *(f for f in owner.functions if f.types == function.types)):
+        if declared.name == function.name:
+            default = declared.parameters[-1].node.child_by_field_name("default_value")
+            if default is not None and "".join(text_of(default).split()) not in _AT_ONCE:
+                return declared.cpp, default
+    return None
 
 
 def _takes_times(function: CppFunction) -> bool:

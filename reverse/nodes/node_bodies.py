@@ -35,6 +35,7 @@ from rebsync.reverse.graph import (
     SubscriptionFact,
     TimerFact,
 )
+from rebsync.reverse.nodes.node_kept import elements
 from rebsync.reverse.nodes.node_loops import Loop, left
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_setup import Setup, around, send
@@ -78,6 +79,7 @@ class Bodies:
     functions: dict[str, Function] = field(default_factory=dict)
     overflowing: frozenset[str] = frozenset()
     regions: dict[str, Regions] = field(default_factory=dict)
+    contained: dict[str, Publishes] | None = None
     wide: dict[str, int] = field(default_factory=dict)
 
     def scope(self, cpp: Cpp, function: CppFunction | None) -> Scope:
@@ -86,7 +88,7 @@ class Bodies:
         published: dict[str, Publishes] = {}
         for number, fact in enumerate(self.unit.facts):
             kept = fact.site.kept.removeprefix("this->")
-            if isinstance(fact, PublisherFact) and kept:
+            if isinstance(fact, PublisherFact) and kept.isidentifier():
                 type_ = fact.type if isinstance(fact.type, str) else ""
                 made = Publishes(self.targets.get(number, ()), type_)
                 same = published.setdefault(kept, made) == made
@@ -94,9 +96,11 @@ class Bodies:
             elif isinstance(fact, TimerFact) and kept:
                 server = next((s for s in self.servers if fact in s.timers), None)
                 if server is not None:
-                    members[kept] = TimerOf(server.name, fact.one_shot is not True)
+                    switch = self.setup.switches.get(server.name)
+                    members[kept] = TimerOf(server.name, fact.one_shot is not True, switch)
             elif kept and isinstance(fact, _HANDLES):
                 members[kept] = Outside()
+        members |= self._in_containers()
         entry = self.opening.entry
         if entry is not None and function is not None and function.node.id == entry.node.id:
             members |= self.opening.objects
@@ -120,6 +124,18 @@ class Bodies:
             chooses=False,
             unit=self.setup.times.unit,
         )
+
+    def _in_containers(self) -> dict[str, Publishes]:
+        """The publishers in maps and vectors, by their places there."""
+        if self.contained is None:
+            facts = {n: f for n, f in enumerate(self.unit.facts) if isinstance(f, PublisherFact)}
+            kept = {n: f for n, f in facts.items() if f.site.kept}
+            self.contained = {
+                place: Publishes(self.targets.get(n, ()), f.type if isinstance(f.type, str) else "")
+                for place, n in elements(kept, self.code.files).items()
+                for f in (facts[n],)
+            }
+        return self.contained
 
     def _regions(self, cpp: Cpp) -> Regions:
         """What stands for values that nobody knows."""

@@ -57,10 +57,10 @@ def note_helpers(bodies: Bodies, units: Collection[str]) -> None:
         if function.body is not None and function.cpp.source.path in unit.files
     ]
     callers = (*unit.functions, *(f for _, f in near))
-    called = {c.name.rpartition("::")[2] for f in callers for c in code.calls_of(f)}
+    called = frozenset[str]().union(*map(code.names_called, callers)) if near else frozenset()
     for owner, function in near:
-        touched = _touched(bodies, owner, function)
-        if touched is not None and function.name in called:
+        touched = _touched(bodies, owner, function) if function.name in called else None
+        if touched is not None:
             why = f'what "{owner.name}::{function.name}" does where it is called is not read'
             unread = Unread(touched.span, f"{why}: {touched.why}")
             bodies.findings.unreadable(function.cpp.source, unread, unit.name)

@@ -10,16 +10,19 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_conversions import converted_to
 from rebsync.reverse.bodies.cpp_effects import is_outside
+from rebsync.reverse.bodies.cpp_timers import without_stale
 from rebsync.reverse.bodies.cpp_unknowns import choice
 from rebsync.reverse.bodies.rewriting import rewritten
-from rebsync.reverse.findings import Unread
+from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import SubscriptionFact, TimerFact
 from rebsync.reverse.nodes.node_bodies import Bodies, repeated, takes_time
 from rebsync.reverse.nodes.node_functions import Functions
 from rebsync.reverse.nodes.node_reach import unreached
+from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_setup import send
 from rebsync.reverse.nodes.node_starts import started_late
 from rebsync.reverse.nodes.node_tidying import tidy
+from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.nodes.node_unset import read_unset
 from rebsync.reverse.nodes.node_wide import Overflowing, overflowing
 from rebsync.source import Span
@@ -83,12 +86,17 @@ class NodeClass:
         delays = any(map(takes_time, found)) or any(map(takes_time, methods))
         if delays:
             self._note_beats()
-        return [
-            replace(s, body=repeated(s.body, send(s.name, setup.periodic[s.name]), delays))
-            if s.name in setup.periodic and s.body is not None
-            else s
-            for s in found
-        ]
+        return [self._repeated(s, delays) for s in found]
+
+    def _repeated(self, server: m.MessageServer, delays: bool) -> m.MessageServer:
+        """The server of a timer with what makes it go on."""
+        setup, body = self.bodies.setup, server.body
+        if body is None or server.name not in setup.periodic:
+            return server
+        body = repeated(body, send(server.name, setup.periodic[server.name]), delays)
+        if server.name in setup.switches:
+            body = without_stale(body, setup.switches[server.name])
+        return replace(server, body=body)
 
     def _begun(
         self, body: m.Block, servers: Sequence[m.MessageServer], methods: Sequence[m.Method]
@@ -162,6 +170,29 @@ class NodeClass:
         known = [d for d in depths if isinstance(d, int) and not isinstance(d, bool)]
         own = sum(isinstance(f, TimerFact) for f in facts) + len(self.bodies.setup.loops) + 1
         return max([*known, own + (1 if depths else 0)])
+
+
+def too_deep(
+    name: str,
+    unit: Unit,
+    served: Sequence[Server],
+    known: Sequence[tuple[str, str]],
+    findings: Findings,
+) -> m.ReactiveClass:
+    """A class whose bodies are all listed: they lead deeper than they can be read."""
+    lacking = m.Block((m.Empty((m.Annotation("Unreadable"),)),))
+    members: list[m.ClassMember] = []
+    if known:
+        members.append(m.KnownRebecs(tuple(_declared(m.Type(t), n) for n, t in known)))
+    members.append(m.Constructor(name, (), lacking))
+    for server in served:
+        taken = tuple(m.Parameter(p.type, p.name) for p in server.parameters)
+        members.append(m.MessageServer(server.name, taken, lacking))
+    for function in unit.functions:
+        span = function.cpp.span(function.node)
+        unread = Unread(span, "this, or what it calls, leads deeper than it can be read")
+        findings.unreadable(function.cpp.source, unread, f"{unit.name}.{function.name}")
+    return m.ReactiveClass(name, 10, tuple(members))
 
 
 def _tidied(member: _Member, variables: Collection[str]) -> _Member:

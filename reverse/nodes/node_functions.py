@@ -52,15 +52,17 @@ class Functions:
 
     def _with_defaults(self, function: CppFunction) -> CppFunction:
         """A function with what its parameters are by default: its declaration says so."""
-        of_class = [f for c in self.bodies.unit.lineage for f in c.functions if function.owner]
-        same = [f for f in of_class if f.name == function.name and f.types == function.types]
+        lineage = self.bodies.unit.lineage if function.owner else ()
+        of_name = [f for c in lineage for f in c.functions if f.name == function.name]
+        same = [f for f in of_name if f.types == function.types]
         parameters = list(function.parameters)
         for known in (*same, function):
             for number, parameter in enumerate(known.parameters):
                 default = parameter.node.child_by_field_name("default_value")
                 if default is not None:
                     parameters[number] = replace(parameters[number], default=(known.cpp, default))
-        return replace(function, parameters=tuple(parameters))
+        changed = any(a is not b for a, b in zip(parameters, function.parameters, strict=True))
+        return replace(function, parameters=tuple(parameters)) if changed else function
 
     def _free(self) -> Iterator[CppFunction]:
         """The functions outside of classes that member functions can call."""
@@ -68,10 +70,12 @@ class Functions:
             return
         near = self.bodies.unit.files | {f.cpp.source.path for f in self.bodies.setup.first}
         for (owner, _), all_of in self.bodies.code.definitions.items():
+            if owner:
+                continue
+            others = any(f.cpp.source.path in near for f in all_of)
             for function in all_of:
                 here = function.cpp.source.path in near or is_header(function.cpp)
-                others = [f for f in all_of if f.cpp.source.path in near]
-                if not owner and function.body is not None and (here or not others):
+                if function.body is not None and (here or not others):
                     yield function
 
     def _signature(self, function: CppFunction) -> Called | None:
@@ -147,7 +151,7 @@ class Functions:
             return set()
         functions = (*self.bodies.unit.functions, *self._free())
         calls = {
-            f.name: {c.name.rpartition("::")[2] for c in self.bodies.code.calls_of(f)}
+            f.name: self.bodies.code.names_called(f)
             for f in functions
             if f.name in self.bodies.functions
         }

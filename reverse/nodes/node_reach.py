@@ -18,14 +18,19 @@ def unreached(
 ) -> Iterator[CppFunction]:
     """The functions that neither servers nor the start lead to, though some code names them."""
     found = reached(code, unit, first, servers)
-    called = code.handed_on() | _overridden(code, unit)
     served = {s.body.id for s in servers}
-    for function in unit.functions:
-        if function.body is None or function.node.id in found or function.body.id in served:
-            continue
-        special = function.name in unit.names or function.name.startswith(("~", "operator"))
-        if not special and function.name in called:
-            yield function
+    left = [
+        function
+        for function in unit.functions
+        if function.body is not None
+        and function.node.id not in found
+        and function.body.id not in served
+        and function.name not in unit.names
+        and not function.name.startswith(("~", "operator"))
+    ]
+    if left:
+        called = code.handed_on() | _overridden(code, unit)
+        yield from (f for f in left if f.name in called)
 
 
 def reached(
@@ -36,14 +41,15 @@ def reached(
     for function in unit.functions:
         by_name.setdefault(function.name, []).append(function)
     found = {f.node.id for f in first}
-    calls = [code.calls_in(s.cpp, s.body) for s in servers] + [code.calls_of(f) for f in first]
+    calls = [code.calls_in(s.cpp, s.body) for s in servers]
     names = {c.name.rpartition("::")[2] for each in calls for c in each}
+    names.update(*map(code.names_called, first))
     waiting = [f for name in sorted(names) for f in by_name.get(name, ())]
     while waiting:
         function = waiting.pop()
         if function.node.id not in found:
             found.add(function.node.id)
-            called = {c.name.rpartition("::")[2] for c in code.calls_of(function)}
+            called = code.names_called(function)
             waiting += [f for name in called for f in by_name.get(name, ())]
     return found
 

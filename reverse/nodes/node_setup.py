@@ -11,7 +11,7 @@ from rebsync import model as m
 from rebsync.package import Value
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_types import carried
-from rebsync.reverse.bodies.scope import Outside, Stores, TimerOf, Variable
+from rebsync.reverse.bodies.scope import Outside, Stores, Switch, TimerOf, Variable
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import (
     ClientFact,
@@ -54,7 +54,8 @@ class Setup:
     """What the calls that set a node up stand for, by the ids of their statements.
 
     `first` are the functions that run before the node serves messages. `periodic` gives for each
-    server of a timer its period, `parameters` are those of the constructor.
+    server of a timer its period, `switches` what stops and starts it; `parameters` are those of
+    the constructor.
     """
 
     code: Code
@@ -72,6 +73,7 @@ class Setup:
     values: dict[int, m.Expression] = field(default_factory=dict)
     timers: dict[int, TimerOf] = field(default_factory=dict)
     periodic: dict[str, int] = field(default_factory=dict)
+    switches: dict[str, Switch] = field(default_factory=dict)
     parameters: list[Given] = field(default_factory=list)
     loops: list[tuple[Loop, str]] = field(default_factory=list)
 
@@ -147,12 +149,15 @@ class Setup:
             return
         periodic = fact.one_shot is not True
         self.timers[call.id] = TimerOf(server.name, periodic)
+        kept = fact.site.kept.removeprefix("this->")
         if fact.one_shot not in (True, False):
             self._listed(fact, "it is not known whether the timer goes on")
         within = f"{self.within}.{server.name}"
         period = self.times.units(fact, self.instances, self.findings, within)
         if period is not None and periodic:
             self.periodic[server.name] = period
+            if fact.one_shot is False and self._is_switched(fact):
+                self.switches[server.name] = Switch(*self.state.switch(kept), period)
         statement = statement_of(call)
         if statement is None or not (self._is_first(fact) or self._at_once(fact)):
             if statement is not None:
@@ -164,9 +169,28 @@ class Setup:
             place = fact.site.place
             self.findings.approximated(place.source, place.span, _AGAIN, within=within)
         if fact.autostart is True and period is not None:
-            self.instead[statement.id] = (send(server.name, period),)
+            running = self._running(server.name)
+            self.instead[statement.id] = (*running, send(server.name, period))
         elif fact.autostart not in (True, False):
             self._listed(fact, "it is not known whether the timer starts at once")
+
+    def _is_switched(self, fact: TimerFact) -> bool:
+        """Whether bodies stop or start a timer that alone has its variable."""
+        kept = fact.site.kept.removeprefix("this->")
+        others = [f for f in self.facts if isinstance(f, TimerFact) and share_variable(fact, f)]
+        if not kept.isidentifier() or any(f not in replaced(self.facts) for f in others):
+            return False
+        calls = (c for f in self.state.unit.functions for c in self.code.calls_of(f))
+        return any(
+            c.name in ("start", "stop") and c.on.removeprefix("this->") == kept for c in calls
+        )
+
+    def _running(self, server: str) -> tuple[m.Statement, ...]:
+        """What says that a timer runs that is stopped at times."""
+        if server not in self.switches:
+            return ()
+        running = m.Name(self.switches[server].running)
+        return (m.ExpressionStatement(m.Assign("=", running, m.BoolLiteral(True))),)
 
     def _is_again(self, fact: TimerFact) -> bool:
         """Whether a timer may be made while it is still running: by what a server calls."""

@@ -62,7 +62,7 @@ def first_functions(code: Code, unit: Unit, starts: Sequence[Start]) -> list[Cpp
         if function.node.id in found or function.node.id in callbacks:
             continue
         found[function.node.id] = function
-        names = {c.name.rpartition("::")[2] for c in code.calls_of(function)}
+        names = code.names_called(function)
         waiting += [f for f in unit.functions if f.name in names and f.body is not None]
     return list(found.values())
 

@@ -22,6 +22,7 @@ from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.syntax.cpp_declarations import CppField, declared_name
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
+from rebsync.static.types import BOOLEAN, INT
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +52,8 @@ class State:
     `variables` are the state variables with their types; `local` are those of one function that
     outlive it, by the id of the function's node; `initial` what holds before a constructor runs;
     `wide` are those that can hold more in the code, by their names in the model;
-    `unset` are those that are made without a value, by their names in the model.
+    `unset` are those that are made without a value, by their names in the model; `switches` those
+    of timers that are stopped and started.
     """
 
     code: Code
@@ -66,6 +68,7 @@ class State:
     initial: list[tuple[Cpp, Stores]] = field(default_factory=list)
     wide: dict[str, Wide] = field(default_factory=dict)
     unset: dict[str, Unset] = field(default_factory=dict)
+    switches: dict[str, tuple[str, str]] = field(default_factory=dict)
 
     taken: set[str] = field(default_factory=set)
     _outlived: dict[tuple[int, frozenset[str], bool], dict[int, tuple[Stores, ...]]] = field(
@@ -121,6 +124,14 @@ class State:
                         self._leave(inner, fields[member.name], member.type, cpp, node)
             case _:
                 pass
+
+    def switch(self, timer: str) -> tuple[str, str]:
+        """The variables for whether a timer runs, and how many of its messages do not count."""
+        if timer not in self.switches:
+            wish = timer.rstrip("_")
+            running = self._new([f"{wish}_running"], BOOLEAN)
+            self.switches[timer] = running, self._new([f"{wish}_stale"], INT)
+        return self.switches[timer]
 
     def zeros(self, meaning: Member | None) -> tuple[Stores, ...]:
         """What `x()` stores in the initialisers of a constructor."""

@@ -18,7 +18,7 @@ from rebsync.reverse.graph import Fact, Graph, PublisherFact, SubscriptionFact
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.nodes.node_bodies import Bodies, Common
 from rebsync.reverse.nodes.node_bound import note_bound, note_helpers
-from rebsync.reverse.nodes.node_classes import NodeClass
+from rebsync.reverse.nodes.node_classes import NodeClass, too_deep
 from rebsync.reverse.nodes.node_listing import Listing
 from rebsync.reverse.nodes.node_names import Names, class_word
 from rebsync.reverse.nodes.node_parameters import Given
@@ -161,11 +161,24 @@ class _Reader:
         """The classes that a unit becomes: one, or more if its rebecs are wired differently."""
         for number, alike in enumerate(self.wiring.alike(unit) or [[]]):
             findings = self.system.findings if not number else Findings()
-            yield self._class(unit, alike, findings)
+            listed = findings.mark()
+            try:
+                read = self._class(unit, alike, findings)
+            except RecursionError:
+                findings.back_to(listed)
+                read = self._too_deep(unit, alike, findings)
+            yield read
             known = {(f.span, f.why) for f in self.system.findings.all}
             if number:
                 new = [f for f in findings.all if (f.span, f.why) not in known]
                 self.system.findings.all += new
+
+    def _too_deep(self, unit: Unit, alike: list[Instance], findings: Findings) -> m.ReactiveClass:
+        """The class of a unit that leads deeper than it can be read: others can still name it."""
+        name = self.kinds[self.wiring.kinds[alike[0].name]] if alike else self.classes[unit.name]
+        served = self.wiring.servers[unit.name]
+        known = self._known(unit, alike, Names.beside({s.name for s in served}))
+        return too_deep(name, unit, served, [(n, c) for n, c, _ in known], findings)
 
     def _class(self, unit: Unit, alike: list[Instance], findings: Findings) -> m.ReactiveClass:
         listed = findings.mark()

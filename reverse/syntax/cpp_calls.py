@@ -26,6 +26,16 @@ class CppCall:
         return text_of(self.target).removeprefix("this->") if self.target is not None else ""
 
 
+def name_called(call: Node) -> str:
+    """The last name of what a node of a call calls."""
+    function = part(call, "function")
+    if function.type == "field_expression":
+        function = part(function, "field")
+    if function.type in ("template_function", "template_method"):
+        function = part(function, "name")
+    return text_of(function).rpartition("::")[2]
+
+
 def call_of(node: Node) -> CppCall | None:
     """The call that a node is, if it is one."""
     if node.type != "call_expression":

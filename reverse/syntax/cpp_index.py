@@ -5,8 +5,6 @@ Header and source are read together: a function's body is looked for wherever it
 
 from __future__ import annotations
 
-import re
-from bisect import bisect_left
 from collections.abc import Iterable, Iterator
 from dataclasses import field
 from typing import TypeVar
@@ -14,7 +12,7 @@ from typing import TypeVar
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
+from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_declarations import (
     TYPES,
     CppAlias,
@@ -35,15 +33,8 @@ from rebsync.reverse.syntax.cpp_declarations import (
     valued,
 )
 from rebsync.reverse.syntax.cpp_numbers import KnownNumbers
-from rebsync.reverse.syntax.cpp_tree import (
-    Cpp,
-    by_types,
-    in_text_order,
-    markers_above,
-    parse,
-    part,
-    text_of,
-)
+from rebsync.reverse.syntax.cpp_searches import Searches
+from rebsync.reverse.syntax.cpp_tree import Cpp, markers_above, parse, part, text_of
 from rebsync.source import Source
 
 __all__ = [
@@ -57,17 +48,10 @@ __all__ = [
     "function_of",
 ]
 
-_MANY = 300  # nodes, from which on searching a file once is quicker than going through them
 _K = TypeVar("_K")
 _V = TypeVar("_V")
 
-# The types of nodes that `Code.inside` looks for.
-SOUGHT = (
-    *("call_expression", "declaration", "for_range_loop", "init_declarator"),
-    *("lambda_expression", "parameter_declaration", "type_identifier"),
-)
 _HEADERS = (".h", ".hh", ".hpp", ".hxx", ".cuh", ".ipp", ".tpp")
-_HANDED = re.compile(r"(?:->|\.)\s*(\w+)\s*\(|&\s*(?:\w+::)*(\w+)")
 _CONTAINERS = frozenset(
     {
         *("translation_unit", "namespace_definition", "declaration_list", "ERROR"),
@@ -94,14 +78,9 @@ class Code:
     classes: dict[str, CppClass] = field(default_factory=dict)
     definitions: dict[tuple[str, str], list[CppFunction]] = field(default_factory=dict)
     constants: dict[tuple[str, str], tuple[Cpp, Node]] = field(default_factory=dict)
-    _calls: dict[int, tuple[CppCall, ...]] = field(default_factory=dict)
-    _nodes: dict[int, dict[str, list[Node]]] = field(default_factory=dict)
-    _sorted: dict[tuple[int, tuple[str, ...]], tuple[list[int], list[Node]]] = field(
-        default_factory=dict
-    )
     _types: dict[int, tuple[str, ...]] = field(default_factory=dict)
     _visible: dict[str, dict[str, tuple[Cpp, Node]]] = field(default_factory=dict)
-    _handed: frozenset[str] | None = None
+    _searches: Searches = field(default_factory=Searches)
     _parts: dict[int, Code] = field(default_factory=dict)
 
     @staticmethod
@@ -116,13 +95,7 @@ class Code:
 
     def view(self, files: Iterable[Cpp]) -> Code:
         """The declarations of some of its files, which are not read again."""
-        code = Code(
-            _calls=self._calls,
-            _nodes=self._nodes,
-            _sorted=self._sorted,
-            _types=self._types,
-            _parts=self._parts,
-        )
+        code = Code(_types=self._types, _searches=self._searches, _parts=self._parts)
         for cpp in files:
             code._take(self._parts[id(cpp)])
         return code
@@ -158,24 +131,8 @@ class Code:
             yield self._defined(declared) or declared
 
     def inside(self, cpp: Cpp, node: Node | None, *types: str) -> list[Node]:
-        """The nodes of some types in a node of a file, outer ones first, in the text's order.
-
-        A file is searched once for them all: with many functions that is much quicker. The types
-        are some of `SOUGHT`.
-        """
-        if node is None:
-            return []
-        key = id(cpp), types
-        if key not in self._sorted:
-            if id(cpp) not in self._nodes:
-                self._nodes[id(cpp)] = by_types(cpp.root, SOUGHT)
-            found = self._nodes[id(cpp)]
-            nodes = in_text_order(n for type_ in types for n in found.get(type_, ()))
-            self._sorted[key] = [n.start_byte for n in nodes], nodes
-        starts, nodes = self._sorted[key]
-        end = node.end_byte
-        first, behind = bisect_left(starts, node.start_byte), bisect_left(starts, end)
-        return [n for n in nodes[first:behind] if n.end_byte <= end]
+        """The nodes of some types in a node of a file: see `Searches`."""
+        return self._searches.inside(cpp, node, *types)
 
     def calls_of(self, function: CppFunction) -> tuple[CppCall, ...]:
         """The calls in a function's body."""
@@ -183,20 +140,16 @@ class Code:
 
     def calls_in(self, cpp: Cpp, body: Node) -> tuple[CppCall, ...]:
         """The calls in a body of a file, outer ones first, in the order of the text."""
-        if body.id not in self._calls:
-            if id(cpp) in self._nodes or body.descendant_count > _MANY:
-                found = map(call_of, self.inside(cpp, body, "call_expression"))
-                self._calls[body.id] = tuple(c for c in found if c is not None)
-            else:
-                self._calls[body.id] = tuple(calls_in(body))
-        return self._calls[body.id]
+        return self._searches.calls_in(cpp, body)
+
+    def names_called(self, function: CppFunction) -> frozenset[str]:
+        """The last names of what a function's body calls."""
+        body = function.body
+        return self._searches.names_called(function.cpp, body) if body is not None else frozenset()
 
     def handed_on(self) -> frozenset[str]:
         """The names of functions that some code calls on an object, or hands on."""
-        if self._handed is None:
-            found = (m for cpp in self.files for m in _HANDED.finditer(cpp.source.text))
-            self._handed = frozenset(m[1] or m[2] for m in found)
-        return self._handed
+        return frozenset().union(*map(self._searches.handed_on, self.files))
 
     def constant(self, cpp: Cpp, name: str) -> tuple[Cpp, Node] | None:
         """The value of a constant of a file."""

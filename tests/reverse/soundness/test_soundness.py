@@ -11,9 +11,10 @@ from pathlib import Path
 import pytest
 
 from rebsync import model as m
+from rebsync.reverse.bodies import cpp_widths
 from tests.reverse.soundness.comparing import CALLS, recovered, tallied
 from tests.reverse.soundness.effects import compare
-from tests.reverse.soundness.nodes import draw_node
+from tests.reverse.soundness.nodes import WIDE_FROM, draw_node
 from tests.reverse.soundness.programs import inputs, run
 
 DRAWN = int(os.environ.get("REBSYNC_DRAWN_NODES", "24"))
@@ -31,6 +32,21 @@ def test_models_can_do_what_the_code_does(first: int, tmp_path: Path) -> None:
     assert tally.unsound == []
     assert tally.inexact == []
     assert tally.exact + tally.approximated > tally.unreadable
+
+
+@pytest.mark.parametrize("first", range(WIDE_FROM, WIDE_FROM + DRAWN // 2, BATCH // 2))
+def test_models_of_wide_numbers_can_do_what_the_code_does(first: int, tmp_path: Path) -> None:
+    tally = tallied(tmp_path, range(first, first + BATCH // 2))
+    assert tally.refused == []
+    assert tally.unsound == []
+    assert tally.inexact == []
+    assert tally.exact + tally.approximated > 0
+
+
+def test_numbers_that_wrap_are_found_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("check", "check_truth", "check_whole"):
+        monkeypatch.setattr(cpp_widths, name, lambda *_: None)
+    assert tallied(tmp_path, range(WIDE_FROM, WIDE_FROM + 4)).unsound
 
 
 def test_a_model_that_does_something_else_is_found_out(tmp_path: Path) -> None:

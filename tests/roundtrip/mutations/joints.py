@@ -85,7 +85,7 @@ def _other_parameter(package: Package) -> Iterator[Mutant]:
             other = next((n for n in values if values[n] != values.get(m[0])), None)
             if other is not None:
                 made = package.mutant(Edit(part.path, *m.span(), other))
-                yield Mutant(made.files, made.place, (m[0], other))
+                yield Mutant(made.files, made.place, (part.owner, m[0], other))
 
 
 def _swapped_pair(package: Package, part: Part, found: re.Match[str]) -> str | None:

@@ -90,3 +90,8 @@ void Node::onReferences() {
 void Node::onRead() {
   read(3, grid_, 12);
 }
+void Node::onWaits() {
+  select(2, set_, nullptr, nullptr, &wait_);
+  ::poll(files_, 1, 100);
+  sensor_.poll();
+}

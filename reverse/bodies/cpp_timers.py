@@ -1,0 +1,54 @@
+"""Periodic timers that bodies stop and start.
+
+What a stopped timer has sent itself already does not count when it comes: it is stale. Messages of
+one timer come in the order in which they were sent, so that a number of stale ones will do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.bodies.building import binary
+from rebsync.reverse.bodies.cpp_places import resolve
+from rebsync.reverse.bodies.scope import Switch, TimerOf
+from rebsync.reverse.syntax.cpp_tree import part, text_of
+
+if TYPE_CHECKING:
+    from rebsync.reverse.bodies.cpp_statements import CppStatements
+
+_ZERO, _ONE = m.IntLiteral(0), m.IntLiteral(1)
+_WHY = "the model cannot stop, start or change what it sent itself for later"
+_HINT = "let the callback look at a variable that says whether it is wanted"
+
+
+def switched(reader: CppStatements, node: Node, function: Node) -> Iterator[m.Statement] | None:
+    """`timer.stop()`, `timer.start()`; None for a call of something else."""
+    meaning = resolve(reader.scope, part(function, "argument"))
+    name = text_of(part(function, "field"))
+    if not isinstance(meaning, TimerOf) or name not in ("start", "stop", "setPeriod"):
+        return None
+    if meaning.switch is None or name == "setPeriod":
+        raise reader.unread(node, _WHY, _HINT)
+    return iter((_changed(meaning.server, meaning.switch, name == "start"),))
+
+
+def _changed(server: str, switch: Switch, start: bool) -> m.Statement:
+    running, stale = m.Name(switch.running), m.Name(switch.stale)
+    sets = m.ExpressionStatement(m.Assign("=", running, m.BoolLiteral(start)))
+    if start:
+        send = m.Call(m.Self(), server, (), m.IntLiteral(switch.period))
+        return m.If(m.Unary("!", running), m.Block((sets, m.ExpressionStatement(send))), None)
+    one_more = m.Assign("=", stale, binary("+", stale, _ONE))
+    return m.If(running, m.Block((sets, m.ExpressionStatement(one_more))), None)
+
+
+def without_stale(body: m.Block, switch: Switch) -> m.Block:
+    """The body of a timer's server, which does nothing for a stale message."""
+    stale = m.Name(switch.stale)
+    one_less = m.ExpressionStatement(m.Assign("=", stale, binary("-", stale, _ONE)))
+    leaves = m.If(binary(">", stale, _ZERO), m.Block((one_less, m.Return(None))), None)
+    return m.Block((leaves, *body.statements), body.annotations, body.span)

@@ -1,0 +1,78 @@
+"""What is looked for in the trees of files: each file is searched once for all that is asked."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_left
+from dataclasses import field
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in, name_called
+from rebsync.reverse.syntax.cpp_tree import Cpp, by_types, in_text_order
+
+# The types of nodes that are looked for.
+SOUGHT = (
+    *("call_expression", "declaration", "for_range_loop", "init_declarator"),
+    *("lambda_expression", "parameter_declaration", "type_identifier"),
+)
+_HANDED = re.compile(r"(?:->|\.)\s*(\w+)\s*\(|&\s*(?:\w+::)*(\w+)")
+_MANY = 300  # nodes, from which on searching a file once is quicker than going through them
+
+
+@dataclass(slots=True)
+class Searches:
+    """Finds nodes, calls and names in files, and remembers them; nodes stand for their bodies."""
+
+    _calls: dict[int, tuple[CppCall, ...]] = field(default_factory=dict)
+    _names: dict[int, frozenset[str]] = field(default_factory=dict)
+    _handed: dict[int, frozenset[str]] = field(default_factory=dict)
+    _nodes: dict[int, dict[str, list[Node]]] = field(default_factory=dict)
+    _sorted: dict[tuple[int, tuple[str, ...]], tuple[list[int], list[Node]]] = field(
+        default_factory=dict
+    )
+
+    def inside(self, cpp: Cpp, node: Node | None, *types: str) -> list[Node]:
+        """The nodes of some types in a node of a file, outer ones first, in the text's order.
+
+        A file is searched once for them all: with many functions that is much quicker. The types
+        are some of `SOUGHT`.
+        """
+        if node is None:
+            return []
+        key = id(cpp), types
+        if key not in self._sorted:
+            if id(cpp) not in self._nodes:
+                self._nodes[id(cpp)] = by_types(cpp.root, SOUGHT)
+            found = self._nodes[id(cpp)]
+            nodes = in_text_order(n for type_ in types for n in found.get(type_, ()))
+            self._sorted[key] = [n.start_byte for n in nodes], nodes
+        starts, nodes = self._sorted[key]
+        end = node.end_byte
+        first, behind = bisect_left(starts, node.start_byte), bisect_left(starts, end)
+        return [n for n in nodes[first:behind] if n.end_byte <= end]
+
+    def calls_in(self, cpp: Cpp, body: Node) -> tuple[CppCall, ...]:
+        """The calls in a body, outer ones first, in the order of the text."""
+        if body.id not in self._calls:
+            if id(cpp) in self._nodes or body.descendant_count > _MANY:
+                found = map(call_of, self.inside(cpp, body, "call_expression"))
+                self._calls[body.id] = tuple(c for c in found if c is not None)
+            else:
+                self._calls[body.id] = tuple(calls_in(body))
+        return self._calls[body.id]
+
+    def names_called(self, cpp: Cpp, body: Node) -> frozenset[str]:
+        """The last names of what a body calls."""
+        if body.id not in self._names:
+            calls = self.inside(cpp, body, "call_expression")
+            self._names[body.id] = frozenset(map(name_called, calls))
+        return self._names[body.id]
+
+    def handed_on(self, cpp: Cpp) -> frozenset[str]:
+        """The names of functions that a file calls on an object, or hands on."""
+        if id(cpp) not in self._handed:
+            found = _HANDED.findall(cpp.source.text)
+            self._handed[id(cpp)] = frozenset(one or other for one, other in found)
+        return self._handed[id(cpp)]
