@@ -187,7 +187,7 @@ FAULTS = (
     Fault("all records deleted", gone("patrol/.rebsync"), 2, "RS960"),
     Fault("base model deleted", gone(_BASE), 1, "RS964", _OURS, text(MODEL_FILE, _decided)),
     Fault("base model damaged", text(_BASE, _half), 1, "RS964", _OURS, text(MODEL_FILE, _decided)),
-    Fault("base texts deleted", gone("patrol/.rebsync/base"), 4, "RS956", mend=_nothing),
+    Fault("base texts deleted", gone("patrol/.rebsync/base"), 0, mend=_nothing),
     Fault("model deleted", gone(MODEL_FILE), 2, "RS965"),
     Fault(
         "model moved",
