@@ -25,7 +25,15 @@ from rebsync.roundtrip.digests import Standing
 from rebsync.roundtrip.manifest import BASE
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
-from rebsync.roundtrip.wiring_facts import PLAYED, PROGRAM, TYPE, Fact, Facts, facts_of
+from rebsync.roundtrip.wiring_facts import (
+    PLAYED,
+    PROGRAM,
+    TYPE,
+    Fact,
+    Facts,
+    facts_of,
+    package_name,
+)
 from rebsync.roundtrip.wiring_names import TOPICS, Joined, is_about, joined
 from rebsync.source import NOWHERE, Source
 
@@ -44,8 +52,19 @@ _MISSED = frozenset(
 )
 # What was not there when the code was generated makes a difference too.
 _UNWANTED = frozenset({"setting", "compiler option"})
+_MANIFEST = "package.xml"
 _HELPING = frozenset({PROGRAM, PLAYED, TYPE})
 _HINT = "take the edit back, or tell of it in the model"
+# Run-time parameters that are settings of the model.
+_SETTINGS = {
+    parameter: f"set `{name}` in rebsync.toml instead; then `rebsync sync` says it here"
+    for parameter, name in (
+        ("mailbox/time_unit", "time_unit"),
+        ("drive/cell_size", "cell_size"),
+        ("drive/kind", "drive"),
+        ("drive/heading", "heading"),
+    )
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,13 +91,14 @@ def odd_facts(kept: Kept, record: Record, now: Standing, of_code: Comparison) ->
         return ()
     listed = now.listing.files
     old_paths = {n: f"{kept.root}/{BASE}{n}" for n in record.files if _is_wiring(n)}
-    before = facts_of({n: old_paths[n] for n in touched})
-    if _values(before) == _values(
-        facts_of({n: listed[n] for n in [*touched, *new] if n in listed})
-    ):
+    old = package_name(f"{kept.root}/{BASE}{_MANIFEST}")
+    own = package_name(listed.get(_MANIFEST, ""))
+    before = facts_of({n: old_paths[n] for n in touched}, old)
+    after = facts_of({n: listed[n] for n in [*touched, *new] if n in listed}, own)
+    if _values(before) == _values(after):
         return ()
-    base = facts_of(old_paths)
-    today = facts_of({n: p for n, p in listed.items() if _is_wiring(n)})
+    base = facts_of(old_paths, old)
+    today = facts_of({n: p for n, p in listed.items() if _is_wiring(n)}, own)
     excuses = _Excuses.of(base, today, of_code, {name.rpartition("/")[2] for name in listed})
     keys = [*base, *(k for k in today if k not in base)]
     found = [
@@ -112,7 +132,8 @@ def _odd(kept: Kept, before: list[Fact], now: list[Fact]) -> Odd | None:
     place = next((f for f in now if f.value not in old), now[0] if now else None)
     source = place.source if place else Source(f"{kept.root}/{_inside(kept, first)}", "")
     span = place.span if place else NOWHERE
-    finding = Findings(source, (Diagnostic("RS956", span, message, _HINT),))
+    hint = _SETTINGS.get(first.name, _HINT) if first.kind == "parameter" else _HINT
+    finding = Findings(source, (Diagnostic("RS956", span, message, hint),))
     return Odd(tuple(before), tuple(now), finding)
 
 
@@ -162,7 +183,14 @@ class _Excuses:
             return True
         if self._has_moved(first) or self._follows(first):
             return True
+        if first.kind == "field":
+            return self._types(self.base, first.owner) == self._types(self.today, first.owner)
         return (first.kind == "remap" or first.kind in TOPICS) and self._same_are_joined(key)
+
+    def _types(self, facts: Facts, message: str) -> list[str]:
+        """The types of a message's fields in their order; extraction tells if names do not fit."""
+        owned = (found for (kind, m, _), found in facts.items() if (kind, m) == ("field", message))
+        return [fact.value for found in owned for fact in found]
 
     def _has_moved(self, fact: Fact) -> bool:
         """Whether a fact is about a file that is somewhere else, or called otherwise."""

@@ -140,7 +140,7 @@ def test_the_model_is_ahead(check: Check) -> None:
     assert status == 1
     assert shown.startswith("patrol: the model is ahead")
     assert "patrol.rebeca:25" in shown and "patrol/src/robot.cpp:" in shown
-    assert "msgsrv Robot.go: delay changed from 3 to 1  [model]" in shown
+    assert "msgsrv Robot.go: delay changed from 1 to 3  [model]" in shown
 
 
 def test_the_code_is_ahead(check: Check) -> None:
@@ -459,7 +459,7 @@ WRONG: dict[str, tuple[Callable[[], object], int, str]] = {
         2,
         "patrol.rebeca:25:1: RS966",
     ),
-    "code in conflict": (conflict_in(SOURCE, "  mailbox_.delay(1);"), 4, "RS966"),
+    "code in conflict": (conflict_in(SOURCE, "  mailbox_.delay(1);"), 2, "RS966"),
     "model gone": (Path("patrol.rebeca").unlink, 2, "patrol: RS965 the model patrol.rebeca"),
     "model broken": (put("patrol.rebeca", "reactiveclass {"), 2, "patrol.rebeca:1:"),
     "model not text": (lambda: Path("patrol.rebeca").write_bytes(b"\xff\xfe"), 2, "RS804"),
@@ -532,7 +532,7 @@ def test_settings_that_changed_are_noticed(check: Check) -> None:
     Path("rebsync.toml").write_text("seed = 0\ntime_unit = 0.5\n")
     status, shown = check()
     assert status == 1
-    assert shown.startswith("patrol: the model is ahead")
+    assert shown.startswith("patrol: the settings are ahead")
     assert "rebsync.toml:2:1: RS955 `time_unit` was 1.0" in shown
     assert main(["generate", "patrol.rebeca"]) == 0
     assert check() == (0, "patrol: in step\n")
