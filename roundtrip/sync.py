@@ -19,6 +19,7 @@ from rebsync.roundtrip.checked import Checked
 from rebsync.roundtrip.difference import (
     Comparison,
     Place,
+    Removed,
     Undetermined,
 )
 from rebsync.roundtrip.differences import compare
@@ -85,7 +86,8 @@ class _Syncing:
         if left:
             raise RebsyncError(left)
         base = self._base(today)
-        if refused := tuple(self._unread(self.compared(today, code.given), code.given)):
+        apart = self.compared(today, code.given)
+        if refused := (*self._unread(apart, code.given), *self._nowhere(apart)):
             causes = (*filter(_is_of_file, self.checked.findings), *self._lost())
             return Sync(self.checked, refused=causes or refused, is_undetermined=True)
         merged = merged_model(base, today, code.given, self.favour, self.compared)
@@ -130,6 +132,11 @@ class _Syncing:
                     f" model: {difference.why}"
                 )
                 yield finding(place, "RS959", message, "write this in a way that extract reads")
+
+    def _nowhere(self, apart: Comparison) -> Iterator[Findings]:
+        """Launch files that are gone, and with them rebecs that somebody may want to keep."""
+        if any(isinstance(d, Removed) and d.element.kind == "rebec" for d in apart.differences):
+            yield from (f for f in self._lost() if f.source.path.endswith(".launch"))
 
     def _lost(self) -> Iterator[Findings]:
         """Generated files that are gone, which is why elements are not whole."""

@@ -68,6 +68,8 @@ def _is_edited(sync: Sync) -> bool:
     for name, text in sync.texts.items():
         if text is not None:
             digests[name] = digest_of(marked(root / name, text).encode("utf-8"))
+    if any(sync.texts.get(name) is None for name in now.missing):
+        return True
     wanted = {n: digest_of(t.encode("utf-8")) for n, t in sync.records.items() if t is not None}
     return any(wanted.get(BASE + name) != digest for name, digest in digests.items())
 

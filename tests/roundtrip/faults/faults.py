@@ -211,6 +211,7 @@ FAULTS = (
     ),
     Fault("code that is not UTF-8", text(SOURCE, lambda t: f"// \udcff\n{t}"), 2, "RS804"),
     Fault("a source deleted", gone(SOURCE), 4, "RS969"),
+    Fault("the launch file deleted", gone("patrol/launch/patrol.launch"), 4, "RS969"),
     Fault("files with CRLF", all_of(text(SOURCE, _crlf), text(MODEL_FILE, _crlf)), 0),
     Fault(
         "settings with mistakes", lambda f: _write(f / "rebsync.toml", "package = ["), 2, "RS807"
