@@ -202,7 +202,7 @@ def _finding(checked: Checked | None, difference: Difference, mover: Mover) -> F
     if here is None:
         here, there = there, None
     what = f"{difference.element}: {explained(difference, mover)}"
-    hint = f"the {'code' if by_model else 'model'} has it at {there}" if there else None
+    hint = f"its place in the {'code' if by_model else 'model'} is {there}" if there else None
     model = checked.model if checked is not None else "-"
     source = here.source if here is not None else Source(model, "")
     span = here.span if here is not None else NOWHERE

@@ -401,6 +401,23 @@ def test_sarif_points_at_the_code(check: Check) -> None:
     assert again["locations"] != result["locations"]
 
 
+def prints(shown: str) -> set[str]:
+    """The fingerprints of all results of a SARIF log."""
+    results = json.loads(shown)["runs"][0]["results"]
+    found = [p for r in results for p in r["partialFingerprints"].values()]
+    assert len(found) == len(set(found)) == len(results)
+    return set(found)
+
+
+def test_fingerprints_stay_when_something_else_is_edited(check: Check) -> None:
+    replace(SOURCE, "  mailbox_.delay(1);", "  mailbox_.delay(3);\n  small_ = false;\n  system(a);")
+    first = prints(check("--format", "sarif")[1])
+    assert len(first) == 3
+    replace(SOURCE, "  mailbox_.delay(3);", "  small_ = true;\n\n  mailbox_.delay(4);")
+    replace(SOURCE, "#include", "// on top\n#include")
+    assert first < prints(check("--format", "sarif")[1])
+
+
 def test_github_annotates_the_line(check: Check) -> None:
     replace("patrol.rebeca", "delay(1)", "delay(3)")
     status, shown = check("--format", "github")
