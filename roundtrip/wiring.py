@@ -34,7 +34,7 @@ from rebsync.roundtrip.wiring_facts import (
     facts_of,
     package_name,
 )
-from rebsync.roundtrip.wiring_names import TOPICS, Joined, is_about, joined
+from rebsync.roundtrip.wiring_names import TOPICS, Joined, is_about, joined, replaced
 from rebsync.source import NOWHERE, Source
 
 _JOINING = frozenset(
@@ -97,9 +97,11 @@ def odd_facts(kept: Kept, record: Record, now: Standing, of_code: Comparison) ->
     after = facts_of({n: listed[n] for n in [*touched, *new] if n in listed}, own)
     if _values(before) == _values(after):
         return ()
-    base = facts_of(old_paths, old)
     today = facts_of({n: p for n, p in listed.items() if _is_wiring(n)}, own)
-    excuses = _Excuses.of(base, today, of_code, {name.rpartition("/")[2] for name in listed})
+    base, free = replaced(facts_of(old_paths, old), today)
+    sides = joined(base, free), joined(today, free)
+    files = frozenset(name.rpartition("/")[2] for name in listed)
+    excuses = _Excuses(base, today, _groups(of_code), files, *sides)
     keys = [*base, *(k for k in today if k not in base)]
     found = [
         odd
@@ -157,8 +159,8 @@ def _inside(kept: Kept, fact: Fact) -> str:
 class _Excuses:
     """Why facts may be otherwise.
 
-    `groups` are the classes and kinds whose wiring has to follow a change of the code; `files` are
-    the names of all files; `joined` is None where it is not known who is joined with whom.
+    `groups` are the classes and kinds whose wiring has to follow a change of the code, `files` the
+    names of all files. `before` and `now` are None where it is not known who is joined with whom.
     """
 
     base: Facts
@@ -167,12 +169,6 @@ class _Excuses:
     files: frozenset[str]
     before: Joined | None
     now: Joined | None
-
-    @classmethod
-    def of(cls, base: Facts, today: Facts, of_code: Comparison, files: set[str]) -> _Excuses:
-        groups = {d.element.group or "" for d in of_code.differences if _joins(d)}
-        groups |= {d.element.kind for d in of_code.differences if d.element.kind == "env"}
-        return cls(base, today, frozenset(groups), frozenset(files), joined(base), joined(today))
 
     def hold(self, key: tuple[str, str, str]) -> bool:
         """Whether the facts of a key need not be as they were."""
@@ -225,6 +221,14 @@ class _Excuses:
 def _shape(fact: Fact) -> str:
     """What a fact says beside the name of a topic."""
     return fact.value.partition('"')[0]
+
+
+def _groups(of_code: Comparison) -> frozenset[str]:
+    """The classes and kinds of elements of which the wiring follows what the code has changed."""
+    groups = {d.element.group or "" for d in of_code.differences if _joins(d)}
+    return frozenset(
+        groups | {d.element.kind for d in of_code.differences if d.element.kind == "env"}
+    )
 
 
 def _joins(difference: Difference) -> bool:
