@@ -26,8 +26,10 @@ from rebsync.roundtrip.manifest import BASE
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
 from rebsync.roundtrip.wiring_facts import (
+    NOT_GIVEN,
     PLAYED,
     PROGRAM,
+    SPACE,
     TYPE,
     Fact,
     Facts,
@@ -53,8 +55,8 @@ _MISSED = frozenset(
 # What was not there when the code was generated makes a difference too.
 _UNWANTED = frozenset({"setting", "compiler option"})
 _MANIFEST = "package.xml"
-_HELPING = frozenset({PROGRAM, PLAYED, TYPE})
-_HINT = "take the edit back, or tell of it in the model"
+_HELPING = frozenset({PROGRAM, PLAYED, TYPE, SPACE})
+_HINT = "take the edit back: no model tells this"
 # Run-time parameters that are settings of the model.
 _SETTINGS = {
     parameter: f"set `{name}` in rebsync.toml instead; then `rebsync sync` says it here"
@@ -134,9 +136,22 @@ def _odd(kept: Kept, before: list[Fact], now: list[Fact]) -> Odd | None:
     place = next((f for f in now if f.value not in old), now[0] if now else None)
     source = place.source if place else Source(f"{kept.root}/{_inside(kept, first)}", "")
     span = place.span if place else NOWHERE
-    hint = _SETTINGS.get(first.name, _HINT) if first.kind == "parameter" else _HINT
+    hint = _SETTINGS.get(first.name, _HINT) if first.kind == "parameter" else _hint(first)
     finding = Findings(source, (Diagnostic("RS956", span, message, hint),))
     return Odd(tuple(before), tuple(now), finding)
+
+
+def _hint(fact: Fact) -> str:
+    """What to do about a fact that is another."""
+    match fact.kind:
+        case "remap" | "publisher" | "subscription" | "sensor":
+            return "let the other end have the same name, or take the edit back"
+        case "priority" | "best priority":
+            return "give the priority in the model, then `rebsync sync`; or take the edit back"
+        case "field" | "parameter" | "parameter for" | "sender" | "usual time" | "sending":
+            return "take the edit back, or tell of it in the model"
+        case _:
+            return _HINT
 
 
 def _unseen(kept: Kept, excuses: _Excuses) -> Iterator[Odd]:
@@ -144,7 +159,9 @@ def _unseen(kept: Kept, excuses: _Excuses) -> Iterator[Odd]:
     if excuses.groups or excuses.before is None or excuses.now is None:
         return
     if (what := excuses.before.lacks(excuses.now)) is not None:
-        diagnostic = Diagnostic("RS956", NOWHERE, f"nodes are joined otherwise: {what}", _HINT)
+        message = f"nodes are joined otherwise: {what}"
+        hint = "look at the names of topics in the code and in the launch file"
+        diagnostic = Diagnostic("RS956", NOWHERE, message, hint)
         yield Odd((), (), Findings(Source(kept.root, ""), (diagnostic,)))
 
 
@@ -179,9 +196,23 @@ class _Excuses:
             return True
         if self._has_moved(first) or self._follows(first):
             return True
+        if first.kind == "node" and first.name == "ns":
+            return self._is_in_one_space
         if first.kind == "field":
             return self._types(self.base, first.owner) == self._types(self.today, first.owner)
         return (first.kind == "remap" or first.kind in TOPICS) and self._same_are_joined(key)
+
+    @property
+    def _is_in_one_space(self) -> bool:
+        """Whether all generated nodes and their parameters are in one namespace."""
+        own = {owner for kind, owner, _ in self.base if kind == TYPE}
+        found = {
+            "" if fact.value == NOT_GIVEN else fact.value.strip("/")
+            for (kind, owner, name), facts in self.today.items()
+            for fact in facts
+            if kind == SPACE or ((kind, name) == ("node", "ns") and owner in own)
+        }
+        return len(found) == 1
 
     def _types(self, facts: Facts, message: str) -> list[str]:
         """The types of a message's fields in their order; extraction tells if names do not fit."""

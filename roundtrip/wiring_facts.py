@@ -17,7 +17,7 @@ from rebsync.files import read_source
 from rebsync.records import dataclass
 from rebsync.source import Source, Span
 
-PROGRAM, PLAYED, TYPE = "program", "played sensor", "type of a node"
+PROGRAM, PLAYED, TYPE, SPACE = "program", "played sensor", "type of a node", "space of parameters"
 NOT_GIVEN, OWN = "not given", "this package"
 _PACKAGE = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
 
@@ -191,6 +191,8 @@ def _launched(source: Source, text: str, package: str) -> Iterator[Fact]:
         end, tag, rest, closed = m.groups()
         given = {a[1]: a[2] if a[2] is not None else a[3] for a in _ATTRIBUTE.finditer(rest)}
         span = Span(*m.span())
+        if tag in ("param", "rosparam") and not end and not node:
+            yield Fact(SPACE, "", str(m.start()), "/".join(filter(None, spaces)), source, span)
         match tag:
             case "group" if end:
                 spaces = spaces[:-1]
