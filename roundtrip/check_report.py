@@ -29,6 +29,8 @@ def sentence(outcome: Outcome) -> str:
     if checked is None:
         return "cannot be checked"
     match verdict_of(outcome):
+        case "model ahead" if checked.drift is None or not checked.drift.differences:
+            return "the settings are ahead: `rebsync sync` takes them into the code"
         case "model ahead":
             return f"the model is ahead: `rebsync sync` takes {checked.model} into the code"
         case "code ahead":
@@ -101,13 +103,13 @@ def lines(outcome: Outcome) -> Iterator[str]:
     checked = outcome.checked
     if checked is None or checked.drift is None:
         return
-    from rebsync.roundtrip.difference import explain
+    from rebsync.roundtrip.moves import explained
 
     rows = []
     for difference, mover in differences(checked):
         left, right = (str(p) if p else "-" for p in (difference.left, difference.right))
         whose = {"unknown": "", "conflict": "  [both]"}.get(mover.value, f"  [{mover.value}]")
-        what = f"{difference.element}: {explain(difference)}{whose}"
+        what = f"{difference.element}: {explained(difference, mover)}{whose}"
         rows.append((difference.element.group, left, right, what))
     wide = [max((len(row[i]) for row in rows), default=0) for i in (1, 2)]
     for group in dict.fromkeys(row[0] for row in rows):
@@ -191,15 +193,16 @@ def _proofs(outcome: Outcome) -> list[tuple[Findings, list[Remark]]]:
 
 def _finding(checked: Checked | None, difference: Difference, mover: Mover) -> Findings:
     """A difference at the place of whoever moved."""
-    from rebsync.roundtrip.difference import Undetermined, explain
+    from rebsync.roundtrip.difference import Undetermined
+    from rebsync.roundtrip.moves import explained
 
     by_model = mover.value == "model"
     first, other = difference.left, difference.right
     here, there = (first, other) if by_model and first is not None else (other, first)
     if here is None:
         here, there = there, None
-    what = f"{difference.element}: {explain(difference)}"
-    hint = f"the {'code' if by_model else 'model'} says this at {there}" if there else None
+    what = f"{difference.element}: {explained(difference, mover)}"
+    hint = f"its place in the {'code' if by_model else 'model'} is {there}" if there else None
     model = checked.model if checked is not None else "-"
     source = here.source if here is not None else Source(model, "")
     span = here.span if here is not None else NOWHERE
@@ -220,6 +223,7 @@ def as_json(outcomes: Sequence[Outcome]) -> str:
 def _package(outcome: Outcome) -> Json:
     from rebsync.report_data import as_json as findings_json
     from rebsync.roundtrip.difference_report import data_of
+    from rebsync.roundtrip.moves import explained
 
     return {
         "path": outcome.root,
@@ -227,7 +231,11 @@ def _package(outcome: Outcome) -> Json:
         "verdict": verdict_of(outcome),
         "message": sentence(outcome),
         "differences": [
-            {**data_of(difference, print_), "moved": mover.value}
+            {
+                **data_of(difference, print_),
+                "message": explained(difference, mover),
+                "moved": mover.value,
+            }
             for difference, mover, print_ in _printed(outcome)
         ],
         "findings": json.loads(findings_json(outcome.findings))["findings"],

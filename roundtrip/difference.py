@@ -259,11 +259,11 @@ def _change(change: Changed) -> str:
         return f"{what} added: {clipped(change.new)}"
     if not change.new:
         return f"{what} removed: {clipped(change.old)}"
-    old, new = _both_clipped(change.old, change.new)
+    old, new = both_clipped(change.old, change.new)
     return f"{what} changed from {old} to {new}"
 
 
-def _both_clipped(old: str, new: str) -> tuple[str, str]:
+def both_clipped(old: str, new: str) -> tuple[str, str]:
     """Two texts, each on one line; of long ones the part where they begin to differ."""
     first, second = " ".join(old.split()), " ".join(new.split())
     same = next((i for i, (a, b) in enumerate(zip(first, second, strict=False)) if a != b), 0)

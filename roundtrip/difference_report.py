@@ -186,9 +186,13 @@ def fingerprints(differences: Sequence[Difference]) -> Iterator[str]:
 
 
 def _part(difference: Difference) -> str:
-    if isinstance(difference, Changed):
-        return f"{difference.aspect.value} {difference.of}"
-    return ""
+    match difference:
+        case Changed(aspect=aspect, of=of):
+            return f"{aspect.value} {of}"
+        case StatementInserted(text=text) | StatementRemoved(text=text) | StatementMoved(text=text):
+            return text  # another one beside it makes no difference to this one
+        case _:
+            return ""
 
 
 def findings(comparison: Comparison, behaviour: Behaviour | None = None) -> tuple[Findings, ...]:

@@ -8,15 +8,17 @@ from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.reverse.files.packages import Listing, is_read
 from rebsync.roundtrip.difference import Comparison, Element, Place, explain
 from rebsync.roundtrip.merge_models import whole
+from rebsync.roundtrip.models import Code
 from rebsync.roundtrip.sides import Given, Unread
 from rebsync.source import NOWHERE, Source, Span
 
 
-def read_with(listing: Listing, texts: Mapping[str, str | None]) -> Given:
+def read_with(listing: Listing, texts: Mapping[str, str | None]) -> Code:
     """What the code of a package says with other texts (None: without that file)."""
     from rebsync.reverse.files.reading import read
     from rebsync.reverse.findings import Grade
     from rebsync.reverse.recovery import extract
+    from rebsync.reverse.report import diagnostics
 
     chosen = read(listing)
     files = dict(chosen.files)
@@ -32,7 +34,8 @@ def read_with(listing: Listing, texts: Mapping[str, str | None]) -> Given:
         for f in (*chosen.findings, *extracted.findings)
         if f.grade is Grade.UNREADABLE
     )
-    return Given(extracted.model, Source(listing.root, ""), unread)
+    given = Given(extracted.model, Source(listing.root, ""), unread)
+    return Code(given, tuple(diagnostics((*chosen.findings, *extracted.findings))))
 
 
 def wrongly_merged(

@@ -9,7 +9,7 @@ from rebsync import model as m
 from rebsync.diagnostics import Edit, RebsyncError
 from rebsync.edits import apply_edits
 from rebsync.records import dataclass
-from rebsync.roundtrip.difference import Depth, Difference, Element, Undetermined
+from rebsync.roundtrip.difference import Comparison, Depth, Difference, Element, Undetermined
 from rebsync.roundtrip.differences import compare
 from rebsync.roundtrip.matching import matched
 from rebsync.roundtrip.models import parsed
@@ -27,6 +27,20 @@ class Favour(Enum):
     CODE = "theirs"
 
 
+class Compared:
+    """Comparisons of models that are kept, as merging asks for one several times."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[int, int], tuple[Given, Given, Comparison]] = {}
+
+    def __call__(self, left: Given, right: Given) -> Comparison:
+        """The comparison of two models, made once."""
+        key = id(left), id(right)
+        if key not in self._known:
+            self._known[key] = left, right, compare(left, right)
+        return self._known[key][2]
+
+
 @dataclass(frozen=True, slots=True)
 class MergedModel:
     """The text of a model with the changes of the code; `conflicts` tells what is left to decide.
@@ -38,13 +52,19 @@ class MergedModel:
     conflicts: tuple[Difference, ...] = ()
 
 
-def merged_model(base: Given | None, today: Given, code: Given, favour: Favour) -> MergedModel:
+def merged_model(
+    base: Given | None,
+    today: Given,
+    code: Given,
+    favour: Favour,
+    compared: Callable[[Given, Given], Comparison] = compare,
+) -> MergedModel:
     """Today's model with what the code has changed since `base`.
 
     Without a base it is not known who has changed what: then every difference is a conflict.
     RebsyncError: the two cannot be put together to a model.
     """
-    drift = _judged(base, today, code)
+    drift = _judged(base, today, code, compared)
     told = [(d, mover) for d, mover in drift.differences if not isinstance(d, Undetermined)]
     movers: dict[Element, set[Mover]] = {}
     for difference, mover in told:
@@ -61,9 +81,8 @@ def merged_model(base: Given | None, today: Given, code: Given, favour: Favour) 
     return MergedModel(both_sides(mine, theirs, "model", "code"), tuple(open_))
 
 
-def as_code_says(today: Given, code: Given) -> str:
+def as_code_says(today: Given, code: Given, comparison: Comparison) -> str:
     """The text of a model with everything as the code has it, as far as it could be read."""
-    comparison = compare(today, code)
     unknown = {d.element for d in comparison.differences if isinstance(d, Undetermined)}
     movers = {
         whole(d.element): {Mover.CODE} for d in comparison.differences if d.element not in unknown
@@ -71,11 +90,13 @@ def as_code_says(today: Given, code: Given) -> str:
     return _with_code(today, code, movers, {Mover.CODE})
 
 
-def _judged(base: Given | None, today: Given, code: Given) -> Drift:
-    apart = compare(today, code)
+def _judged(
+    base: Given | None, today: Given, code: Given, compared: Callable[[Given, Given], Comparison]
+) -> Drift:
+    apart = compared(today, code)
     if base is None:
         return judge(apart, None, None)
-    return judge(apart, compare(base, today), compare(base, code))
+    return judge(apart, compared(base, today), compared(base, code))
 
 
 def _side_of(movers: set[Mover]) -> Mover:

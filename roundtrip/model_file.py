@@ -43,7 +43,8 @@ def _lost(kept: Kept, record: Record, tried: list[str]) -> RebsyncError:
     same = [path for path in _models(kept.tree) if _has_text(path, record.digest)]
     if len(same) == 1:
         shown = os.path.relpath(same[0])
-        hint = f"{shown} has the same text: `rebsync generate --force` with it, or --model {shown}"
+        generate = f"rebsync generate --force {shown} -o {Path(kept.root).parent}"
+        hint = f"{shown} has the same text: `{generate}` records that, or use --model {shown}"
     return RebsyncError.of(kept.root, "RS965", message, hint)
 
 

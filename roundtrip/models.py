@@ -56,7 +56,7 @@ def parsed(source: Source) -> m.Model:
 
 
 def code_given(package: Kept, standing: Standing) -> Code:
-    """What the code of a package tells."""
+    """What the code of a package tells. RebsyncError: a merge left conflicts in it."""
     key = key_of("code", package.root, *standing.told)
     code = kept(key, Code)
     if code is None:
@@ -72,18 +72,15 @@ def _extracted(standing: Standing) -> Code:
     from rebsync.reverse.report import diagnostics
 
     chosen = read(standing.listing)
-    conflicts = [c for s in chosen.files.values() if (c := conflict_in(s)) is not None]
+    if conflicts := [c for s in chosen.files.values() if (c := conflict_in(s)) is not None]:
+        raise RebsyncError(conflicts)
     extracted = extract(chosen.files)
     findings = (*chosen.findings, *extracted.findings)
-    unread = [
+    unread = tuple(
         Unread(Place(f.source, f.span), f.why, f.within)
         for f in findings
         if f.grade is Grade.UNREADABLE
-    ]
-    unread += [Unread(Place(c.source, c.diagnostics[0].span), _MERGE) for c in conflicts]
+    )
     source = Source(standing.listing.root, "")
-    given = Given(extracted.model, source, tuple(unread))
-    return Code(given, (*conflicts, *diagnostics(findings)))
-
-
-_MERGE = "a merge left a conflict here"
+    given = Given(extracted.model, source, unread)
+    return Code(given, diagnostics(findings))

@@ -51,6 +51,6 @@ def _wrong(kept: Kept, steps: list[Step], today: Source) -> Iterator[Findings]:
     before = compare(model_given(f"{kept.root}/{BASE_MODEL}"), code)
     texts = {s.path: s.new for s in steps if s.action in _WRITTEN}
     model = Given(parsed(today), today)
-    after = compare(model, read_with(now.listing, texts))
+    after = compare(model, read_with(now.listing, texts).given)
     changed = {whole(d.element) for d in before.differences}
     yield from wrongly_merged(after, changed, _WAY_OUT)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import posixpath
 import subprocess
 from dataclasses import replace
 from itertools import islice
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.files.reading import Chosen
 
 MODEL = ".rebeca"
+MANIFEST = "package.xml"
 _FORMS = "wanted is a model, a package, or REVISION:PATH as git has it, such as HEAD~3:robots"
 
 
@@ -39,16 +41,22 @@ def read_side(name: str) -> Code:
     return _revision(name, revision, path)
 
 
-def _path(path: str, shown: str) -> Code:
+def _path(path: str, shown: str, root: tuple[str, str] | None = None) -> Code:
+    """What a path has; `root` is a directory around it, and what that is called."""
     if not Path(path).is_dir():
-        return _model(path, shown) if path.endswith(MODEL) else _code(path, shown)
+        return _model(path, shown) if path.endswith(MODEL) else _code(path, shown, root)
     models = sorted(p.name for p in Path(path).iterdir() if p.suffix == MODEL and p.is_file())
     if models and not (Path(path) / "package.xml").is_file():
         if len(models) == 1:
-            return _model(str(Path(path, models[0])), f"{shown.rstrip('/')}/{models[0]}")
+            return _model(str(Path(path, models[0])), _below(shown, models[0]))
         hint = f"name one of them: {', '.join(models)}"
         raise RebsyncError.of(shown, "RS943", "there are several models here", hint)
-    return _code(path, shown)
+    return _code(path, shown, root)
+
+
+def _below(shown: str, inside: str) -> str:
+    """A path in a directory, as the user named that."""
+    return f"{shown}{inside}" if shown.endswith((":", "/")) else f"{shown}/{inside}"
 
 
 def _model(path: str, shown: str) -> Code:
@@ -58,13 +66,13 @@ def _model(path: str, shown: str) -> Code:
     return Code(Given(parsed(source), source), ())
 
 
-def _code(path: str, shown: str) -> Code:
+def _code(path: str, shown: str, root: tuple[str, str] | None) -> Code:
     """What the code of a package or of one file says."""
     from rebsync.reverse.findings import Grade
     from rebsync.reverse.recovery import extract
     from rebsync.reverse.report import diagnostics
 
-    chosen = _chosen(path, shown)
+    chosen = _chosen(path, shown, root or (path, shown))
     extracted = extract(chosen.files, chosen.only)
     if not extracted.model.classes:
         raise RebsyncError.of(shown, "RS943", "no class of a model was found here")
@@ -79,13 +87,13 @@ def _code(path: str, shown: str) -> Code:
     return Code(given, diagnostics(findings))
 
 
-def _chosen(path: str, shown: str) -> Chosen:
+def _chosen(path: str, shown: str, root: tuple[str, str]) -> Chosen:
     """The files of the one package that a path stands for, under the names to be told."""
     from rebsync.reverse.files.reading import packages
 
     def named(source: Source) -> Source:
-        inside = source.path.removeprefix(path).lstrip("/")
-        return Source(f"{shown.rstrip('/')}/{inside}" if inside else shown, source.text)
+        inside = source.path.removeprefix(root[0]).lstrip("/")
+        return Source(_below(root[1], inside) if inside else root[1], source.text)
 
     found = list(islice(packages([path]), 2))
     if not found:
@@ -113,7 +121,19 @@ def _revision(name: str, revision: str, path: str) -> Code:
         kind = _git(name, "cat-file", "-t", f"{revision}:{tried}")
         if kind is not None:
             return _object(name, f"{revision}:{tried}", path, kind.decode().strip())
-    raise RebsyncError.of(name, "RS801", f'the revision "{revision}" has no "{path}"')
+    message = f'the revision "{revision}" has no "{path}"'
+    raise RebsyncError.of(name, "RS801", message, _earlier(name, revision, path))
+
+
+def _earlier(name: str, revision: str, path: str) -> str | None:
+    """The hint that a file had another name in a revision, if git can tell."""
+    here = (_git(name, "rev-parse", "--show-prefix") or b"").decode().strip()
+    renamed = _git(name, "diff", "--name-status", "-z", "--diff-filter=R", "-M", revision) or b""
+    parts = os.fsdecode(renamed).split("\0")
+    for old, new in zip(parts[1::3], parts[2::3], strict=False):
+        if new in (path, f"{here}{path}"):
+            return f"there it was {old}: {revision}:{old}"
+    return None
 
 
 def _object(name: str, object_: str, path: str, kind: str) -> Code:
@@ -122,9 +142,32 @@ def _object(name: str, object_: str, path: str, kind: str) -> Code:
         if kind == "tree":
             _write_tree(name, object_, folder)
             return _path(folder, name)
+        if not path.endswith(MODEL) and (around := _around(name, object_)) is not None:
+            _write_tree(name, around, folder)
+            inside = _full(name, object_).removeprefix(f"{around.partition(':')[2]}/")
+            return _path(str(Path(folder, inside)), name, (folder, around))
         target = Path(folder, PurePosixPath(path).name)
         target.write_bytes(_git(name, "cat-file", "blob", object_) or b"")
         return _path(str(target), name)
+
+
+def _full(name: str, object_: str) -> str:
+    """The path of an object of git from the top of the repository."""
+    path = object_.partition(":")[2]
+    if not path.startswith("./"):
+        return path
+    here = (_git(name, "rev-parse", "--show-prefix") or b"").decode().strip()
+    return posixpath.normpath(f"{here}{path}")
+
+
+def _around(name: str, object_: str) -> str | None:
+    """The nearest package around a file of a revision."""
+    revision, _, _ = object_.partition(":")
+    for folder in PurePosixPath(_full(name, object_)).parents:
+        inside = "" if str(folder) == "." else f"{folder}/"
+        if _git(name, "cat-file", "-e", f"{revision}:{inside}{MANIFEST}") is not None:
+            return f"{revision}:{inside.rstrip('/')}"
+    return None
 
 
 def _write_tree(name: str, object_: str, folder: str) -> None:

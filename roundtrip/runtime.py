@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from functools import partial
 from itertools import zip_longest
 
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
@@ -19,8 +20,10 @@ from rebsync.roundtrip.manifest import BASE
 from rebsync.roundtrip.markers import TOKEN
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
+from rebsync.roundtrip.wiring_facts import package_name
 from rebsync.source import NOWHERE, Source, Span
 
+_MANIFEST = "package.xml"
 _HEADER = re.compile(rf"include/[^/]+/(?:{'|'.join(RUNTIME_HEADERS)})\.h\Z")
 _STAND_IN = re.compile(r"src/\w+_stand_in\.cpp\Z")
 _PROGRAM = re.compile(r"src/\w+_node\.cpp\Z")
@@ -46,15 +49,18 @@ def edited(kept: Kept, record: Record | None, now: Standing) -> tuple[Findings, 
     """The places that are not as they were generated."""
     if record is None:
         return ()
+    paths = (f"{kept.root}/{BASE}{_MANIFEST}", now.listing.files.get(_MANIFEST, ""))
+    own = frozenset(filter(None, map(package_name, paths)))
     names = sorted({*now.changed, *now.missing} & record.files.keys())
-    return tuple(f for name in names if _is_runtime(name) for f in _edited(kept, now, name))
+    return tuple(f for name in names if _is_runtime(name) for f in _edited(kept, now, name, own))
 
 
 def _is_runtime(name: str) -> bool:
     return bool(_HEADER.match(name) or _STAND_IN.match(name) or _PROGRAM.match(name))
 
 
-def _edited(kept: Kept, now: Standing, name: str) -> Iterator[Findings]:
+def _edited(kept: Kept, now: Standing, name: str, own: frozenset[str]) -> Iterator[Findings]:
+    """The place where a file is not as it was generated; `own` are the names of the package."""
     path = now.listing.files.get(name) or _moved(now, name)
     if path is None:
         if _HEADER.match(name):
@@ -71,7 +77,8 @@ def _edited(kept: Kept, now: Standing, name: str) -> Iterator[Findings]:
         return
     if not _HEADER.match(name) and "int main(" not in base.text:
         return  # a class with such a name
-    span = _first_difference(base, source, _statements if _PROGRAM.match(name) else _tokens)
+    cut = partial(_statements if _PROGRAM.match(name) else _tokens, own=own)
+    span = _first_difference(base, source, cut)
     if span is not None:
         yield _finding(source, span, "this is not as it was generated, and no model describes it")
 
@@ -98,10 +105,11 @@ def _first_difference(
     return None
 
 
-def _tokens(source: Source) -> Iterator[_Piece]:
+def _tokens(source: Source, own: frozenset[str]) -> Iterator[_Piece]:
     """The tokens of a text: first its own headers, in whatever order; those of libraries, none."""
-    own = _OWN_NAME.search(source.text)
-    names = {form for n in own.groups() if n for form in (n.lower(), n.upper())} if own else ()
+    found = _OWN_NAME.search(source.text)
+    every = {*own, *filter(None, found.groups() if found else ())}
+    names = {form for n in every for form in (n.lower(), n.upper())}
     headers = [_Piece(m[1] or "", Span(*m.span())) for m in _INCLUDE.finditer(source.text)]
     rest = _INCLUDE.sub(lambda m: " " * len(m[0]), source.text)
     tokens = [_Piece(m[0], Span(*m.span())) for m in TOKEN.finditer(rest)]
@@ -114,11 +122,11 @@ def _tokens(source: Source) -> Iterator[_Piece]:
         yield _Piece(text, piece.span)
 
 
-def _statements(source: Source) -> Iterator[_Piece]:
+def _statements(source: Source, own: frozenset[str]) -> Iterator[_Piece]:
     """The statements of a program but for what it logs, and what it makes its rebec of."""
     held: list[_Piece] = []
     depth = 0
-    for token in _tokens(source):
+    for token in _tokens(source, own):
         held.append(token)
         depth += (token.text in ("(", "[")) - (token.text in (")", "]"))
         if depth == 0 and token.text in (";", "{", "}"):

@@ -19,6 +19,7 @@ from rebsync.roundtrip.checked import Checked
 from rebsync.roundtrip.difference import (
     Comparison,
     Place,
+    Removed,
     Undetermined,
 )
 from rebsync.roundtrip.differences import compare
@@ -26,11 +27,12 @@ from rebsync.roundtrip.digests import is_base_whole, is_text_of
 from rebsync.roundtrip.manifest import BASE, BASE_MODEL, FOLDER, MANIFEST, with_manifest
 from rebsync.roundtrip.merge_check import finding, read_with, wrongly_merged
 from rebsync.roundtrip.merge_code import Stages, ancestors, merged_code, recorded_base
-from rebsync.roundtrip.merge_models import Favour, as_code_says, merged_model
+from rebsync.roundtrip.merge_models import Compared, Favour, as_code_says, merged_model
 from rebsync.roundtrip.models import code_given, model_given, parsed
 from rebsync.roundtrip.packages import SETTINGS
 from rebsync.roundtrip.recorded import Record, conflict_in, read_record, with_accepted
 from rebsync.roundtrip.sides import Given
+from rebsync.roundtrip.sync_records import with_what_holds
 from rebsync.roundtrip.verdict import Mover
 from rebsync.source import NOWHERE, Source
 
@@ -66,7 +68,7 @@ def synced(checked: Checked, favour: Favour) -> Sync:
     asks_again = any(d.code in ("RS955", "RS964") for f in checked.findings for d in f.diagnostics)
     if checked.drift is None and not asks_again:
         return Sync(checked, findings=checked.findings)
-    return _Syncing(checked, record, favour).result()
+    return with_what_holds(_Syncing(checked, record, favour, Compared()).result())
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -74,6 +76,7 @@ class _Syncing:
     checked: Checked
     record: Record
     favour: Favour
+    compared: Compared
 
     def result(self) -> Sync:
         """Merges the model, then the code, and proves that both say the same then."""
@@ -83,11 +86,12 @@ class _Syncing:
         if left:
             raise RebsyncError(left)
         base = self._base(today)
-        if refused := tuple(self._unread(compare(today, code.given), code.given)):
+        apart = self.compared(today, code.given)
+        if refused := (*self._unread(apart, code.given), *self._nowhere(apart)):
             causes = (*filter(_is_of_file, self.checked.findings), *self._lost())
             return Sync(self.checked, refused=causes or refused, is_undetermined=True)
-        merged = merged_model(base, today, code.given, self.favour)
-        told = _of_code(base or today, code.given)
+        merged = merged_model(base, today, code.given, self.favour, self.compared)
+        told = self._of_code(base or today, code.given)
         if merged.conflicts:
             return self._left_open(base, today, merged.text, told)
         source = Source(today.source.path, merged.text)
@@ -102,6 +106,14 @@ class _Syncing:
             return model_given(f"{self.checked.kept.root}/{BASE_MODEL}")
         is_same = is_text_of(today.source.text.encode("utf-8"), self.record.digest)
         return today if is_same else None
+
+    def _of_code(self, base: Given, code: Given) -> Given:
+        """The model of last time with all that the code has changed."""
+        text = as_code_says(base, code, self.compared(base, code))
+        if text == base.source.text:
+            return base
+        source = Source(base.source.path, text)
+        return Given(_parsed(source), source)
 
     def _unread(self, apart: Comparison, code: Given) -> Iterator[Findings]:
         """Elements that the code has changed, and of which not all could be read."""
@@ -120,6 +132,11 @@ class _Syncing:
                     f" model: {difference.why}"
                 )
                 yield finding(place, "RS959", message, "write this in a way that extract reads")
+
+    def _nowhere(self, apart: Comparison) -> Iterator[Findings]:
+        """Launch files that are gone, and with them rebecs that somebody may want to keep."""
+        if any(isinstance(d, Removed) and d.element.kind == "rebec" for d in apart.differences):
+            yield from (f for f in self._lost() if f.source.path.endswith(".launch"))
 
     def _lost(self) -> Iterator[Findings]:
         """Generated files that are gone, which is why elements are not whole."""
@@ -162,17 +179,23 @@ class _Syncing:
         if merged.conflicts:
             records = self._records(told, last)
             return Sync(self.checked, new_text, merged.texts, records, merged.conflicts, findings)
-        again = read_with(self.checked.standing.listing, merged.texts) if merged.texts else code
-        proof = compare(model, again)
-        unknown = proof.is_undetermined or _has_unknown(findings)
-        unread = {
-            d.element for d in compare(today, code).differences if isinstance(d, Undetermined)
-        }
+        records = self._records(model, now)
+        result = Sync(self.checked, new_text, merged.texts, records, {}, findings)
+        return self._proved(result, model, self.compared(today, code), code)
+
+    def _proved(self, sync: Sync, model: Given, before: Comparison, code: Given) -> Sync:
+        """The same if merged code says what the merged model says; `before` is how they stood."""
+        findings = sync.findings
+        if sync.texts:
+            again = read_with(self.checked.standing.listing, sync.texts)
+            code, findings = again.given, (*filter(_is_of_records, findings), *again.findings)
+        proof = compare(model, code)
+        unread = {d.element for d in before.differences if isinstance(d, Undetermined)}
         if wrong := tuple(wrongly_merged(proof, unread, "take one side with --conflict")):
             return Sync(self.checked, findings=findings, refused=wrong)
-        texts = {path: text for path, text in merged.texts.items() if self._differs(path, text)}
-        records = self._records(model, now)
-        return Sync(self.checked, new_text, texts, records, {}, findings, (), unknown)
+        texts = {path: text for path, text in sync.texts.items() if self._differs(path, text)}
+        unknown = proof.is_undetermined or _has_unread(findings)
+        return replace(sync, texts=texts, findings=findings, is_undetermined=unknown)
 
     def _differs(self, path: str, text: str | None) -> bool:
         file = Path(self.checked.kept.root, path)
@@ -233,15 +256,6 @@ class _Syncing:
 # --- parts --------------------------------------------------------------------------------------
 
 
-def _of_code(base: Given, code: Given) -> Given:
-    """The model of last time with all that the code has changed."""
-    text = as_code_says(base, code)
-    if text == base.source.text:
-        return base
-    source = Source(base.source.path, text)
-    return Given(_parsed(source), source)
-
-
 def _parsed(source: Source) -> m.Model:
     if conflict_in(source) is not None:
         return parsed(source)
@@ -277,8 +291,13 @@ def _is_of_file(found: Findings) -> bool:
     return all(d.code == "RS941" and d.span == NOWHERE for d in found.diagnostics)
 
 
-def _has_unknown(findings: tuple[Findings, ...]) -> bool:
-    return any(d.code in ("RS941", "RS956") for f in findings for d in f.diagnostics)
+def _is_of_records(found: Findings) -> bool:
+    """Whether a finding is not about what code can be read."""
+    return not any(d.code in ("RS941", "RS942", "RS943") for d in found.diagnostics)
+
+
+def _has_unread(findings: tuple[Findings, ...]) -> bool:
+    return any(d.code == "RS941" for f in findings for d in f.diagnostics)
 
 
 def relative(path: str, root: str) -> str:

@@ -2,68 +2,92 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
 
-from rebsync.files import read_bytes
+from rebsync.diagnostics import Findings
+from rebsync.files import BOM, read_bytes
 from rebsync.roundtrip.digests import Standing, digest_of, standing
-from rebsync.roundtrip.manifest import FOLDER, MANIFEST
+from rebsync.roundtrip.manifest import BASE, MANIFEST
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record, read_record, told_in_step, with_accepted
-from rebsync.roundtrip.sync import Sync
+from rebsync.source import Source
+
+if TYPE_CHECKING:
+    from rebsync.roundtrip.sync import Sync
 
 
-def with_what_holds(sync: Sync, texts: Mapping[str, str]) -> dict[str, str | None]:
-    """The records of a package whose files are going to be `texts`, by path.
+def with_what_holds(sync: Sync) -> Sync:
+    """The same with what holds of the package when all is written.
 
     Servers that somebody has written by hand are joined otherwise than those that are generated;
-    the model has them now, and the code is not to be told of as edited once more. And code that
-    is wholly known to say what the model says is known again by its digest.
+    the model has them now, and the code is not to be told of as edited once more. What is edited
+    and in no model is told only if it is not what is generated now. And code that is wholly known
+    to say what the model says is known again by its digest.
     """
-    if sync.conflicts or MANIFEST not in sync.records:
-        return sync.records
-    if not _is_edited(sync, texts):
-        return sync.records
-    with _as_will_be(sync, texts) as kept:
+    if sync.conflicts or sync.refused or MANIFEST not in sync.records:
+        return sync
+    told = [f for f in sync.findings if _is_odd(f)]
+    findings = tuple(f for f in sync.findings if not _is_odd(f))
+    if not _is_edited(sync):
+        return replace(sync, findings=findings)
+    with _as_will_be(sync) as kept:
         record = read_record(kept.root)
         now = standing(kept, record)
-        accepted = _accepted(sync, kept, record, now)
-        is_known = not (sync.findings or sync.is_undetermined)
-        digest = told_in_step(record, now.told) if is_known else ""
+        accepted, left = _odd(kept, record, now, {_subject(f) for f in told})
+    findings += tuple(_in(sync.checked.kept.root, kept.root, f) for f in left)
+    is_known = not (findings or sync.is_undetermined)
+    before = sync.checked.record.in_step if sync.checked.record is not None else ""
+    digest = told_in_step(record, now.told) if is_known else before
     manifest = with_accepted(sync.records[MANIFEST] or "{}", accepted, digest)
-    return {**sync.records, MANIFEST: manifest}
+    records = {**sync.records, MANIFEST: manifest}
+    unknown = sync.is_undetermined or bool(left)
+    return replace(sync, findings=findings, records=records, is_undetermined=unknown)
 
 
-def _is_edited(sync: Sync, texts: Mapping[str, str]) -> bool:
+def marked(path: Path, text: str) -> str:
+    """A text with the byte order mark that its file has."""
+    if path.is_file() and read_bytes(str(path)).startswith(BOM):
+        return BOM.decode("utf-8") + text
+    return text
+
+
+def _is_odd(found: Findings) -> bool:
+    return all(d.code == "RS956" for d in found.diagnostics)
+
+
+def _is_edited(sync: Sync) -> bool:
     """Whether a file that a model is read from will not be as it is generated."""
-    checked = sync.checked
-    wanted = sync.records
-    names = {*checked.standing.listing.files, *texts} - sync.texts.keys()
-    for name in names | {n for n, t in sync.texts.items() if t is not None}:
-        base = wanted.get(f"{FOLDER}/base/{name}")
-        digest = digest_of(base.encode("utf-8")) if base is not None else ""
-        if name in texts:
-            own = digest_of(texts[name].encode("utf-8"))
-        else:
-            own = checked.standing.digests.get(name, "")
-        if own != digest and not name.startswith(".."):
-            return True
-    return False
+    now = sync.checked.standing
+    digests = {name: digest for name, digest in now.digests.items() if name not in sync.texts}
+    root = Path(sync.checked.kept.root)
+    for name, text in sync.texts.items():
+        if text is not None:
+            digests[name] = digest_of(marked(root / name, text).encode("utf-8"))
+    if any(sync.texts.get(name) is None for name in now.missing):
+        return True
+    wanted = {n: digest_of(t.encode("utf-8")) for n, t in sync.records.items() if t is not None}
+    return any(wanted.get(BASE + name) != digest for name, digest in digests.items())
 
 
 @contextmanager
-def _as_will_be(sync: Sync, texts: Mapping[str, str]) -> Iterator[Kept]:
+def _as_will_be(sync: Sync) -> Iterator[Kept]:
     """The package as it is going to be, in a directory for the time being."""
-    files = {n: read_bytes(p) for n, p in sync.checked.standing.listing.files.items()}
+    own = Path(sync.checked.kept.root)
+    odd = sync.checked.standing.listing.odd
+    listed = sync.checked.standing.listing.files.items()
+    files = {name: read_bytes(path) for name, path in listed if name not in odd}
     for changes in (sync.texts, sync.records):
         for name, text in changes.items():
             files.pop(name, None)
             if text is not None:
-                files[name] = texts.get(name, text).encode("utf-8")
+                files[name] = marked(own / name, text).encode("utf-8")
     with TemporaryDirectory(prefix="rebsync-") as folder:
-        root = Path(folder, Path(sync.checked.kept.root).resolve().name)
+        root = Path(folder, own.resolve().name)
         for name, data in files.items():
             path = root / name
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -71,17 +95,29 @@ def _as_will_be(sync: Sync, texts: Mapping[str, str]) -> Iterator[Kept]:
         yield Kept(str(root), folder, sync.checked.model)
 
 
-def _accepted(sync: Sync, kept: Kept, record: Record, now: Standing) -> list[str]:
-    """How nodes are joined otherwise than would be generated now, but for what is told anyway."""
+def _odd(
+    kept: Kept, record: Record, now: Standing, told: set[str]
+) -> tuple[list[str], list[Findings]]:
+    """How nodes are joined that is to be accepted, and what is left to tell of edits.
+
+    `told` is what was told of before; to go on from there is not to accept it.
+    """
     from rebsync.roundtrip.difference import Comparison
+    from rebsync.roundtrip.runtime import edited
     from rebsync.roundtrip.wiring import odd_wiring
 
     odd = odd_wiring(kept, record, now, Comparison(()))
-    told = {_subject(d.message) for f in sync.findings for d in f.diagnostics if d.code == "RS956"}
-    messages = sorted({d.message for f in odd for d in f.diagnostics})
-    return [message for message in messages if _subject(message) not in told]
+    left = [*edited(kept, record, now), *(f for f in odd if _subject(f) in told)]
+    accepted = {f.diagnostics[0].message for f in odd if _subject(f) not in told}
+    return sorted(accepted), left
 
 
-def _subject(message: str) -> str:
+def _subject(found: Findings) -> str:
     """What a message is about, whatever it is now."""
-    return message.partition(" is ")[0]
+    return found.diagnostics[0].message.partition(" is ")[0]
+
+
+def _in(root: str, other: str, found: Findings) -> Findings:
+    """A finding in another directory."""
+    path = f"{root}{found.source.path.removeprefix(other)}"
+    return Findings(Source(path, found.source.text), found.diagnostics)

@@ -8,10 +8,9 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from rebsync.diagnostics import Findings, RebsyncError
-from rebsync.files import BOM, read_bytes
 from rebsync.roundtrip.merge_code import Stages
 from rebsync.roundtrip.sync import Sync, relative
-from rebsync.roundtrip.sync_records import with_what_holds
+from rebsync.roundtrip.sync_records import marked
 from rebsync.source import Source
 from rebsync.writing import replace_tree
 
@@ -30,10 +29,9 @@ def write(sync: Sync) -> tuple[str, ...]:
     texts |= {p: t for p, t in sync.texts.items() if t is not None}
     for path in texts:
         _refuse_link(Path(shown.get(path) or Path(root, path)), sync.checked.kept.tree)
-        texts[path] = _marked(Path(root, path), texts[path])
-    records = with_what_holds(sync, texts)
-    texts |= {p: t for p, t in records.items() if t is not None}
-    gone = [p for each in (sync.texts, records) for p, t in each.items() if t is None]
+        texts[path] = marked(Path(root, path), texts[path])
+    texts |= {p: t for p, t in sync.records.items() if t is not None}
+    gone = [p for each in (sync.texts, sync.records) for p, t in each.items() if t is None]
     try:
         written = replace_tree(root, texts, remove=gone)
     except RebsyncError as error:
@@ -55,13 +53,6 @@ def _refuse_link(file: Path, tree: str) -> None:
     if file.is_symlink() and Path(tree).resolve() not in file.resolve().parents:
         message = "this is a link that leads out of the tree, and it would have to change"
         raise RebsyncError.of(str(file), "RS806", message, "put the file itself here")
-
-
-def _marked(path: Path, text: str) -> str:
-    """A text with the byte order mark that its file has."""
-    if path.is_file() and read_bytes(str(path)).startswith(BOM):
-        return BOM.decode("utf-8") + text
-    return text
 
 
 # --- git ----------------------------------------------------------------------------------------

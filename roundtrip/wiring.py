@@ -25,8 +25,18 @@ from rebsync.roundtrip.digests import Standing
 from rebsync.roundtrip.manifest import BASE
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
-from rebsync.roundtrip.wiring_facts import PLAYED, PROGRAM, TYPE, Fact, Facts, facts_of
-from rebsync.roundtrip.wiring_names import TOPICS, Joined, is_about, joined
+from rebsync.roundtrip.wiring_facts import (
+    NOT_GIVEN,
+    PLAYED,
+    PROGRAM,
+    SPACE,
+    TYPE,
+    Fact,
+    Facts,
+    facts_of,
+    package_name,
+)
+from rebsync.roundtrip.wiring_names import TOPICS, Joined, is_about, joined, replaced
 from rebsync.source import NOWHERE, Source
 
 _JOINING = frozenset(
@@ -44,8 +54,19 @@ _MISSED = frozenset(
 )
 # What was not there when the code was generated makes a difference too.
 _UNWANTED = frozenset({"setting", "compiler option"})
-_HELPING = frozenset({PROGRAM, PLAYED, TYPE})
-_HINT = "take the edit back, or tell of it in the model"
+_MANIFEST = "package.xml"
+_HELPING = frozenset({PROGRAM, PLAYED, TYPE, SPACE})
+_HINT = "take the edit back: no model tells this"
+# Run-time parameters that are settings of the model.
+_SETTINGS = {
+    parameter: f"set `{name}` in rebsync.toml instead; then `rebsync sync` says it here"
+    for parameter, name in (
+        ("mailbox/time_unit", "time_unit"),
+        ("drive/cell_size", "cell_size"),
+        ("drive/kind", "drive"),
+        ("drive/heading", "heading"),
+    )
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,14 +93,17 @@ def odd_facts(kept: Kept, record: Record, now: Standing, of_code: Comparison) ->
         return ()
     listed = now.listing.files
     old_paths = {n: f"{kept.root}/{BASE}{n}" for n in record.files if _is_wiring(n)}
-    before = facts_of({n: old_paths[n] for n in touched})
-    if _values(before) == _values(
-        facts_of({n: listed[n] for n in [*touched, *new] if n in listed})
-    ):
+    old = package_name(f"{kept.root}/{BASE}{_MANIFEST}")
+    own = package_name(listed.get(_MANIFEST, ""))
+    before = facts_of({n: old_paths[n] for n in touched}, old)
+    after = facts_of({n: listed[n] for n in [*touched, *new] if n in listed}, own)
+    if _values(before) == _values(after):
         return ()
-    base = facts_of(old_paths)
-    today = facts_of({n: p for n, p in listed.items() if _is_wiring(n)})
-    excuses = _Excuses.of(base, today, of_code, {name.rpartition("/")[2] for name in listed})
+    today = facts_of({n: p for n, p in listed.items() if _is_wiring(n)}, own)
+    base, free = replaced(facts_of(old_paths, old), today)
+    sides = joined(base, free), joined(today, free)
+    files = frozenset(name.rpartition("/")[2] for name in listed)
+    excuses = _Excuses(base, today, _groups(of_code), files, *sides)
     keys = [*base, *(k for k in today if k not in base)]
     found = [
         odd
@@ -112,8 +136,22 @@ def _odd(kept: Kept, before: list[Fact], now: list[Fact]) -> Odd | None:
     place = next((f for f in now if f.value not in old), now[0] if now else None)
     source = place.source if place else Source(f"{kept.root}/{_inside(kept, first)}", "")
     span = place.span if place else NOWHERE
-    finding = Findings(source, (Diagnostic("RS956", span, message, _HINT),))
+    hint = _SETTINGS.get(first.name, _HINT) if first.kind == "parameter" else _hint(first)
+    finding = Findings(source, (Diagnostic("RS956", span, message, hint),))
     return Odd(tuple(before), tuple(now), finding)
+
+
+def _hint(fact: Fact) -> str:
+    """What to do about a fact that is another."""
+    match fact.kind:
+        case "remap" | "publisher" | "subscription" | "sensor":
+            return "let the other end have the same name, or take the edit back"
+        case "priority" | "best priority":
+            return "give the priority in the model, then `rebsync sync`; or take the edit back"
+        case "field" | "parameter" | "parameter for" | "sender" | "usual time" | "sending":
+            return "take the edit back, or tell of it in the model"
+        case _:
+            return _HINT
 
 
 def _unseen(kept: Kept, excuses: _Excuses) -> Iterator[Odd]:
@@ -121,7 +159,9 @@ def _unseen(kept: Kept, excuses: _Excuses) -> Iterator[Odd]:
     if excuses.groups or excuses.before is None or excuses.now is None:
         return
     if (what := excuses.before.lacks(excuses.now)) is not None:
-        diagnostic = Diagnostic("RS956", NOWHERE, f"nodes are joined otherwise: {what}", _HINT)
+        message = f"nodes are joined otherwise: {what}"
+        hint = "look at the names of topics in the code and in the launch file"
+        diagnostic = Diagnostic("RS956", NOWHERE, message, hint)
         yield Odd((), (), Findings(Source(kept.root, ""), (diagnostic,)))
 
 
@@ -136,8 +176,8 @@ def _inside(kept: Kept, fact: Fact) -> str:
 class _Excuses:
     """Why facts may be otherwise.
 
-    `groups` are the classes and kinds whose wiring has to follow a change of the code; `files` are
-    the names of all files; `joined` is None where it is not known who is joined with whom.
+    `groups` are the classes and kinds whose wiring has to follow a change of the code, `files` the
+    names of all files. `before` and `now` are None where it is not known who is joined with whom.
     """
 
     base: Facts
@@ -146,12 +186,6 @@ class _Excuses:
     files: frozenset[str]
     before: Joined | None
     now: Joined | None
-
-    @classmethod
-    def of(cls, base: Facts, today: Facts, of_code: Comparison, files: set[str]) -> _Excuses:
-        groups = {d.element.group or "" for d in of_code.differences if _joins(d)}
-        groups |= {d.element.kind for d in of_code.differences if d.element.kind == "env"}
-        return cls(base, today, frozenset(groups), frozenset(files), joined(base), joined(today))
 
     def hold(self, key: tuple[str, str, str]) -> bool:
         """Whether the facts of a key need not be as they were."""
@@ -162,7 +196,28 @@ class _Excuses:
             return True
         if self._has_moved(first) or self._follows(first):
             return True
+        if first.kind == "node" and first.name == "ns":
+            return self._is_in_one_space
+        if first.kind == "field":
+            return self._types(self.base, first.owner) == self._types(self.today, first.owner)
         return (first.kind == "remap" or first.kind in TOPICS) and self._same_are_joined(key)
+
+    @property
+    def _is_in_one_space(self) -> bool:
+        """Whether all generated nodes and their parameters are in one namespace."""
+        own = {owner for kind, owner, _ in self.base if kind == TYPE}
+        found = {
+            "" if fact.value == NOT_GIVEN else fact.value.strip("/")
+            for (kind, owner, name), facts in self.today.items()
+            for fact in facts
+            if kind == SPACE or ((kind, name) == ("node", "ns") and owner in own)
+        }
+        return len(found) == 1
+
+    def _types(self, facts: Facts, message: str) -> list[str]:
+        """The types of a message's fields in their order; extraction tells if names do not fit."""
+        owned = (found for (kind, m, _), found in facts.items() if (kind, m) == ("field", message))
+        return [fact.value for found in owned for fact in found]
 
     def _has_moved(self, fact: Fact) -> bool:
         """Whether a fact is about a file that is somewhere else, or called otherwise."""
@@ -197,6 +252,14 @@ class _Excuses:
 def _shape(fact: Fact) -> str:
     """What a fact says beside the name of a topic."""
     return fact.value.partition('"')[0]
+
+
+def _groups(of_code: Comparison) -> frozenset[str]:
+    """The classes and kinds of elements of which the wiring follows what the code has changed."""
+    groups = {d.element.group or "" for d in of_code.differences if _joins(d)}
+    return frozenset(
+        groups | {d.element.kind for d in of_code.differences if d.element.kind == "env"}
+    )
 
 
 def _joins(difference: Difference) -> bool:

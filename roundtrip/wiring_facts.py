@@ -17,8 +17,9 @@ from rebsync.files import read_source
 from rebsync.records import dataclass
 from rebsync.source import Source, Span
 
-PROGRAM, PLAYED, TYPE = "program", "played sensor", "type of a node"
-NOT_GIVEN = "not given"
+PROGRAM, PLAYED, TYPE, SPACE = "program", "played sensor", "type of a node", "space of parameters"
+NOT_GIVEN, OWN = "not given", "this package"
+_PACKAGE = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
 
 Facts: TypeAlias = "dict[tuple[str, str, str], list[Fact]]"
 
@@ -79,19 +80,28 @@ class Fact:
         return self.kind, self.owner, self.name
 
 
-def facts_of(paths: Mapping[str, str]) -> Facts:
+def package_name(path: str) -> str:
+    """The name of a package by its `package.xml`; empty where that does not tell."""
+    with suppress(RebsyncError):
+        found = _PACKAGE.search(read_source(path).text)
+        return found[1] if found is not None else ""
+    return ""
+
+
+def facts_of(paths: Mapping[str, str], package: str = "") -> Facts:
+    """The facts in files of a package of that name, by their keys; `paths` are by names inside."""
     found: Facts = {}
     for name, path in sorted(paths.items()):
         with suppress(RebsyncError):  # what cannot be read, extraction lists
             source = read_source(path)
-            for fact in _of_file(name, source):
+            for fact in _of_file(name, source, package):
                 found.setdefault(fact.key, []).append(fact)
     return found
 
 
-def _of_file(name: str, source: Source) -> Iterable[Fact]:
+def _of_file(name: str, source: Source, package: str) -> Iterable[Fact]:
     if name.endswith(".msg"):
-        return _fields(source)
+        return _fields(source, package)
     if name.endswith(".yaml"):
         return _settings(source)
     if name.endswith(".txt"):
@@ -99,7 +109,7 @@ def _of_file(name: str, source: Source) -> Iterable[Fact]:
     is_launch = name.endswith(".launch")
     text = (_REMARK if is_launch else _COMMENT).sub(lambda m: " " * len(m[0]), source.text)
     if is_launch:
-        return _launched(source, text)
+        return _launched(source, text, package)
     program = Path(name).stem
     return chain(_joints(source, text), _sendings(source, text), _made(program, source, text))
 
@@ -170,7 +180,7 @@ def _posted_in(text: str, handler: str, servers: Mapping[str, str]) -> str:
     return handler
 
 
-def _launched(source: Source, text: str) -> Iterator[Fact]:
+def _launched(source: Source, text: str, package: str) -> Iterator[Fact]:
     """Of each node its package, type, namespace and remaps; lists of rebecs.
 
     Remaps outside of nodes, which all that follow have, are those of no node.
@@ -181,6 +191,8 @@ def _launched(source: Source, text: str) -> Iterator[Fact]:
         end, tag, rest, closed = m.groups()
         given = {a[1]: a[2] if a[2] is not None else a[3] for a in _ATTRIBUTE.finditer(rest)}
         span = Span(*m.span())
+        if tag in ("param", "rosparam") and not end and not node:
+            yield Fact(SPACE, "", str(m.start()), "/".join(filter(None, spaces)), source, span)
         match tag:
             case "group" if end:
                 spaces = spaces[:-1]
@@ -189,6 +201,8 @@ def _launched(source: Source, text: str) -> Iterator[Fact]:
             case "node" if not end:
                 name = given.get("name", "")
                 node = "" if closed else name
+                if given.get("pkg") == package:
+                    given["pkg"] = OWN
                 given["ns"] = "/".join(filter(None, (*spaces, given.get("ns"))))
                 for key in ("pkg", "respawn", "ns"):
                     yield Fact("node", name, key, given.get(key) or NOT_GIVEN, source, span)
@@ -210,12 +224,13 @@ def _launched(source: Source, text: str) -> Iterator[Fact]:
                 pass
 
 
-def _fields(source: Source) -> Iterator[Fact]:
+def _fields(source: Source, package: str) -> Iterator[Fact]:
     message = Path(source.path).stem
     if _STATE.search(source.text):
         return  # what a node tells of itself, and no other takes
     for m in _FIELD.finditer(source.text):
-        yield Fact("field", message, m[2], m[1], source, Span(*m.span()))
+        type_ = m[1].removeprefix(f"{package}/")
+        yield Fact("field", message, m[2], type_, source, Span(*m.span()))
 
 
 def _settings(source: Source) -> Iterator[Fact]:

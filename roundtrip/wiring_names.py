@@ -72,11 +72,14 @@ class Joined:
         return {(one.plain, to) for one, to in self.pairs if one.kind == "publisher"}
 
 
-def joined(facts: Facts) -> Joined | None:
-    """Who is joined with whom; None where the texts do not tell all names."""
+def joined(facts: Facts, free: frozenset[_End] = frozenset()) -> Joined | None:
+    """Who is joined with whom; None where the texts do not tell all names.
+
+    What is `free` does not count.
+    """
     nodes = [owner for kind, owner, _ in facts if kind == TYPE]
     try:
-        ends = [each for node in nodes for each in _Node(facts, node).ends()]
+        ends = [e for node in nodes for e in _Node(facts, node).ends() if e[0] not in free]
     except _Unknown:
         return None
     found = {
@@ -89,6 +92,22 @@ def joined(facts: Facts) -> Joined | None:
     alone = frozenset((end, topic) for end, _, topic in ends if end not in paired)
     names = frozenset(name for _, *both in ends for name in both)
     return Joined(names, frozenset(found), alone)
+
+
+def replaced(base: Facts, today: Facts) -> tuple[Facts, frozenset[_End]]:
+    """The facts of last time but for stand-ins that are no longer started, and their sensors.
+
+    These are free: a real sensor is somewhere else, under whatever name.
+    """
+    playing = {owner for kind, owner, _ in base if kind == PLAYED}
+    started = {owner: facts for (kind, owner, _), facts in base.items() if kind == TYPE}
+    gone = {n for n, facts in started.items() if {f.value for f in facts} <= playing}
+    gone -= {owner for kind, owner, _ in today if kind == TYPE}
+    whole = joined(base)
+    if not gone or whole is None:
+        return base, frozenset()
+    free = frozenset(to for one, to in whole.pairs if one.kind == PLAYED and one.node in gone)
+    return {k: v for k, v in base.items() if k[1] not in gone}, free
 
 
 def is_about(joined: Joined | None, facts: Facts, remap: Fact) -> bool:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from functools import cache
 
 from rebsync.diagnostics import RebsyncError
-from rebsync.grammars.parser import parse_model
-from rebsync.model import Annotation, ReactiveClass
-from rebsync.source import Source, Span
+from rebsync.model import Annotation, IntLiteral, ReactiveClass
+from rebsync.source import NOWHERE, Source, Span
+
+_PLAIN = re.compile(r"@([A-Za-z]\w*)(?:\((\d+)\))?\Z", re.ASCII)
 
 
 def annotation(marker: str, span: Span) -> Annotation | None:
@@ -22,7 +24,16 @@ def annotation(marker: str, span: Span) -> Annotation | None:
 
 @cache
 def _parsed(text: str) -> Annotation | None:
-    """The annotation that a text is; kept, as packages have few and parsing takes a while."""
+    """The annotation that a text is; kept, as packages have few and parsing takes a while.
+
+    For the plain ones the parser is not even loaded.
+    """
+    if (plain := _PLAIN.match(text)) is not None:
+        number = plain[2]
+        arguments = (IntLiteral(int(number), Span(*plain.span(2))),) if number else None
+        return Annotation(plain[1], arguments, NOWHERE)
+    from rebsync.grammars.parser import parse_model
+
     source = Source("marker", f"{text} reactiveclass A(1) {{}}")
     try:
         classes = parse_model(source).model.classes

@@ -11,7 +11,7 @@ from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.nodes.node_programs import Program
 from rebsync.reverse.roscpp_vocabulary import Kind
 from rebsync.reverse.syntax.cpp_index import Code, CppClass
-from rebsync.reverse.syntax.cpp_tree import text_of
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 STAND_IN = "_stand_in"
 _CONNECTING = frozenset({Kind.PUBLISHER, Kind.SUBSCRIPTION, Kind.SINGLE, Kind.TIMER, Kind.SERVICE})
@@ -33,6 +33,14 @@ def may_have_nodes(code: Code, asking: Asking, programs: tuple[Program, ...]) ->
         asked.ask.kind in _CONNECTING and any(p.has(asked.site.cpp) for p in nodes)
         for asked in asking.calls_outside(code.classes)
     )
+
+
+def makes_generated(code: Code, program: Program) -> bool:
+    """Whether the `main` of a program makes an object of a generated class."""
+    body = program.main.body
+    declared = (s for s in named(body) if s.type == "declaration") if body is not None else ()
+    names = (text_of(part(s, "type")).rpartition("::")[2] for s in declared)
+    return any(n in code.classes and _is_made(code, code.classes[n]) for n in names)
 
 
 def _is_made(code: Code, owner: CppClass) -> bool:

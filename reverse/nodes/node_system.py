@@ -22,7 +22,7 @@ from rebsync.reverse.nodes.node_classes import NodeClass, too_deep
 from rebsync.reverse.nodes.node_listing import Listing
 from rebsync.reverse.nodes.node_names import Names, class_word
 from rebsync.reverse.nodes.node_parameters import Given
-from rebsync.reverse.nodes.node_presence import STAND_IN
+from rebsync.reverse.nodes.node_presence import STAND_IN, makes_generated
 from rebsync.reverse.nodes.node_programs import Program
 from rebsync.reverse.nodes.node_servers import declared, servers
 from rebsync.reverse.nodes.node_setup import Setup
@@ -34,7 +34,7 @@ from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.nodes.node_views import all_units
 from rebsync.reverse.nodes.node_wiring import Wiring, idle, instances
 from rebsync.reverse.syntax.cpp_index import Code
-from rebsync.source import Source
+from rebsync.source import NOWHERE, Source
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +87,8 @@ class NodeSystem:
         reader = _Reader(self, reading, types, common, wiring, classes, names, starts)
         read = tuple(c for u in units if self._is_wanted(u) for c in reader.classes_of(u))
         listing = Listing(self.findings, types)
-        for program in found:
+        others = [p for p in found if not (self.generated and makes_generated(self.code, p))]
+        for program in others:
             if not any(u.program is program for u in units) and self.only is None:
                 listing.unit(reading.of_program(program), ())
         for unit in units:
@@ -304,7 +305,10 @@ class _Reader:
         parameters, index = self._parameters.get(instance.name, ([], 0))
         arguments = [literal_of(_value(p, index)) for p in parameters]
         class_ = self.kinds[self.wiring.kinds[instance.name]]
-        return m.Rebec(m.Type(class_), instance.name, tuple(bindings), tuple(arguments))
+        known, given = tuple(bindings), tuple(arguments)
+        node = instance.launched
+        span = node.source.within(node.span) if node is not None else NOWHERE
+        return m.Rebec(m.Type(class_), instance.name, known, given, (), span)
 
 
 def _value(parameter: Given, index: int) -> bool | int | float | str:

@@ -140,7 +140,7 @@ def test_the_model_is_ahead(check: Check) -> None:
     assert status == 1
     assert shown.startswith("patrol: the model is ahead")
     assert "patrol.rebeca:25" in shown and "patrol/src/robot.cpp:" in shown
-    assert "msgsrv Robot.go: delay changed from 3 to 1  [model]" in shown
+    assert "msgsrv Robot.go: delay changed from 1 to 3  [model]" in shown
 
 
 def test_the_code_is_ahead(check: Check) -> None:
@@ -401,6 +401,23 @@ def test_sarif_points_at_the_code(check: Check) -> None:
     assert again["locations"] != result["locations"]
 
 
+def prints(shown: str) -> set[str]:
+    """The fingerprints of all results of a SARIF log."""
+    results = json.loads(shown)["runs"][0]["results"]
+    found = [p for r in results for p in r["partialFingerprints"].values()]
+    assert len(found) == len(set(found)) == len(results)
+    return set(found)
+
+
+def test_fingerprints_stay_when_something_else_is_edited(check: Check) -> None:
+    replace(SOURCE, "  mailbox_.delay(1);", "  mailbox_.delay(3);\n  small_ = false;\n  system(a);")
+    first = prints(check("--format", "sarif")[1])
+    assert len(first) == 3
+    replace(SOURCE, "  mailbox_.delay(3);", "  small_ = true;\n\n  mailbox_.delay(4);")
+    replace(SOURCE, "#include", "// on top\n#include")
+    assert first < prints(check("--format", "sarif")[1])
+
+
 def test_github_annotates_the_line(check: Check) -> None:
     replace("patrol.rebeca", "delay(1)", "delay(3)")
     status, shown = check("--format", "github")
@@ -459,7 +476,7 @@ WRONG: dict[str, tuple[Callable[[], object], int, str]] = {
         2,
         "patrol.rebeca:25:1: RS966",
     ),
-    "code in conflict": (conflict_in(SOURCE, "  mailbox_.delay(1);"), 4, "RS966"),
+    "code in conflict": (conflict_in(SOURCE, "  mailbox_.delay(1);"), 2, "RS966"),
     "model gone": (Path("patrol.rebeca").unlink, 2, "patrol: RS965 the model patrol.rebeca"),
     "model broken": (put("patrol.rebeca", "reactiveclass {"), 2, "patrol.rebeca:1:"),
     "model not text": (lambda: Path("patrol.rebeca").write_bytes(b"\xff\xfe"), 2, "RS804"),
@@ -532,7 +549,7 @@ def test_settings_that_changed_are_noticed(check: Check) -> None:
     Path("rebsync.toml").write_text("seed = 0\ntime_unit = 0.5\n")
     status, shown = check()
     assert status == 1
-    assert shown.startswith("patrol: the model is ahead")
+    assert shown.startswith("patrol: the settings are ahead")
     assert "rebsync.toml:2:1: RS955 `time_unit` was 1.0" in shown
     assert main(["generate", "patrol.rebeca"]) == 0
     assert check() == (0, "patrol: in step\n")

@@ -155,6 +155,26 @@ def test_a_revision_is_named_from_the_top_or_from_here(repository: Path) -> None
     assert rebsync("diff", f"HEAD:{MODEL}", f"HEAD:{PACKAGE}", cwd=here).status == 0
 
 
+def test_a_file_of_a_revision_is_read_within_its_package(repository: Path) -> None:
+    line = line_of(repository / CODE, GUARD[1])
+    done = rebsync("diff", f"HEAD:{CODE}", CODE, cwd=repository)
+    assert (done.status, done.err) == (1, "1 difference\n")
+    assert f"  HEAD:{CODE}:{line}  {CODE}:{line}  msgsrv R_1.taskControl: " in done.out
+    inside = CODE.removeprefix(f"{PACKAGE}/")
+    done = rebsync("diff", f"HEAD:{inside}", inside, cwd=repository / PACKAGE)
+    assert (done.status, done.err) == (1, "1 difference\n")
+    assert f"  HEAD:{CODE}:{line}  {inside}:{line}  msgsrv R_1.taskControl: " in done.out
+
+
+def test_a_file_may_have_had_another_name(repository: Path) -> None:
+    new = CODE.replace("r_1.cpp", "robot.cpp")
+    subprocess.run(["git", "mv", CODE, new], cwd=repository, check=True)
+    done = rebsync("diff", f"HEAD:{new}", new, cwd=repository)
+    assert done.status == 2
+    assert f"hint: there it was {CODE}: HEAD:{CODE}" in done.err
+    assert rebsync("diff", f"HEAD:{CODE}", new, cwd=repository).status == 1
+
+
 @pytest.mark.parametrize(
     ("name", "told"),
     [

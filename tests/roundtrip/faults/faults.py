@@ -187,7 +187,7 @@ FAULTS = (
     Fault("all records deleted", gone("patrol/.rebsync"), 2, "RS960"),
     Fault("base model deleted", gone(_BASE), 1, "RS964", _OURS, text(MODEL_FILE, _decided)),
     Fault("base model damaged", text(_BASE, _half), 1, "RS964", _OURS, text(MODEL_FILE, _decided)),
-    Fault("base texts deleted", gone("patrol/.rebsync/base"), 4, "RS956", mend=_nothing),
+    Fault("base texts deleted", gone("patrol/.rebsync/base"), 0, mend=_nothing),
     Fault("model deleted", gone(MODEL_FILE), 2, "RS965"),
     Fault(
         "model moved",
@@ -211,6 +211,7 @@ FAULTS = (
     ),
     Fault("code that is not UTF-8", text(SOURCE, lambda t: f"// \udcff\n{t}"), 2, "RS804"),
     Fault("a source deleted", gone(SOURCE), 4, "RS969"),
+    Fault("the launch file deleted", gone("patrol/launch/patrol.launch"), 4, "RS969"),
     Fault("files with CRLF", all_of(text(SOURCE, _crlf), text(MODEL_FILE, _crlf)), 0),
     Fault(
         "settings with mistakes", lambda f: _write(f / "rebsync.toml", "package = ["), 2, "RS807"

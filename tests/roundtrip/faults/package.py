@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import io
 import os
 import shutil
 import sys
 from collections.abc import Callable
+from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -36,6 +38,22 @@ def prepare(folder: Path) -> None:
         text = (folder / path).read_text(encoding="utf-8")
         assert old in text
         (folder / path).write_text(text.replace(old, new), encoding="utf-8")
+    warm(folder)
+
+
+def warm(made: Path) -> None:
+    """Syncs a copy in this very process, so that what is forked from it has everything loaded."""
+    here, cache = Path.cwd(), os.environ.get("REBSYNC_CACHE")
+    os.environ["REBSYNC_CACHE"] = str(made / ".cache")
+    try:
+        os.chdir(copied(made, made.parent / "warm"))
+        with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
+            assert main(["sync"]) == 0
+    finally:
+        os.chdir(here)
+        del os.environ["REBSYNC_CACHE"]
+        if cache is not None:
+            os.environ["REBSYNC_CACHE"] = cache
 
 
 def copied(made: Path, folder: Path) -> Path:

@@ -67,12 +67,14 @@ def history(seed: int, length: int, examples: tuple[str, ...] = EXAMPLES) -> His
 
 @contextmanager
 def _inside(folder: str) -> Iterator[None]:
-    here, cache = Path.cwd(), os.environ.get("REBSYNC_CACHE")
+    here, cache, fsync = Path.cwd(), os.environ.get("REBSYNC_CACHE"), os.fsync
     os.chdir(folder)
+    os.fsync = lambda fd: None  # a disk takes longer for this than all the rest
     os.environ["REBSYNC_CACHE"] = f"{folder}/.cache"
     try:
         yield
     finally:
+        os.fsync = fsync
         os.chdir(here)
         del os.environ["REBSYNC_CACHE"]
         if cache is not None:
