@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Callable
 from importlib.resources import files
 from typing import TypeAlias
@@ -34,7 +35,8 @@ def package_name(stem: str, config: Config) -> str:
         return config.package
     words = re.sub(r"[^A-Za-z0-9]+", "_", stem).strip("_")
     name = snake_case(words if words[:1].isalpha() else f"model_{words}".rstrip("_"))
-    return f"{name}_nodes" if is_taken(name) else name
+    is_module = config.target.endswith("-py") and name in sys.stdlib_module_names
+    return f"{name}_nodes" if is_taken(name) or is_module else name
 
 
 def is_taken(name: str) -> bool:

@@ -9,7 +9,6 @@ from rebsync.forward.py_imports import imports, words_of
 from rebsync.forward.py_layout import indented
 from rebsync.forward.py_messages import sends, server_constants, shims
 from rebsync.forward.py_types import py_type, py_value
-from rebsync.forward.py_warnings import silenced
 from rebsync.forward.py_wiring import PyWords, class_lines, publish_state
 from rebsync.package import Draw, Sensor
 from rebsync.printing import print_line
@@ -32,9 +31,6 @@ def class_module(c: PyClass, words: PyWords, model_name: str, ros: Iterable[str]
     code = [*constants, *body]
     used = words_of(code)
     text = [f'"""The {_kind(c)} {c.node.name} of {model_name}{_role(c)}."""']
-    ignored = silenced(c.statements.expressions.analysis.classes[c.node.name].declaration)
-    if ignored:
-        text.append(f"# ruff: noqa: {', '.join(ignored)}")
     text += ["", "from __future__ import annotations", "", *_imports(c, used, ros)]
     if constants:
         text += [*constants, ""]
@@ -76,8 +72,9 @@ def _own_modules(c: PyClass) -> Mapping[str, Iterable[str]]:
         f"{package}.sensor": ("Sensor",),
         f"{package}.values": VALUES,
     }
-    for base, type_ in zip(c.node.bases, c.base_types, strict=True):
-        modules[f"{package}.{c.package.node_class(base).file}"] = (type_,)
+    types = c.statements.expressions.class_types
+    for base in c.node.bases:
+        modules[f"{package}.{c.package.node_class(base).file}"] = (types[base],)
     seen = [n for names in c.names.seen.values() for n in names]
     if seen:
         modules[f"{package}.{c.node.file}_sensors"] = seen
@@ -86,12 +83,11 @@ def _own_modules(c: PyClass) -> Mapping[str, Iterable[str]]:
 
 def _messages_of_others(c: PyClass, used: set[str]) -> list[str]:
     """The message types of bound sensors."""
-    types = sorted({s.type for s in c.node.sensors if not s.stands_in})
-    return [
-        f"from {t.partition('/')[0]}.msg import {t.rpartition('/')[2]}"
-        for t in types
-        if t.rpartition("/")[2] in used
-    ]
+    modules: dict[str, list[str]] = {}
+    for type_ in sorted({s.type for s in c.node.sensors if not s.stands_in}):
+        package, _, name = type_.rpartition("/")
+        modules.setdefault(f"{package}.msg", []).append(name)
+    return imports(used, modules)
 
 
 def _other_classes(c: PyClass, used: set[str]) -> dict[str, str]:
@@ -153,6 +149,7 @@ def sensors_module(c: PyClass) -> str:
         "",
         *messages,
         *typing,
+        "",
         "",
         f"# rebsync: user {c.node.name}.sensors",
         *functions,

@@ -53,9 +53,8 @@ def class_lines(c: PyClass, words: PyWords) -> list[list[str]]:
         own = _wired(c, words, *_capacity(c)) if wires_itself else [f"self._wire({_call(c)})"]
         found.append(_constructor(c, words, own))
     if not wires_itself:
-        default = f" = {c.node.queue_length}" if not c.node.executable else ""
-        best = " = NO_PRIORITY" if default else ""
-        passed = ["self", f"queue_length: int{default}", f"best_priority: int{best}"]
+        passed = ["self", f"queue_length: int = {c.node.queue_length}"]
+        passed.append("best_priority: int = NO_PRIORITY")
         lines = _wired(c, words, "queue_length", "best_priority")
         found.append([*call_lines("def _wire(", passed, ") -> None:"), *indented(lines)])
     return found

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from tests.forward.compiling import CASES, case_config, case_files, written
-from tests.ros1.conftest import Build
+from tests.ros1.conftest import Build, paced
 from tests.ros1.recording import Recording
 from tests.ros1.run import Clock, run
 from tests.ros1.workspace import Workspace
@@ -16,12 +16,13 @@ _NAMES = ("inheritance", "interfaces", "overloads", "rebecs")
 
 
 @pytest.fixture(scope="module")
-def hard(build_workspace: Build, tmp_path_factory: pytest.TempPathFactory) -> Workspace:
+def hard(
+    dialect: str, build_workspace: Build, tmp_path_factory: pytest.TempPathFactory
+) -> Workspace:
     directory = tmp_path_factory.mktemp("hard")
     cases = [CASES / f"{name}.rebeca" for name in _NAMES]
-    return build_workspace(
-        "hard", [written(case_files(c), directory, c.stem, case_config(c)) for c in cases]
-    )
+    packages = [written(case_files(c, dialect), directory, c.stem, case_config(c)) for c in cases]
+    return paced(build_workspace(f"hard_{dialect}", packages), dialect)
 
 
 def _play(hard: Workspace, directory: Path, name: str) -> Recording:
