@@ -95,7 +95,7 @@ class Classes:
 
     def _interface(self, owner: Scope) -> m.Interface:
         functions = self._of(owner).functions.values()
-        servers = tuple(self._server(owner, f, plain_name(f, self._types)) for f in functions)
+        servers = tuple(self._server(owner, f, plain_name(f)) for f in functions)
         extends = tuple(class_name(c.name) for c in self.line(owner)[1:] if self._is_base(owner, c))
         span = owner.py.span(owner.node)
         return m.Interface(class_name(owner.name), servers, extends, _annotations(owner), span)
@@ -162,7 +162,7 @@ class Classes:
             if function.name in roles.handlers:
                 return roles.handlers[function.name]
             if not self._has_mailbox(above) and function.name in roles.functions:
-                return plain_name(function, self._types)
+                return plain_name(function)
         return None
 
     def _server(self, owner: Scope, function: Scope, name: str) -> m.MessageServer:
@@ -190,7 +190,7 @@ class Classes:
                 return
 
     def _method(self, owner: Scope, function: Scope) -> m.Method:
-        name = plain_name(function, self._types)
+        name = plain_name(function)
         within = f"{class_name(owner.name)}.{name}"
         result = type_of(function.node.child_by_field_name("return_type"))
         return m.Method(
@@ -255,7 +255,7 @@ class Classes:
             for name, function in roles.functions.items():
                 if not roles.is_plumbing(name) and not _is_constructor(name):
                     served = self._served(above, function)
-                    functions[name] = served or plain_name(function, self._types)
+                    functions[name] = served or plain_name(function)
         return Names(variables, sends, functions)
 
     def _resolved(self, sends: Sends) -> Sends:

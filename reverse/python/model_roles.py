@@ -281,12 +281,19 @@ def _published(roles: Roles, function: Scope, publisher: Node, passed: list[str]
         roles.sends[function.name] = Sends(known, f"{message} {key}", count)
 
 
-def plain_name(function: Scope, types: Collection[str]) -> str:
-    """The model's name of a function, from its marker unless it was renamed."""
-    name = function.name.partition("__")[0] if function.name[:2] != "__" else function.name
+def plain_name(function: Scope) -> str:
+    """The model's name of a function, from its marker unless it was renamed.
+
+    Overloads have the types of their parameters behind two underscores.
+    """
+    name = function.name
     for marker in markers_above(function.py, function.node):
         kind, path, *_ = [*marker.split(), "", ""]
         told = path.rpartition(".")[2]
-        if kind in ("msgsrv", "method") and carry(told, PYTHON_RESERVED) == name:
+        carried = carry(told, PYTHON_RESERVED) if told else ""
+        if kind in ("msgsrv", "method") and (name == carried or name.startswith(f"{carried}__")):
             return told
-    return uncarry(name, PYTHON_RESERVED)
+    found = uncarry(name, PYTHON_RESERVED)
+    if carry(found, PYTHON_RESERVED) == name and ("__" not in name or name.endswith("_v")):
+        return found
+    return uncarry(name.rpartition("__")[0] or name, PYTHON_RESERVED)
