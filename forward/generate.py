@@ -9,7 +9,6 @@ from importlib.resources import files
 from typing import TypeAlias
 
 from rebsync.config import Config
-from rebsync.diagnostics import RebsyncError
 from rebsync.forward.remarks import Comment, Remarks
 from rebsync.forward.topics import Topics
 from rebsync.forward.view import view
@@ -61,7 +60,7 @@ def generate(
 
 
 def _renderer(target: str) -> Renderer:
-    """What writes a package in a dialect. RebsyncError: nothing does yet."""
+    """What writes a package in a dialect."""
     match target:
         case "ros1-cpp":
             from rebsync.forward import ros1_cpp
@@ -75,10 +74,9 @@ def _renderer(target: str) -> Renderer:
             from rebsync.forward import ros2_cpp
 
             return ros2_cpp.render
+        case "ros2-py":
+            from rebsync.forward import ros2_py
+
+            return ros2_py.render
         case _:
-            raise RebsyncError.of(
-                "rebsync.toml",
-                "RS709",
-                f"packages in {target} cannot be generated yet",
-                "choose another target",
-            )
+            raise ValueError(target)

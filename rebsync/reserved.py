@@ -104,6 +104,6 @@ PYTHON_RESERVED = (
     | _PYTHON_BUILTINS
     | {"_drive", "_mailbox", "_publish_state", "_state_pub", "_wire"}
     | {"ABC", "abstractmethod", "block", "construct", "mailbox", "msg", "node", "self", "served"}
-    | {"when"}
+    | {"KEPT", "Node", "declare_array", "declared", "when"}
 )
 PYTHON_MEMBERS = frozenset({"drive", "mailbox", "node", "publish_state", "state_pub", "wire"})
