@@ -7,7 +7,7 @@ from dataclasses import replace
 from rebsync.forward.message_files import message_files, message_names
 from rebsync.forward.py_class import PyClass
 from rebsync.forward.py_classes import classes, played_sensors
-from rebsync.forward.py_imports import words_of
+from rebsync.forward.py_imports import imports, words_of
 from rebsync.forward.py_layout import call_lines, indented
 from rebsync.forward.py_module import VALUES, class_module, sensors_module
 from rebsync.forward.py_types import from_message, plain_type, py_format, py_value
@@ -152,14 +152,18 @@ def _node(c: PyClass) -> str:
     constructor = constructor_of(c)
     pairs = zip(constructor.keys, constructor.parameters, strict=True)
     arguments = ["node", *(_argument(key, parameter.type) for key, parameter in pairs)]
-    used = words_of(arguments)
+    package = c.package.name
+    modules: dict[str, tuple[str, ...]] = {
+        f"{package}.{c.node.file}": (c.type_name,),
+        f"{package}.startup": ("declared",),
+        f"{package}.values": VALUES,
+    }
+    used = words_of([*arguments, c.type_name])
     return fill(
         f"{_FOLDER}/node.py.j2",
         c=c,
-        package=c.package.name,
         construction=indented(call_lines(f"rebec = {c.type_name}(", arguments)),
-        declares="declared" in used,
-        formats=sorted(used & set(VALUES)),
+        imports=imports(used, dict(sorted(modules.items()))),
     )
 
 

@@ -24,9 +24,9 @@ from tests.ros1.recording import WARNING, Recording, Served
 from tests.ros1.run import Clock, run
 from tests.ros1.workspace import Workspace
 
-_EXPECTED = Path(__file__).parent / "expected"
-_EXAMPLES = Path(__file__).parents[2] / "examples"
-NAMES = tuple(sorted(path.stem for path in _EXPECTED.glob("*.json")))
+EXPECTED = Path(__file__).parent / "expected"
+EXAMPLES = Path(__file__).parents[2] / "examples"
+NAMES = tuple(sorted(path.stem for path in EXPECTED.glob("*.json")))
 
 # Twists bear no stamp, and the recorder's is late by its latency times the rate of the clock.
 SLOW = 4.0
@@ -85,13 +85,13 @@ def workspace(
     dialect: str, build_workspace: Build, tmp_path_factory: pytest.TempPathFactory
 ) -> Workspace:
     if dialect == "ros1-cpp":
-        return build_workspace("examples", [_EXAMPLES / name / name for name in NAMES])
+        return build_workspace("examples", [EXAMPLES / name / name for name in NAMES])
     folder = tmp_path_factory.mktemp("packages")
-    packages = [_generated(_EXAMPLES / name, dialect, folder) for name in NAMES]
+    packages = [example_package(EXAMPLES / name, dialect, folder) for name in NAMES]
     return paced(build_workspace(f"examples_{dialect}", packages), dialect)
 
 
-def _generated(example: Path, dialect: str, folder: Path) -> Path:
+def example_package(example: Path, dialect: str, folder: Path) -> Path:
     """The package of an example in a dialect."""
     settings = example / "rebsync.toml"
     found = parse_config(Source(settings.name, settings.read_text())) if settings.exists() else None
@@ -105,7 +105,7 @@ def example(
     request: pytest.FixtureRequest, workspace: Workspace, tmp_path_factory: pytest.TempPathFactory
 ) -> Example:
     name = str(request.param)
-    expected = json.loads((_EXPECTED / f"{name}.json").read_text())
+    expected = json.loads((EXPECTED / f"{name}.json").read_text())
     launch = workspace.root / "src" / name / "launch" / f"{name}.launch"
     clock = Clock(until=expected["until"] + 0.5, quiet=QUIET, rate=expected.get("rate", SLOW))
     recording = run(workspace, launch, tmp_path_factory.mktemp(name), clock)
