@@ -21,11 +21,11 @@ _STANDARD = {
 class Message:
     """A message: its fields are checked as rosidl does where Python runs with assertions."""
 
-    fields: Mapping[str, tuple[str, int | None]] = {}
-    known: Mapping[str, type[Message]] = {}
+    _fields: Mapping[str, tuple[str, int | None]] = {}
+    _known: Mapping[str, type[Message]] = {}
 
     def __init__(self, **values: object) -> None:
-        for name, (type_, length) in self.fields.items():
+        for name, (type_, length) in self._fields.items():
             default = self._default(type_)
             every = default if length is None else [copy.copy(default) for _ in range(length)]
             object.__setattr__(self, name, every)
@@ -33,12 +33,12 @@ class Message:
             setattr(self, name, value)
 
     def _default(self, type_: str) -> object:
-        if type_ in self.known:
-            return self.known[type_]()
+        if type_ in self._known:
+            return self._known[type_]()
         return {"bool": False, "string": "", "float32": 0.0, "float64": 0.0}.get(type_, 0)
 
     def __setattr__(self, name: str, value: object) -> None:
-        type_, length = self.fields[name]
+        type_, length = self._fields[name]
         values = [value]
         if length is not None:
             assert isinstance(value, list) and len(value) == length, f"{name}: {value!r}"
@@ -59,15 +59,16 @@ class Message:
                 half = 1 << (_RANGES[type_] - 1)
                 return isinstance(value, int) and -half <= value < half
             case _:
-                return isinstance(value, self.known[type_])
+                return isinstance(value, self._known[type_])
 
-    def data(self) -> dict[str, object]:
-        """The fields as plain data."""
-        return {name: _plain(getattr(self, name)) for name in self.fields}
+
+def plain(message: Message) -> dict[str, object]:
+    """The fields of a message as plain data."""
+    return {name: _plain(getattr(message, name)) for name in message._fields}
 
 
 def _plain(value: object) -> object:
-    return value.data() if isinstance(value, Message) else value
+    return plain(value) if isinstance(value, Message) else value
 
 
 def modules(folders: Iterable[Path]) -> dict[str, ModuleType]:
@@ -84,7 +85,9 @@ def modules(folders: Iterable[Path]) -> dict[str, ModuleType]:
             match = _FIELD.match(line)
             assert match is not None, line
             fields[match[3]] = (match[1], int(match[2]) if match[2] else None)
-        known[name] = type(name.rpartition("/")[2], (Message,), {"fields": fields, "known": known})
+        known[name] = type(
+            name.rpartition("/")[2], (Message,), {"_fields": fields, "_known": known}
+        )
     return _as_modules(known)
 
 

@@ -101,7 +101,7 @@ def _module(name: str, **content: object) -> tuple[str, ModuleType]:
 
 def _rclpy(world: World) -> dict[str, ModuleType]:
     own = {"description": ("string", None), "read_only": ("bool", None)}
-    descriptor = type("ParameterDescriptor", (Message,), {"fields": own})
+    descriptor = type("ParameterDescriptor", (Message,), {"_fields": own})
 
     class ExternalShutdownException(Exception):
         pass

@@ -14,7 +14,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import SimpleNamespace
 
-from tests.ros2py.messages import Message
+from tests.ros2py.messages import Message, plain
 
 NANOSECONDS = 10**9
 _FIRST = 100 * NANOSECONDS
@@ -215,7 +215,7 @@ class World:
         with self.lock:
             self.happened += 1
             now = (self.time - _FIRST) / NANOSECONDS
-            self.messages.append((publisher.topic_name, now, message.data()))
+            self.messages.append((publisher.topic_name, now, plain(message)))
             if publisher.keeps:
                 publisher.kept = [*publisher.kept, message][-publisher.depth :]
             for subscription in self.subscribers(publisher.topic_name):
