@@ -66,6 +66,7 @@ class Roles:
     shown: dict[str, tuple[m.Annotation, ...]] = with_default(default_factory=dict)
     messages: dict[str, str] = with_default(default_factory=dict)
     sends: dict[str, Sends] = with_default(default_factory=dict)
+    by_shim: dict[str, str] = with_default(default_factory=dict)
     shims: set[str] = with_default(default_factory=set)
     topics: dict[str, str] = with_default(default_factory=dict)
     sensors: set[str] = with_default(default_factory=set)
@@ -73,6 +74,10 @@ class Roles:
     has_drive: bool = False
     on_bridge: bool = False
     queue_length: int | None = None
+
+    def served_by(self, shim: str) -> str | None:
+        """The server whose messages a shim takes in."""
+        return self.by_shim.get(shim)
 
     def is_plumbing(self, name: str) -> bool:
         """Whether a function is none of the model's."""
@@ -262,6 +267,7 @@ def _received(
     if not server or not handler.isidentifier():
         return
     roles.shims.add(function.name)
+    roles.by_shim[function.name] = server
     roles.handlers[handler] = server
     port = roles.topics.get(function.name, "").startswith("port/")
     roles.shown[handler] = (*((m.Annotation("Port"),) if port else ()), *annotations)

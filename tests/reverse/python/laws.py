@@ -55,7 +55,7 @@ def _rule(node: object) -> object:
         case m.FloatLiteral(text) if text[-1] in "fF":
             return m.FloatLiteral(text[:-1])
         case m.Conditional(condition, then, otherwise):
-            return m.Conditional(*(_inner(e) for e in (condition, then, otherwise)))
+            return m.Conditional(_inner(condition), _inner(then), _inner(otherwise))
         case _:
             return node
 
