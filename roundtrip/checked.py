@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from rebsync.roundtrip.verdict import Drift
 
 
-_READ = frozenset({"ros1-cpp"})
+_READ = frozenset({"ros1-cpp", "ros2-cpp"})
 
 
 @dataclass(frozen=True, slots=True)

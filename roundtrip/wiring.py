@@ -17,6 +17,7 @@ from typing import TypeAlias
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.files import read_source
 from rebsync.records import dataclass
+from rebsync.reverse.launch.launch_python import read_python_launch
 from rebsync.roundtrip.difference import (
     Added,
     Aspect,
@@ -35,6 +36,10 @@ from rebsync.source import NOWHERE, Source, Span
 
 Facts: TypeAlias = "dict[tuple[str, str, str], list[_Fact]]"
 
+_WIRED = (
+    *(".cpp", ".h", ".hpp", ".launch", ".launch.py", ".msg"),
+    *("CMakeLists.txt", "config/params.yaml"),
+)
 _JOINING = frozenset(
     {
         *(Aspect.TYPE, Aspect.PARAMETERS, Aspect.BINDING, Aspect.EXTENDS, Aspect.IMPLEMENTS),
@@ -49,8 +54,11 @@ _MISSED = frozenset(
 _UNWANTED = frozenset({"setting", "compiler option"})
 _HINT = "take the edit back, or tell of it in the model"
 _LAYOUT = re.compile(r" ?([^\w \"]) ?")
-_READ = re.compile(r"\b(\w+)\s*=\s*global\s*\.\s*param(?:<[^<>]*>)?\s*\(\s*(\"[^\"]*\")")
+_READ = re.compile(
+    r"\b(\w+)\s*=\s*(?:global\s*\.\s*param|declare_parameter)(?:<[^<>]*>)?\s*\(\s*(\"[^\"]*\")"
+)
 _BEST = re.compile(r"\bmailbox_\s*\(\s*\w+\s*,[^,()]*(?:,\s*([^()]*?)\s*)?\)")
+_STARTED = re.compile(r"\bmailbox_\s*\.\s*start\s*\(\s*\)")
 _SENT_BY = re.compile(r"\bmailbox_\s*\.\s*receive\s*\(\s*(\w+)\s*,[^,]*,\s*([^,]*?)\s*,")
 _HASH = re.compile(r"#[^\n]*")
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/|<!--.*?-->", re.DOTALL)
@@ -124,7 +132,7 @@ def odd_wiring(
 
 
 def _is_wiring(name: str) -> bool:
-    return name.endswith((".cpp", ".h", ".launch", ".msg", "CMakeLists.txt", "config/params.yaml"))
+    return name.endswith(_WIRED)
 
 
 def _joins(difference: Difference) -> bool:
@@ -196,6 +204,8 @@ def _of_file(name: str, source: Source) -> Iterable[_Fact]:
         return _settings(source)
     if name.endswith(".txt"):
         return _programs(source)
+    if name.endswith(".py"):
+        return _declared(source)
     blank = Source(source.path, _COMMENT.sub(lambda m: " " * len(m[0]), source.text))
     if name.endswith(".launch"):
         return _launched(source, blank.text)
@@ -213,6 +223,8 @@ def _joints(source: Source, text: str) -> Iterator[_Fact]:
         yield _Fact("priority", owner[1], m[2].strip('"'), priority, source, Span(*m.span()))
     for m in _READ.finditer(text):
         yield _Fact("parameter for", owner[1], m[1], m[2], source, Span(*m.span()))
+    for m in _STARTED.finditer(text):
+        yield _Fact("start of serving", owner[1], "", "there", source, Span(*m.span()))
     for m in _BEST.finditer(text):
         yield _Fact("best priority", owner[1], "", m[1] or "none", source, Span(*m.span()))
     for m in _SENT_BY.finditer(text):
@@ -292,6 +304,20 @@ def _launched(source: Source, text: str) -> Iterator[_Fact]:
                 pass
 
 
+def _declared(source: Source) -> Iterator[_Fact]:
+    """The same of a launch file in Python."""
+    for node in read_python_launch(source, lambda _: None).nodes:
+        name = str(node.name)
+        facts = {"pkg": str(node.package), "ns": str(node.namespace), "if": " ".join(node.only_if)}
+        for key, value in facts.items():
+            yield _Fact("node", name, key, value or "not given", source, node.span)
+        for remap in node.remaps:
+            yield _Fact("remap", name, remap.private, str(remap.target), source, remap.span)
+        for given in node.parameters:
+            if given.name.partition("/")[0] in _BEARING:
+                yield _Fact("parameter", name, given.name, repr(given.value), source, given.span)
+
+
 def _fields(source: Source) -> Iterator[_Fact]:
     message = Path(source.path).stem
     if _STATE.search(source.text):
@@ -304,7 +330,7 @@ def _settings(source: Source) -> Iterator[_Fact]:
     """What in the parameters of the run-time part has a bearing on what nodes do."""
     section = ""
     for m in _ENTRY.finditer(source.text):
-        if not m[1]:
+        if not m[1] or not m[3]:
             section = m[2]
         elif m[2] in _BEARING.get(section, ()):
             yield _Fact("parameter", "", f"{section}/{m[2]}", m[3], source, Span(*m.span(2)))
