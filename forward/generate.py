@@ -55,7 +55,13 @@ def generate(
 ) -> dict[str, str]:
     """The files of the package by path; `analysis` must be free of errors."""
     package, topics = view(model, analysis, config, package_name(stem, config))
-    render = _renderer(config.target)
+    targets = {c.name: config.target_of(c.name) for c in package.classes}
+    if len(set(targets.values())) > 1:
+        from rebsync.forward.ros1_mixed import render_mixed
+
+        name = f"{stem}.rebeca"
+        return render_mixed(package, analysis, topics, Remarks(comments), name, targets)
+    render = _renderer(next(iter(targets.values()), config.target))
     return render(package, analysis, topics, Remarks(comments), f"{stem}.rebeca")
 
 

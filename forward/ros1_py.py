@@ -71,7 +71,7 @@ def render(
     source, words = f"src/{package.name}", Rospy()
     files: dict[str, str] = {
         "package.xml": fill(
-            f"{_FOLDER}/package.xml.j2", package=package, depends=_depends(package)
+            f"{_FOLDER}/package.xml.j2", package=package, depends=depends_of(package)
         ),
         "setup.py": fill(f"{_FOLDER}/setup.py.j2", package=package.name),
         "ruff.toml": fill("py/ruff.toml.j2", packages=[package.name]),
@@ -107,7 +107,8 @@ def _runtime(package: Package) -> dict[str, str]:
     }
 
 
-def _depends(package: Package) -> list[str]:
+def depends_of(package: Package) -> list[str]:
+    """The packages that the nodes need."""
     found = {"rosgraph_msgs", "rospy", "std_msgs"}
     if any(c.moves for c in package.classes):
         found.add("geometry_msgs")
@@ -117,7 +118,7 @@ def _depends(package: Package) -> list[str]:
 
 
 def _cmake_lists(package: Package, scripts: list[str]) -> str:
-    depends = _depends(package)
+    depends = depends_of(package)
     return fill(
         f"{_FOLDER}/CMakeLists.txt.j2",
         package=package.name,

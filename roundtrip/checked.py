@@ -81,6 +81,8 @@ def _about_base(kept: Kept, record: Record) -> tuple[Findings, ...]:
 def _refuse_dialect(kept: Kept, record: Record | None) -> None:
     """Code that cannot be read back yet must not look as if it said nothing."""
     target = record.options.get("target", "ros1-cpp") if record is not None else "ros1-cpp"
+    if record is not None and record.options.get("targets"):
+        target = "several languages"
     if target not in _READ:
         message = f"code in {target} cannot be read yet"
         hint = "`rebsync generate` still takes changes of the model into it"

@@ -12,7 +12,11 @@ from pathlib import Path
 
 import pytest
 
-from rebsync.config import Config
+from rebsync.config import ClassTarget, Config
+from rebsync.forward.limits import limits
+from rebsync.grammars.parser import parse_model
+from rebsync.source import Source
+from rebsync.static import analyse
 from tests.forward.compiling import CASES, case_config, case_files, generated, written
 from tests.forward.python_packages import imported
 from tests.regenerate import models
@@ -91,3 +95,22 @@ def _after(rebec: object, number: int, broken: tuple[type[Exception], ...]) -> d
         getattr(rebec, f"m{number}")()
     held = {name: getattr(rebec, f"_{name}") for name in START}
     return {n: list(v) if isinstance(START[n], list) else v for n, v in held.items()}
+
+
+@pytest.mark.parametrize(
+    ("targets", "message"),
+    [
+        ({"Robt": "ros1-py"}, 'rebsync.toml gives a target to "Robt", which is no class'),
+        ({"Base": "ros1-py"}, '"Heir" and its ancestor "Base" must be in one language'),
+        ({"Other": "ros2-py"}, "only ros1-cpp and ros1-py go together in one package"),
+    ],
+)
+def test_dialects_that_do_not_go_together(targets: dict[str, str], message: str) -> None:
+    text = (
+        "reactiveclass Base(1) { } reactiveclass Heir extends Base (1) { }\n"
+        "reactiveclass Other(1) { } main { Heir h():(); Other o():(); }\n"
+    )
+    model = parse_model(Source("mixed.rebeca", text)).model
+    config = Config(targets=tuple(ClassTarget(*item) for item in targets.items()))
+    found = limits(model, analyse(model), config, "mixed")
+    assert [(d.code, d.message) for d in found] == [("RS709", message)]
