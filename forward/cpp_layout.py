@@ -23,6 +23,11 @@ def call_lines(head: str, arguments: Sequence[str], tail: str, indent: str = "")
     return lines
 
 
+def statement_lines(head: str, arguments: Sequence[str], tail: str) -> list[str]:
+    """The same for a statement of a body, which will stand further to the right."""
+    return [line[2:] for line in call_lines(head, arguments, tail, "  ")]
+
+
 def with_trailing_comments(lines: Iterable[tuple[str, str]]) -> list[str]:
     """Each line with its comment, the comments in one column."""
     pairs = list(lines)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rebsync.forward.cpp_class import CppClass
-from rebsync.forward.cpp_layout import indented, with_trailing_comments
+from rebsync.forward.cpp_layout import indented, statement_lines, with_trailing_comments
 from rebsync.forward.cpp_messages import own_subscriptions, stored_in
 from rebsync.forward.cpp_names import publisher_place
 from rebsync.forward.cpp_types import cpp_type, cpp_value
@@ -57,10 +57,12 @@ def _advertised(c: CppClass) -> list[str]:
         member = c.names.publishers[publisher_place(publisher)]
         message = c.words.message(publisher.message.name)
         if publisher.known is not None:
-            lines.append(f'{member} = mailbox_.advertise<{message}>("{publisher.topic}");')
+            arguments = [f'"{publisher.topic}"']
+            function = "advertise"
         else:
-            target = f'"{publisher.topic}", "{publisher.key}"'
-            lines.append(f"{member} = mailbox_.advertiseAll<{message}>({target});")
+            arguments = [f'"{publisher.topic}"', f'"{publisher.key}"']
+            function = "advertiseAll"
+        lines += _set_up(c, f"{member} = mailbox_.{function}<{message}>", arguments)
     return lines
 
 
@@ -69,10 +71,16 @@ def _subscribed(c: CppClass) -> list[str]:
     lines = []
     for server in own_subscriptions(c):
         member, shim = c.names.subscribers[server.key], c.names.shims[server.key]
-        arguments = f'"{server.topic}", &{c.type_name}::{shim}, this'
+        arguments = [f'"{server.topic}"', f"&{c.type_name}::{shim}", "this"]
         function = "subscribeOnBridge" if server.on_bridge else "subscribe"
-        lines.append(f"{member} = mailbox_.{function}({arguments});")
+        lines += _set_up(c, f"{member} = mailbox_.{function}", arguments)
     return lines
+
+
+def _set_up(c: CppClass, head: str, arguments: list[str]) -> list[str]:
+    if c.words.BREAKS_LINES:
+        return statement_lines(head, arguments, ";")
+    return [f"{head}({', '.join(arguments)});"]
 
 
 def state_lines(c: CppClass) -> list[str]:

@@ -21,6 +21,10 @@ class CppWords(Protocol):
         """The header that every class includes."""
 
     @property
+    def BREAKS_LINES(self) -> bool:
+        """Whether the lines that set up topics are broken where they are too long."""
+
+    @property
     def TYPED_PUBLISHERS(self) -> bool:
         """Whether the member that publishes names the type of its messages."""
 

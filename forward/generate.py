@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Callable
 from importlib.resources import files
 from typing import TypeAlias
 
 from rebsync.config import Config
-from rebsync.diagnostics import RebsyncError
 from rebsync.forward.remarks import Comment, Remarks
 from rebsync.forward.topics import Topics
 from rebsync.forward.view import view
@@ -34,7 +34,8 @@ def package_name(stem: str, config: Config) -> str:
         return config.package
     words = re.sub(r"[^A-Za-z0-9]+", "_", stem).strip("_")
     name = snake_case(words if words[:1].isalpha() else f"model_{words}".rstrip("_"))
-    return f"{name}_nodes" if is_taken(name) else name
+    is_module = config.target.endswith("-py") and name in sys.stdlib_module_names
+    return f"{name}_nodes" if is_taken(name) or is_module else name
 
 
 def is_taken(name: str) -> bool:
@@ -54,12 +55,18 @@ def generate(
 ) -> dict[str, str]:
     """The files of the package by path; `analysis` must be free of errors."""
     package, topics = view(model, analysis, config, package_name(stem, config))
-    render = _renderer(config.target)
+    targets = {c.name: config.target_of(c.name) for c in package.classes}
+    if len(set(targets.values())) > 1:
+        from rebsync.forward.ros1_mixed import render_mixed
+
+        name = f"{stem}.rebeca"
+        return render_mixed(package, analysis, topics, Remarks(comments), name, targets)
+    render = _renderer(next(iter(targets.values()), config.target))
     return render(package, analysis, topics, Remarks(comments), f"{stem}.rebeca")
 
 
 def _renderer(target: str) -> Renderer:
-    """What writes a package in a dialect. RebsyncError: nothing does yet."""
+    """What writes a package in a dialect."""
     match target:
         case "ros1-cpp":
             from rebsync.forward import ros1_cpp
@@ -73,10 +80,9 @@ def _renderer(target: str) -> Renderer:
             from rebsync.forward import ros2_cpp
 
             return ros2_cpp.render
+        case "ros2-py":
+            from rebsync.forward import ros2_py
+
+            return ros2_py.render
         case _:
-            raise RebsyncError.of(
-                "rebsync.toml",
-                "RS709",
-                f"packages in {target} cannot be generated yet",
-                "choose another target",
-            )
+            raise ValueError(target)

@@ -18,6 +18,7 @@ from rebsync.static import Analysis
 def limits(model: Model, analysis: Analysis, config: Config, stem: str) -> tuple[Diagnostic, ...]:
     """Errors where generation must stop, warnings where ROS does less than the model says."""
     found = [*_package(config, stem), *_sensors(model, config), *_instances(model, analysis)]
+    found += _targets(analysis, config)
     for c in model.classes:
         if isinstance(c, ReactiveClass):
             found += _known_arrays(c)
@@ -37,6 +38,26 @@ def _package(config: Config, stem: str) -> list[Diagnostic]:
             "choose another `package` in rebsync.toml",
         )
     ]
+
+
+def _targets(analysis: Analysis, config: Config) -> list[Diagnostic]:
+    """Dialects of single classes that are not there, or do not go together."""
+    found = []
+    names = sorted(analysis.classes)
+    for chosen in config.targets:
+        if chosen.name not in analysis.classes:
+            message = f'rebsync.toml gives a target to "{chosen.name}", which is no class'
+            found.append(Diagnostic("RS709", NOWHERE, message, f"classes: {', '.join(names)}"))
+    targets = {name: config.target_of(name) for name in names}
+    if len(set(targets.values())) > 1 and not set(targets.values()) <= {"ros1-cpp", "ros1-py"}:
+        message = "only ros1-cpp and ros1-py go together in one package"
+        found.append(Diagnostic("RS709", NOWHERE, message, "change `[targets]` in rebsync.toml"))
+    for name, info in analysis.classes.items():
+        for above in info.ancestors:
+            if targets.get(above) != targets[name]:
+                message = f'"{name}" and its ancestor "{above}" must be in one language'
+                found.append(Diagnostic("RS709", NOWHERE, message, "change `[targets]`"))
+    return found
 
 
 def _known_arrays(declaration: ReactiveClass) -> list[Diagnostic]:

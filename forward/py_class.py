@@ -64,9 +64,9 @@ class PyClass:
         ]
 
     def construct(self, constructor: ConstructorOf) -> str:
-        """The name of a constructor, told apart from others by its types."""
+        """The name of a constructor, told apart from others by its class or types."""
         if len(self.node.constructors) == 1:
-            return "construct"
+            return f"construct__{self.type_name}" if self.ancestors else "construct"
         types = (str(p.type).replace("[", "_").replace("]", "") for p in constructor.parameters)
         return f"construct__{'_'.join(types) or 'void'}"
 

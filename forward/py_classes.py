@@ -9,7 +9,7 @@ from rebsync.forward.py_class import PyClass
 from rebsync.forward.py_expressions import PyExpressions
 from rebsync.forward.py_names import PyNames, class_names
 from rebsync.forward.py_statements import PyStatements
-from rebsync.forward.py_types import py_value
+from rebsync.forward.py_types import class_type, py_value
 from rebsync.forward.remarks import Remarks
 from rebsync.forward.sends import bodies
 from rebsync.forward.sensors import draws_of
@@ -24,21 +24,20 @@ def classes(
     package: Package, analysis: Analysis, topics: Topics, remarks: Remarks
 ) -> Mapping[str, PyClass]:
     """Every class by its name in the model."""
-    names = class_names(package, topics.class_types)
+    types = {name: class_type(name) for name in topics.class_types}
+    names = class_names(package, types)
     found: dict[str, PyClass] = {}
     for node in package.classes:
         declaration = analysis.classes[node.name].declaration
         reactive = declaration if isinstance(declaration, ReactiveClass) else None
         own = names[node.name]
-        expressions = PyExpressions(
-            analysis, topics, own, topics.class_types, _seen(node, reactive, own)
-        )
+        expressions = PyExpressions(analysis, topics, own, types, _seen(node, reactive, own))
         inside = list(bodies(reactive)) if reactive else []
         found[node.name] = PyClass(
             package,
             node,
-            topics.class_types[node.name],
-            tuple(topics.class_types[b] for b in _bases(package, node)),
+            types[node.name],
+            tuple(types[b] for b in _bases(package, node)),
             own,
             PyStatements(expressions, remarks, hoisted(inside, analysis)),
             _remarks_above(reactive, remarks) if reactive else {},

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from rebsync.forward.py_layout import INDENT, LINE_LENGTH
 
 _NOT_CODE = re.compile(r'#[^\n]*|"(?:\\.|[^"\\\n])*"')
-_WORD = re.compile(r"(?<![\w.])[^\W\d]\w*")
+_WORD = re.compile(r"(?<![\w.])(?<!def )[^\W\d]\w*")
 
 
 def words_of(lines: Iterable[str]) -> set[str]:
@@ -26,10 +26,11 @@ def imports(used: set[str], modules: Mapping[str, Iterable[str]]) -> list[str]:
     return lines
 
 
-def _order(name: str) -> tuple[int, str]:
-    """Constants, classes, functions: as ruff sorts them."""
+def _order(name: str) -> tuple[int, list[tuple[int, str]]]:
+    """Constants, classes, functions, numbers in them by their value: as ruff sorts them."""
     kind = 0 if name.isupper() and len(name) > 1 else 1 if name[0].isupper() else 2
-    return kind, name
+    parts = re.split(r"(\d+)", name)
+    return kind, [(int(p), "") if p.isdigit() else (-1, p.lower()) for p in parts]
 
 
 def _import(module: str, names: list[str]) -> list[str]:

@@ -9,7 +9,6 @@ from rebsync.forward.py_imports import imports, words_of
 from rebsync.forward.py_layout import indented
 from rebsync.forward.py_messages import sends, server_constants, shims
 from rebsync.forward.py_types import py_type, py_value
-from rebsync.forward.py_warnings import silenced
 from rebsync.forward.py_wiring import PyWords, class_lines, publish_state
 from rebsync.package import Draw, Sensor
 from rebsync.printing import print_line
@@ -22,20 +21,19 @@ VALUES = (
     *("square_root", "switch", "text", "to_boolean", "to_byte", "to_double", "to_float", "to_int"),
     *("to_rebec", "to_short", "unflatten"),
 )
-_MAILBOX = ("QUEUE_SIZE", "Mailbox", "Served", "read_array", "to")
+_MAILBOX = ("KEPT", "QUEUE_SIZE", "Mailbox", "Served", "declare_array", "read_array", "to")
 
 
-def class_module(c: PyClass, words: PyWords, model_name: str, ros: Iterable[str]) -> str:
+def class_module(
+    c: PyClass, words: PyWords, model_name: str, ros: Mapping[str, Iterable[str]]
+) -> str:
     """`src/<package>/<class>.py`; `ros` are the names of the client library that it may use."""
     body = _class(c, words)
     constants = server_constants(c)
     code = [*constants, *body]
     used = words_of(code)
     text = [f'"""The {_kind(c)} {c.node.name} of {model_name}{_role(c)}."""']
-    ignored = silenced(c.statements.expressions.analysis.classes[c.node.name].declaration)
-    if ignored:
-        text.append(f"# ruff: noqa: {', '.join(ignored)}")
-    text += ["", "from __future__ import annotations", "", *_imports(c, used, ros)]
+    text += ["", "from __future__ import annotations", "", *_imports(c, words, used, ros)]
     if constants:
         text += [*constants, ""]
     return "\n".join([*text, "", *body]) + "\n"
@@ -49,14 +47,16 @@ def _role(c: PyClass) -> str:
     return ": one ROS node for each of its rebecs" if c.node.executable else ""
 
 
-def _imports(c: PyClass, used: set[str], ros: Iterable[str]) -> list[str]:
+def _imports(
+    c: PyClass, words: PyWords, used: set[str], ros: Mapping[str, Iterable[str]]
+) -> list[str]:
     package = c.package.name
     others = _other_classes(c, used)
     typing = {"Any", "Literal"} & used | ({"TYPE_CHECKING"} if others else set())
     groups = [
         imports(used, {"abc": ("ABC", "abstractmethod")}) + imports(typing, {"typing": typing}),
-        [*(f"import {n}" for n in ros if n in used), *_messages_of_others(c, used)],
-        imports(used, _own_modules(c)),
+        [*_of_library(used, ros), *_messages_of_others(c, used)],
+        imports(used, _own_modules(c, words)),
     ]
     lines = [line for g in groups if g for line in (*g, "")]
     if others:
@@ -65,19 +65,27 @@ def _imports(c: PyClass, used: set[str], ros: Iterable[str]) -> list[str]:
     return lines
 
 
-def _own_modules(c: PyClass) -> Mapping[str, Iterable[str]]:
+def _of_library(used: set[str], ros: Mapping[str, Iterable[str]]) -> list[str]:
+    """What is used of the client library; a module without names is imported whole."""
+    lines = [f"import {module}" for module, names in ros.items() if not names and module in used]
+    return [*lines, *imports(used, ros)]
+
+
+def _own_modules(c: PyClass, words: PyWords) -> Mapping[str, Iterable[str]]:
     package = c.package.name
     messages = {m.name for m in c.package.messages} | {n.state.name for n in c.package.classes}
     messages |= {s.type for s in c.node.sensors if s.stands_in} | {"Timing"}
     modules: dict[str, Iterable[str]] = {
         f"{package}.drive": ("Drive",),
         f"{package}.mailbox": _MAILBOX,
-        f"{package}.msg": messages,
+        words.messages(package): messages,
         f"{package}.sensor": ("Sensor",),
+        f"{package}.startup": ("declared",),
         f"{package}.values": VALUES,
     }
-    for base, type_ in zip(c.node.bases, c.base_types, strict=True):
-        modules[f"{package}.{c.package.node_class(base).file}"] = (type_,)
+    types = c.statements.expressions.class_types
+    for base in c.node.bases:
+        modules[f"{package}.{c.package.node_class(base).file}"] = (types[base],)
     seen = [n for names in c.names.seen.values() for n in names]
     if seen:
         modules[f"{package}.{c.node.file}_sensors"] = seen
@@ -86,12 +94,11 @@ def _own_modules(c: PyClass) -> Mapping[str, Iterable[str]]:
 
 def _messages_of_others(c: PyClass, used: set[str]) -> list[str]:
     """The message types of bound sensors."""
-    types = sorted({s.type for s in c.node.sensors if not s.stands_in})
-    return [
-        f"from {t.partition('/')[0]}.msg import {t.rpartition('/')[2]}"
-        for t in types
-        if t.rpartition("/")[2] in used
-    ]
+    modules: dict[str, list[str]] = {}
+    for type_ in sorted({s.type for s in c.node.sensors if not s.stands_in}):
+        package, _, name = type_.rpartition("/")
+        modules.setdefault(f"{package}.msg", []).append(name)
+    return imports(used, modules)
 
 
 def _other_classes(c: PyClass, used: set[str]) -> dict[str, str]:
@@ -129,7 +136,7 @@ def _mailbox() -> list[str]:
     return ["@property", "def mailbox(self) -> Mailbox:", "    return self._mailbox"]
 
 
-def sensors_module(c: PyClass) -> str:
+def sensors_module(c: PyClass, words: PyWords) -> str:
     """`<class>_sensors.py`: the user's part of the sensors."""
     functions: list[str] = []
     for sensor in c.node.sensors:
@@ -142,7 +149,7 @@ def sensors_module(c: PyClass) -> str:
     own = {s.type for s in c.node.sensors if s.stands_in}
     typing = imports(words_of(functions), {f"{c.package.name}.values": VALUES})
     messages = _messages_of_others(c, words_of(functions))
-    messages += imports(own, {f"{c.package.name}.msg": own})
+    messages += imports(own, {words.messages(c.package.name): own})
     text = [
         f'"""What the sensors of {c.node.name} have seen, as the model\'s values.',
         "",
@@ -153,6 +160,7 @@ def sensors_module(c: PyClass) -> str:
         "",
         *messages,
         *typing,
+        "",
         "",
         f"# rebsync: user {c.node.name}.sensors",
         *functions,

@@ -10,7 +10,7 @@ from rebsync.model import Parameter
 from rebsync.names import carry, graph_name, unique
 from rebsync.package import NodeClass, Package, Publisher, Subscription
 from rebsync.records import dataclass
-from rebsync.reserved import PYTHON_MEMBERS, PYTHON_RESERVED
+from rebsync.reserved import PYTHON_MEMBERS, PYTHON_RESERVED, carry_local
 
 Place = tuple[str, str]
 
@@ -36,7 +36,8 @@ class PyNames:
 
     def local(self, name: str) -> str:
         """A local variable or parameter: the model's own name where it hides nothing."""
-        return carry(name, PYTHON_RESERVED | self.types)
+        taken = self.types | {t.removesuffix("_v") for t in self.types}
+        return carry_local(name, PYTHON_RESERVED | taken, self.types)
 
     def function(self, name: str, parameters: tuple[Parameter, ...]) -> str:
         """A handler or method: the model's own name where Python has one function of that name."""

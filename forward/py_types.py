@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from rebsync.forward.cpp_types import class_type, is_text
+from rebsync.forward.cpp_types import is_text
 from rebsync.model import Type
+from rebsync.names import carry
 from rebsync.package import Value
+from rebsync.reserved import NO_PYTHON_CLASSES
 
 _PLAIN = {
     "byte": "Byte",
@@ -24,6 +26,11 @@ _FORMATS = {
     "double": "float64",
     "boolean": "boolean",
 }
+
+
+def class_type(name: str) -> str:
+    """The Python class of a reactive class or interface."""
+    return carry(name, NO_PYTHON_CLASSES)
 
 
 def py_type(type_: Type) -> str:

@@ -18,6 +18,15 @@ from rebsync.package import ConstructorOf, GlobalParameter
 class PyWords(Protocol):
     """What one generation of ROS has other words for."""
 
+    def messages(self, package: str) -> str:
+        """The module of the package's own messages."""
+
+    def parameters(self) -> list[str]:
+        """What a constructor is given before the parameters of the model."""
+
+    def passed(self) -> list[str]:
+        """The same as arguments."""
+
     def mailbox(self, arguments: str) -> str:
         """Makes the mailbox of a node."""
 
@@ -39,9 +48,6 @@ class PyWords(Protocol):
     def state(self, type_: str) -> str:
         """Makes the publisher of the node's state."""
 
-    def initialised(self, c: PyClass) -> list[str]:
-        """What a constructor does before all else."""
-
 
 def class_lines(c: PyClass, words: PyWords) -> list[list[str]]:
     """The constructor, and what an heir calls instead of it."""
@@ -50,12 +56,13 @@ def class_lines(c: PyClass, words: PyWords) -> list[list[str]]:
     wires_itself = c.node.executable and not c.node.inherited_from
     found = []
     if c.node.executable:
-        own = _wired(c, words, *_capacity(c)) if wires_itself else [f"self._wire({_call(c)})"]
+        own = (
+            _wired(c, words, *_capacity(c)) if wires_itself else [f"self._wire({_call(c, words)})"]
+        )
         found.append(_constructor(c, words, own))
     if not wires_itself:
-        default = f" = {c.node.queue_length}" if not c.node.executable else ""
-        best = " = NO_PRIORITY" if default else ""
-        passed = ["self", f"queue_length: int{default}", f"best_priority: int{best}"]
+        passed = ["self", *words.parameters(), f"queue_length: int = {c.node.queue_length}"]
+        passed.append("best_priority: int = NO_PRIORITY")
         lines = _wired(c, words, "queue_length", "best_priority")
         found.append([*call_lines("def _wire(", passed, ") -> None:"), *indented(lines)])
     return found
@@ -65,14 +72,17 @@ def _constructor(c: PyClass, words: PyWords, wired: list[str]) -> list[str]:
     chosen = constructor_of(c)
     names = [c.names.local(p.name) for p in chosen.parameters]
     passed = [f"{n}: {py_type(p.type)}" for n, p in zip(names, chosen.parameters, strict=True)]
-    lines = [*words.initialised(c), *wired]
+    lines = wired
     lines.append(f"self._state_pub = {words.state(c.node.state.name)}")
     lines.append("self._mailbox.on_served(self._publish_state)")
     if chosen.body is not None:
         construct = f"self.{c.construct(chosen)}"
         body = f"lambda: {construct}({', '.join(names)})" if names else construct
         lines += call_lines("self._mailbox.construct(", [body])
-    return [*call_lines("def __init__(", ["self", *passed], ") -> None:"), *indented(lines)]
+    return [
+        *call_lines("def __init__(", ["self", *words.parameters(), *passed], ") -> None:"),
+        *indented(lines),
+    ]
 
 
 def constructor_of(c: PyClass) -> ConstructorOf:
@@ -87,9 +97,9 @@ def _capacity(c: PyClass) -> tuple[str, str]:
     return str(c.node.queue_length), str(min(priorities)) if priorities else ""
 
 
-def _call(c: PyClass) -> str:
+def _call(c: PyClass, words: PyWords) -> str:
     queue, best = _capacity(c)
-    return f"{queue}, {best or 'NO_PRIORITY'}"
+    return ", ".join([*words.passed(), queue, best or "NO_PRIORITY"])
 
 
 def _wired(c: PyClass, words: PyWords, queue: str, best: str) -> list[str]:
@@ -97,7 +107,7 @@ def _wired(c: PyClass, words: PyWords, queue: str, best: str) -> list[str]:
     if base_of(c.package, c.node) is None:
         lines = [f"self._mailbox = {words.mailbox(arguments)}"]
     else:
-        lines = [f"super()._wire({arguments if best else f'{queue}, NO_PRIORITY'})"]
+        lines = [f"super()._wire({', '.join([*words.passed(), queue, best or 'NO_PRIORITY'])})"]
     if c.owns_drive:
         lines.append(f"self._drive = {words.drive()}")
     for sensor in c.node.sensors:

@@ -15,7 +15,8 @@ _PARAMETER_TYPES = {"byte": "int", "short": "int", "int": "int", "boolean": "boo
 # --- package.xml and CMakeLists.txt -------------------------------------------------------------
 
 
-def _depends(package: Package) -> list[str]:
+def depends_of(package: Package) -> list[str]:
+    """The packages that the nodes need."""
     found = {"roscpp", "std_msgs"}
     if any(c.moves for c in package.classes):
         found.add("geometry_msgs")
@@ -26,36 +27,39 @@ def _depends(package: Package) -> list[str]:
 
 def manifest(package: Package) -> str:
     """package.xml, format 2."""
-    return fill("ros1_cpp/package.xml.j2", package=package, depends=_depends(package))
+    return fill("ros1_cpp/package.xml.j2", package=package, depends=depends_of(package))
 
 
 @dataclass(frozen=True, slots=True)
-class _Executable:
+class Executable:
+    """A program and its sources."""
+
     name: str
     sources: tuple[str, ...]
 
 
 def cmake_lists(package: Package) -> str:
     """CMakeLists.txt for catkin."""
-    depends = _depends(package)
+    depends = depends_of(package)
     return fill(
         "ros1_cpp/CMakeLists.txt.j2",
         package=package.name,
         build_depends=sorted([*depends, "message_generation"]),
         run_depends=sorted([*depends, "message_runtime"]),
         messages=message_names(package),
-        executables=_executables(package),
+        executables=executables_of(package),
     )
 
 
-def _executables(package: Package) -> list[_Executable]:
+def executables_of(package: Package) -> list[Executable]:
+    """The programs, each with the files that it is made of."""
     found = []
     for node in package.classes:
         if node.executable:
             sources = [f"{node.file}_node", node.file, *_base_sources(package, node)]
-            found.append(_Executable(f"{node.file}_node", tuple(sorted(sources))))
+            found.append(Executable(f"{node.file}_node", tuple(sorted(sources))))
         if any(s.stands_in for s in node.sensors):
-            found.append(_Executable(f"{node.file}_stand_in", (f"{node.file}_stand_in",)))
+            found.append(Executable(f"{node.file}_stand_in", (f"{node.file}_stand_in",)))
     return sorted(found, key=lambda e: e.name)
 
 

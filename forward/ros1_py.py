@@ -21,6 +21,7 @@ from rebsync.static import Analysis
 
 _SENSORS = "src/{package}/{file}_sensors.py"
 _FOLDER = "ros1_py"
+_ROS: dict[str, tuple[str, ...]] = {"rospy": ()}
 
 
 class Rospy:
@@ -53,7 +54,13 @@ class Rospy:
     def state(self, type_: str) -> str:
         return f'rospy.Publisher("~state", {type_}, queue_size=QUEUE_SIZE, latch=True)'
 
-    def initialised(self, c: PyClass) -> list[str]:
+    def messages(self, package: str) -> str:
+        return f"{package}.msg"
+
+    def parameters(self) -> list[str]:
+        return []
+
+    def passed(self) -> list[str]:
         return []
 
 
@@ -61,13 +68,13 @@ def render(
     package: Package, analysis: Analysis, topics: Topics, remarks: Remarks, model_name: str
 ) -> dict[str, str]:
     """The files of the package by path, relative to its folder."""
-    source = f"src/{package.name}"
+    source, words = f"src/{package.name}", Rospy()
     files: dict[str, str] = {
         "package.xml": fill(
-            f"{_FOLDER}/package.xml.j2", package=package, depends=_depends(package)
+            f"{_FOLDER}/package.xml.j2", package=package, depends=depends_of(package)
         ),
         "setup.py": fill(f"{_FOLDER}/setup.py.j2", package=package.name),
-        "ruff.toml": fill("py/ruff.toml.j2"),
+        "ruff.toml": fill("py/ruff.toml.j2", packages=[package.name]),
         "README.md": readme(package, model_name, _FOLDER, _SENSORS),
         f"launch/{package.name}.launch": launch_file(package),
         "config/params.yaml": parameters(package),
@@ -76,11 +83,11 @@ def render(
     files.update(message_files(package))
     files.update(_runtime(package))
     for c in classes(package, analysis, topics, remarks).values():
-        files[f"{source}/{c.node.file}.py"] = class_module(c, Rospy(), model_name, ("rospy",))
+        files[f"{source}/{c.node.file}.py"] = class_module(c, words, model_name, _ROS)
         if c.node.executable:
             files[f"scripts/{c.node.file}_node"] = _node(c)
         if any(s.draws for s in c.node.sensors):
-            files[f"{source}/{c.node.file}_sensors.py"] = sensors_module(c)
+            files[f"{source}/{c.node.file}_sensors.py"] = sensors_module(c, words)
         if any(s.stands_in for s in c.node.sensors):
             files[f"scripts/{c.node.file}_stand_in"] = _stand_in(package, c.node)
     scripts = sorted(p for p in files if p.startswith("scripts/"))
@@ -100,7 +107,8 @@ def _runtime(package: Package) -> dict[str, str]:
     }
 
 
-def _depends(package: Package) -> list[str]:
+def depends_of(package: Package) -> list[str]:
+    """The packages that the nodes need."""
     found = {"rosgraph_msgs", "rospy", "std_msgs"}
     if any(c.moves for c in package.classes):
         found.add("geometry_msgs")
@@ -110,7 +118,7 @@ def _depends(package: Package) -> list[str]:
 
 
 def _cmake_lists(package: Package, scripts: list[str]) -> str:
-    depends = _depends(package)
+    depends = depends_of(package)
     return fill(
         f"{_FOLDER}/CMakeLists.txt.j2",
         package=package.name,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 TEMPLATES = "ros1_cpp"
 HEADER = "h"
+BREAKS_LINES = False
 TYPED_PUBLISHERS = False
 FRAME = "ros/ros.h"
 

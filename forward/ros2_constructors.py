@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rebsync.forward.cpp_class import CppClass
-from rebsync.forward.cpp_layout import call_lines
+from rebsync.forward.cpp_layout import call_lines, statement_lines
 from rebsync.forward.cpp_types import cpp_type, cpp_value
 from rebsync.forward.cpp_wiring import wiring
 from rebsync.forward.lineage import base_of
@@ -77,7 +77,7 @@ def _constructor(c: CppClass, wires_itself: bool) -> list[str]:
     lines = [*_parameters_read(c), *wiring(c)] if wires_itself else []
     kept = "rclcpp::QoS(kQueueSize).transient_local()"
     state = f"create_publisher<{c.words.message(c.node.state.name)}>"
-    lines += call_lines(f"state_pub_ = {state}", ['"~/state"', kept], ";")
+    lines += statement_lines(f"state_pub_ = {state}", ['"~/state"', kept], ";")
     lines.append("mailbox_.onServed([this](const Served& served) { publishState(served); });")
     lines += _constructed(c)
     lines.append("mailbox_.start();")
@@ -145,11 +145,13 @@ def _declared(
         whole = (
             f"{cpp_type(type_)}{cpp_value(value)}" if value is not None else cpp_type(type_) + "{}"
         )
-        return call_lines(f"{target} = declareArray", ["*this", f'"{key}"', whole, described], ";")
+        return statement_lines(
+            f"{target} = declareArray", ["*this", f'"{key}"', whole, described], ";"
+        )
     kind, nothing = _PARAMETERS.get(type_.name, ("std::string", '""'))
     given = nothing if value is None else cpp_value(value)
     cast = _CASTS.get(type_.name, "")
-    return call_lines(
+    return statement_lines(
         f"{target} = {cast}{'(' if cast else ''}declare_parameter<{kind}>",
         [f'"{key}"', given, described],
         ");" if cast else ";",

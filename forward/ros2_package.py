@@ -99,7 +99,7 @@ def _instance(package: Package, instance: Instance) -> _Node:
         (*annotations, f"rebec {instance.rebec}"),
         True,
         tuple((p.key.replace("/", "."), _python(p.value)) for p in instance.parameters),
-        instance.remaps,
+        tuple(map(_private, instance.remaps)),
     )
 
 
@@ -110,8 +110,13 @@ def _stand_in(package: Package, stand_in: StandIn) -> _Node:
         (f"stand-in {stand_in.name}",),
         False,
         (),
-        stand_in.remaps,
+        tuple(map(_private, stand_in.remaps)),
     )
+
+
+def _private(remap: Remap) -> Remap:
+    """Private names have a slash behind the tilde in ROS 2."""
+    return Remap(remap.private.replace("~", "~/"), remap.target)
 
 
 def _python(value: Value) -> str:

@@ -6,6 +6,7 @@ import re
 
 TEMPLATES = "ros2_cpp"
 HEADER = "hpp"
+BREAKS_LINES = True
 TYPED_PUBLISHERS = True
 FRAME = "rclcpp/rclcpp.hpp"
 

@@ -44,6 +44,14 @@ class SensorBinding:
 
 
 @dataclass(frozen=True, slots=True)
+class ClassTarget:
+    """The dialect of a class that is in another one than the rest of its package."""
+
+    name: str
+    target: str
+
+
+@dataclass(frozen=True, slots=True)
 class Config:
     """The settings of one model; times in seconds, lengths in metres, angles in radians."""
 
@@ -60,6 +68,12 @@ class Config:
     version: str = "0.1.0"
     description: str | None = None
     sensors: tuple[SensorBinding, ...] = ()
+    targets: tuple[ClassTarget, ...] = ()
+
+    def target_of(self, class_name: str) -> str:
+        """The dialect of a class."""
+        own = (t.target for t in self.targets if t.name == class_name)
+        return next(own, self.target)
 
     def sensor(self, class_name: str, server: str) -> SensorBinding | None:
         """The binding of the server `class_name.server`, if the user gave one."""
@@ -95,6 +109,7 @@ def _config(table: Table) -> Config:
         or default.version,
         description=table.text("description"),
         sensors=_sensors(table),
+        targets=_targets(table),
     )
 
 
@@ -129,6 +144,15 @@ def _sensors(table: Table) -> tuple[SensorBinding, ...]:
         bindings.append(SensorBinding(server, topic, kind, entry.text("seen")))
         entry.finish()
     return tuple(bindings)
+
+
+def _targets(table: Table) -> tuple[ClassTarget, ...]:
+    chosen = table.table("targets")
+    if chosen is None:
+        return ()
+    found = [ClassTarget(n, _one_of(chosen, n, TARGETS, "ros1-cpp")) for n in list(chosen.values)]
+    chosen.finish()
+    return tuple(found)
 
 
 def _matching(

@@ -103,7 +103,8 @@ PYTHON_RESERVED = (
     | PYTHON_GLOBALS
     | _PYTHON_BUILTINS
     | {"_drive", "_mailbox", "_publish_state", "_state_pub", "_wire"}
-    | {"ABC", "abstractmethod", "block", "construct", "mailbox", "msg", "node", "self", "served"}
-    | {"when"}
+    | {"ABC", "abstractmethod", "block", "construct", "mailbox", "msg", "node", "self"}
+    | {"KEPT", "Node", "declare_array", "declared", "when"}
 )
+NO_PYTHON_CLASSES = NO_CLASSES | PYTHON_RESERVED
 PYTHON_MEMBERS = frozenset({"drive", "mailbox", "node", "publish_state", "state_pub", "wire"})

@@ -122,7 +122,7 @@ def _python(files: Mapping[str, Source], findings: Findings, only: str | None) -
         return None
     from rebsync.reverse.python.recovery import read_python
 
-    messages = {type_.rpartition("/")[2] for type_ in own_messages(files)}
+    messages = {t.rpartition("/")[2]: tuple(f) for t, f in own_messages(files).items()}
     return read_python(sources, findings, only, messages)
 
 

@@ -50,7 +50,8 @@ def elements(text: str) -> Iterator[Element]:
         if match is None or match["kind"] in _NOT_ELEMENTS:
             continue
         before = match["before"].strip()
-        body = before if before else "\n".join(_block(lines, number + 1))
+        block = _suite if "#" in line.partition("rebsync:")[0] else _block
+        body = before if before else "\n".join(block(lines, number + 1))
         yield Element(match["kind"], match["path"], body)
 
 
@@ -65,6 +66,19 @@ def _block(lines: list[str], first: int) -> Iterator[str]:
         done = line.rstrip().endswith((";", "/>", "{}")) and "{" not in line.rstrip("{};")
         if indent is not None and depth <= indent and (closes or done):
             return
+
+
+def _suite(lines: list[str], first: int) -> Iterator[str]:
+    """The same in Python: a definition, its decorators, and what is indented below it."""
+    indent, opened = None, False
+    for line in lines[first:]:
+        code, depth = line.strip(), len(line) - len(line.lstrip())
+        if opened and code and depth <= (indent or 0) and code[0] not in ")]}":
+            return
+        if indent is None and code and not code.startswith("#"):
+            indent = depth
+        opened = opened or code.startswith(("def ", "class ", "Node("))
+        yield line
 
 
 TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"|\w+|\S', re.DOTALL)

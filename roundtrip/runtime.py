@@ -24,16 +24,16 @@ from rebsync.roundtrip.wiring_facts import package_name
 from rebsync.source import NOWHERE, Source, Span
 
 _MANIFEST = "package.xml"
-_HEADER = re.compile(rf"include/[^/]+/(?:{'|'.join(RUNTIME_HEADERS)})\.h\Z")
+_HEADER = re.compile(rf"include/[^/]+/(?:{'|'.join(RUNTIME_HEADERS)})\.h(?:pp)?\Z")
 _STAND_IN = re.compile(r"src/\w+_stand_in\.cpp\Z")
 _PROGRAM = re.compile(r"src/\w+_node\.cpp\Z")
 _INCLUDE = re.compile(
     r'^[ \t]*#[ \t]*(?:include[ \t]*(?:<[^>\n]*>|("[^"\n]*"))|pragma once\b)', re.M
 )
-_OWN_NAME = re.compile(r'#include "(\w+)/|#ifndef (\w+)_\w+_H\b')
+_OWN_NAME = re.compile(r'#include "(\w+)/|#ifndef (\w+)_\w+_H\b|#ifndef (\w+)__\w+_HPP_')
 # What a rebec is made of, extraction reads.
 _REBEC = re.compile(r"::\w+rebec\(node[,)]|.*(?:node\.param|readArray)\(")
-_LOGS = ("ROS_", "printf(", "std::cout", "std::cerr")
+_LOGS = ("ROS_", "RCLCPP_", "printf(", "std::cout", "std::cerr")
 _HINT = "take the edit back, or tell of it in the model; `rebsync generate --diff` shows it"
 
 

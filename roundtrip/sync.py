@@ -11,7 +11,7 @@ from dataclasses import field, replace
 from pathlib import Path
 
 from rebsync import model as m
-from rebsync.config import Config, Maintainer, SensorBinding, parse_config
+from rebsync.config import ClassTarget, Config, Maintainer, SensorBinding, parse_config
 from rebsync.diagnostics import Findings, RebsyncError, Severity
 from rebsync.files import read_source
 from rebsync.records import dataclass
@@ -275,7 +275,8 @@ def _config_of(record: Record) -> Config:
     known = {name: value for name, value in record.options.items() if name in _FIELDS}
     people = tuple(Maintainer(**p) for p in known.pop("maintainers", ()))
     sensors = tuple(SensorBinding(**s) for s in known.pop("sensors", ()))
-    return Config(**known, maintainers=people, sensors=sensors)
+    targets = tuple(ClassTarget(**t) for t in known.pop("targets", ()))
+    return Config(**known, maintainers=people, sensors=sensors, targets=targets)
 
 
 _FIELDS = frozenset(Config.__dataclass_fields__)

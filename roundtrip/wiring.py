@@ -39,6 +39,10 @@ from rebsync.roundtrip.wiring_facts import (
 from rebsync.roundtrip.wiring_names import TOPICS, Joined, is_about, joined, replaced
 from rebsync.source import NOWHERE, Source
 
+_WIRED = (
+    *(".cpp", ".h", ".hpp", ".launch", ".launch.py", ".msg"),
+    *("CMakeLists.txt", "config/params.yaml"),
+)
 _JOINING = frozenset(
     {
         *(Aspect.TYPE, Aspect.PARAMETERS, Aspect.BINDING, Aspect.EXTENDS, Aspect.IMPLEMENTS),
@@ -120,7 +124,7 @@ def _values(facts: Facts) -> dict[tuple[str, str, str], set[str]]:
 
 
 def _is_wiring(name: str) -> bool:
-    return name.endswith((".cpp", ".h", ".launch", ".msg", "CMakeLists.txt", "config/params.yaml"))
+    return name.endswith(_WIRED)
 
 
 def _odd(kept: Kept, before: list[Fact], now: list[Fact]) -> Odd | None:

@@ -15,6 +15,7 @@ from typing import TypeAlias
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import read_source
 from rebsync.records import dataclass
+from rebsync.reverse.launch.launch_python import read_python_launch
 from rebsync.source import Source, Span
 
 PROGRAM, PLAYED, TYPE, SPACE = "program", "played sensor", "type of a node", "space of parameters"
@@ -24,8 +25,11 @@ _PACKAGE = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
 Facts: TypeAlias = "dict[tuple[str, str, str], list[Fact]]"
 
 _LAYOUT = re.compile(r" ?([^\w \"]) ?")
-_READ = re.compile(r"\b(\w+)\s*=\s*global\s*\.\s*param(?:<[^<>]*>)?\s*\(\s*(\"[^\"]*\")")
+_READ = re.compile(
+    r"\b(\w+)\s*=\s*(?:global\s*\.\s*param|declare_parameter)(?:<[^<>]*>)?\s*\(\s*(\"[^\"]*\")"
+)
 _BEST = re.compile(r"\bmailbox_\s*\(\s*\w+\s*,[^,()]*(?:,\s*([^()]*?)\s*)?\)")
+_STARTED = re.compile(r"\bmailbox_\s*\.\s*start\s*\(\s*\)")
 _SENT_BY = re.compile(r"\bmailbox_\s*\.\s*receive\s*\(\s*(\w+)\s*,[^,]*,\s*([^,]*?)\s*,")
 _HASH = re.compile(r"#[^\n]*")
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
@@ -106,6 +110,8 @@ def _of_file(name: str, source: Source, package: str) -> Iterable[Fact]:
         return _settings(source)
     if name.endswith(".txt"):
         return _programs(source)
+    if name.endswith(".py"):
+        return _declared(source, package)
     is_launch = name.endswith(".launch")
     text = (_REMARK if is_launch else _COMMENT).sub(lambda m: " " * len(m[0]), source.text)
     if is_launch:
@@ -125,6 +131,8 @@ def _joints(source: Source, text: str) -> Iterator[Fact]:
         yield Fact("priority", owner[1], m[2].strip('"'), priority, source, Span(*m.span()))
     for m in _READ.finditer(text):
         yield Fact("parameter for", owner[1], m[1], m[2], source, Span(*m.span()))
+    for m in _STARTED.finditer(text):
+        yield Fact("start of serving", owner[1], "", "there", source, Span(*m.span()))
     for m in _BEST.finditer(text):
         yield Fact("best priority", owner[1], "", m[1] or "none", source, Span(*m.span()))
     for m in _SENT_BY.finditer(text):
@@ -224,6 +232,21 @@ def _launched(source: Source, text: str, package: str) -> Iterator[Fact]:
                 pass
 
 
+def _declared(source: Source, package: str) -> Iterator[Fact]:
+    """The same of a launch file in Python, but for what a node is made of."""
+    for node in read_python_launch(source, lambda _: None).nodes:
+        name = str(node.name)
+        of = OWN if node.package == package else str(node.package)
+        facts = {"pkg": of, "ns": str(node.namespace), "if": " ".join(node.only_if)}
+        for key, value in facts.items():
+            yield Fact("node", name, key, value or NOT_GIVEN, source, node.span)
+        for remap in node.remaps:
+            yield Fact("remap", name, remap.private, str(remap.target), source, remap.span)
+        for given in node.parameters:
+            if given.name.partition("/")[0] in _BEARING:
+                yield Fact("parameter", name, given.name, repr(given.value), source, given.span)
+
+
 def _fields(source: Source, package: str) -> Iterator[Fact]:
     message = Path(source.path).stem
     if _STATE.search(source.text):
@@ -237,7 +260,7 @@ def _settings(source: Source) -> Iterator[Fact]:
     """What in the parameters of the run-time part has a bearing on what nodes do."""
     section = ""
     for m in _ENTRY.finditer(source.text):
-        if not m[1]:
+        if not m[1] or not m[3]:
             section = m[2]
         elif m[2] in _BEARING.get(section, ()):
             yield Fact("parameter", "", f"{section}/{m[2]}", m[3], source, Span(*m.span(2)))

@@ -78,6 +78,8 @@ def joined(facts: Facts, free: frozenset[_End] = frozenset()) -> Joined | None:
     What is `free` does not count.
     """
     nodes = [owner for kind, owner, _ in facts if kind == TYPE]
+    if not nodes:
+        return None
     try:
         ends = [e for node in nodes for e in _Node(facts, node).ends() if e[0] not in free]
     except _Unknown:

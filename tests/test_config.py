@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rebsync.config import Config, Maintainer, SensorBinding, parse_config
+from rebsync.config import ClassTarget, Config, Maintainer, SensorBinding, parse_config
 from rebsync.diagnostics import RebsyncError
 from rebsync.source import Source
 
@@ -66,6 +66,14 @@ def test_a_binding_is_found_by_class_and_server() -> None:
     config = parse_config(Source("rebsync.toml", text))
     assert config.sensor("R", "s") == SensorBinding("R.s", "t", "a_msgs/B")
     assert config.sensor("R", "other") is None
+
+
+def test_a_class_may_have_a_dialect_of_its_own() -> None:
+    config = parse_config(Source("rebsync.toml", '[targets]\nRobot = "ros1-py"\n'))
+    assert config.targets == (ClassTarget("Robot", "ros1-py"),)
+    assert [config.target_of(name) for name in ("Robot", "Other")] == ["ros1-py", "ros1-cpp"]
+    (mistake,) = mistakes('[targets]\nRobot = "ros1-pi"\n')
+    assert mistake[:2] == ("RS809", 2)
 
 
 @pytest.mark.parametrize("newline", ["\n", "\r\n"])

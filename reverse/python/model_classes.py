@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field as with_default
 from dataclasses import replace
 
@@ -14,6 +14,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python.model_expressions import Expressions, Names
+from rebsync.reverse.python.model_plumbing import Plumbing, odd_at_top
 from rebsync.reverse.python.model_roles import EnvUse, Roles, Sends, plain_name, roles_of
 from rebsync.reverse.python.model_statements import Statements
 from rebsync.reverse.python.model_types import class_name, markers_above, type_of
@@ -38,12 +39,12 @@ _RUNTIME = {
 class Classes:
     """Reads the classes of some code that have a mailbox, and the interfaces of these.
 
-    `messages` are the names of the package's message types, which names of the model give way to.
+    `messages` are the fields of the package's message types, by the names of these.
     """
 
     code: PyCode
     findings: Findings
-    messages: Collection[str] = ()
+    messages: Mapping[str, Sequence[str]] = with_default(default_factory=dict)
     roles: dict[int, Roles] = with_default(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -55,7 +56,11 @@ class Classes:
         for owner in self._owners:
             self.roles[id(owner)] = roles_of(self.code, owner)
         reached = {id(c) for o in self._owners if self._has_mailbox(o) for c in self.line(o)}
-        self._owners = [o for o in self._owners if id(o) in reached or _is_marked(o)]
+        self._owners = [
+            o
+            for o in self._owners
+            if id(o) in reached or _is_marked(o) or (reached and self._is_only_declared(o))
+        ]
         self._types = frozenset({*self.messages, *(o.name for o in self._owners)})
         self._servers = {k: v for o in self._owners for k, v in self._of(o).messages.items()}
 
@@ -73,10 +78,13 @@ class Classes:
 
     def read(self, path: str | None = None) -> tuple[m.ReactiveClass | m.Interface, ...]:
         """All of them in the order of the code, or those of a file."""
+        wanted = [o for o in self._owners if path is None or o.py.source.path == path]
+        for module in {id(o.module): o.module for o in wanted}.values():
+            for node in odd_at_top(module):
+                unread = Unread(module.py.span(node), "what this does is not in the model")
+                self.findings.unreadable(module.py.source, unread, "")
         return tuple(
-            self._reactive(o) if self._has_mailbox(o) else self._interface(o)
-            for o in self._owners
-            if path is None or o.py.source.path == path
+            self._reactive(o) if self._has_mailbox(o) else self._interface(o) for o in wanted
         )
 
     def env(self) -> Iterator[EnvUse]:
@@ -88,6 +96,13 @@ class Classes:
             self.roles[id(owner)] = roles_of(self.code, owner)
         return self.roles[id(owner)]
 
+    def _is_only_declared(self, owner: Scope) -> bool:
+        """Whether a class only says what its heirs can do, as an interface that nobody has."""
+        bases = owner.node.child_by_field_name("superclasses")
+        names = {text_of(b) for b in named(bases)} if bases is not None else set()
+        functions = self._of(owner).functions.values()
+        return names <= {"ABC"} and not owner.attributes and all(map(_is_abstract, functions))
+
     def _has_mailbox(self, owner: Scope) -> bool:
         return any(self._of(c).has_mailbox for c in self.line(owner))
 
@@ -95,7 +110,7 @@ class Classes:
 
     def _interface(self, owner: Scope) -> m.Interface:
         functions = self._of(owner).functions.values()
-        servers = tuple(self._server(owner, f, plain_name(f, self._types)) for f in functions)
+        servers = tuple(self._server(owner, f, plain_name(f)) for f in functions)
         extends = tuple(class_name(c.name) for c in self.line(owner)[1:] if self._is_base(owner, c))
         span = owner.py.span(owner.node)
         return m.Interface(class_name(owner.name), servers, extends, _annotations(owner), span)
@@ -108,6 +123,7 @@ class Classes:
 
     def _reactive(self, owner: Scope) -> m.ReactiveClass:
         roles = self._of(owner)
+        Plumbing(roles, self.messages, self.findings).check()
         members: list[m.ClassMember] = []
         known = [self._variable(owner, *v) for v in roles.known.values()]
         state = [self._variable(owner, *v) for v in roles.state.values()]
@@ -162,7 +178,7 @@ class Classes:
             if function.name in roles.handlers:
                 return roles.handlers[function.name]
             if not self._has_mailbox(above) and function.name in roles.functions:
-                return plain_name(function, self._types)
+                return plain_name(function)
         return None
 
     def _server(self, owner: Scope, function: Scope, name: str) -> m.MessageServer:
@@ -190,7 +206,7 @@ class Classes:
                 return
 
     def _method(self, owner: Scope, function: Scope) -> m.Method:
-        name = plain_name(function, self._types)
+        name = plain_name(function)
         within = f"{class_name(owner.name)}.{name}"
         result = type_of(function.node.child_by_field_name("return_type"))
         return m.Method(
@@ -255,7 +271,7 @@ class Classes:
             for name, function in roles.functions.items():
                 if not roles.is_plumbing(name) and not _is_constructor(name):
                     served = self._served(above, function)
-                    functions[name] = served or plain_name(function, self._types)
+                    functions[name] = served or plain_name(function)
         return Names(variables, sends, functions)
 
     def _resolved(self, sends: Sends) -> Sends:

@@ -11,6 +11,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.names import original
 from rebsync.records import dataclass
+from rebsync.reverse.bodies.building import binary
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python.model_roles import Sends
 from rebsync.reverse.python.model_types import call_parts, string_value
@@ -245,7 +246,7 @@ class Expressions:
             return m.Cast(m.Type(_CASTS[called]), self.read(arguments[0]), self.py.span(node))
         if called in _OPERATIONS and len(arguments) == 2:
             left, right = map(self.read, arguments)
-            return m.Binary(_OPERATIONS[called], left, right, self.py.span(node))
+            return binary(_OPERATIONS[called], left, right, self.py.span(node))
         if called.startswith(("self.", "super().")):
             return self._own_call(node, called, arguments)
         return self._function(node, called, arguments)

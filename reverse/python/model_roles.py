@@ -66,6 +66,7 @@ class Roles:
     shown: dict[str, tuple[m.Annotation, ...]] = with_default(default_factory=dict)
     messages: dict[str, str] = with_default(default_factory=dict)
     sends: dict[str, Sends] = with_default(default_factory=dict)
+    by_shim: dict[str, str] = with_default(default_factory=dict)
     shims: set[str] = with_default(default_factory=set)
     topics: dict[str, str] = with_default(default_factory=dict)
     sensors: set[str] = with_default(default_factory=set)
@@ -73,6 +74,10 @@ class Roles:
     has_drive: bool = False
     on_bridge: bool = False
     queue_length: int | None = None
+
+    def served_by(self, shim: str) -> str | None:
+        """The server whose messages a shim takes in."""
+        return self.by_shim.get(shim)
 
     def is_plumbing(self, name: str) -> bool:
         """Whether a function is none of the model's."""
@@ -262,6 +267,7 @@ def _received(
     if not server or not handler.isidentifier():
         return
     roles.shims.add(function.name)
+    roles.by_shim[function.name] = server
     roles.handlers[handler] = server
     port = roles.topics.get(function.name, "").startswith("port/")
     roles.shown[handler] = (*((m.Annotation("Port"),) if port else ()), *annotations)
@@ -281,12 +287,19 @@ def _published(roles: Roles, function: Scope, publisher: Node, passed: list[str]
         roles.sends[function.name] = Sends(known, f"{message} {key}", count)
 
 
-def plain_name(function: Scope, types: Collection[str]) -> str:
-    """The model's name of a function, from its marker unless it was renamed."""
-    name = function.name.partition("__")[0] if function.name[:2] != "__" else function.name
+def plain_name(function: Scope) -> str:
+    """The model's name of a function, from its marker unless it was renamed.
+
+    Overloads have the types of their parameters behind two underscores.
+    """
+    name = function.name
     for marker in markers_above(function.py, function.node):
         kind, path, *_ = [*marker.split(), "", ""]
         told = path.rpartition(".")[2]
-        if kind in ("msgsrv", "method") and carry(told, PYTHON_RESERVED) == name:
+        carried = carry(told, PYTHON_RESERVED) if told else ""
+        if kind in ("msgsrv", "method") and (name == carried or name.startswith(f"{carried}__")):
             return told
-    return uncarry(name, PYTHON_RESERVED)
+    found = uncarry(name, PYTHON_RESERVED)
+    if carry(found, PYTHON_RESERVED) == name and ("__" not in name or name.endswith("_v")):
+        return found
+    return uncarry(name.rpartition("__")[0] or name, PYTHON_RESERVED)

@@ -8,7 +8,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.names import uncarry
-from rebsync.reserved import NO_CLASSES
+from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.reverse.python.py_tree import Py, field, named, text_of
 
 _PLAIN = {
@@ -26,7 +26,7 @@ _UNSET = re.compile(r"(?:int|Byte|Short|Float|float|bool|Rebec)\(\)\Z|array\(")
 
 def class_name(text: str) -> str:
     """The reactive class of a Python class."""
-    return uncarry(text, NO_CLASSES)
+    return uncarry(text, NO_PYTHON_CLASSES)
 
 
 def type_of(node: Node | None) -> m.Type | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from tree_sitter import Node
 
@@ -61,11 +61,12 @@ def read_python(
     sources: Mapping[str, Source],
     findings: Findings,
     only: str | None = None,
-    messages: Collection[str] = (),
+    messages: Mapping[str, Sequence[str]] | None = None,
 ) -> PythonPart:
     """What some files say; each callback whose body is not in the model is listed.
 
-    With `only` the classes of that file; `messages` are the message types of the package.
+    With `only` the classes of that file; `messages` are the fields of the
+    package's message types.
     """
     trees = [parse(source) for _, source in sorted(sources.items())]
     findings.all += [f for py in trees for f in unparsed(py)]
@@ -73,7 +74,7 @@ def read_python(
     graph = graph_of(code)
     asked = sources.get(only) if only is not None else None
     path = asked.path if asked is not None else None
-    classes = Classes(code, findings, messages)
+    classes = Classes(code, findings, messages or {})
     read = classes.read(path) if asked is not None or only is None else ()
     _list_callbacks(graph, classes, findings, path)
     used = tuple((e.key, (e.type, e.name, constant(e.default))) for e in classes.env())

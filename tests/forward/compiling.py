@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 from rebsync.config import Config, parse_config
@@ -51,9 +52,10 @@ def _accept(found: Sequence[Diagnostic]) -> None:
     assert not errors, errors
 
 
-def case_files(case: Path) -> dict[str, str]:
+def case_files(case: Path, target: str = "ros1-cpp") -> dict[str, str]:
     """The package of a case: a model, and its settings where it has some."""
-    return generated(case.read_text(encoding="utf-8"), case.stem, case_config(case))
+    config = replace(case_config(case), target=target)
+    return generated(case.read_text(encoding="utf-8"), case.stem, config)
 
 
 def case_config(case: Path) -> Config:

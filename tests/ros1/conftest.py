@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import jinja2
@@ -15,6 +16,11 @@ from tests.ros1.workspace import SYSTEM_PATH, Workspace, build, missing_ros
 _HERE = Path(__file__).parent
 _TEMPLATES = _HERE.parents[1] / "forward" / "templates"
 HEADERS = ("drive.h", "mailbox.h", "sensor.h", "startup.h", "values.h")
+MODULES = {
+    **{name: f"ros1_py/{name}.py" for name in ("drive", "mailbox", "sensor", "startup")},
+    "values": "py/values.py",
+}
+DIALECTS = ("ros1-cpp", "ros1-py")
 
 Build = Callable[[str, Sequence[Path]], Workspace]
 
@@ -46,17 +52,40 @@ def build_workspace(tmp_path_factory: pytest.TempPathFactory) -> Build:
     return lambda name, packages: build(packages, root / name)
 
 
+@pytest.fixture(scope="session", params=DIALECTS)
+def dialect(request: pytest.FixtureRequest) -> str:
+    """The dialect of the packages of a test."""
+    return str(request.param)
+
+
 @pytest.fixture(scope="session")
-def probe(build_workspace: Build, tmp_path_factory: pytest.TempPathFactory) -> Workspace:
-    """The package whose rebecs run scripts, with the run-time headers as they are now."""
+def probe(
+    dialect: str, build_workspace: Build, tmp_path_factory: pytest.TempPathFactory
+) -> Workspace:
+    """The package whose rebecs run scripts, with the run-time part as it is now."""
     package = tmp_path_factory.mktemp("packages") / "probe"
+    if dialect == "ros1-py":
+        shutil.copytree(_HERE / "packages" / "probe_py", package)
+        for name, path in MODULES.items():
+            (package / "src" / "probe" / f"{name}.py").write_text(rendered(path, "probe"))
+        return paced(build_workspace("probe_py", [package]), dialect)
     shutil.copytree(_HERE / "packages" / "probe", package)
     for name in HEADERS:
         (package / "include" / "probe" / name).write_text(render(name, "probe"))
     return build_workspace("probe", [package])
 
 
+def paced(workspace: Workspace, dialect: str) -> Workspace:
+    """The workspace, its clock no faster than the nodes of a dialect can follow."""
+    return replace(workspace, rate=4.0, step=0.02) if dialect == "ros1-py" else workspace
+
+
 def render(name: str, package: str) -> str:
+    """A file of the run-time part of a package in C++."""
+    return rendered(f"ros1_cpp/{name}", package)
+
+
+def rendered(name: str, package: str) -> str:
     """A file of the run-time part of a package."""
     loader = jinja2.FileSystemLoader(_TEMPLATES)
     environment = jinja2.Environment(
@@ -66,7 +95,7 @@ def render(name: str, package: str) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    return environment.get_template(f"ros1_cpp/{name}.j2").render(package=package)
+    return environment.get_template(f"{name}.j2").render(package=package)
 
 
 def _shared(factory: pytest.TempPathFactory) -> Path:

@@ -14,6 +14,8 @@ Fields: TypeAlias = Mapping[str, Any]
 
 WARNING, ERROR = 4, 8
 _BODY = ("server", "arguments", "arrival", "start", "now")
+# What rospy says of a connection that it makes again.
+_RETRIED = "Inbound TCP/IP connection failed"
 _REPORT = re.compile(r"(\w+): ([^ .]+)\.(\w+) \((.*)\)", re.DOTALL)
 
 
@@ -159,11 +161,12 @@ def read_recording(path: Path, output: str) -> Recording:
         raise ValueError("the recorder did not get to the end")
     zero = max(lines[end]["data"]["announced"].values(), default=0.0)
     heard = [_heard(line, zero) for line in lines if line["kind"] == "message"]
+    logged = [_logged(line, zero) for line in lines if line["kind"] == "log"]
     during = sum(line["kind"] == "message" for line in lines[:end])
     return Recording(
         tuple(_served(m) for m in heard[:during] if set(_BODY) <= set(m.fields)),
         tuple(heard[:during]),
-        tuple(_logged(line, zero) for line in lines if line["kind"] == "log"),
+        tuple(log for log in logged if not log.text.startswith(_RETRIED)),
         tuple(heard[during:]),
         output,
     )

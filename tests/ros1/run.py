@@ -10,7 +10,7 @@ import subprocess
 import uuid
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -52,6 +52,7 @@ def run(
     parameters: Mapping[str, Any] | None = None,
 ) -> Recording:
     """Run a launch file to the end of `clock`; `parameters` overrule those of the file."""
+    clock = _followed(clock, workspace)
     port = _free_port()
     environment = workspace.environment(
         ROS_MASTER_URI=f"http://127.0.0.1:{port}",
@@ -70,6 +71,14 @@ def run(
     ).stdout.split()
     with _launched(wrapper, port, directory, environment) as stop:
         return _record(nodes, clock, directory, environment, stop)
+
+
+def _followed(clock: Clock, workspace: Workspace) -> Clock:
+    """The clock, no faster than the nodes can follow."""
+    if clock.rate is None:
+        return clock
+    step, rate = max(clock.step, workspace.step), min(clock.rate, workspace.rate)
+    return replace(clock, rate=rate, step=step)
 
 
 def _free_port() -> int:

@@ -32,7 +32,7 @@ _ARRAYS = {"int": "ai", "byte": "ab", "double": "ad"}
 _TYPES = {n: t for t, names in _VARIABLES.items() for n in names} | {
     n: t for t, n in _ARRAYS.items()
 }
-_START: dict[str, Value] = {
+START: dict[str, Value] = {
     **{"b1": 100, "b2": -3, "s1": 30000, "s2": -7, "i1": 5, "i2": -2000000000, "i3": 1},
     **{"f1": 0.5, "f2": -3.25, "d1": 1.75, "d2": -100.5, "p1": True, "p2": False},
     **{"ai": [1, 2, 3], "ab": [4, -5, 6], "ad": [0.5, 1.5, -2.5]},
@@ -140,11 +140,12 @@ class _Drawing:
                 return f"({self.place('boolean')} = {self.boolean(less)})"
 
 
-def _model(bodies: list[str]) -> str:
+def model_of(bodies: list[str]) -> str:
+    """A model whose methods are bodies."""
     variables = " ".join(f"{t} {', '.join(names)};" for t, names in _VARIABLES.items())
     arrays = " ".join(f"{t}[3] {name};" for t, name in _ARRAYS.items())
     resets = []
-    for name, value in _START.items():
+    for name, value in START.items():
         places: list[tuple[str, Value]] = [(name, value)]
         if isinstance(value, list):
             places = [(f"{name}[{i}]", v) for i, v in enumerate(value)]
@@ -167,9 +168,15 @@ main {{ Calc calc():(); }}
 """
 
 
-def _expected(bodies: list[str]) -> list[dict[str, Value] | None]:
+def drawn_bodies(count: int) -> list[str]:
+    """Bodies, always the same, whose results the meaning does not leave open."""
+    drawn = [_Drawing(seed).body() for seed in range(2 * count)]
+    return [b for b, e in zip(drawn, expected_values(drawn), strict=True) if e is not None][:count]
+
+
+def expected_values(bodies: list[str]) -> list[dict[str, Value] | None]:
     """The variables after each body, or None where the meaning leaves the result open."""
-    model = parse_model(Source("calc", _model(bodies))).model
+    model = parse_model(Source("calc", model_of(bodies))).model
     declaration = model.classes[0]
     assert isinstance(declaration, m.ReactiveClass)
     methods = [x for x in declaration.members if isinstance(x, m.Method)]
@@ -178,7 +185,7 @@ def _expected(bodies: list[str]) -> list[dict[str, Value] | None]:
 
 def _after(body: m.Block | None) -> dict[str, Value] | None:
     assert body is not None
-    start = {n: list(v) if isinstance(v, list) else v for n, v in _START.items()}
+    start = {n: list(v) if isinstance(v, list) else v for n, v in START.items()}
     state = State(_TYPES, start)
     try:
         run(body, state)
@@ -191,20 +198,19 @@ def _after(body: m.Block | None) -> dict[str, Value] | None:
 
 @pytest.fixture(scope="module")
 def bodies() -> list[str]:
-    drawn = [_Drawing(seed).body() for seed in range(2 * _CASES)]
-    return [b for b, e in zip(drawn, _expected(drawn), strict=True) if e is not None][:_CASES]
+    return drawn_bodies(_CASES)
 
 
 def test_arithmetic(bodies: list[str], build_workspace: Build, tmp_path: Path) -> None:
     assert len(bodies) == _CASES
-    package = written(generated(_model(bodies), "calc"), tmp_path, "calc", Config())
+    package = written(generated(model_of(bodies), "calc"), tmp_path, "calc", Config())
     workspace = build_workspace("calc", [package])
     clock = Clock(until=5, quiet=2)
     recording = launch(workspace, package / "launch" / "calc.launch", tmp_path, clock)
     served = {s.state["number"]: s.state for s in recording.bodies("calc")}
     assert sorted(served) == list(range(_CASES))
     wrong = []
-    for number, wanted in enumerate(_expected(bodies)):
+    for number, wanted in enumerate(expected_values(bodies)):
         assert wanted is not None
         found = {name: served[number][name] for name in wanted}
         if found != wanted:

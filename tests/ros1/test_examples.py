@@ -6,7 +6,7 @@ import json
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 from types import SimpleNamespace
@@ -15,15 +15,18 @@ from xml.etree import ElementTree
 
 import pytest
 
-from tests.ros1.conftest import Build
+from rebsync.config import Config, parse_config
+from rebsync.source import Source
+from tests.forward.compiling import generated, written
+from tests.ros1.conftest import Build, paced
 from tests.ros1.paths import Way, nearest, write_paths
 from tests.ros1.recording import WARNING, Recording, Served
 from tests.ros1.run import Clock, run
 from tests.ros1.workspace import Workspace
 
-_EXPECTED = Path(__file__).parent / "expected"
-_EXAMPLES = Path(__file__).parents[2] / "examples"
-NAMES = tuple(sorted(path.stem for path in _EXPECTED.glob("*.json")))
+EXPECTED = Path(__file__).parent / "expected"
+EXAMPLES = Path(__file__).parents[2] / "examples"
+NAMES = tuple(sorted(path.stem for path in EXPECTED.glob("*.json")))
 
 # Twists bear no stamp, and the recorder's is late by its latency times the rate of the clock.
 SLOW = 4.0
@@ -78,8 +81,23 @@ class Example:
 
 
 @pytest.fixture(scope="module")
-def workspace(build_workspace: Build) -> Workspace:
-    return build_workspace("examples", [_EXAMPLES / name / name for name in NAMES])
+def workspace(
+    dialect: str, build_workspace: Build, tmp_path_factory: pytest.TempPathFactory
+) -> Workspace:
+    if dialect == "ros1-cpp":
+        return build_workspace("examples", [EXAMPLES / name / name for name in NAMES])
+    folder = tmp_path_factory.mktemp("packages")
+    packages = [example_package(EXAMPLES / name, dialect, folder) for name in NAMES]
+    return paced(build_workspace(f"examples_{dialect}", packages), dialect)
+
+
+def example_package(example: Path, dialect: str, folder: Path) -> Path:
+    """The package of an example in a dialect."""
+    settings = example / "rebsync.toml"
+    found = parse_config(Source(settings.name, settings.read_text())) if settings.exists() else None
+    config = replace(found or Config(), target=dialect)
+    text = (example / f"{example.name}.rebeca").read_text(encoding="utf-8")
+    return written(generated(text, example.name, config), folder, example.name, config)
 
 
 @pytest.fixture(scope="module", params=NAMES)
@@ -87,8 +105,8 @@ def example(
     request: pytest.FixtureRequest, workspace: Workspace, tmp_path_factory: pytest.TempPathFactory
 ) -> Example:
     name = str(request.param)
-    expected = json.loads((_EXPECTED / f"{name}.json").read_text())
-    launch = _EXAMPLES / name / name / "launch" / f"{name}.launch"
+    expected = json.loads((EXPECTED / f"{name}.json").read_text())
+    launch = workspace.root / "src" / name / "launch" / f"{name}.launch"
     clock = Clock(until=expected["until"] + 0.5, quiet=QUIET, rate=expected.get("rate", SLOW))
     recording = run(workspace, launch, tmp_path_factory.mktemp(name), clock)
     return Example(name, expected, recording)

@@ -2,35 +2,45 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from tests.forward.compiling import CASES, case_config, case_files, written
-from tests.ros1.conftest import Build
+from tests.ros1.conftest import Build, paced
 from tests.ros1.recording import Recording
 from tests.ros1.run import Clock, run
 from tests.ros1.workspace import Workspace
 
-_NAMES = ("inheritance", "interfaces", "overloads", "rebecs")
+PlayCase = Callable[[str], Recording]
+
+NAMES = ("inheritance", "interfaces", "overloads", "rebecs")
 
 
 @pytest.fixture(scope="module")
-def hard(build_workspace: Build, tmp_path_factory: pytest.TempPathFactory) -> Workspace:
+def hard(
+    dialect: str, build_workspace: Build, tmp_path_factory: pytest.TempPathFactory
+) -> Workspace:
     directory = tmp_path_factory.mktemp("hard")
-    cases = [CASES / f"{name}.rebeca" for name in _NAMES]
-    return build_workspace(
-        "hard", [written(case_files(c), directory, c.stem, case_config(c)) for c in cases]
-    )
+    cases = [CASES / f"{name}.rebeca" for name in NAMES]
+    packages = [written(case_files(c, dialect), directory, c.stem, case_config(c)) for c in cases]
+    return paced(build_workspace(f"hard_{dialect}", packages), dialect)
 
 
-def _play(hard: Workspace, directory: Path, name: str) -> Recording:
-    launch = hard.root / "src" / name / "launch" / f"{name}.launch"
-    return run(hard, launch, directory, Clock(until=12, quiet=5))
+@pytest.fixture
+def play_case(hard: Workspace, build_workspace: Build, tmp_path: Path) -> PlayCase:
+    """Runs a case by its name."""
+
+    def play(name: str) -> Recording:
+        launch = hard.root / "src" / name / "launch" / f"{name}.launch"
+        return run(hard, launch, tmp_path, Clock(until=12, quiet=5))
+
+    return play
 
 
-def test_inheritance(hard: Workspace, build_workspace: Build, tmp_path: Path) -> None:
-    played = _play(hard, tmp_path, "inheritance")
+def test_inheritance(play_case: PlayCase) -> None:
+    played = play_case("inheritance")
     assert played.order("car") == ["refuel(1)@0", "drive(11)@1", "refuel(4)@1", "drive(-8)@2"]
     assert played.order("truck") == ["refuel(true)@0", "refuel(10)@0", "drive(35)@1"]
     assert played.final("car")["fuel"] == 7
@@ -42,8 +52,8 @@ def test_inheritance(hard: Workspace, build_workspace: Build, tmp_path: Path) ->
     assert [(r.kind, r.rebec) for r in played.reports()] == [("null", "station")]
 
 
-def test_interfaces(hard: Workspace, build_workspace: Build, tmp_path: Path) -> None:
-    played = _play(hard, tmp_path, "interfaces")
+def test_interfaces(play_case: PlayCase) -> None:
+    played = play_case("interfaces")
     assert played.order("bulb") == ["light(true)@0", "dim(4)@0", "light(false)@2"]
     assert played.final("bulb") == {"lit": False, "level": 4}
     assert played.final("late") == {"x": -1}
@@ -54,8 +64,8 @@ def test_interfaces(hard: Workspace, build_workspace: Build, tmp_path: Path) -> 
     assert played.problems() == ()
 
 
-def test_overloads(hard: Workspace, build_workspace: Build, tmp_path: Path) -> None:
-    played = _play(hard, tmp_path, "overloads")
+def test_overloads(play_case: PlayCase) -> None:
+    played = play_case("overloads")
     assert played.order("a1") == ["m(5, 6)@0"]
     assert (played.final("a1")["a"], played.final("a1")["d"]) == (4, 30)
     # f(1) and f(3) mean f(byte), f(a) the overridden f(int)
@@ -66,8 +76,8 @@ def test_overloads(hard: Workspace, build_workspace: Build, tmp_path: Path) -> N
     assert played.problems() == ()
 
 
-def test_rebecs_as_values(hard: Workspace, build_workspace: Build, tmp_path: Path) -> None:
-    played = _play(hard, tmp_path, "rebecs")
+def test_rebecs_as_values(play_case: PlayCase) -> None:
+    played = play_case("rebecs")
     for own, other, count in (("a", "b", 6007), ("b", "a", 6008)):
         final = played.final(own)
         assert (final["best"], final["two"], final["count"]) == (other, [other, other], count)

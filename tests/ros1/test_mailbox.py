@@ -177,7 +177,9 @@ def test_a_violation_is_reported_and_serving_goes_on(probe: Workspace, tmp_path:
         ),
     }
     recording = play(probe, tmp_path, rebecs)
-    found = sorted((r.rebec, r.kind, r.server) for r in recording.reports())
+    # rospy tells those that come late of a report before the start, roscpp does not.
+    reports = [r for r in recording.reports() if r.server != "constructor"]
+    found = sorted((r.rebec, r.kind, r.server) for r in reports)
     assert found == [
         *(("a", "division", "plain"), ("a", "index", "low")),
         *(("b", "time", "low"), ("b", "time", "plain")),

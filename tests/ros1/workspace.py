@@ -22,9 +22,15 @@ class BuildError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Workspace:
-    """A built catkin workspace."""
+    """A built catkin workspace.
+
+    `rate` is the greatest speed of the clock that its nodes can follow, `step` how far it goes at
+    once then, in seconds.
+    """
 
     root: Path
+    rate: float = 1000.0
+    step: float = 0.0
 
     @property
     def devel(self) -> Path:

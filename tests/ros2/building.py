@@ -64,17 +64,29 @@ def _flags(package: Path, headers: Path) -> list[str]:
     return [*_STANDARD, *_WARNINGS, *found]
 
 
+def _common(headers: Path) -> list[str]:
+    """Options that have what every source includes compiled once."""
+    common = headers / "common.hpp"
+    if not common.with_name("common.hpp.gch").exists():
+        common.write_text("#include <random>\n#include <rclcpp/rclcpp.hpp>\n")
+        flags = [*_flags(headers, headers), "-x", "c++-header"]
+        _tool(["g++", *flags, str(common), "-o", f"{common}.gch"])
+    return ["-include", str(common)]
+
+
 def complaints(package: Path, headers: Path) -> list[str]:
-    """What the compiler says about the sources of a package."""
+    """What the compiler says about the classes of a package; their programs are all alike."""
+    common = _common(headers)
 
     def check(source: Path) -> str:
         try:
-            return _tool(["g++", "-fsyntax-only", *_flags(package, headers), str(source)])
+            return _tool(["g++", "-fsyntax-only", *common, *_flags(package, headers), str(source)])
         except BuildError as error:
             return str(error)
 
+    sources = [s for s in sorted(package.glob("src/*.cpp")) if not s.stem.endswith("_node")]
     with ThreadPoolExecutor(2) as pool:
-        return [text for text in pool.map(check, sorted(package.glob("src/*.cpp"))) if text]
+        return [text for text in pool.map(check, sources) if text]
 
 
 def build_driver(package: Path, headers: Path, out: Path) -> Path:
@@ -84,11 +96,13 @@ def build_driver(package: Path, headers: Path, out: Path) -> Path:
     table = out / "mains.cpp"
     table.write_text(_table(mains))
     sources = [*sorted(package.glob("src/*.cpp")), table, STUB / "driver.cpp"]
+    common = _common(headers)
 
     def compile_(source: Path) -> str:
         renamed = [f"-Dmain=main_of_{source.stem}"] if source.stem in mains else []
         target = out / f"{source.stem}.o"
-        _tool(["g++", "-c", *_flags(package, headers), *renamed, str(source), "-o", str(target)])
+        flags = [*common, *_flags(package, headers), *renamed]
+        _tool(["g++", "-c", *flags, str(source), "-o", str(target)])
         return str(target)
 
     with ThreadPoolExecutor(2) as pool:

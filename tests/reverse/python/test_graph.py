@@ -48,7 +48,7 @@ def test_what_is_found_is_what_the_comments_say(case: Path) -> None:
 def test_what_is_no_python_is_listed_and_the_rest_is_read() -> None:
     text = "import rospy\nrospy.init_node('n')\ndef f(:\n  x = = 1\n"
     findings = Findings()
-    graph = read_python({"a.py": Source("a.py", text)}, findings)
+    graph = read_python({"a.py": Source("a.py", text)}, findings).graph
     assert [noted(f) for f in graph.facts] == ['node "n"']
     assert "this is no Python that can be read" in {f.why for f in findings.all}
 

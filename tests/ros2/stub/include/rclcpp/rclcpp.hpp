@@ -135,7 +135,8 @@ class Node {
 
   template <class T>
   T declare_parameter(const std::string& name, const T& value,
-      const rcl_interfaces::msg::ParameterDescriptor& /* descriptor */ = {}) {
+      const rcl_interfaces::msg::ParameterDescriptor& /* descriptor */ =
+          rcl_interfaces::msg::ParameterDescriptor()) {
     const ParameterValue fallback(value);
     const std::lock_guard<std::mutex> lock(mutex_);
     if (declared_.count(name) > 0) throw exceptions::ParameterAlreadyDeclaredException(name);

@@ -1,0 +1,186 @@
+"""ROS 2 Python (rclpy, Humble and later): a package of nodes, and one of their messages."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rebsync.forward.message_files import message_files, message_names
+from rebsync.forward.py_class import PyClass
+from rebsync.forward.py_classes import classes, played_sensors
+from rebsync.forward.py_imports import imports, words_of
+from rebsync.forward.py_layout import call_lines, indented
+from rebsync.forward.py_module import VALUES, class_module, sensors_module
+from rebsync.forward.py_types import from_message, plain_type, py_format, py_value
+from rebsync.forward.py_wiring import constructor_of
+from rebsync.forward.readme import readme
+from rebsync.forward.remarks import Remarks
+from rebsync.forward.ros2_package import launch_file, parameters
+from rebsync.forward.templating import fill
+from rebsync.forward.topics import Topics
+from rebsync.model import Type
+from rebsync.package import GlobalParameter, NodeClass, Package
+from rebsync.static import Analysis
+
+_SENSORS = "{package}/{package}/{file}_sensors.py"
+_FOLDER = "ros2_py"
+_ROS = {"rclpy.node": ("Node",)}
+_ENV = "constant of the model"
+
+
+def interfaces(package: str) -> str:
+    """The package of the messages."""
+    return f"{package}_interfaces"
+
+
+class Rclpy:
+    """The words of rclpy."""
+
+    def messages(self, package: str) -> str:
+        return f"{interfaces(package)}.msg"
+
+    def parameters(self) -> list[str]:
+        return ["node: Node"]
+
+    def passed(self) -> list[str]:
+        return ["node"]
+
+    def mailbox(self, arguments: str) -> str:
+        return f"Mailbox(node, {arguments})"
+
+    def private(self, topic: str) -> str:
+        return f"~/{topic}"
+
+    def drive(self) -> str:
+        return "Drive(node, self._mailbox)"
+
+    def sensor(self, topic: str, type_: str) -> str:
+        return f'Sensor(node, "~/{topic}", {type_})'
+
+    def known(self, key: str) -> str:
+        return f'Rebec(declared(node, "{_dotted(key)}", "", "known rebec"))'
+
+    def env(self, env: GlobalParameter) -> str:
+        value, key = py_value(env.value), f"env.{env.key}"
+        if env.type.dimensions:
+            lengths = ", ".join(map(str, env.type.dimensions))
+            return f'declare_array(node, "{key}", {value}, {py_format(env.type)}, {lengths})'
+        read = f'declared(node, "{key}", {value}, "{_ENV}")'
+        whole = env.type.name in ("int", "boolean", "double")
+        return read if whole else f"{py_format(env.type)}({read})"
+
+    def state(self, type_: str) -> str:
+        return f'node.create_publisher({type_}, "~/state", KEPT)'
+
+
+def _dotted(key: str) -> str:
+    return key.replace("/", ".")
+
+
+def render(
+    package: Package, analysis: Analysis, topics: Topics, remarks: Remarks, model_name: str
+) -> dict[str, str]:
+    """The files of the two packages by path, relative to the folder that holds them."""
+    name, words = package.name, Rclpy()
+    files: dict[str, str] = {
+        "README.md": readme(package, model_name, _FOLDER, _SENSORS),
+        f"{name}/package.xml": fill(
+            f"{_FOLDER}/package.xml.j2", package=package, depends=_depends(package)
+        ),
+        f"{name}/setup.cfg": fill(f"{_FOLDER}/setup.cfg.j2", package=name),
+        f"{name}/ruff.toml": fill("py/ruff.toml.j2", packages=[name, interfaces(name)]),
+        f"{name}/resource/{name}": "\n",
+        f"{name}/launch/{name}.launch.py": launch_file(package),
+        f"{name}/config/params.yaml": parameters(package),
+        f"{name}/{name}/__init__.py": f'"""The rebecs of {model_name} as ROS nodes."""\n',
+    }
+    files.update(_interfaces(package))
+    files.update(_runtime(package))
+    for c in classes(package, analysis, topics, remarks).values():
+        module = f"{name}/{name}/{c.node.file}"
+        files[f"{module}.py"] = class_module(c, words, model_name, _ROS)
+        if c.node.executable:
+            files[f"{module}_node.py"] = _node(c)
+        if any(s.draws for s in c.node.sensors):
+            files[f"{module}_sensors.py"] = sensors_module(c, words)
+        if any(s.stands_in for s in c.node.sensors):
+            files[f"{module}_stand_in.py"] = _stand_in(package, c.node)
+    files[f"{name}/setup.py"] = _setup(package, sorted(files))
+    return dict(sorted(files.items()))
+
+
+def _interfaces(package: Package) -> dict[str, str]:
+    """The package of the messages, for ament_cmake: rosidl has no other way."""
+    own = replace(package, name=interfaces(package.name))
+    files = {
+        "package.xml": fill(f"{_FOLDER}/interfaces.xml.j2", package=own),
+        "CMakeLists.txt": fill(
+            f"{_FOLDER}/CMakeLists.txt.j2", package=own.name, messages=message_names(package)
+        ),
+        **message_files(own),
+    }
+    return {f"{own.name}/{path}": text for path, text in files.items()}
+
+
+def _runtime(package: Package) -> dict[str, str]:
+    names = ["mailbox", "startup"]
+    if any(c.moves for c in package.classes):
+        names.append("drive")
+    if any(c.sensors for c in package.classes):
+        names.append("sensor")
+    paths = {n: f"{_FOLDER}/{n}.py.j2" for n in names} | {"values": "py/values.py.j2"}
+    own = f"{package.name}/{package.name}"
+    return {f"{own}/{n}.py": fill(path, package=package.name) for n, path in paths.items()}
+
+
+def _depends(package: Package) -> list[str]:
+    found = {"rcl_interfaces", "rclpy", "std_msgs", interfaces(package.name)}
+    if any(c.moves for c in package.classes):
+        found.add("geometry_msgs")
+    for node in package.classes:
+        found |= {s.type.partition("/")[0] for s in node.sensors if "/" in s.type}
+    return sorted(found)
+
+
+def _setup(package: Package, paths: list[str]) -> str:
+    stems = [p.rpartition("/")[2].removesuffix(".py") for p in paths]
+    executables = [s for s in stems if s.endswith(("_node", "_stand_in"))]
+    return fill(f"{_FOLDER}/setup.py.j2", package=package, executables=executables)
+
+
+def _node(c: PyClass) -> str:
+    """`<class>_node.py`: reads the constructor's arguments and runs one rebec."""
+    constructor = constructor_of(c)
+    pairs = zip(constructor.keys, constructor.parameters, strict=True)
+    arguments = ["node", *(_argument(key, parameter.type) for key, parameter in pairs)]
+    package = c.package.name
+    modules: dict[str, tuple[str, ...]] = {
+        f"{package}.{c.node.file}": (c.type_name,),
+        f"{package}.startup": ("declared",),
+        f"{package}.values": VALUES,
+    }
+    used = words_of([*arguments, c.type_name])
+    return fill(
+        f"{_FOLDER}/node.py.j2",
+        c=c,
+        construction=indented(call_lines(f"rebec = {c.type_name}(", arguments)),
+        imports=imports(used, dict(sorted(modules.items()))),
+    )
+
+
+def _argument(key: str, type_: Type) -> str:
+    """A parameter of the node as an argument of the constructor."""
+    kind = plain_type(type_)
+    unset = {"Rebec": '""', "bool": "False", "Float": "0.0", "float": "0.0"}.get(kind, "0")
+    read = f'declared(node, "{_dotted(key)}", {unset}, "argument of the constructor")'
+    if kind == "Rebec":
+        return from_message(read, type_)
+    return read if kind in ("int", "bool", "float") else f"{py_format(type_)}({read})"
+
+
+def _stand_in(package: Package, node: NodeClass) -> str:
+    sensors = played_sensors(node)
+    types = sorted({s.type for s in sensors})
+    messages = interfaces(package.name)
+    return fill(
+        f"{_FOLDER}/stand_in.py.j2", messages=messages, node=node, sensors=sensors, types=types
+    )

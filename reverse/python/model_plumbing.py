@@ -1,0 +1,207 @@
+"""Whether what generated Python does around the model's bodies is what the model says.
+
+Set-up, shims, and functions that send are not in the model: what somebody changed there is listed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from tree_sitter import Node
+
+from rebsync.names import graph_name
+from rebsync.records import dataclass
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.python.model_roles import Roles
+from rebsync.reverse.python.model_types import call_parts
+from rebsync.reverse.python.py_callbacks import body_of
+from rebsync.reverse.python.py_index import Scope
+from rebsync.reverse.python.py_tree import Py, field, named, text_of
+
+_MADE = frozenset({"Mailbox", "Drive", "Sensor"})
+_PUBLISHERS = frozenset({"rospy.Publisher", "self.create_publisher", "node.create_publisher"})
+_CONNECTING = frozenset({"advertise", "advertise_all", "subscribe", "subscribe_on_bridge"})
+_CALLED = ("self._wire", "super()._wire", "super().__init__", "self._mailbox.on_served")
+_AT_TOP = frozenset(
+    {
+        *("import_statement", "import_from_statement", "future_import_statement"),
+        *("class_definition", "comment"),
+    }
+)
+_IN_CLASS = frozenset({"function_definition", "decorated_definition", "pass_statement"})
+_WHY = "what this does is not in the model"
+_HINT = "say it in the model, or move it into a user block"
+
+
+@dataclass(frozen=True, slots=True)
+class Plumbing:
+    """One class with what its functions are for; `fields` are those of messages, by their types."""
+
+    roles: Roles
+    fields: Mapping[str, Sequence[str]]
+    findings: Findings
+
+    def check(self) -> None:
+        """Lists what a class does besides."""
+        owner = self.roles.owner
+        for function in self.roles.functions.values():
+            for node in self._odd(function):
+                self._list(owner.py, node, _WHY, function.name)
+        for statement in named(field(owner.node, "body")):
+            if statement.type not in _IN_CLASS and not _is_text(statement):
+                self._list(owner.py, statement, _WHY, "")
+
+    def _list(self, py: Py, node: Node, why: str, function: str) -> None:
+        within = ".".join(filter(None, (self.roles.owner.name, function)))
+        self.findings.unreadable(py.source, Unread(py.span(node), why, _HINT), within)
+
+    def _odd(self, function: Scope) -> Iterator[Node]:
+        name, body = function.name, body_of(function)
+        if name in ("__init__", "_wire"):
+            yield from (s for s in body if not self._sets_up(function, s))
+        elif name in self.roles.shims:
+            yield from (s for s in body if not self._receives(function, s))
+        elif name in self.roles.sends:
+            yield from self._sends(function, body)
+        elif name == "_publish_state":
+            yield from (s for s in body if not _is_of_state(s))
+        elif name == "mailbox":
+            yield from (s for s in body if text_of(s) != "return self._mailbox")
+
+    # --- set up ---------------------------------------------------------------------------------
+
+    def _sets_up(self, function: Scope, statement: Node) -> bool:
+        inner = _inner(statement)
+        if inner is None:
+            return statement.type == "pass_statement"
+        if inner.type == "call":
+            return self._is_called(function, inner)
+        if inner.type != "assignment":
+            return _is_text(statement)
+        member = text_of(field(inner, "left")).removeprefix("self.")
+        roles = self.roles
+        if member in roles.state or member in roles.known or member in roles.env:
+            return True
+        called, arguments = call_parts(inner.child_by_field_name("right")) or ("", [])
+        method = called.removeprefix("self._mailbox.")
+        if method != called:
+            return method in _CONNECTING and self._is_connected(member, arguments)
+        return called in _MADE or (called in _PUBLISHERS and member == "_state_pub")
+
+    def _is_called(self, function: Scope, call: Node) -> bool:
+        called, arguments = call_parts(call) or ("", [])
+        if called == "self._mailbox.construct" and len(arguments) == 1:
+            passed = arguments[0]
+            given = field(passed, "body") if passed.type == "lambda" else None
+            _, values = call_parts(given) or ("", [])
+            names = [p.name for p in function.parameters[1:]]
+            return [text_of(v) for v in values] == names[-len(values) :] if values else True
+        return called in _CALLED
+
+    def _is_connected(self, member: str, arguments: list[Node]) -> bool:
+        """Whether topics are called after the servers they lead to."""
+        shim = text_of(arguments[-1]).removeprefix("self.")
+        if shim in self.roles.topics:
+            key = self.roles.topics[shim].removeprefix("port/")
+            server = self.roles.served_by(shim)
+            return server is not None and key.startswith(graph_name(server))
+        return member in self.roles.publishers
+
+    # --- messages -------------------------------------------------------------------------------
+
+    def _receives(self, function: Scope, statement: Node) -> bool:
+        """Whether a shim hands over all fields of a message in their order."""
+        called, arguments = call_parts(_inner(statement)) or ("", [])
+        if called != "self._mailbox.receive" or len(arguments) != 5:
+            return False
+        parameter = field(function.node, "parameters").named_children[-1]
+        type_ = parameter.child_by_field_name("type")
+        wanted = self.fields.get(text_of(type_)) if type_ is not None else None
+        if wanted is None or text_of(arguments[1]) != "msg.timing":
+            return False
+        served = arguments[4]
+        _, values = (
+            call_parts(field(served, "body")) or ("", []) if served.type == "lambda" else ("", [])
+        )
+        return [_field_read(v) for v in values] == list(wanted)
+
+    def _sends(self, function: Scope, body: list[Node]) -> Iterator[Node]:
+        """The statements of a function that do more than fill a message and send it."""
+        passed = [p.name for p in function.parameters[1:] if p.name != "when"]
+        filled: dict[str, str] = {}
+        type_ = ""
+        for statement in body:
+            inner = _inner(statement)
+            called, arguments = call_parts(inner) or ("", [])
+            if inner is not None and inner.type == "assignment":
+                left, value = text_of(field(inner, "left")), field(inner, "right")
+                if left == "msg":
+                    type_ = (call_parts(value) or ("", []))[0]
+                elif left == "msg.sender":
+                    continue
+                else:
+                    inside = call_parts(value)
+                    plain = inside[1][0] if inside is not None and inside[1] else value
+                    filled[left.removeprefix("msg.")] = text_of(plain)
+            elif called == "self._mailbox.publish":
+                to_any = self.roles.sends[function.name].known is None
+                wanted = dict(zip(self.fields.get(type_, ()), passed[to_any:], strict=False))
+                if filled != wanted or text_of(arguments[-1]) != "when":
+                    yield statement
+            elif called == "self._mailbox.post":
+                if not _posts(arguments, passed):
+                    yield statement
+            else:
+                yield statement
+
+
+def odd_at_top(module: Scope) -> Iterator[Node]:
+    """The statements of a module of a class that are none of the model's."""
+    for statement in named(module.node):
+        inner = _inner(statement)
+        called, _ = call_parts(inner.child_by_field_name("right") if inner else None) or ("", [])
+        definition = statement.child_by_field_name("definition")
+        if statement.type in _AT_TOP or called == "Server" or _is_text(statement):
+            continue
+        if definition is not None and definition.type == "class_definition":
+            continue
+        if statement.type == "if_statement" and "TYPE_CHECKING" in text_of(statement):
+            continue
+        yield statement
+
+
+def _posts(arguments: list[Node], passed: list[str]) -> bool:
+    """Whether a message to oneself has all that the function was given."""
+    if len(arguments) != 4 or text_of(arguments[1]) != "when":
+        return False
+    served = arguments[3]
+    _, values = (call_parts(field(served, "body")) if served.type == "lambda" else None) or ("", [])
+    return [text_of(v) for v in values] == passed
+
+
+def _field_read(node: Node) -> str:
+    """The field of a message that a value is: as it is, as a rebec's name, or as an array."""
+    inside = call_parts(node)
+    plain = inside[1][0] if inside is not None and inside[1] else node
+    return text_of(plain).removeprefix("msg.")
+
+
+def _is_of_state(statement: Node) -> bool:
+    inner = _inner(statement)
+    if inner is None:
+        return False
+    if inner.type == "assignment":
+        return text_of(field(inner, "left")).partition(".")[0] == "msg"
+    return text_of(inner) == "self._state_pub.publish(msg)"
+
+
+def _inner(statement: Node) -> Node | None:
+    """The expression or assignment that a statement is."""
+    if statement.type != "expression_statement" or not named(statement):
+        return None
+    return named(statement)[0]
+
+
+def _is_text(statement: Node) -> bool:
+    inner = _inner(statement)
+    return inner is not None and inner.type in ("string", "concatenated_string")

@@ -1,0 +1,104 @@
+"""The law of extraction for generated Python, and what Python does not show of a model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from rebsync import model as m
+from rebsync.config import Config
+from rebsync.forward.generate import generate
+from rebsync.roundtrip.normal import normal, rewrite
+from rebsync.static import analyse
+from tests.reverse.laws import assert_same, extracted
+
+__all__ = ["assert_says", "extracted", "python_files", "python_normal"]
+
+
+def python_files(model: m.Model, target: str = "ros1-py") -> dict[str, str]:
+    """The package of a model that has no errors."""
+    return generate(model, (), analyse(model), Config(target=target), "drawn")
+
+
+def assert_says(files: Mapping[str, str], model: m.Model) -> None:
+    """The law: what a package says is the model that it was generated from."""
+    found = extracted(files)
+    assert [(f.text, f.why) for f in found.findings] == []
+    assert_same(python_normal(found.model), python_normal(normal(model)))
+
+
+def python_normal(model: m.Model) -> m.Model:
+    """A normal form without what Python does not show.
+
+    `self.x` against `x` where nothing hides it, `x += 1` and `++x` against `x++` as statements,
+    `m()` against `self.m()`, `1.5f` against `1.5`, where the start of a `for` stands, and
+    parentheses around a whole condition of it or around a conditional expression in another.
+    """
+    return rewrite(rewrite(model, _rule), _starts)
+
+
+def _rule(node: object) -> object:
+    match node:
+        case m.Member(m.Self(), name):
+            return m.Name(name)
+        case m.Call(target=m.Paren(inner)):
+            return replace(node, target=inner)
+        case m.Call(target=m.Self()):
+            return replace(node, target=None)
+        case m.ExpressionStatement(expression):
+            return replace(node, expression=_step(_bare(expression)))
+        case m.For(updates=updates, condition=condition):
+            bare = condition.inner if isinstance(condition, m.Paren) else condition
+            return replace(node, updates=tuple(_step(_bare(u)) for u in updates), condition=bare)
+        case m.Assign("+=" | "-=" as operator, target, m.IntLiteral(1)):
+            return m.Unary(operator[0] * 2, target)
+        case m.FloatLiteral(text) if text[-1] in "fF":
+            return m.FloatLiteral(text[:-1])
+        case m.Conditional(condition, then, otherwise):
+            return m.Conditional(_inner(condition), _inner(then), _inner(otherwise))
+        case _:
+            return node
+
+
+def _step(expression: m.Expression) -> m.Expression:
+    match expression:
+        case m.Unary("++" | "--" as operator, operand):
+            return m.Postfix(operator, operand)
+        case _:
+            return expression
+
+
+def _bare(expression: m.Expression) -> m.Expression:
+    return _bare(expression.inner) if isinstance(expression, m.Paren) else expression
+
+
+def _inner(expression: m.Expression) -> m.Expression:
+    is_inner = isinstance(expression, m.Paren) and isinstance(expression.inner, m.Conditional)
+    return expression.inner if isinstance(expression, m.Paren) and is_inner else expression
+
+
+def _starts(node: object) -> object:
+    """Takes the start of a loop out of it."""
+    match node:
+        case m.Block(statements):
+            return replace(node, statements=_spread(statements))
+        case m.Case(statements=statements):
+            return replace(node, statements=_spread(statements))
+        case _:
+            return node
+
+
+def _spread(statements: tuple[m.Statement, ...]) -> tuple[m.Statement, ...]:
+    found: list[m.Statement] = []
+    for statement in statements:
+        if isinstance(statement, m.For) and statement.initial:
+            found += _first(statement.initial)
+            statement = replace(statement, initial=())
+        found.append(statement)
+    return tuple(found)
+
+
+def _first(initial: m.Declaration | tuple[m.Expression, ...]) -> list[m.Statement]:
+    if not isinstance(initial, m.Declaration):
+        return [m.ExpressionStatement(_step(_bare(e))) for e in initial]
+    return [m.Local(replace(initial, declarators=(d,))) for d in initial.declarators]

@@ -1,0 +1,129 @@
+"""Hand edits of generated Python: what the model can show comes back, all else is listed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import pytest
+
+from rebsync.grammars.parser import parse_model
+from rebsync.printing import print_model
+from rebsync.source import Source
+from tests.reverse.python.laws import extracted, python_files
+
+MODEL = """\
+env int limit = 3;
+
+reactiveclass Robot(4) {
+  knownrebecs { Robot other; }
+  statevars { int count; boolean busy; }
+  Robot(int start) { count = start; self.step(1) after(2); }
+  msgsrv step(int by) {
+    if (count < limit) { count = count + by; } else { busy = true; }
+    other.step(by) after(3);
+    helper(by);
+  }
+  void helper(int n) { delay(n); }
+}
+
+main { Robot a(b):(0); Robot b(a):(1); }
+"""
+PATH = "src/drawn/robot.py"
+BODY = "        self.helper(by)\n"
+
+# What is replaced by what, and the lines of the model that go and come.
+SHOWN = {
+    "guard": (
+        "self._count < self._limit",
+        "self._count <= self._limit",
+        "count < limit",
+        "count <= limit",
+    ),
+    "removed send": (
+        "        self.send_other_step(by, When(after=3))\n",
+        "",
+        "    other.step(by) after(3);\n",
+        "",
+    ),
+    "delay": ("self._mailbox.delay(n)", "self._mailbox.delay(2 * n)", "delay(n)", "delay(2 * n)"),
+    "after": ("When(after=3)", "When(after=4, deadline=9)", "after(3)", "after(4) deadline(9)"),
+    "assignment": (
+        "self._busy = True",
+        "self._busy = not self._busy",
+        "busy = true",
+        "busy = !busy",
+    ),
+    "queue": ("Mailbox(4)", "Mailbox(5)", "Robot(4)", "Robot(5)"),
+    "early return": (
+        BODY,
+        "        if by == 2:\n            return\n" + BODY,
+        "    helper(by);",
+        "    if (by == 2) {\n      return;\n    }\n    helper(by);",
+    ),
+    "while": (
+        BODY,
+        "        while self._busy:\n            self._busy = False\n" + BODY,
+        "    helper(by);",
+        "    while (busy) {\n      busy = false;\n    }\n    helper(by);",
+    ),
+}
+# What is put in where, and the place that is listed.
+LISTED = {
+    "library call in a body": (BODY, BODY + "        print(by)\n", "print(by)"),
+    "second publisher": (
+        "self._mailbox.on_served(",
+        "self.p = rospy.Publisher('x', T)\n        self._mailbox.on_served(",
+        "self.p = rospy.Publisher('x', T)",
+    ),
+    "shim does more": (
+        "        self._mailbox.receive(_STEP",
+        "        self._count = 0\n        self._mailbox.receive(_STEP",
+        "self._count = 0",
+    ),
+    "shim loses a field": ("self.step(msg.by)", "self.step(7)", "self._mailbox.receive"),
+    "send fills another value": ("msg.by = by", "msg.by = by + 1", "self._mailbox.publish"),
+    "post loses an argument": (
+        "lambda: self.step(by)",
+        "lambda: self.step(1)",
+        "self._mailbox.post",
+    ),
+    "topic": ('"~step", RobotStep', '"~other", RobotStep', "self._step_sub"),
+    "state topic is silent": (
+        "self._state_pub.publish(msg)",
+        "self._state_pub.publish(other)",
+        "self._state_pub.publish(other)",
+    ),
+    "code beside the class": (
+        "class Robot:",
+        "rospy.loginfo('x')\n\n\nclass Robot:",
+        "rospy.loginfo('x')",
+    ),
+    "attribute of the class": ("    @property\n", "    speed = 3\n\n    @property\n", "speed = 3"),
+}
+
+
+@pytest.fixture(scope="module")
+def files() -> dict[str, str]:
+    return python_files(parse_model(Source("drawn.rebeca", MODEL)).model)
+
+
+def edited(files: Mapping[str, str], old: str, new: str) -> dict[str, str]:
+    assert old in files[PATH], files[PATH]
+    return {**files, PATH: files[PATH].replace(old, new, 1)}
+
+
+@pytest.mark.parametrize("name", SHOWN)
+def test_what_the_model_can_show_comes_back(files: dict[str, str], name: str) -> None:
+    old, new, gone, come = SHOWN[name]
+    found = extracted(edited(files, old, new))
+    assert [(f.text, f.why) for f in found.findings] == []
+    before = print_model(extracted(files).model)
+    assert gone in before
+    assert print_model(found.model) == before.replace(gone, come, 1)
+
+
+@pytest.mark.parametrize("name", LISTED)
+def test_what_it_cannot_show_is_listed(files: dict[str, str], name: str) -> None:
+    old, new, place = LISTED[name]
+    found = extracted(edited(files, old, new))
+    assert any(f.text.startswith(place) for f in found.findings), found.findings

@@ -1,0 +1,67 @@
+"""Generated Python gives the model back: of examples, of drawn models, laid out anew."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+
+from rebsync import model as m
+from rebsync.files import read_source
+from rebsync.grammars.parser import parse_model
+from rebsync.roundtrip.normal import normal
+from tests.reverse.laws import (
+    assert_same,
+    extracted,
+    told_without_markers,
+    without_markers,
+)
+from tests.reverse.python.laws import assert_says, python_files, python_normal
+from tests.strategies import models
+
+EXAMPLES = sorted((Path(__file__).parents[3] / "examples").iterdir())
+LENGTHS = (60, 160)
+
+
+def model_of(example: Path) -> m.Model:
+    return parse_model(read_source(str(example / f"{example.name}.rebeca"))).model
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda e: e.name)
+def test_examples_come_back(example: Path) -> None:
+    model = model_of(example)
+    assert_says(python_files(model), model)
+
+
+@given(models())
+def test_drawn_models_come_back(model: m.Model) -> None:
+    assert_says(python_files(model), model)
+
+
+@given(models())
+def test_they_come_back_without_markers(model: m.Model) -> None:
+    found = extracted(without_markers(python_files(model)))
+    assert [(f.text, f.why) for f in found.findings] == []
+    told = told_without_markers(python_normal(found.model))
+    assert_same(told, told_without_markers(python_normal(normal(model))))
+
+
+@pytest.mark.skipif(shutil.which("ruff") is None, reason="ruff is not installed")
+@pytest.mark.parametrize("length", LENGTHS)
+def test_layout_does_not_matter(length: int, tmp_path: Path) -> None:
+    for example in EXAMPLES:
+        model = model_of(example)
+        folder = tmp_path / example.name
+        files = python_files(model)
+        for path, text in files.items():
+            (folder / path).parent.mkdir(parents=True, exist_ok=True)
+            (folder / path).write_text(text, encoding="utf-8")
+        subprocess.run(
+            ["ruff", "format", "--quiet", "--isolated", f"--line-length={length}", str(folder)],
+            check=True,
+        )
+        laid_out = {p: (folder / p).read_text(encoding="utf-8") for p in files}
+        assert_says(laid_out, model)

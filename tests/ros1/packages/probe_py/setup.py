@@ -1,0 +1,6 @@
+"""Where catkin finds the Python package."""
+
+from catkin_pkg.python_setup import generate_distutils_setup
+from setuptools import setup
+
+setup(**generate_distutils_setup(packages=["probe"], package_dir={"": "src"}))

@@ -1,0 +1,1 @@
+"""A rebec whose bodies are scripts."""

@@ -1,0 +1,1 @@
+# Nothing is needed at run time.

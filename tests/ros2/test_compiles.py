@@ -1,0 +1,36 @@
+"""Generated sources compile without a warning: hard cases by hand, and drawn models."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from rebsync.config import Config
+from tests.forward.compiling import CASES, case_config, generated, written
+from tests.forward.test_compiles import _drawn
+from tests.ros2.building import complaints, make_messages
+
+_DRAWN = 4
+
+
+def test_cases(headers: Path, tmp_path: Path) -> None:
+    packages = []
+    for case in sorted(CASES.glob("*.rebeca")):
+        config = replace(case_config(case), target="ros2-cpp")
+        files = generated(case.read_text(encoding="utf-8"), case.stem, config)
+        packages.append(written(files, tmp_path, case.stem, config))
+    assert _complaints(packages, headers) == []
+
+
+def test_drawn_models(headers: Path, tmp_path: Path) -> None:
+    config = Config(target="ros2-cpp")
+    packages = [
+        written(generated(text, f"drawn{i}", config), tmp_path, f"drawn{i}", config)
+        for i, text in enumerate(_drawn(_DRAWN))
+    ]
+    assert _complaints(packages, headers) == []
+
+
+def _complaints(packages: list[Path], headers: Path) -> list[str]:
+    make_messages(packages, headers)
+    return [text for package in packages for text in complaints(package, headers)]

@@ -1,0 +1,102 @@
+"""Messages as rosidl makes them of .msg files: fields with defaults, and checks of their types."""
+
+from __future__ import annotations
+
+import copy
+import re
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from types import ModuleType
+
+_FIELD = re.compile(r"([\w/]+)(?:\[(\d+)\])? (\w+)\Z")
+_RANGES = {"int8": 8, "int16": 16, "int32": 32, "int64": 64, "uint32": 33}
+_STANDARD = {
+    "builtin_interfaces/Time": "int32 sec\nuint32 nanosec",
+    "std_msgs/Header": "builtin_interfaces/Time stamp\nstring frame_id",
+    "geometry_msgs/Vector3": "float64 x\nfloat64 y\nfloat64 z",
+    "geometry_msgs/Twist": "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular",
+}
+
+
+class Message:
+    """A message: its fields are checked as rosidl does where Python runs with assertions."""
+
+    _fields: Mapping[str, tuple[str, int | None]] = {}
+    _known: Mapping[str, type[Message]] = {}
+
+    def __init__(self, **values: object) -> None:
+        for name, (type_, length) in self._fields.items():
+            default = self._default(type_)
+            every = default if length is None else [copy.copy(default) for _ in range(length)]
+            object.__setattr__(self, name, every)
+        for name, value in values.items():
+            setattr(self, name, value)
+
+    def _default(self, type_: str) -> object:
+        if type_ in self._known:
+            return self._known[type_]()
+        return {"bool": False, "string": "", "float32": 0.0, "float64": 0.0}.get(type_, 0)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        type_, length = self._fields[name]
+        values = [value]
+        if length is not None:
+            assert isinstance(value, list) and len(value) == length, f"{name}: {value!r}"
+            values = value
+        for each in values:
+            assert self._is(type_, each), f"{name} of {type_}: {each!r}"
+        object.__setattr__(self, name, value)
+
+    def _is(self, type_: str, value: object) -> bool:
+        match type_:
+            case "bool":
+                return isinstance(value, bool)
+            case "string":
+                return isinstance(value, str)
+            case "float32" | "float64":
+                return isinstance(value, float)
+            case _ if type_ in _RANGES:
+                half = 1 << (_RANGES[type_] - 1)
+                return isinstance(value, int) and -half <= value < half
+            case _:
+                return isinstance(value, self._known[type_])
+
+
+def plain(message: Message) -> dict[str, object]:
+    """The fields of a message as plain data."""
+    return {name: _plain(getattr(message, name)) for name in message._fields}
+
+
+def _plain(value: object) -> object:
+    return plain(value) if isinstance(value, Message) else value
+
+
+def modules(folders: Iterable[Path]) -> dict[str, ModuleType]:
+    """`<package>.msg` of the standard messages, and of the packages in some folders."""
+    known: dict[str, type[Message]] = {}
+    texts = dict(_STANDARD)
+    for folder in folders:
+        for file in sorted(folder.glob("msg/*.msg")):
+            texts[f"{folder.name}/{file.stem}"] = file.read_text()
+    waiting = list(texts.items())
+    for name, text in waiting:
+        fields = {}
+        for line in text.strip().splitlines():
+            match = _FIELD.match(line)
+            assert match is not None, line
+            fields[match[3]] = (match[1], int(match[2]) if match[2] else None)
+        known[name] = type(
+            name.rpartition("/")[2], (Message,), {"_fields": fields, "_known": known}
+        )
+    return _as_modules(known)
+
+
+def _as_modules(known: Mapping[str, Callable[..., Message]]) -> dict[str, ModuleType]:
+    found: dict[str, ModuleType] = {}
+    for name, class_ in known.items():
+        package, _, last = name.rpartition("/")
+        parent = found.setdefault(package, ModuleType(package))
+        parent.__path__ = []
+        module = found.setdefault(f"{package}.msg", ModuleType(f"{package}.msg"))
+        setattr(module, last, class_)
+    return found

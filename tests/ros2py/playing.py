@@ -1,0 +1,155 @@
+"""Plays generated packages of ROS 2 in Python in one process, and records what happens."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from importlib import import_module, invalidate_caches
+from pathlib import Path
+from types import ModuleType, SimpleNamespace
+from typing import cast
+
+import yaml
+
+from tests.ros1.recording import Heard, Logged, Recording, Served
+from tests.ros2py.messages import Message, modules
+from tests.ros2py.world import Launched, Time, World
+
+_BODY = ("server", "arguments", "arrival", "start", "now")
+
+
+def play(folder: Path, until: float) -> Recording:
+    """Start what the launch file of a package says, and run it to a time of the model."""
+    world, name = World(), folder.name
+    with _installed(world, folder):
+        launch = folder / name / "launch" / f"{name}.launch.py"
+        described = _loaded(launch)
+        parameters = _flat(yaml.safe_load((folder / name / "config" / "params.yaml").read_text()))
+        mains = [_main(name, node, parameters) for node in described]
+        world.run(mains, until)
+    heard = tuple(Heard(topic, stamp, data) for topic, stamp, data in world.messages)
+    served = tuple(_served(m) for m in heard if set(_BODY) <= set(m.fields))
+    return Recording(served, heard, tuple(Logged(*line) for line in world.log), (), "")
+
+
+def _served(message: Heard) -> Served:
+    fields = message.fields
+    state = {name: value for name, value in fields.items() if name not in _BODY}
+    rebec = message.topic.strip("/").rsplit("/", 1)[0]
+    server, arguments, arrival, start, now = (fields[name] for name in _BODY)
+    return Served(rebec, server, arguments, arrival, start, now, message.stamp, state)
+
+
+def _main(
+    package: str, node: SimpleNamespace, parameters: Mapping[str, object]
+) -> tuple[Launched, Callable[[], None]]:
+    own: dict[str, object] = {}
+    for each in node.parameters:
+        own |= parameters if isinstance(each, str) else each
+    launched = Launched(node.name, own, dict(node.remappings))
+    main = import_module(f"{package}.{node.executable}").main
+    return launched, cast("Callable[[], None]", main)
+
+
+def _flat(tree: Mapping[str, object]) -> dict[str, object]:
+    """The parameters of all nodes, by their names with dots."""
+    found: dict[str, object] = {}
+
+    def walk(prefix: str, value: object) -> None:
+        if isinstance(value, dict):
+            for key, inner in value.items():
+                walk(f"{prefix}.{key}" if prefix else str(key), inner)
+        else:
+            found[prefix] = value
+
+    walk("", cast("Mapping[str, Mapping[str, object]]", tree)["/**"]["ros__parameters"])
+    return found
+
+
+def _loaded(launch: Path) -> list[SimpleNamespace]:
+    """The nodes that a launch file describes."""
+    space: dict[str, object] = {}
+    exec(compile(launch.read_text(), str(launch), "exec"), space)
+    describe = cast("Callable[[], list[SimpleNamespace]]", space["generate_launch_description"])
+    return describe()
+
+
+@contextmanager
+def _installed(world: World, folder: Path) -> Iterator[None]:
+    """The client library and all messages as modules, while the block runs."""
+    before = set(sys.modules)
+    made = {**modules([folder / f"{folder.name}_interfaces"]), **_rclpy(world), **_launch()}
+    World.stamp = made["builtin_interfaces.msg"].Time
+    sys.modules.update(made)
+    sys.path.insert(0, str(folder / folder.name))
+    invalidate_caches()
+    try:
+        yield
+    finally:
+        sys.path.remove(str(folder / folder.name))
+        for added in set(sys.modules) - before:
+            del sys.modules[added]
+
+
+def _module(name: str, **content: object) -> tuple[str, ModuleType]:
+    module = ModuleType(name)
+    module.__dict__.update(content)
+    module.__path__ = []
+    return name, module
+
+
+def _rclpy(world: World) -> dict[str, ModuleType]:
+    own = {"description": ("string", None), "read_only": ("bool", None)}
+    descriptor = type("ParameterDescriptor", (Message,), {"_fields": own})
+
+    class ExternalShutdownException(Exception):
+        pass
+
+    def profile(**values: object) -> SimpleNamespace:
+        return SimpleNamespace(**values)
+
+    sensor_data = profile(depth=5)
+    durability = SimpleNamespace(TRANSIENT_LOCAL=True, VOLATILE=False)
+    spin = {"init": lambda: None, "spin": world.spin, "try_shutdown": lambda: None}
+    return dict(
+        [
+            _module("rclpy", **spin),
+            _module("rclpy.executors", ExternalShutdownException=ExternalShutdownException),
+            _module("rclpy.node", Node=world.node),
+            _module("rclpy.publisher", Publisher=object),
+            _module("rclpy.subscription", Subscription=object),
+            _module("rclpy.timer", Timer=object),
+            _module("rclpy.time", Time=Time),
+            _module(
+                "rclpy.qos",
+                QoSProfile=profile,
+                DurabilityPolicy=durability,
+                qos_profile_sensor_data=sensor_data,
+            ),
+            _module("rcl_interfaces"),
+            _module("rcl_interfaces.msg", ParameterDescriptor=descriptor),
+        ]
+    )
+
+
+def _launch() -> dict[str, ModuleType]:
+    def node(**values: object) -> SimpleNamespace:
+        return SimpleNamespace(**{"parameters": [], "remappings": [], **values})
+
+    def value(given: object, value_type: object = None) -> object:
+        return given
+
+    def path(parts: object) -> str:
+        return "params.yaml"
+
+    return dict(
+        [
+            _module("launch", LaunchDescription=list),
+            _module("launch.substitutions", PathJoinSubstitution=path),
+            _module("launch_ros"),
+            _module("launch_ros.actions", Node=node),
+            _module("launch_ros.parameter_descriptions", ParameterValue=value),
+            _module("launch_ros.substitutions", FindPackageShare=str),
+        ]
+    )

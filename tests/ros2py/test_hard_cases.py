@@ -1,0 +1,33 @@
+"""Hard cases of the language as nodes of rclpy, in one process."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from tests.forward.compiling import CASES, case_config, case_files, written
+from tests.ros1.recording import Recording
+from tests.ros1.test_hard_cases import (
+    PlayCase,
+    test_inheritance,
+    test_interfaces,
+    test_overloads,
+    test_rebecs_as_values,
+)
+from tests.ros2py.playing import play
+
+__all__ = ["test_inheritance", "test_interfaces", "test_overloads", "test_rebecs_as_values"]
+
+
+@pytest.fixture
+def play_case(tmp_path: Path) -> PlayCase:
+    """Runs a case by its name."""
+
+    def played(name: str) -> Recording:
+        case = CASES / f"{name}.rebeca"
+        config = replace(case_config(case), target="ros2-py")
+        return play(written(case_files(case, "ros2-py"), tmp_path, name, config), 12)
+
+    return played

@@ -1,0 +1,287 @@
+"""A ROS 2 in one process: topics, parameters, remaps, timers on a simulated clock.
+
+Nodes run in threads of their own, as their `main` says; `World.run` moves the clock on to the next
+timer when nothing has happened for a moment.
+"""
+
+from __future__ import annotations
+
+import copy
+import queue
+import threading
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from types import SimpleNamespace
+
+from tests.ros2py.messages import Message, plain
+
+NANOSECONDS = 10**9
+_FIRST = 100 * NANOSECONDS
+_STILL = 0.004  # s without anything that happens
+_ENDED = 20.0  # s for all nodes to stop
+
+
+@dataclass
+class Launched:
+    """A node as the launch file has it; `~` in names stands for its own name."""
+
+    name: str
+    parameters: Mapping[str, object] = field(default_factory=dict)
+    remaps: Mapping[str, str] = field(default_factory=dict)
+
+    def resolved(self, topic: str) -> str:
+        """The absolute name of a topic of the node."""
+        name = self.remaps.get(topic, topic)
+        if name.startswith("~/"):
+            return f"/{self.name}/{name[2:]}"
+        return name if name.startswith("/") else f"/{name}"
+
+
+@dataclass
+class Timer:
+    """A periodic timer of a node."""
+
+    node: Node
+    period: int
+    due: int
+    callback: Callable[[], None]
+    alive: bool = True
+
+    def cancel(self) -> None:
+        self.alive = False
+
+
+@dataclass
+class Subscription:
+    """A subscription; `kept` says that it asks for what was sent before."""
+
+    node: Node
+    topic_name: str
+    callback: Callable[[Message], None]
+    kept: bool
+
+
+class Publisher:
+    """A publisher; `kept` are the messages for those that come later."""
+
+    def __init__(self, node: Node, topic: str, depth: int, keeps: bool) -> None:
+        self.node, self.topic_name, self.depth, self.keeps = node, topic, depth, keeps
+        self.kept: list[Message] = []
+
+    def publish(self, message: Message) -> None:
+        self.node.world.deliver(self, copy.deepcopy(message))
+
+    def get_subscription_count(self) -> int:
+        return len(self.node.world.subscribers(self.topic_name))
+
+
+class Node:
+    """A node: what `main` asks for under a name of its own is what the launch file says."""
+
+    def __init__(self, world: World, launched: Launched) -> None:
+        self.world, self.launched = world, launched
+        self.queue: queue.Queue[Callable[[], None] | None] = queue.Queue()
+        self.parameters: dict[str, object] = {}
+        self.timers: list[Timer] = []
+
+    def get_name(self) -> str:
+        return self.launched.name
+
+    def create_publisher(self, type_: type[Message], topic: str, qos: object) -> Publisher:
+        depth, keeps = _quality(qos)
+        publisher = Publisher(self, self.launched.resolved(topic), depth, keeps)
+        with self.world.lock:
+            self.world.publishers.append(publisher)
+        return publisher
+
+    def create_subscription(
+        self, type_: type[Message], topic: str, callback: Callable[[Message], None], qos: object
+    ) -> Subscription:
+        name = self.launched.resolved(topic)
+        subscription = Subscription(self, name, callback, _quality(qos)[1])
+        self.world.subscribe(subscription)
+        return subscription
+
+    def create_timer(
+        self, period: float, callback: Callable[[], None], clock: object = None
+    ) -> Timer:
+        nanoseconds = max(round(period * NANOSECONDS), 1)
+        with self.world.lock:
+            timer = Timer(self, nanoseconds, self.world.time + nanoseconds, callback)
+            self.timers.append(timer)
+            self.world.happened += 1
+        return timer
+
+    def destroy_timer(self, timer: Timer) -> None:
+        with self.world.lock:
+            timer.alive = False
+            if timer in self.timers:
+                self.timers.remove(timer)
+
+    def has_parameter(self, name: str) -> bool:
+        return name in self.parameters
+
+    def declare_parameter(
+        self, name: str, fallback: object, descriptor: object = None
+    ) -> SimpleNamespace:
+        if name in self.parameters:
+            raise RuntimeError(f"{name} is declared already")
+        value = self.launched.parameters.get(name, fallback)
+        if type(value) is not type(fallback):
+            raise TypeError(f"{name}: {value!r} is not of the type of {fallback!r}")
+        self.parameters[name] = value
+        return SimpleNamespace(value=value)
+
+    def get_parameter(self, name: str) -> SimpleNamespace:
+        return SimpleNamespace(value=self.parameters[name])
+
+    def get_clock(self) -> SimpleNamespace:
+        return SimpleNamespace(now=lambda: Time(self.world.time))
+
+    def get_logger(self) -> SimpleNamespace:
+        def write(level: int) -> Callable[..., None]:
+            return lambda text, **_: self.world.write(self.get_name(), level, text)
+
+        return SimpleNamespace(warning=write(4), error=write(8))
+
+    def get_subscriptions_info_by_topic(self, topic: str) -> list[SimpleNamespace]:
+        found = self.world.subscribers(topic)
+        return [SimpleNamespace(node_name=s.node.get_name()) for s in found]
+
+
+@dataclass(frozen=True)
+class Time:
+    """A moment of the clock."""
+
+    nanoseconds: int
+
+    def to_msg(self) -> Message:
+        sec, nanosec = divmod(self.nanoseconds, NANOSECONDS)
+        return World.stamp(sec=sec, nanosec=nanosec)
+
+    @staticmethod
+    def from_msg(message: object) -> Time:
+        sec, nanosec = getattr(message, "sec", 0), getattr(message, "nanosec", 0)
+        return Time(sec * NANOSECONDS + nanosec)
+
+
+def _quality(qos: object) -> tuple[int, bool]:
+    if isinstance(qos, int):
+        return qos, False
+    return getattr(qos, "depth", 10), bool(getattr(qos, "durability", None))
+
+
+class World:
+    """All nodes, topics and timers, and what was published and logged, each with its time."""
+
+    stamp: Callable[..., Message] = Message
+
+    def __init__(self) -> None:
+        self.lock = threading.RLock()
+        self.time = _FIRST
+        self.happened = 0
+        self.nodes: dict[int, Node] = {}
+        self.publishers: list[Publisher] = []
+        self.subscriptions: list[Subscription] = []
+        self.messages: list[tuple[str, float, dict[str, object]]] = []
+        self.log: list[tuple[str, int, float, str]] = []
+        self.failures: list[BaseException] = []
+        self.stopping = False
+        self.context = threading.local()
+
+    # --- what nodes do --------------------------------------------------------------------------
+
+    def node(self, name: str) -> Node:
+        """The node of the thread that asks."""
+        node = Node(self, self.context.launched)
+        with self.lock:
+            self.nodes[threading.get_ident()] = node
+        return node
+
+    def subscribers(self, topic: str) -> list[Subscription]:
+        with self.lock:
+            return [s for s in self.subscriptions if s.topic_name == topic]
+
+    def subscribe(self, subscription: Subscription) -> None:
+        with self.lock:
+            self.subscriptions.append(subscription)
+            for publisher in self.publishers:
+                if publisher.topic_name == subscription.topic_name and subscription.kept:
+                    for message in publisher.kept:
+                        self._send(subscription, message)
+
+    def deliver(self, publisher: Publisher, message: Message) -> None:
+        with self.lock:
+            self.happened += 1
+            now = (self.time - _FIRST) / NANOSECONDS
+            self.messages.append((publisher.topic_name, now, plain(message)))
+            if publisher.keeps:
+                publisher.kept = [*publisher.kept, message][-publisher.depth :]
+            for subscription in self.subscribers(publisher.topic_name):
+                if publisher.keeps or not subscription.kept:
+                    self._send(subscription, message)
+
+    def _send(self, subscription: Subscription, message: Message) -> None:
+        received = copy.deepcopy(message)
+        subscription.node.queue.put(lambda: subscription.callback(received))
+
+    def write(self, node: str, level: int, text: str) -> None:
+        with self.lock:
+            self.log.append((node, level, (self.time - _FIRST) / NANOSECONDS, text))
+
+    def spin(self, node: Node) -> None:
+        while (callback := node.queue.get()) is not None:
+            callback()
+            self.happened += 1
+
+    # --- the run --------------------------------------------------------------------------------
+
+    def run(self, mains: Sequence[tuple[Launched, Callable[[], None]]], until: float) -> None:
+        """Start nodes, run the clock for some seconds, and stop them."""
+        threads = [threading.Thread(target=self._main, args=main, daemon=True) for main in mains]
+        for thread in threads:
+            thread.start()
+        end = _FIRST + round(until * NANOSECONDS)
+        self._rest(50)
+        while not self.failures and self._advance(end):
+            self._rest(1)
+        with self.lock:
+            self.stopping = True
+            nodes = list(self.nodes.values())
+        for node in nodes:
+            node.queue.put(None)
+        for thread in threads:
+            thread.join(_ENDED)
+            if thread.is_alive():
+                raise RuntimeError("a node does not stop")
+        if self.failures:
+            raise self.failures[0]
+
+    def _main(self, launched: Launched, main: Callable[[], None]) -> None:
+        self.context.launched = launched
+        try:
+            main()
+        except BaseException as error:
+            self.failures.append(error)
+
+    def _rest(self, times: int) -> None:
+        """Wait until nothing has happened for a while."""
+        calm, before = 0, -1
+        while calm < times and not self.failures:
+            before, calm = self.happened, calm + 1
+            time.sleep(_STILL)
+            if self.happened != before or any(not n.queue.empty() for n in self.nodes.values()):
+                calm = 0
+
+    def _advance(self, end: int) -> bool:
+        """Move the clock to the next timer; whether there is one before the end."""
+        with self.lock:
+            timers = [t for n in self.nodes.values() for t in n.timers if t.alive]
+            due = min((t.due for t in timers), default=end)
+            self.time = min(max(due, self.time), end)
+            for timer in timers:
+                if timer.due <= self.time:
+                    timer.due += timer.period
+                    timer.node.queue.put(lambda t=timer: t.callback() if t.alive else None)  # type: ignore[misc]
+            return due < end
