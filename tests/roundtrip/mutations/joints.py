@@ -98,7 +98,8 @@ def _servers(pattern: str, text: str) -> Maker:
     def make(package: Package) -> Iterator[Edit]:
         for path in package.paths(".cpp"):
             for found in re.finditer(pattern, package.files[path]):
-                yield Edit(path, *found.span(), found.expand(text))
+                owner = package.owners.get(path, "")
+                yield Edit(path, *found.span(), found.expand(text), owner)
 
     return make
 
@@ -107,7 +108,8 @@ def _published(package: Package) -> Iterator[Edit]:
     """A state variable that is set where the state is published."""
     for path in package.paths(".cpp"):
         for found in re.finditer(r"^  msg\.(\w+) = (\w+_);\n", package.files[path], re.MULTILINE):
-            yield Edit(path, found.start(), found.start(), f"  {found[2]} = {{}};\n")
+            text = f"  {found[2]} = {{}};\n"
+            yield Edit(path, found.start(), found.start(), text, package.owners.get(path, ""))
 
 
 def _one_more(step: int) -> Texts:
