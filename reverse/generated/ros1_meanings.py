@@ -12,7 +12,7 @@ from tree_sitter import Node
 
 from rebsync.names import CPP_KEYWORDS
 from rebsync.records import dataclass
-from rebsync.reserved import RESERVED, RUNTIME_HEADERS
+from rebsync.reserved import RESERVED, RUNTIME_CLASSES, RUNTIME_HEADERS
 from rebsync.reverse.bodies.known_functions import LOGGING
 from rebsync.reverse.syntax.cpp_index import Code, CppClass
 from rebsync.reverse.syntax.cpp_tree import Cpp, by_types, text_of
@@ -53,6 +53,9 @@ def other_meanings(code: Code) -> tuple[Meaning, ...]:
             hiding = [f for f in functions if f.cpp in own and f.name != "main"]
             why = f'this stands beside the "{name}" of the run-time part'
             found += [Meaning(name, f.cpp, f.node, why) for f in hiding]
+    for name in RUNTIME_CLASSES & code.all_classes.keys():
+        why = f'this stands beside the "{name}" of the run-time part'
+        found += [Meaning(name, c.cpp, c.node, why) for c in code.all_classes[name] if c.cpp in own]
     return tuple(found)
 
 
