@@ -69,7 +69,7 @@ def by_name(
     own: type[m.Self] | None,
 ) -> m.Expression:
     """A call of a function of the class; `own` is None where it is written as `this->f()`."""
-    if own is not None and isinstance(held := reader.scope.locals.get(name), Lambda):
+    if isinstance(held := reader.scope.meaning(name), Lambda):
         return reader.inlined(node, held, arguments)
     match reader.scope.functions.get(name):
         case Sends() as sends:

@@ -115,14 +115,30 @@ def _entered(
             scope = replace(reader.scope, locals={}, constants=known)
             inside = reader.inside(called.cpp, scope, frozenset())
             return inside, called.body, called.parameters, called.result
-        case Lambda(node, scope):
+        case Lambda(node, kept):
             captures = text_of(part(node, "captures")).strip("[] ")
             if captures not in ("", "&", "this", "&, this", "=, this", "this, &"):
                 raise reader.unread(node, f"what [{captures}] keeps may change before the call")
-            around = {n: x for n, x in scope.locals.items() if n in reader.scope.locals}
-            inside = reader.inside(reader.cpp, replace(scope, locals=around), reader.own)
+            if kept is None:
+                return _of_member(reader, node)
+            around = {n: x for n, x in kept.locals.items() if n in reader.scope.locals}
+            inside = reader.inside(reader.cpp, replace(kept, locals=around), reader.own)
             declarator = node.child_by_field_name("declarator")
             return inside, part(node, "body"), _parameters(declarator), _trailing(declarator)
+
+
+def _of_member(
+    reader: CppStatements, node: Node
+) -> tuple[CppStatements, Node, Sequence[CppParameter], Node | None]:
+    """The same for a lambda that a member holds."""
+    top = node
+    while top.parent is not None:
+        top = top.parent
+    if top.id != reader.cpp.root.id:
+        raise reader.unread(node, "this function is put into its member in another file")
+    inside = reader.inside(reader.cpp, replace(reader.scope, locals={}), frozenset())
+    declarator = node.child_by_field_name("declarator")
+    return inside, part(node, "body"), _parameters(declarator), _trailing(declarator)
 
 
 def _parameters(declarator: Node | None) -> tuple[CppParameter, ...]:

@@ -39,7 +39,7 @@ def is_misread(scope: Scope, node: Node) -> bool:
     """Whether a cast, or a chain of operators with one in it, is something else."""
     match node.type:
         case "cast_expression":
-            return _inner(scope, node) is not None
+            return _inner(scope, node) is not None or _holds_misread(scope, node)
         case "binary_expression":
             return is_misread(scope, part(node, "left")) or is_misread(scope, part(node, "right"))
         case _:
@@ -57,6 +57,12 @@ def chain_of(cpp: Cpp, scope: Scope, node: Node) -> Chain:
     """The operators of a misread chain in their order, as tightly as they bind."""
     flat = _flat(cpp, scope, node)
     return _climbed(flat, 1)
+
+
+def _holds_misread(scope: Scope, node: Node) -> bool:
+    """Whether it is `(int8_t)(x) - 1`, of which only `(x)` is cast."""
+    value = part(node, "value")
+    return value.type == "cast_expression" and is_misread(scope, value)
 
 
 def _inner(scope: Scope, node: Node) -> Node | None:
@@ -83,12 +89,24 @@ def _flat(cpp: Cpp, scope: Scope, node: Node) -> _Flat:
         operator = text_of(part(node, "operator"))
         return [*_flat(cpp, scope, left), operator, *_flat(cpp, scope, right)]
     first = _inner(scope, node) if node.type == "cast_expression" else None
+    if first is None and node.type == "cast_expression" and _holds_misread(scope, node):
+        operand, *others = _flat(cpp, scope, part(node, "value"))
+        assert isinstance(operand, Operand)
+        return [_cast(cpp, part(node, "type"), operand.node), *others]
     if first is None:
         return [Operand(cpp, node)]
     value = part(node, "value")
     text = f"auto x = {text_of(part(node, 'type'))};"
     before = Operand(parse(Source(cpp.source.path, text)), first)
     return [before, text_of(part(value, "operator")), *_flat(cpp, scope, part(value, "argument"))]
+
+
+def _cast(cpp: Cpp, type_: Node, operand: Node) -> Operand:
+    """An operand that is cast."""
+    text = f"auto x = ({text_of(type_)})({text_of(operand)});"
+    made = parse(Source(cpp.source.path, text))
+    declarator = part(made.root.named_children[0], "declarator")
+    return Operand(made, part(declarator, "value"))
 
 
 def _climbed(flat: _Flat, least: int) -> Chain:

@@ -78,10 +78,10 @@ class Regions:
     # --- where a name stands --------------------------------------------------------------------
 
     def _places(self, name: str) -> Iterator[Node]:
-        pattern = re.compile(rb"\b" + re.escape(name.encode()) + rb"\b")
-        for cpp in self.files:
-            data = cpp.root.text or b""
-            for match in pattern.finditer(data):
+        word = name.encode()
+        pattern = re.compile(rb"\b" + re.escape(word) + rb"\b")
+        for cpp in (c for c in self.files if word in c.data):
+            for match in pattern.finditer(cpp.data):
                 start = match.start() + cpp.root.start_byte
                 end = start + len(match[0])
                 node = cpp.root.descendant_for_byte_range(start, end)

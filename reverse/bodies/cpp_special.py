@@ -182,7 +182,7 @@ def _inline(reader: CppStatements, function: Node) -> Inline | Lambda | None:
         if not is_this(target) and not isinstance(resolve(reader.scope, target), Itself):
             return None
         name = text_of(part(function, "field"))
-    elif isinstance(held := reader.scope.locals.get(name), Lambda):
+    elif isinstance(held := reader.scope.meaning(name), Lambda):
         return held
     elif function.type not in ("identifier", "qualified_identifier"):
         return None

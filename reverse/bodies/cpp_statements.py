@@ -132,8 +132,9 @@ class CppStatements:
         """Nothing for what a user's block does, unless it touches what the model has."""
         try:
             block.check(node)
-        except Touches as touches:
-            yield from self._unreadable(node, touches)
+            cpp_users.check_names(self, node)
+        except Unread as unread:
+            yield from self._unreadable(node, unread)
 
     def _unless_outside(
         self, node: Node, annotations: tuple[m.Annotation, ...], local: bool

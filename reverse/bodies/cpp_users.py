@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync.reverse.bodies.cpp_effects import Effects
+from rebsync.reverse.bodies.cpp_plain_locals import declared_names
 from rebsync.reverse.bodies.known_functions import CONSOLE, LOGGING
 from rebsync.reverse.syntax.cpp_tree import part, text_of
 
@@ -32,6 +33,14 @@ def block_after(
         elif text.split()[:1] == ["end"]:
             before = None
     return before
+
+
+def check_names(reader: CppStatements, node: Node) -> None:
+    """Raises `Unread` where a declaration in a user's block hides what the model has."""
+    if node.type == "declaration":
+        for name in declared_names(node):
+            if reader.scope.meaning(name.lstrip("&* ")) is not None:
+                raise reader.unread(node, f'this hides "{name}" from what follows')
 
 
 def is_log(reader: CppStatements, statement: Node, node: Node) -> bool:

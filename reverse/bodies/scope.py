@@ -124,10 +124,13 @@ class TimerOf:
 
 @dataclass(frozen=True, slots=True)
 class Lambda:
-    """A local that holds a function: its body reads what the names around it stood for."""
+    """A local that holds a function: its body reads what the names around it stood for.
+
+    A member that does has none of these: `scope` is None.
+    """
 
     node: Node
-    scope: Scope
+    scope: Scope | None
 
 
 @dataclass(frozen=True, slots=True)

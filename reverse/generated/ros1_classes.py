@@ -20,6 +20,7 @@ from rebsync.reverse.generated.ros1_annotations import (
 )
 from rebsync.reverse.generated.ros1_bodies import Bodies
 from rebsync.reverse.generated.ros1_free import free_functions
+from rebsync.reverse.generated.ros1_meanings import Meaning, in_files_of, other_meanings
 from rebsync.reverse.generated.ros1_names import (
     declared_type,
     enumerators,
@@ -66,6 +67,7 @@ class Classes:
     roles: dict[str, Roles] = field(default_factory=dict)
     timers: dict[str, tuple[Timer, ...]] = field(default_factory=dict)
     fields: dict[str, Mapping[str, m.Type | None]] = field(default_factory=dict)
+    meanings: tuple[Meaning, ...] = ()
     _scopes: dict[str, Scope] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -74,6 +76,7 @@ class Classes:
             self.roles = {name: Roles() for name in self.code.classes}
             self.types = frozenset(self.code.classes)
             return  # nothing here is generated
+        self.meanings = other_meanings(self.code)
         for owner in self.code.classes.values():
             self.roles[owner.name] = roles_of(self.code, owner)
         for owner in self.code.classes.values():
@@ -125,6 +128,10 @@ class Classes:
 
     def _reactive(self, owner: CppClass) -> m.ReactiveClass:
         check_plumbing(self.code, owner, self.roles, self.fields, self.findings)
+        for meaning in self.meanings:
+            if in_files_of(self.code, owner, meaning):
+                unread = Unread(meaning.cpp.span(meaning.node), meaning.why)
+                self.findings.unreadable(meaning.cpp.source, unread, owner.name)
         for timer in self.timers[owner.name]:
             checked(timer, f"{owner.name}.{timer.function.name}", self.findings)
         functions = [f for f in self.code.functions_of(owner) if self._is_of_model(owner, f)]

@@ -15,9 +15,7 @@ from rebsync.reverse.bodies.known_functions import (
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
 
-_DECLARES = frozenset(
-    {"using_declaration", "alias_declaration", "type_definition", "static_assert_declaration"}
-)
+_DECLARES = frozenset({"using_declaration", "static_assert_declaration"})
 _CHANGES = (
     *("assignment_expression", "update_expression", "new_expression", "delete_expression"),
     *("lambda_expression", "co_await_expression", "ERROR"),

@@ -15,6 +15,7 @@ from rebsync.reverse.bodies.cpp_statements import CppStatements
 from rebsync.reverse.bodies.cpp_types import carried
 from rebsync.reverse.bodies.scope import (
     Function,
+    Lambda,
     Meaning,
     Member,
     Outside,
@@ -35,6 +36,7 @@ from rebsync.reverse.graph import (
     SubscriptionFact,
     TimerFact,
 )
+from rebsync.reverse.nodes.node_held import Held, held
 from rebsync.reverse.nodes.node_kept import elements
 from rebsync.reverse.nodes.node_loops import Loop, left
 from rebsync.reverse.nodes.node_servers import Server
@@ -80,6 +82,7 @@ class Bodies:
     overflowing: frozenset[str] = frozenset()
     regions: dict[str, Regions] = field(default_factory=dict)
     contained: dict[str, Publishes] | None = None
+    _held: tuple[Held, ...] | None = None
     wide: dict[str, int] = field(default_factory=dict)
 
     def scope(self, cpp: Cpp, function: CppFunction | None) -> Scope:
@@ -101,6 +104,9 @@ class Bodies:
             elif kept and isinstance(fact, _HANDLES):
                 members[kept] = Outside()
         members |= self._in_containers()
+        for each in self.held():
+            if each.lambda_ is not None:
+                members[each.name] = Lambda(each.lambda_, None)
         entry = self.opening.entry
         if entry is not None and function is not None and function.node.id == entry.node.id:
             members |= self.opening.objects
@@ -124,6 +130,14 @@ class Bodies:
             chooses=False,
             unit=self.setup.times.unit,
         )
+
+    def held(self) -> tuple[Held, ...]:
+        """The functions that members hold."""
+        if self._held is None:
+            fields = [f for c in self.unit.lineage for f in c.fields]
+            typed = ((f.name, f.type) for f in fields)
+            self._held = tuple(held(typed, self.setup.first, self.code.files))
+        return self._held
 
     def _in_containers(self) -> dict[str, Publishes]:
         """The publishers in maps and vectors, by their places there."""

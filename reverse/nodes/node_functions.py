@@ -48,7 +48,21 @@ class Functions:
             else:
                 self.bodies.functions[name] = method
                 methods[name] = found[0]
+        self._held(methods)
         self._try(methods)
+
+    def _held(self, methods: dict[str, CppFunction]) -> None:
+        """Members that hold functions are these, and what puts them there is nothing more."""
+        for each in self.bodies.held():
+            known = self.bodies.functions.get(each.function)
+            if each.lambda_ is None and known is None:
+                continue
+            self.bodies.setup.instead[each.statement.id] = ()
+            if known is not None:
+                if each.function in methods:
+                    known = Inline(methods.pop(each.function))
+                self.bodies.functions[each.name] = known
+                self.bodies.functions[each.function] = known
 
     def _with_defaults(self, function: CppFunction) -> CppFunction:
         """A function with what its parameters are by default: its declaration says so."""

@@ -68,7 +68,7 @@ def _is_filled_once(
     if any(appended) and (not all(appended) or len(functions) != 1):
         return False
     written = 0
-    for node in _places(name, files):
+    for node in places(name, files):
         use = _use(node)
         if use is None:
             return False
@@ -76,7 +76,8 @@ def _is_filled_once(
     return written == len(keys)
 
 
-def _places(name: str, files: Sequence[Cpp]) -> Iterator[Node]:
+def places(name: str, files: Sequence[Cpp]) -> Iterator[Node]:
+    """Where a name stands in some files; in a macro, that."""
     pattern = re.compile(rb"\b" + re.escape(name.encode()) + rb"\b")
     for cpp in files:
         data, first = cpp.root.text or b"", cpp.root.start_byte

@@ -6,7 +6,7 @@ import re
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator
 from dataclasses import field
-from functools import cache
+from functools import cache, cached_property
 
 import tree_sitter_cpp
 from tree_sitter import Language, Node, Parser, Query, QueryCursor
@@ -41,6 +41,11 @@ class Cpp:
     deep: tuple[tuple[int, int], ...] = ()
     inverted: frozenset[int] = frozenset()
     filled: frozenset[int] = frozenset()
+
+    @cached_property
+    def data(self) -> bytes:
+        """The text as it was parsed."""
+        return self.root.text or b""
 
     def operator(self, node: Node) -> str:
         """The operator of an operation."""

@@ -26,12 +26,14 @@ class Said(Enum):
     """What check says.
 
     AT_ELEMENT: that the code moved, at the element that was changed. ELSEWHERE: the same, but at
-    other elements only. UNDETERMINED: that it cannot tell. NOISE: in step, but not without a
+    other elements only. AT_FILE: that it cannot tell, with a finding in the file that was changed.
+    UNDETERMINED: that it cannot tell, with none there. NOISE: in step, but not without a
     finding. BROKEN: that something cannot be read at all.
     """
 
     AT_ELEMENT = "at the element"
     ELSEWHERE = "elsewhere"
+    AT_FILE = "at the file"
     UNDETERMINED = "undetermined"
     IN_STEP = "in step"
     NOISE = "noise"
@@ -142,7 +144,9 @@ def _said(found: Checked, mutant: Mutant) -> tuple[Said, list[str]]:
     if any(_is_at(path, element) for path in paths for element in mutant.elements):
         return Said.AT_ELEMENT, lines
     if found.drift.verdict is Verdict.UNDETERMINED:
-        return Said.UNDETERMINED, lines
+        told = {f.source.path.rpartition("/")[2] for f in found.findings}
+        is_there = any(path.rpartition("/")[2] in told for path in mutant.files)
+        return Said.AT_FILE if is_there else Said.UNDETERMINED, lines
     return Said.ELSEWHERE if mutant.elements else Said.AT_ELEMENT, lines
 
 

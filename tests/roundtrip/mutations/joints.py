@@ -98,7 +98,8 @@ def _servers(pattern: str, text: str) -> Maker:
     def make(package: Package) -> Iterator[Edit]:
         for path in package.paths(".cpp"):
             for found in re.finditer(pattern, package.files[path]):
-                yield Edit(path, *found.span(), found.expand(text))
+                owner = package.owners.get(path, "")
+                yield Edit(path, *found.span(), found.expand(text), owner)
 
     return make
 
@@ -107,7 +108,8 @@ def _published(package: Package) -> Iterator[Edit]:
     """A state variable that is set where the state is published."""
     for path in package.paths(".cpp"):
         for found in re.finditer(r"^  msg\.(\w+) = (\w+_);\n", package.files[path], re.MULTILINE):
-            yield Edit(path, found.start(), found.start(), f"  {found[2]} = {{}};\n")
+            text = f"  {found[2]} = {{}};\n"
+            yield Edit(path, found.start(), found.start(), text, package.owners.get(path, ""))
 
 
 def _one_more(step: int) -> Texts:
@@ -115,6 +117,8 @@ def _one_more(step: int) -> Texts:
 
 
 _S = "setup"
+_AFTER = r"^(namespace \{\n)(?=\nconstexpr Server)"
+_CLASS = r"^(class \w+ (?:: public \w+ )?\{\n)(?= public:\n  \w+\(const ros::NodeHandle)"
 _PAIR = r"((?:\w|->)+, (?:\w|->)+(?:, (?:\w|->)+)*)"
 
 KINDS = (
@@ -244,4 +248,13 @@ KINDS = (
     ),
     Kind("sender not told", within(r"(msg->timing, )msg->sender", r'\1""', "receive")),
     Kind("state changed where it is told", _published),
+    Kind("macro for a time", in_files(".cpp", _AFTER, r"#define after deadline\n\1")),
+    Kind("macro for a truth value", in_files(".cpp", _AFTER, r"#define false true\n\1")),
+    Kind("macro in the header", in_files(".h", _CLASS, r"#define true false\n\n\1")),
+    Kind("another int32_t", in_files(".cpp", _AFTER, r"\1\nusing int32_t = signed char;\n")),
+    Kind(
+        "function of the run-time part hidden",
+        in_files(".cpp", _AFTER, r"\1\nint32_t divide(int32_t a, int32_t) { return a; }\n"),
+    ),
+    Kind("class of the run-time part hidden", in_files(".h", _CLASS, r"struct When {};\n\n\1")),
 )

@@ -24,6 +24,7 @@ _RECEIVE = re.compile(r"^void (\w+)::(receive\w+)\([^{;]*\{\n", re.MULTILINE)
 _MEMBER = re.compile(
     r"^  ([\w:<>, ]+?) (\w+)(?:\{\})?;\s*// rebsync: statevar (\S+)$", re.MULTILINE
 )
+_CLASS = re.compile(r"^// rebsync: reactiveclass (\S+)$", re.MULTILINE)
 _SEND = re.compile(r"^void (\w+)::(send\w+)\(([^)]*)\) \{$", re.MULTILINE)
 
 
@@ -149,6 +150,22 @@ class Package:
         """The names of the reactive classes."""
         return sorted({part.owner for part in self.parts if part.kind == "constructor"})
 
+    @cached_property
+    def owners(self) -> dict[str, str]:
+        """The reactive classes by their sources and headers, and servers by their messages."""
+        found = {part.path: part.owner for part in self.parts}
+        for path in self.paths(".h"):
+            declared = _CLASS.search(self.files[path])
+            if declared is not None:
+                found[path] = declared[1]
+        servers = {p.element for p in self.parts if p.kind == "msgsrv"}
+        plain = {re.sub(r"\W|_", "", s).lower(): s for s in servers}
+        for path in self.paths(".msg"):
+            name = path.rpartition("/")[2].removesuffix(".msg").lower()
+            if name in plain:
+                found[path] = plain[name]
+        return found
+
     def code(self, path: str, *, strings: bool = True) -> str:
         """A text with its comments, and if wanted what strings say, made blank."""
         text = _COMMENT.sub(_blank, self.files[path])
@@ -224,7 +241,7 @@ def in_files(suffix: str, pattern: str, text: str, *, comments: bool = False) ->
             code = package.files[path] if comments else package.code(path)
             for found in compiled.finditer(code):
                 new = found.expand(text).replace("NAME", package.name)
-                yield Edit(path, *found.span(), new)
+                yield Edit(path, *found.span(), new, package.owners.get(path, ""))
 
     return make
 

@@ -200,6 +200,8 @@ KINDS = (
     Kind(
         "attribute of a function", _in_headers(r"^(  )(void \w+\([^)]*\);)$", r"\1[[gnu::hot]] \2")
     ),
+    Kind("macro of one's own", _in_sources(r"^(namespace \{\n)", r"#define OWN 3\n\1")),
+    Kind("macro that logs", _in_sources(r"^(namespace \{\n)", r"#define OWN(x) ROS_INFO(x)\n\1")),
     Kind(
         "unused said of a parameter",
         _parameters(r"int32_t \w+", r"[[gnu::unused]] \g<0>", "msgsrv"),

@@ -129,7 +129,8 @@ def _field(type_: str) -> Maker:
         for path in package.paths(".msg"):
             if not path.endswith("State.msg"):
                 for found in re.finditer(r"^int32 ", package.files[path], re.MULTILINE):
-                    yield Edit(path, *found.span(), f"{type_} ")
+                    element = package.owners.get(path, "")
+                    yield Edit(path, *found.span(), f"{type_} ", element)
 
     return make
 

@@ -10,3 +10,8 @@ void Node::onParentheses(const std_msgs::Int32::ConstPtr& msg) {
   archive_ & limit_;
   count_ = limit_;
 }
+void Node::onCast() {
+  count_ = (int8_t)(limit_) - (count_) % -3;
+  limit_ = (int)(int8_t)(count_) + 1;
+  count_ = (int8_t)(limit_);
+}
