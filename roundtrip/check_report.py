@@ -87,14 +87,20 @@ def differences(checked: Checked | None) -> Iterator[tuple[Difference, Mover]]:
     """What is different, but for places that are among the findings anyway."""
     if checked is None or checked.drift is None:
         return
-    from rebsync.roundtrip.difference import Undetermined
+    from rebsync.roundtrip.difference import Place, Undetermined
 
-    told = {(f.source.path, d.span.start) for f in checked.findings for d in f.diagnostics}
+    told: dict[tuple[str, int | None], list[str]] = {}
+    for found in checked.findings:
+        for d in found.diagnostics:
+            where = found.source.path, Place(found.source, d.span).line
+            told.setdefault(where, []).append(d.message)
     for difference, mover in checked.drift.differences:
         place = difference.right
-        known = place is not None and (place.source.path, place.span.start) in told
-        if not (isinstance(difference, Undetermined) and known):
-            yield difference, mover
+        if isinstance(difference, Undetermined) and place is not None:
+            messages = told.get((place.source.path, place.line), [])
+            if any(difference.why in message for message in messages):
+                continue
+        yield difference, mover
 
 
 def lines(outcome: Outcome) -> Iterator[str]:

@@ -51,7 +51,7 @@ def _in_turn(pending: list[Begun], depth: str) -> Iterator[Result]:
 
 def _is_much(pending: list[Begun]) -> bool:
     """Whether more processes are worth while; what they need is loaded for that only."""
-    if len(pending) < 2:
+    if len(pending) < 3:
         return False
     from rebsync.reverse.files.parallel import ENOUGH, processors
 
@@ -62,7 +62,9 @@ def _in_processes(pending: list[Begun], depth: str) -> Iterator[Result]:
     from rebsync.reverse.files.parallel import in_processes
     from rebsync.roundtrip.extraction_cache import unpacked
 
-    for data in in_processes(iter(pending), partial(_sent, depth), lambda b: b.kept.root):
+    first, *others = pending
+    yield _finished(first, depth)  # what it loads, copies of this process have then
+    for data in in_processes(iter(others), partial(_sent, depth), lambda b: b.kept.root):
         yield cast("Result", unpacked(data))
 
 

@@ -96,7 +96,7 @@ class _Syncing:
             return self._left_open(base, today, merged.text, told)
         source = Source(today.source.path, merged.text)
         model = Given(_parsed(source), source)
-        return self._with_code(today, model, base or today, told, code.given)
+        return self._with_code(today, model, base, told, code.given)
 
     # --- what is known --------------------------------------------------------------------------
 
@@ -163,10 +163,13 @@ class _Syncing:
             findings=self.checked.findings,
         )
 
-    def _with_code(self, today: Given, model: Given, base: Given, told: Given, code: Given) -> Sync:
+    def _with_code(
+        self, today: Given, model: Given, base: Given | None, told: Given, code: Given
+    ) -> Sync:
         options = _config_of(self.record)
         now = self._generated(model, self._config())
-        recorded = recorded_base(self.checked.kept.root, BASE)
+        recorded = self._recorded() if base is not None else {}
+        base = base or today
         before = self._generated(base, options)
         is_as_base = told.source.text == base.source.text
         of_code = before if is_as_base else self._generated(told, options)
@@ -196,6 +199,15 @@ class _Syncing:
         texts = {path: text for path, text in sync.texts.items() if self._differs(path, text)}
         unknown = proof.is_undetermined or _has_unread(findings)
         return replace(sync, texts=texts, findings=findings, is_undetermined=unknown)
+
+    def _recorded(self) -> dict[str, str]:
+        """The texts that were generated last time, as far as they are those of the manifest.
+
+        Where a sync was killed among the records, some are older.
+        """
+        wanted = self.record.files
+        texts = recorded_base(self.checked.kept.root, BASE).items()
+        return {n: t for n, t in texts if is_text_of(t.encode("utf-8"), wanted.get(n, ""))}
 
     def _differs(self, path: str, text: str | None) -> bool:
         file = Path(self.checked.kept.root, path)

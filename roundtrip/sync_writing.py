@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from rebsync.diagnostics import Findings, RebsyncError
+from rebsync.roundtrip.manifest import BASE_MODEL, MANIFEST
 from rebsync.roundtrip.merge_code import Stages
 from rebsync.roundtrip.sync import Sync, relative
 from rebsync.roundtrip.sync_records import marked
@@ -30,7 +31,9 @@ def write(sync: Sync) -> tuple[str, ...]:
     for path in texts:
         _refuse_link(Path(shown.get(path) or Path(root, path)), sync.checked.kept.tree)
         texts[path] = marked(Path(root, path), texts[path])
-    texts |= {p: t for p, t in sync.records.items() if t is not None}
+    # Last what is only true when all the rest is there.
+    ordered = sorted(sync.records.items(), key=lambda r: (r[0] == MANIFEST, r[0] == BASE_MODEL))
+    texts |= {path: text for path, text in ordered if text is not None}
     gone = [p for each in (sync.texts, sync.records) for p, t in each.items() if t is None]
     try:
         written = replace_tree(root, texts, remove=gone)
