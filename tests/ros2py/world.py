@@ -250,7 +250,7 @@ class World:
         end = _FIRST + round(until * NANOSECONDS)
         self._rest(50)
         while not self.failures and self._advance(end) and not self._is_quiet(quiet):
-            self._rest(1)
+            self._rest(2)
         with self.lock:
             self.stopping = True
             nodes = list(self.nodes.values())
