@@ -11,9 +11,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rebsync import model as m
+from rebsync.config import ClassTarget, Config
 from rebsync.files import read_source
+from rebsync.forward.generate import generate
 from rebsync.grammars.parser import parse_model
 from rebsync.roundtrip.normal import normal
+from rebsync.static import analyse
 from tests.reverse.laws import (
     assert_same,
     extracted,
@@ -50,6 +53,14 @@ def test_they_come_back_without_markers(model: m.Model, target: str) -> None:
     assert [(f.text, f.why) for f in found.findings] == []
     told = told_without_markers(python_normal(found.model))
     assert_same(told, told_without_markers(python_normal(normal(model))))
+
+
+def test_a_package_in_two_languages_comes_back() -> None:
+    model = model_of(EXAMPLES[-1])
+    config = Config(targets=(ClassTarget("Carrier", "ros1-py"),))
+    files = generate(model, (), analyse(model), config, "drawn")
+    assert {p.rpartition(".")[2] for p in files} >= {"py", "cpp"}
+    assert_says(files, model)
 
 
 @pytest.mark.skipif(shutil.which("ruff") is None, reason="ruff is not installed")
