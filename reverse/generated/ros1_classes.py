@@ -135,7 +135,6 @@ class Classes:
         for timer in self.timers[owner.name]:
             checked(timer, f"{owner.name}.{timer.function.name}", self.findings)
         functions = [f for f in self.code.functions_of(owner) if self._is_of_model(owner, f)]
-        methods = [f for f in functions if self._served(owner, f) is None]
         known, state = self._variables(owner)
         members: list[m.ClassMember] = [m.KnownRebecs(tuple(known))] if known else []
         members += [m.StateVars(tuple(state))] if state else []
@@ -146,7 +145,7 @@ class Classes:
             if (name := self._served(owner, f)) is not None
         ]
         members += self._lambdas(owner)
-        members += [self._method(owner, f) for f in methods]
+        members += [self._method(owner, f) for f in functions if self._served(owner, f) is None]
         members += [self._method(owner, f) for f in self._free(owner)]
         extends = [b for b in owner.bases if self._is_reactive(b)]
         return m.ReactiveClass(

@@ -61,7 +61,8 @@ class Classes:
             for o in self._owners
             if id(o) in reached or _is_marked(o) or (reached and self._is_only_declared(o))
         ]
-        self._types = frozenset({*self.messages, *(o.name for o in self._owners)})
+        own = {o.name for o in self._owners}
+        self._types = frozenset({*self.messages, *_messages_of(self._owners), *own})
         self._servers = {k: v for o in self._owners for k, v in self._of(o).messages.items()}
 
     def line(self, owner: Scope) -> list[Scope]:
@@ -287,6 +288,18 @@ def is_runtime_file(source: Source) -> bool:
     """Whether a file is a module of the run-time part, which is the same in all packages."""
     stem = source.path.rpartition("/")[2].removesuffix(".py")
     return stem in _RUNTIME and f"\nclass {_RUNTIME[stem]}" in source.text
+
+
+def _messages_of(owners: list[Scope]) -> Iterator[str]:
+    """The message types that the modules of some classes import."""
+    for module in {id(o.module): o.module for o in owners}.values():
+        for name, bindings in module.names.items():
+            if any(_brings_messages(b.node) for b in bindings if b.how == "import"):
+                yield name
+
+
+def _brings_messages(node: Node) -> bool:
+    return text_of(node.child_by_field_name("module_name") or node).endswith(".msg")
 
 
 def _is_marked(owner: Scope) -> bool:

@@ -35,7 +35,11 @@ _HINT = "say it in the model, or move it into a user block"
 
 @dataclass(frozen=True, slots=True)
 class Plumbing:
-    """One class with what its functions are for; `fields` are those of messages, by their types."""
+    """One class with what its functions are for.
+
+    `fields` are those of messages, by their types; of those that another package has, as in ROS 2,
+    only the order of what is passed on can be looked at.
+    """
 
     roles: Roles
     fields: Mapping[str, Sequence[str]]
@@ -116,14 +120,19 @@ class Plumbing:
             return False
         parameter = field(function.node, "parameters").named_children[-1]
         type_ = parameter.child_by_field_name("type")
-        wanted = self.fields.get(text_of(type_)) if type_ is not None else None
-        if wanted is None or text_of(arguments[1]) != "msg.timing":
+        if type_ is None or text_of(arguments[1]) != "msg.timing":
             return False
         served = arguments[4]
         _, values = (
             call_parts(field(served, "body")) or ("", []) if served.type == "lambda" else ("", [])
         )
-        return [_field_read(v) for v in values] == list(wanted)
+        given = [_field_read(v) for v in values]
+        wanted = self.fields.get(text_of(type_))
+        if wanted is not None:
+            return given == list(wanted)
+        handler = self.roles.handler_of(function.name)
+        count = len(handler.parameters) - 1 if handler is not None else len(given)
+        return len(set(given)) == count == len(given) and all(map(str.isidentifier, given))
 
     def _sends(self, function: Scope, body: list[Node]) -> Iterator[Node]:
         """The statements of a function that do more than fill a message and send it."""
@@ -145,8 +154,9 @@ class Plumbing:
                     filled[left.removeprefix("msg.")] = text_of(plain)
             elif called == "self._mailbox.publish":
                 to_any = self.roles.sends[function.name].known is None
-                wanted = dict(zip(self.fields.get(type_, ()), passed[to_any:], strict=False))
-                if filled != wanted or text_of(arguments[-1]) != "when":
+                fields = self.fields.get(type_, tuple(filled))
+                in_order = [filled.get(f) for f in fields] == passed[to_any:]
+                if not in_order or text_of(arguments[-1]) != "when":
                     yield statement
             elif called == "self._mailbox.post":
                 if not _posts(arguments, passed):

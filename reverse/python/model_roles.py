@@ -31,6 +31,8 @@ from rebsync.reverse.python.py_tree import field, named, text_of
 _RUNTIME = {"_mailbox", "_drive", "_state_pub"}
 _PLUMBING = {"__init__", "_wire", "_publish_state", "mailbox"}
 _SENSOR = "_sensor"
+# What reads a parameter in ROS 1, in ROS 2, and one that is an array.
+_READS = frozenset({"rospy.get_param", "declared", "read_array", "declared_array"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +68,7 @@ class Roles:
     shown: dict[str, tuple[m.Annotation, ...]] = with_default(default_factory=dict)
     messages: dict[str, str] = with_default(default_factory=dict)
     sends: dict[str, Sends] = with_default(default_factory=dict)
+    handler_names: dict[str, str] = with_default(default_factory=dict)
     by_shim: dict[str, str] = with_default(default_factory=dict)
     shims: set[str] = with_default(default_factory=set)
     topics: dict[str, str] = with_default(default_factory=dict)
@@ -78,6 +81,10 @@ class Roles:
     def served_by(self, shim: str) -> str | None:
         """The server whose messages a shim takes in."""
         return self.by_shim.get(shim)
+
+    def handler_of(self, shim: str) -> Scope | None:
+        """The function of this class that serves the messages of a shim."""
+        return self.functions.get(self.handler_names.get(shim, ""))
 
     def is_plumbing(self, name: str) -> bool:
         """Whether a function is none of the model's."""
@@ -153,8 +160,9 @@ def _wired(roles: Roles, function: Scope) -> None:
 def _called(roles: Roles, call: Node) -> None:
     """`self._wire(4, NO_PRIORITY)` says how long the queue is."""
     function, arguments = call_parts(call) or ("", [])
-    if function.endswith("._wire") and arguments and text_of(arguments[0]).isdecimal():
-        roles.queue_length = int(text_of(arguments[0]))
+    lengths = [int(text_of(a)) for a in arguments if text_of(a).isdecimal()]
+    if function.endswith("._wire") and lengths and text_of(arguments[0]) != "queue_length":
+        roles.queue_length = lengths[0]
 
 
 def _member(roles: Roles, function: Scope, name: str, statement: Node, value: Node) -> None:
@@ -210,10 +218,10 @@ def parameter_read(value: Node) -> tuple[str, Node | None] | None:
     """The parameter that a value reads, wherever in it, and what stands in for it."""
     called, arguments = call_parts(value) or ("", [])
     strings = [(i, s) for i, a in enumerate(arguments) if (s := string_value(a)) is not None]
-    if strings and ("param" in called or "read_array" in called or "known" in called):
+    if strings and called in _READS:
         index, key = strings[0]
         default = arguments[index + 1] if index + 1 < len(arguments) else None
-        return key.removeprefix("~"), default
+        return key.removeprefix("~").replace(".", "/").removeprefix("env/"), default
     for argument in arguments:
         found = parameter_read(argument)
         if found is not None:
@@ -268,6 +276,7 @@ def _received(
         return
     roles.shims.add(function.name)
     roles.by_shim[function.name] = server
+    roles.handler_names[function.name] = handler
     roles.handlers[handler] = server
     port = roles.topics.get(function.name, "").startswith("port/")
     roles.shown[handler] = (*((m.Annotation("Port"),) if port else ()), *annotations)

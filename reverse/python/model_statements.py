@@ -56,13 +56,20 @@ class Statements:
                     found.append(m.Continue(span=self.expressions.py.span(node)))
                     waiting.pop(0)
                     continue
-                read = self._with_annotations(node, self._statement(node, found))
+                read = self._with_annotations(node, self._read(node, found))
             except Unread as unread:
                 self.findings.unreadable(self.expressions.py.source, unread, self.within)
                 read = []
             self.findings.statements[self.within] += 1
             found += read
         return iter(found)
+
+    def _read(self, node: Node, before: list[m.Statement]) -> list[m.Statement]:
+        try:
+            return self._statement(node, before)
+        except RecursionError:
+            span = self.expressions.py.span(node)
+            raise Unread(span, "this nests too deep to be read") from None
 
     def _goes_on(self, node: Node, after: list[Node]) -> bool:
         """`case_.go_on()` and the `break` behind it: a `continue` of the loop around the switch."""

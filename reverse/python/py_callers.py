@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
-from rebsync.reverse.python.py_index import LAMBDA, Parameter, Scope, arguments_of
+from rebsync.reverse.python.py_index import LAMBDA, Parameter, Scope, arguments_of, classes_in
 from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import Class, Function, Instance, Ways, distinct
 
@@ -105,35 +105,19 @@ def _makers(values: Values, owner: Scope) -> Iterator[tuple[Node, Scope]]:
     """The calls that run the constructor of a class: its own, and those of classes below it."""
     from rebsync.reverse.python.py_lookup import lineage
 
-    for name, calls in values.code.by_callee.items():
-        if name == "__init__":
-            for call, scope in calls:
-                below = scope.owner
-                if below is None or below is owner:
-                    continue
-                above = [c for c in lineage(values, below)[1:] if isinstance(c, Scope)]
-                first = next((c for c in above if "__init__" in c.names), None)
-                if first is owner and _is_super(call):
-                    yield call, scope
-            continue
-        for call, scope in calls:
-            if not name[:1].isalpha() and not name.startswith("_"):
-                continue
-            if name != owner.name and not _may_make(values, name, owner):
-                continue
+    heirs = [c for c in classes_in(values.code) if owner in lineage(values, c)]
+    for name in dict.fromkeys((owner.name, *(h.name for h in heirs))):
+        for call, scope in values.code.by_callee.get(name, ()):
             for value in values.ways(field(call, "function"), scope):
                 if isinstance(value, Class) and _constructor_of(values, value.scope) is owner:
                     yield call, scope
-
-
-def _may_make(values: Values, name: str, owner: Scope) -> bool:
-    """Whether a name may be that of a class below another, or another name for it."""
-    from rebsync.reverse.python.py_lookup import lineage
-
-    for scope in values.code.scopes.values():
-        if scope.kind == "class" and scope.name == name and owner in lineage(values, scope):
-            return True
-    return False
+    for call, scope in values.code.by_callee.get("__init__", ()):
+        below = scope.owner
+        if below is None or below is owner or below not in heirs or not _is_super(call):
+            continue
+        above = [c for c in lineage(values, below)[1:] if isinstance(c, Scope)]
+        if next((c for c in above if "__init__" in c.names), None) is owner:
+            yield call, scope
 
 
 def _constructor_of(values: Values, owner: Scope) -> Scope | None:

@@ -27,7 +27,9 @@ from rebsync.reverse.python.py_worth import (
     used,
 )
 
-_DEEPEST = 40
+_DEEPEST = 60
+_MOST_STEPS = 4000  # expressions that are followed for one value
+_Key = tuple[str, int]
 _CONSTANTS: dict[str, Value] = {"true": True, "false": False, "none": Nothing()}
 
 
@@ -36,27 +38,40 @@ class Values:
     """The values of expressions in some files; what was found is kept."""
 
     code: PyCode
-    kept: dict[tuple[str, int], Ways] = with_default(default_factory=dict)
-    under_way: set[tuple[str, int]] = with_default(default_factory=set)
-    depth: int = 0
+    kept: dict[_Key, Ways] = with_default(default_factory=dict)
+    under_way: set[_Key] = with_default(default_factory=set)
+    cycles: list[set[_Key]] = with_default(default_factory=list)
+    steps: int = 0
 
     def ways(self, node: Node, scope: Scope) -> Ways:
-        """All that an expression may be worth."""
+        """All that an expression may be worth.
+
+        What depends on itself adds nothing to its own value; what was found on such a way holds
+        for that way only, and is not kept.
+        """
         key = scope.py.source.path, node.id
         if key in self.kept:
             return self.kept[key]
-        if key in self.under_way or self.depth > _DEEPEST:
+        if key in self.under_way:
+            self.cycles[-1].add(key)
             return ()
+        if not self.under_way:
+            self.steps = 0
+        self.steps += 1
+        if len(self.under_way) > _DEEPEST or self.steps > _MOST_STEPS:
+            return (self.unknown("it takes too long to follow", node, scope),)
         self.under_way.add(key)
-        self.depth += 1
+        self.cycles.append(set())
         try:
             found = distinct(self._ways(node, scope))
         finally:
             self.under_way.discard(key)
-            self.depth -= 1
+            open_ = self.cycles.pop() - {key}
+            if self.cycles:
+                self.cycles[-1].update(open_)
         if len(found) > MOST:
             found = (self.unknown("too many values are possible", node, scope),)
-        if found and not self.under_way:
+        if not open_:
             self.kept[key] = found
         return found
 

@@ -120,8 +120,8 @@ def _of_people(graph: Graph, classes: Classes) -> Iterator[Callback]:
     own = {(o.name, o.py.source.path) for o in classes.owners}
     for fact in graph.facts:
         path = fact.site.place.source.path
-        is_made = (fact.site.owner or "", path) in own or path.endswith(_STAND_IN)
-        if is_made or is_runtime_file(fact.site.place.source):
+        is_made = (fact.site.owner or "", path) in own or is_runtime_file(fact.site.place.source)
+        if is_made or path.removesuffix(".py").endswith(_STAND_IN):
             continue
         yield from (c for c in _callbacks(fact) if isinstance(c, Callback))
 

@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from tests.ros1.recording import Recording
 from tests.ros1.run import Clock, run
@@ -41,8 +41,21 @@ class Rebec:
         return {**own, "peers": list(peers), **self.parameters}
 
 
+class Player(Protocol):
+    """What runs systems of rebecs without a workspace."""
+
+    def play(
+        self,
+        rebecs: Mapping[str, Rebec],
+        clock: Clock,
+        parameters: Mapping[str, Any],
+        names: Sequence[str],
+    ) -> Recording:
+        """Run rebecs of which each knows all the names."""
+
+
 def play(
-    workspace: Workspace,
+    workspace: Workspace | Player,
     directory: Path,
     rebecs: Mapping[str, Rebec],
     clock: Clock = _USUAL,
@@ -52,6 +65,8 @@ def play(
 ) -> Recording:
     """Run rebecs that each know all others, those that are `absent` included."""
     names = [*rebecs, *absent]
+    if not isinstance(workspace, Workspace):
+        return workspace.play(rebecs, clock, parameters or {}, names)
     nodes = [_node(n, r, [peer for peer in names if peer != n]) for n, r in rebecs.items()]
     common = _parameter("mailbox", {"rebecs": names, "instances": {"Script": list(rebecs)}})
     launch = directory / "probe.launch"

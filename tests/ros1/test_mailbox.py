@@ -252,7 +252,10 @@ def test_the_real_clock_serves_as_well(probe: Workspace, tmp_path: Path) -> None
 def values(probe: Workspace) -> dict[str, str]:
     """The expressions that values_check computes."""
     command = [probe.executable("probe", "values_check")]
-    out = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    environment = probe.environment()
+    out = subprocess.run(
+        command, check=True, capture_output=True, text=True, env=environment
+    ).stdout
     return dict(line.split(" = ", 1) for line in out.splitlines())
 
 

@@ -10,6 +10,7 @@ import pytest
 
 from tests.regenerate import models
 from tests.ros1.conftest import tool
+from tests.ros1.test_examples import EXAMPLES, example_package
 from tests.ros1.workspace import SYSTEM_PATH
 
 PACKAGES = [m.parent / m.stem for m in models()]
@@ -42,6 +43,12 @@ def test_catkin_lint_finds_nothing(package: Path) -> None:
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "checked 1 packages and found 0 problems" in done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("name", IDS)
+def test_catkin_lint_finds_nothing_in_python(name: str, tmp_path: Path) -> None:
+    package = example_package(EXAMPLES / name, "ros1-py", tmp_path)
+    test_catkin_lint_finds_nothing(package)
 
 
 @pytest.mark.parametrize("package", PACKAGES, ids=IDS)

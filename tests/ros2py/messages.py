@@ -8,7 +8,8 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from types import ModuleType
 
-_FIELD = re.compile(r"([\w/]+)(?:\[(\d+)\])? (\w+)\Z")
+_FIELD = re.compile(r"([\w/]+)(?:\[(\d*)\])? (\w+)\Z")
+_ANY = -1  # the length of an array without one
 _RANGES = {"int8": 8, "int16": 16, "int32": 32, "int64": 64, "uint32": 33}
 _STANDARD = {
     "builtin_interfaces/Time": "int32 sec\nuint32 nanosec",
@@ -41,7 +42,8 @@ class Message:
         type_, length = self._fields[name]
         values = [value]
         if length is not None:
-            assert isinstance(value, list) and len(value) == length, f"{name}: {value!r}"
+            assert isinstance(value, list), f"{name}: {value!r}"
+            assert length in (_ANY, len(value)), f"{name}: {value!r}"
             values = value
         for each in values:
             assert self._is(type_, each), f"{name} of {type_}: {each!r}"
@@ -84,7 +86,7 @@ def modules(folders: Iterable[Path]) -> dict[str, ModuleType]:
         for line in text.strip().splitlines():
             match = _FIELD.match(line)
             assert match is not None, line
-            fields[match[3]] = (match[1], int(match[2]) if match[2] else None)
+            fields[match[3]] = (match[1], int(match[2] or _ANY) if match[2] is not None else None)
         known[name] = type(
             name.rpartition("/")[2], (Message,), {"_fields": fields, "_known": known}
         )

@@ -22,15 +22,22 @@ _BODY = ("server", "arguments", "arrival", "start", "now")
 def play(folder: Path, until: float) -> Recording:
     """Start what the launch file of a package says, and run it to a time of the model."""
     world, name = World(), folder.name
-    with _installed(world, folder):
+    with installed(world, folder / name, folder / f"{name}_interfaces"):
         launch = folder / name / "launch" / f"{name}.launch.py"
         described = _loaded(launch)
         parameters = _flat(yaml.safe_load((folder / name / "config" / "params.yaml").read_text()))
         mains = [_main(name, node, parameters) for node in described]
         world.run(mains, until)
+    return recorded(world)
+
+
+def recorded(world: World) -> Recording:
+    """What happened in a world."""
     heard = tuple(Heard(topic, stamp, data) for topic, stamp, data in world.messages)
+    log = tuple(Logged(*line) for line in world.log)
+    output = "\n".join(line.text for line in log)
     served = tuple(_served(m) for m in heard if set(_BODY) <= set(m.fields))
-    return Recording(served, heard, tuple(Logged(*line) for line in world.log), (), "")
+    return Recording(served, heard, log, (), output)
 
 
 def _served(message: Heard) -> Served:
@@ -76,18 +83,18 @@ def _loaded(launch: Path) -> list[SimpleNamespace]:
 
 
 @contextmanager
-def _installed(world: World, folder: Path) -> Iterator[None]:
+def installed(world: World, source: Path, interfaces: Path) -> Iterator[None]:
     """The client library and all messages as modules, while the block runs."""
     before = set(sys.modules)
-    made = {**modules([folder / f"{folder.name}_interfaces"]), **_rclpy(world), **_launch()}
+    made = {**modules([interfaces]), **_rclpy(world), **_launch()}
     World.stamp = made["builtin_interfaces.msg"].Time
     sys.modules.update(made)
-    sys.path.insert(0, str(folder / folder.name))
+    sys.path.insert(0, str(source))
     invalidate_caches()
     try:
         yield
     finally:
-        sys.path.remove(str(folder / folder.name))
+        sys.path.remove(str(source))
         for added in set(sys.modules) - before:
             del sys.modules[added]
 

@@ -237,15 +237,20 @@ class World:
 
     # --- the run --------------------------------------------------------------------------------
 
-    def run(self, mains: Sequence[tuple[Launched, Callable[[], None]]], until: float) -> None:
-        """Start nodes, run the clock for some seconds, and stop them."""
+    def run(
+        self,
+        mains: Sequence[tuple[Launched, Callable[[], None]]],
+        until: float,
+        quiet: float = 1e6,
+    ) -> None:
+        """Start nodes, run the clock for some seconds or until all is quiet, and stop them."""
         threads = [threading.Thread(target=self._main, args=main, daemon=True) for main in mains]
         for thread in threads:
             thread.start()
         end = _FIRST + round(until * NANOSECONDS)
         self._rest(50)
-        while not self.failures and self._advance(end):
-            self._rest(1)
+        while not self.failures and self._advance(end) and not self._is_quiet(quiet):
+            self._rest(2)
         with self.lock:
             self.stopping = True
             nodes = list(self.nodes.values())
@@ -257,6 +262,12 @@ class World:
                 raise RuntimeError("a node does not stop")
         if self.failures:
             raise self.failures[0]
+
+    def _is_quiet(self, quiet: float) -> bool:
+        """Whether nothing was served for some seconds."""
+        with self.lock:
+            served = (stamp for topic, stamp, _ in self.messages if topic.endswith("/state"))
+            return (self.time - _FIRST) / NANOSECONDS - max(served, default=0.0) >= quiet
 
     def _main(self, launched: Launched, main: Callable[[], None]) -> None:
         self.context.launched = launched

@@ -8,11 +8,15 @@ from pathlib import Path
 
 import pytest
 from hypothesis import given
+from hypothesis import strategies as st
 
 from rebsync import model as m
+from rebsync.config import ClassTarget, Config
 from rebsync.files import read_source
+from rebsync.forward.generate import generate
 from rebsync.grammars.parser import parse_model
 from rebsync.roundtrip.normal import normal
+from rebsync.static import analyse
 from tests.reverse.laws import (
     assert_same,
     extracted,
@@ -23,6 +27,7 @@ from tests.reverse.python.laws import assert_says, python_files, python_normal
 from tests.strategies import models
 
 EXAMPLES = sorted((Path(__file__).parents[3] / "examples").iterdir())
+TARGETS = ("ros1-py", "ros2-py")
 LENGTHS = (60, 160)
 
 
@@ -30,23 +35,32 @@ def model_of(example: Path) -> m.Model:
     return parse_model(read_source(str(example / f"{example.name}.rebeca"))).model
 
 
+@pytest.mark.parametrize("target", TARGETS)
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda e: e.name)
-def test_examples_come_back(example: Path) -> None:
+def test_examples_come_back(example: Path, target: str) -> None:
     model = model_of(example)
-    assert_says(python_files(model), model)
+    assert_says(python_files(model, target), model)
 
 
-@given(models())
-def test_drawn_models_come_back(model: m.Model) -> None:
-    assert_says(python_files(model), model)
+@given(models(), st.sampled_from(TARGETS))
+def test_drawn_models_come_back(model: m.Model, target: str) -> None:
+    assert_says(python_files(model, target), model)
 
 
-@given(models())
-def test_they_come_back_without_markers(model: m.Model) -> None:
-    found = extracted(without_markers(python_files(model)))
+@given(models(), st.sampled_from(TARGETS))
+def test_they_come_back_without_markers(model: m.Model, target: str) -> None:
+    found = extracted(without_markers(python_files(model, target)))
     assert [(f.text, f.why) for f in found.findings] == []
     told = told_without_markers(python_normal(found.model))
     assert_same(told, told_without_markers(python_normal(normal(model))))
+
+
+def test_a_package_in_two_languages_comes_back() -> None:
+    model = model_of(EXAMPLES[-1])
+    config = Config(targets=(ClassTarget("Carrier", "ros1-py"),))
+    files = generate(model, (), analyse(model), config, "drawn")
+    assert {p.rpartition(".")[2] for p in files} >= {"py", "cpp"}
+    assert_says(files, model)
 
 
 @pytest.mark.skipif(shutil.which("ruff") is None, reason="ruff is not installed")

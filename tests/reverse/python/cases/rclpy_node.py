@@ -9,7 +9,7 @@ from std_msgs.msg import Int32, String
 
 class Talker(Node):
     def __init__(self, name="talker", **more):
-        super().__init__(name, **more)  #= node "second" | "talker"
+        super().__init__(name, **more)  #= node "talker" | "second"
         self.declare_parameter("period", 0.5)  #= parameter declare "period" = 0.5
         self.declare_parameters("arm", [("left", 1), ("right", 2)])  #= parameter declare "arm.left" = 1 //= parameter declare "arm.right" = 2
         period = self.get_parameter("period").value  #= parameter get "period"

@@ -1,0 +1,84 @@
+"""Systems of scripted rebecs in one process."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.ros1.conftest import rendered
+from tests.ros1.probes import Player, Rebec
+from tests.ros1.recording import Recording
+from tests.ros1.run import Clock
+from tests.ros2py.playing import installed, recorded
+from tests.ros2py.world import Launched, World
+
+_HERE = Path(__file__).parent
+_MESSAGES = _HERE.parent / "ros1" / "packages" / "probe" / "msg"
+_MODULES = {
+    **{name: f"ros2_py/{name}.py" for name in ("drive", "mailbox", "sensor", "startup")},
+    "values": "py/values.py",
+}
+_SERVERS = ("plain", "low", "high")
+
+
+@dataclass(frozen=True)
+class _InProcess:
+    """Plays with the package in a folder."""
+
+    folder: Path
+
+    def play(
+        self,
+        rebecs: Mapping[str, Rebec],
+        clock: Clock,
+        parameters: Mapping[str, Any],
+        names: Sequence[str],
+    ) -> Recording:
+        """Run rebecs of which each knows all the names, until the clock's end."""
+        world = World()
+        common = {"mailbox.rebecs": list(names), "mailbox.instances.Script": list(rebecs)}
+        common |= {key.replace("/", "."): value for key, value in parameters.items()}
+        with installed(world, self.folder, self.folder / "probe_interfaces"):
+            main = import_module("probe.script").main
+            mains = [(_launched(n, r, names, common), main) for n, r in rebecs.items()]
+            world.run(mains, clock.until, clock.quiet)
+        return recorded(world)
+
+
+def _launched(
+    name: str, rebec: Rebec, names: Sequence[str], common: Mapping[str, object]
+) -> Launched:
+    peers = [peer for peer in names if peer != name]
+    own: dict[str, object] = dict(common)
+    for key, value in rebec.private(peers).items():
+        if isinstance(value, Mapping):
+            own |= {f"{key}.{inner}": list(lines) or [""] for inner, lines in value.items()}
+        else:
+            own[key.replace("/", ".")] = [""] if value == [] else value
+    remaps = {f"~/{p}/{s}": f"{p}/{s}" for p in peers for s in _SERVERS}
+    remaps["~/sensor"] = rebec.hears or f"{name}/plain"
+    return Launched(name, own, remaps)
+
+
+@pytest.fixture(scope="session")
+def probe(tmp_path_factory: pytest.TempPathFactory) -> Player:
+    """The package whose rebecs run scripts, with the run-time part as it is now."""
+    folder = tmp_path_factory.mktemp("probe")
+    package = folder / "probe"
+    package.mkdir()
+    (package / "__init__.py").touch()
+    shutil.copy(_HERE / "script" / "script.py", package)
+    for name, path in _MODULES.items():
+        (package / f"{name}.py").write_text(rendered(path, "probe"))
+    messages = folder / "probe_interfaces" / "msg"
+    messages.mkdir(parents=True)
+    for file in _MESSAGES.glob("*.msg"):
+        text = file.read_text().replace("Timing timing", "probe_interfaces/Timing timing")
+        (messages / file.name).write_text(text)
+    return _InProcess(folder)
