@@ -218,7 +218,7 @@ KINDS = (
     Kind(
         "published only if",
         within(
-            r"^( *)(mailbox_\.(?:publish|post)\([^\n]*\n)", r"\1if (when_.after > 0) \2", "send"
+            r"^( *)(mailbox_\.(?:publish|post)\([^\n]*\n)", r"\1if (mailbox_.now() > 3) \2", "send"
         ),
     ),
     Kind(
