@@ -323,6 +323,7 @@ class CppExpressions:
     def binary(self, node: Node, operator: str, sides: Sequence[Node]) -> m.Expression:
         reads = self.condition if operator in ("&&", "||") else self.read
         left, right = (reads(side) for side in sides)
+        operator = cpp_widths.exact(self, operator, sides)
         cpp_widths.check(self, node, operator, sides)
         operator, left, right = operands(self.scope, operator, left, right)
         return binary(operator, left, right, self.cpp.span(node))

@@ -134,12 +134,17 @@ def needed(reader: CppStatements, type_: str) -> Mapping[str, m.Type]:
             sent |= {p for take in function.takes or () if isinstance(take, tuple) for p in take}
         if isinstance(function, Inline):
             texts.append(text_of(function.function.node))
-    read = _read_in("\n".join(texts))
+    text = "\n".join(texts)
     return {
         path: of
         for path, of in reader.scope.messages[type_].items()
-        if of is not None and (path in sent or path in read)
+        if of is not None and (path in sent or _is_read(path, text))
     }
+
+
+def _is_read(path: str, text: str) -> bool:
+    # Most are not even mentioned.
+    return all(piece in text for piece in path.split(".")) and path in _read_in(text)
 
 
 @lru_cache(maxsize=8)

@@ -48,6 +48,16 @@ def is_wide(reader: CppExpressions, operand: Operand) -> bool:
 # --- what looks at whole numbers ----------------------------------------------------------------
 
 
+def exact(reader: CppExpressions, operator: str, sides: Sequence[Node]) -> str:
+    """`!=` for `>` where a number of 32 bits without a sign is compared with 0."""
+    if operator != ">" or not reader.scope.open:
+        return operator
+    left, right = (range_of(reader.cpp, reader.scope, side) for side in sides)
+    if left is None or right is None or left.bits != 32 or left.fits:
+        return operator
+    return "!=" if (right.low, right.high) == (0, 0) and right.bits <= 32 else operator
+
+
 def check(reader: CppExpressions, node: Node, operator: str, sides: Sequence[Node]) -> None:
     """Raises where an operator looks at a number that an `int` need not hold."""
     if not reader.scope.open:

@@ -91,7 +91,16 @@ def _other_parameter(package: Package) -> Iterator[Mutant]:
 def _swapped_pair(package: Package, part: Part, found: re.Match[str]) -> str | None:
     """The first two of several arguments in the other order."""
     first, second, *rest = re.split(r", *", found[2])
+    types = [_field_types(package, name.removeprefix("msg->")) for name in (first, second)]
+    if first.startswith("msg->") and types[0] != types[1]:
+        return None
     return found[1] + ", ".join([second, first, *rest]) + found[3]
+
+
+def _field_types(package: Package, name: str) -> set[str]:
+    """The types of the fields of messages that have a name."""
+    texts = (package.files[path] for path in package.paths(".msg"))
+    return {m[1] for text in texts for m in re.finditer(rf"^(\S+) {name}$", text, re.MULTILINE)}
 
 
 def _servers(pattern: str, text: str) -> Maker:
@@ -218,7 +227,7 @@ KINDS = (
     Kind(
         "published only if",
         within(
-            r"^( *)(mailbox_\.(?:publish|post)\([^\n]*\n)", r"\1if (when_.after > 0) \2", "send"
+            r"^( *)(mailbox_\.(?:publish|post)\([^\n]*\n)", r"\1if (mailbox_.now() > 3) \2", "send"
         ),
     ),
     Kind(

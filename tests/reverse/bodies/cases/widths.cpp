@@ -35,3 +35,17 @@ void Node::onWideFields() {
   m.data *= 3;
   count_ = m.data;
 }
+void Node::onNumbersWithoutSign() {
+  unsigned rest = count_;
+  if (rest > 0) limit_ = 3;
+  unsigned left = count_;
+  if (left > 0) limit_ = 1;
+  if (left - 1 > 3) limit_ = 2;
+  left = left % 4u;
+  unsigned sure = 3;
+  while (sure > 0) sure--;
+  limit_ = sure / 2;
+  int64_t sum = limit_;
+  sum += 7;
+  level_ = sum * 2;
+}
