@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import re
+from rebsync.names import header_stem
 
 TEMPLATES = "ros2_cpp"
 HEADER = "hpp"
@@ -23,12 +23,6 @@ def message(type_: str) -> str:
 def message_header(package: str, type_: str) -> str:
     owner, slash, name = type_.rpartition("/")
     return f"{owner if slash else package}/msg/{header_stem(name)}.hpp"
-
-
-def header_stem(name: str) -> str:
-    """What rosidl calls the header of a type: `HTTPState` has `http_state`."""
-    words = re.sub(r"(.)([A-Z][a-z]+)", r"\1_\2", name)
-    return re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", words).lower()
 
 
 def received(type_: str) -> str:

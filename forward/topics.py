@@ -25,6 +25,7 @@ from rebsync.names import (
     field_names,
     free_name,
     graph_name,
+    header_stem,
     unique,
 )
 from rebsync.package import Field, MessageType, StateType
@@ -80,6 +81,7 @@ class Topics:
         self._families = self._unite(model)
         self.class_types = {c.name: carry(c.name, NO_CLASSES) for c in model.classes}
         self._used_types = set(self.class_types.values()) | RUNTIME_CLASSES
+        self._headers = {header_stem(t) for t in RUNTIME_CLASSES}
         self._keys = self._named_keys()
         self._topics = {root: self._topic(root) for root in self._roots()}
         self.states = {c.name: self._state(analysis.classes[c.name]) for c in model.classes}
@@ -155,13 +157,21 @@ class Topics:
         key = self._keys[root]
         family = self._family(root)
         message = MessageType(
-            unique(camel_case(class_name) + camel_case(key), self._used_types, ""),
+            self._new_type(camel_case(class_name) + camel_case(key)),
             message_fields(parameters, RUNTIME_FIELDS),
             any(map(self._uses_sender, family)),
             f"{class_name}.{name}",
         )
         port = any(a.name == "Port" for s in family for a in s.annotations)
         return ServerTopic(class_name, name, key, parameters, message, port)
+
+    def _new_type(self, name: str) -> str:
+        """The name of a message type: no other has it, nor one whose header is called the same."""
+        candidate, number = unique(name, self._used_types, ""), 2
+        while header_stem(candidate) in self._headers:
+            candidate, number = unique(f"{name}{number}", self._used_types, ""), number + 1
+        self._headers.add(header_stem(candidate))
+        return candidate
 
     def _named_keys(self) -> dict[tuple[str, Signature], str]:
         """The last segment of each family's topic; no class has two of one name."""
@@ -211,7 +221,7 @@ class Topics:
         variables = [(s.name, s.type or Type("int")) for s in info.state]
         fields = field_names([name for name, _ in variables], STATE_FIELDS)
         return StateType(
-            unique(f"{camel_case(info.name)}State", self._used_types, ""),
+            self._new_type(f"{camel_case(info.name)}State"),
             tuple(Field(f, t, n) for f, (n, t) in zip(fields, variables, strict=True)),
         )
 

@@ -129,6 +129,12 @@ def camel_case(name: str) -> str:
     return "".join(part[:1].upper() + part[1:] for part in plain.split("_") if part)
 
 
+def header_stem(name: str) -> str:
+    """What rosidl calls the header of a message type: `HTTPState` has `http_state`."""
+    words = re.sub(r"(.)([A-Z][a-z]+)", r"\1_\2", name)
+    return re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", words).lower()
+
+
 def field_names(names: Iterable[str], taken: Collection[str] = ()) -> tuple[str, ...]:
     """Message fields for parameters or variables, distinct from each other and from `taken`."""
     reserved = CPP_KEYWORDS | PYTHON_KEYWORDS | _MESSAGE_METHODS

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import TypeAlias
@@ -14,6 +15,7 @@ from rebsync.reverse.python.py_index import Scope
 
 # More ways than these to go are not followed one by one.
 MOST = 24
+_ENDS_IN_TEXT = re.compile(r"(value \+ )'([^'\\]*)'")
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,12 +201,22 @@ def _behind(left: Value, right: Value, unknown: Callable[[], Unresolved]) -> Val
                 return right
             return used(right, f"{left!r} + ", "", lambda v: left + str(v))
         case FromParameter(), (bool() | int() | float() | str()):
-            text = str(right)
-            return used(left, "", f" + {text!r}", lambda v: str(v) + text) if text else left
+            return _with_text_behind(left, str(right))
         case _:
             why = next((v for v in (left, right) if isinstance(v, Unresolved)), None) or unknown()
             partial = (_known(left) + _known(right)).replace("**", "*")
             return Unresolved(why.why, why.place, partial if partial != "*" else None)
+
+
+def _with_text_behind(value: FromParameter, text: str) -> FromParameter:
+    """A parameter's value with a text behind it; two texts become one."""
+    if not text:
+        return value
+    found = used(value, "", f" + {text!r}", lambda v: str(v) + text)
+    before = _ENDS_IN_TEXT.fullmatch(value.expression or "")
+    if before is None:
+        return found
+    return replace(found, expression=f"{before[1]}{before[2] + text!r}")
 
 
 def _known(value: Value) -> str:

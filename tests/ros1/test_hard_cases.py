@@ -54,7 +54,9 @@ def test_inheritance(play_case: PlayCase) -> None:
 
 def test_interfaces(play_case: PlayCase) -> None:
     played = play_case("interfaces")
-    assert played.order("bulb") == ["light(true)@0", "dim(4)@0", "light(false)@2"]
+    # The model leaves open which of two messages of one moment goes first; so does rospy.
+    assert sorted(played.order("bulb")[:2]) == ["dim(4)@0", "light(true)@0"]
+    assert played.order("bulb")[2:] == ["light(false)@2"]
     assert played.final("bulb") == {"lit": False, "level": 4}
     assert played.final("late") == {"x": -1}
     assert played.final("full") == {"d": 4}

@@ -28,6 +28,7 @@ class Watcher(Base):
         self.rate = rospy.get_param("~rate", 20.0)  #= parameter get "~rate" = 20.0
         self.gain = rospy.get_param("gain")  #= parameter get "gain"
         rospy.set_param("/seen", True)  #= parameter set "/seen" := true
+        rospy.set_param(rospy.get_param("~base") + "/" + "x", 1)  #= parameter set {"~base" : value + '/x'} := 1 //= parameter get "~base"
         if rospy.has_param("~old"):  #= parameter has "~old"
             rospy.delete_param("~old")  #= parameter delete "~old"
         rospy.search_param("deep")  #= parameter search "deep"
