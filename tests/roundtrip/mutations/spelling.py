@@ -171,7 +171,7 @@ KINDS = (
         "parentheses in a comparison", within(r"(?<=[( ])(\w+_? (?:==|<|>) \w+)(?=[ )])", r"(\1)")
     ),
     Kind("parentheses in an assignment", within(r" = ([^\n;]+);$", r" = (\1);")),
-    Kind("parentheses in a result", within(r"return ([^\n;]+);", r"return (\1);")),
+    Kind("parentheses in a result", within(r"return ([^\n;{}]+);", r"return (\1);")),
     Kind(
         "cast to the same type",
         within(

@@ -222,7 +222,6 @@ KINDS = (
     ),
     Kind("field of a message narrowed", _field("int8")),
     Kind("field of a message truth", _field("bool")),
-    Kind("time in a message narrowed", in_files("Timing.msg", r"^int64 ", "int32 ")),
     Kind("source gone", _gone("_node.cpp")),
     Kind("launch file gone", _gone(".launch")),
 )
