@@ -50,12 +50,7 @@ _JOINING = frozenset(
     }
 )
 # Without these extraction lists what they were for; and somebody may call them otherwise.
-_MISSED = frozenset(
-    {
-        *("subscription", "publisher", "sensor", "priority", "usual time", "sending", "sender"),
-        "parameter for",
-    }
-)
+_MISSED = frozenset({"subscription", "publisher", "sensor", "priority", "sending", "sender"})
 # What was not there when the code was generated makes a difference too.
 _UNWANTED = frozenset({"setting", "compiler option"})
 _MANIFEST = "package.xml"
@@ -152,7 +147,7 @@ def _hint(fact: Fact) -> str:
             return "let the other end have the same name, or take the edit back"
         case "priority" | "best priority":
             return "give the priority in the model, then `rebsync sync`; or take the edit back"
-        case "field" | "parameter" | "parameter for" | "sender" | "usual time" | "sending":
+        case "field" | "parameter" | "sender" | "sending":
             return "take the edit back, or tell of it in the model"
         case _:
             return _HINT
@@ -236,7 +231,7 @@ class _Excuses:
             return bool(self.groups - {"env"})
         if fact.kind == "field":
             return any(fact.owner.startswith(group) for group in self.groups)
-        return fact.owner in self.groups or (fact.kind == "parameter for" and "env" in self.groups)
+        return fact.owner in self.groups
 
     def _is_unwanted(self, fact: Fact) -> bool:
         """Whether it makes a difference that there is something that was not generated."""

@@ -25,9 +25,6 @@ _PACKAGE = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
 Facts: TypeAlias = "dict[tuple[str, str, str], list[Fact]]"
 
 _LAYOUT = re.compile(r" ?([^\w \"]) ?")
-_READ = re.compile(
-    r"\b(\w+)\s*=\s*(?:global\s*\.\s*param|declare_parameter)(?:<[^<>]*>)?\s*\(\s*(\"[^\"]*\")"
-)
 _BEST = re.compile(r"\bmailbox_\s*\(\s*\w+\s*,[^,()]*(?:,\s*([^()]*?)\s*)?\)")
 _STARTED = re.compile(r"\bmailbox_\s*\.\s*start\s*\(\s*\)")
 _SENT_BY = re.compile(r"\bmailbox_\s*\.\s*receive\s*\(\s*(\w+)\s*,[^,]*,\s*([^,]*?)\s*,")
@@ -52,8 +49,6 @@ _COMPILED = re.compile(
     r"\b(?:add|target)_(?:compile_\w+|definitions)\s*\(([^)]*)\)|_FLAGS\s+([^)]*)\)"
 )
 _OPTION = re.compile(r"(?:^|[\s\"])((?:-D|-U|-f|-include)\s*[^\s\"]+)")
-_USUAL = re.compile(r"\b(\w+)\s*\([^;{}]*\bWhen\s*&\s*\w+\s*=\s*([^;]*?)\s*\)\s*;")
-_CLASS = re.compile(r"\bclass\s+(\w+)[^;{]*\{")
 _SENDER = re.compile(
     r"\b(\w+)::(\w+)\s*\([^;{}]*\bWhen\s*&[^;{}]*\)\s*\{(.*?)^\}", re.M | re.DOTALL
 )
@@ -129,8 +124,6 @@ def _joints(source: Source, text: str) -> Iterator[Fact]:
     for m in _SERVER.finditer(text):
         priority = _squeezed(m[3])
         yield Fact("priority", owner[1], m[2].strip('"'), priority, source, Span(*m.span()))
-    for m in _READ.finditer(text):
-        yield Fact("parameter for", owner[1], m[1], m[2], source, Span(*m.span()))
     for m in _STARTED.finditer(text):
         yield Fact("start of serving", owner[1], "", "there", source, Span(*m.span()))
     for m in _BEST.finditer(text):
@@ -159,11 +152,7 @@ def _made(program: str, source: Source, text: str) -> Iterator[Fact]:
 
 
 def _sendings(source: Source, text: str) -> Iterator[Fact]:
-    """How functions that send do that: when, if not told, and how often."""
-    for m in _USUAL.finditer(text):
-        owners = [c[1] for c in _CLASS.finditer(text, 0, m.start())]
-        owner = owners[-1] if owners else ""
-        yield Fact("usual time", owner, m[1], _squeezed(m[2]), source, Span(*m.span()))
+    """How often functions that send do that."""
     for m in _SENDER.finditer(text):
         value = f"{len(_CALLED.findall(m[3]))} sent, {len(_BRANCH.findall(m[3]))} branches"
         yield Fact("sending", m[1], m[2], value, source, Span(*m.span(2)))

@@ -23,9 +23,7 @@ _TOLD: Mapping[str, tuple[str, Aspect, bool]] = {
     "sender": ("msgsrv", Aspect.SETTING, False),
     "field": ("msgsrv", Aspect.TYPE, True),
     "best priority": ("reactiveclass", Aspect.PRIORITY, False),
-    "usual time": ("reactiveclass", Aspect.AFTER, True),
     "sending": ("reactiveclass", Aspect.SETTING, True),
-    "parameter for": ("reactiveclass", Aspect.SETTING, True),
 }
 
 
