@@ -20,7 +20,7 @@ from rebsync.roundtrip.manifest import BASE
 from rebsync.roundtrip.markers import TOKEN
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
-from rebsync.roundtrip.wiring_facts import package_name
+from rebsync.roundtrip.wiring_facts import MAIN, package_name
 from rebsync.source import NOWHERE, Source, Span
 
 _MANIFEST = "package.xml"
@@ -75,7 +75,7 @@ def _edited(kept: Kept, now: Standing, name: str, own: frozenset[str]) -> Iterat
         message += f": {found.diagnostics[0].message}"
         yield _finding(Source(path, ""), NOWHERE, message)
         return
-    if not _HEADER.match(name) and "int main(" not in base.text:
+    if not _HEADER.match(name) and not MAIN.search(base.text):
         return  # a class with such a name
     cut = partial(_statements if _PROGRAM.match(name) else _tokens, own=own)
     span = _first_difference(base, source, cut)

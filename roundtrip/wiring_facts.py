@@ -28,11 +28,13 @@ _LAYOUT = re.compile(r" ?([^\w \"]) ?")
 _BEST = re.compile(r"\bmailbox_\s*\(\s*\w+\s*,[^,()]*(?:,\s*([^()]*?)\s*)?\)")
 _STARTED = re.compile(r"\bmailbox_\s*\.\s*start\s*\(\s*\)")
 _SENT_BY = re.compile(r"\bmailbox_\s*\.\s*receive\s*\(\s*(\w+)\s*,[^,]*,\s*([^,]*?)\s*,")
+_OF_MESSAGE = re.compile(r"^\w+->")  # a parameter, which may have any name
 _HASH = re.compile(r"#[^\n]*")
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _REMARK = re.compile(r"<!--.*?-->", re.DOTALL)
 _SENSOR = re.compile(r'[:,]\s*(\w+)\s*[({]\s*\w+\s*,\s*("[^"]*")\s*[)}]')
 _PLAYED = re.compile(r'\bnode\s*\.\s*advertise\s*<[^;()]*>\s*\(\s*"([^"]*)"')
+MAIN = re.compile(r"\bint\s+main\s*\(")
 _MADE = re.compile(r"\b(?:\w+\s*::\s*)*(\w+)\s+\w+\s*[({]\s*node\s*[,)}]")
 _OWNER = re.compile(r"\b(\w+)::\1\s*\(")
 _SUBSCRIBED = re.compile(r'\b(subscribe\w*)\s*(?:<[^;()]*>\s*)?\(\s*("[^"]*")\s*,')
@@ -130,7 +132,8 @@ def _joints(source: Source, text: str) -> Iterator[Fact]:
         yield Fact("best priority", owner[1], "", m[1] or "none", source, Span(*m.span()))
     for m in _SENT_BY.finditer(text):
         name = servers.get(m[1], m[1])
-        yield Fact("sender", owner[1], name, _squeezed(m[2]), source, Span(*m.span()))
+        sender = _OF_MESSAGE.sub("", _squeezed(m[2]))
+        yield Fact("sender", owner[1], name, sender, source, Span(*m.span()))
     for m in _SENSOR.finditer(text):
         yield Fact("sensor", owner[1], m[1], m[2], source, Span(*m.span(2)))
     for m in _SUBSCRIBED.finditer(text):
@@ -143,7 +146,7 @@ def _joints(source: Source, text: str) -> Iterator[Fact]:
 
 def _made(program: str, source: Source, text: str) -> Iterator[Fact]:
     """What a program makes a rebec of, or what sensors it plays."""
-    if "int main(" not in text:
+    if not MAIN.search(text):
         return
     for m in _MADE.finditer(text):
         yield Fact(PROGRAM, program, "", m[1], source, Span(*m.span()))
