@@ -60,7 +60,7 @@ def check_plumbing(
             odd = iter(roles.odd_sends[function.name])
             why = "this does more than to send its arguments"
         elif function.name == "publishState":
-            odd = (s for s in working(function.body) if not _tells(s))
+            odd = _odd_in_state(working(function.body))
             why = "this does more than to tell the state"
         elif function.name == "construct" and not _is_constructed(code, owner):
             odd = iter((function.node,))
@@ -160,14 +160,20 @@ def _hands_on(call: CppCall, function: str, given: Sequence[str] | None) -> bool
     return found is not None and found[0] == function and in_order
 
 
-def _tells(statement: Node) -> bool:
-    """Whether it is a statement of `publishState`: fills the message, or publishes it."""
+def _odd_in_state(statements: Sequence[Node]) -> Iterator[Node]:
+    """What of `publishState` neither fills its message nor publishes it."""
+    names = {_declared_by(s) for s in statements}
+    return (s for s in statements if not _tells(s, names))
+
+
+def _tells(statement: Node, messages: Collection[str]) -> bool:
     if statement.type == "declaration":
         return True
     expression = named(statement)[0] if named(statement) else statement
     if expression.type == "assignment_expression":
         target, value = part(expression, "left"), part(expression, "right")
-        return text_of(target).startswith("msg.") and next(calls_in(value), None) is None
+        is_field = text_of(target).partition(".")[0] in messages
+        return is_field and next(calls_in(value), None) is None
     call = call_of(expression)
     return call is not None and call.name in _TELLS
 
