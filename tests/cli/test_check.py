@@ -428,7 +428,7 @@ def test_github_annotates_the_line(check: Check) -> None:
 
 @pytest.mark.parametrize("style", ["text", "json", "sarif", "github", "junit"])
 def test_output_goes_to_a_file(check: Check, package: Path, style: str) -> None:
-    out = package.parent / ".cache" / "result"
+    out = package.parent.parent / "result"
     assert check("--format", style, "-o", str(out)) == (0, "")
     assert out.is_file()
 

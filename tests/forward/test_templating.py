@@ -16,21 +16,21 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def message() -> str:
+def first_line() -> str:
     environment.cache_clear()
-    return fill("ros1_cpp/message.msg.j2", lines=["int32 x"])
+    return fill("ros1_cpp/clang-format.j2").partition("\n")[0]
 
 
 def test_damaged_templates_are_compiled_anew(cache: Path) -> None:
-    assert message() == "int32 x\n"
+    assert first_line() == "BasedOnStyle: Google"
     kept = list(cache.glob("*.template"))
     assert kept
     for damage in (b"", b"junk", kept[0].read_bytes()[:-20]):
         kept[0].write_bytes(damage)
-        assert message() == "int32 x\n"
+        assert first_line() == "BasedOnStyle: Google"
 
 
 def test_a_folder_that_others_can_write_to_is_not_used(cache: Path) -> None:
     cache.chmod(0o777)
-    assert message() == "int32 x\n"
+    assert first_line() == "BasedOnStyle: Google"
     assert not list(cache.glob("*.template"))
