@@ -165,8 +165,13 @@ def _make_folder(folder: Path, created: list[Path]) -> None:
         missing.append(folder)
         folder = folder.parent
     for each in reversed(missing):
-        each.mkdir()
-        created.append(each)
+        try:
+            each.mkdir()
+        except FileExistsError:  # another process was quicker
+            if not each.is_dir():
+                raise
+        else:
+            created.append(each)
 
 
 def _put_all(replacements: list[_Replacement]) -> None:

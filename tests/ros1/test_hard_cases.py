@@ -49,7 +49,8 @@ def test_inheritance(play_case: PlayCase) -> None:
     assert played.final("station") == wanted
     assert played.final("idle")["trips"] == 7
     # a car is no truck: the message that the cast promises cannot be sent
-    assert [(r.kind, r.rebec) for r in played.reports()] == [("null", "station")]
+    reports = [(r.kind, r.rebec) for r in played.reports() if r.kind != "late"]
+    assert reports == [("null", "station")]
 
 
 def test_interfaces(play_case: PlayCase) -> None:

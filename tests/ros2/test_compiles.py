@@ -15,7 +15,7 @@ _DRAWN = 4
 
 def test_cases(headers: Path, tmp_path: Path) -> None:
     packages = []
-    for case in sorted(CASES.glob("*.rebeca")):
+    for case in sorted(CASES.glob("*.rebeca"))[::2]:  # ROS 1 compiles all of them
         config = replace(case_config(case), target="ros2-cpp")
         files = generated(case.read_text(encoding="utf-8"), case.stem, config)
         packages.append(written(files, tmp_path, case.stem, config))

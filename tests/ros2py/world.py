@@ -1,25 +1,34 @@
 """A ROS 2 in one process: topics, parameters, remaps, timers on a simulated clock.
 
 Nodes run in threads of their own, as their `main` says; `World.run` moves the clock on to the next
-timer when nothing has happened for a moment.
+timer when all of them wait.
 """
 
 from __future__ import annotations
 
 import copy
 import queue
+import sys
 import threading
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass, field
-from types import SimpleNamespace
+from types import FrameType, SimpleNamespace
 
 from tests.ros2py.messages import Message, plain
 
 NANOSECONDS = 10**9
 _FIRST = 100 * NANOSECONDS
-_STILL = 0.004  # s without anything that happens
+_STILL = 0.004  # s without anything that happens, at the start
+_MOMENT = 0.0002  # s between looks at what threads do
 _ENDED = 20.0  # s for all nodes to stop
+
+
+def _waits(frame: FrameType) -> bool:
+    """Whether a thread waits for something that nobody has told it yet."""
+    if frame.f_code is not threading.Condition.wait.__code__:
+        return False
+    return frame.f_locals.get("waiter") in frame.f_locals["self"]._waiters
 
 
 @dataclass
@@ -244,13 +253,14 @@ class World:
         quiet: float = 1e6,
     ) -> None:
         """Start nodes, run the clock for some seconds or until all is quiet, and stop them."""
+        others = {thread.ident for thread in threading.enumerate()}
         threads = [threading.Thread(target=self._main, args=main, daemon=True) for main in mains]
         for thread in threads:
             thread.start()
         end = _FIRST + round(until * NANOSECONDS)
         self._rest(50)
         while not self.failures and self._advance(end) and not self._is_quiet(quiet):
-            self._rest(2)
+            self._settle(others)
         with self.lock:
             self.stopping = True
             nodes = list(self.nodes.values())
@@ -275,6 +285,14 @@ class World:
             main()
         except BaseException as error:
             self.failures.append(error)
+
+    def _settle(self, others: Set[int | None]) -> None:
+        """Wait until all threads of nodes do."""
+        while not self.failures:
+            frames = sys._current_frames()  # of one moment
+            if all(ident in others or _waits(frame) for ident, frame in frames.items()):
+                return
+            time.sleep(_MOMENT)
 
     def _rest(self, times: int) -> None:
         """Wait until nothing has happened for a while."""
