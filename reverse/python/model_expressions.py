@@ -96,6 +96,8 @@ class Expressions:
                 return self._attribute(node)
             case "subscript":
                 return self._element(node)
+            case "parenthesized_expression" if _only_breaks_lines(node):
+                return self.read(named(node)[0])
             case "parenthesized_expression":
                 return self._in_parentheses(node)
             case "call":
@@ -152,6 +154,7 @@ class Expressions:
             level = {"not_operator": _NOT, "comparison_operator": _COMPARISON}.get(core.type)
             if level is not None and level < least:
                 return self.read(named(node)[0])
+            return self._in_parentheses(node)
         return self.read(node)
 
     def _in_parentheses(self, node: Node) -> m.Expression:
@@ -342,3 +345,10 @@ class Expressions:
         if called != "When" or any(g.type != "keyword_argument" for g in given):
             raise self.unread(node, "this is no time of a send")
         return {text_of(field(g, "name")): self.read(field(g, "value")) for g in given}
+
+
+def _only_breaks_lines(node: Node) -> bool:
+    """Whether these are the parentheses that a formatter puts around what is too long a line."""
+    inner = named(node)[0]
+    is_apart = inner.start_point.row > node.start_point.row
+    return is_apart and inner.type != "named_expression"

@@ -23,6 +23,7 @@ from rebsync.reverse.python.model_types import (
     markers_beside,
     string_value,
     type_of,
+    without_parentheses,
 )
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import FUNCTION, PyCode, Scope
@@ -151,6 +152,7 @@ def _wired(roles: Roles, function: Scope) -> None:
             left = text_of(field(inner, "left"))
             value = inner.child_by_field_name("right")
             if left.startswith("self.") and value is not None:
+                value = without_parentheses(value)
                 _member(roles, function, left.removeprefix("self."), inner, value)
     for parameter in function.parameters:
         if parameter.default is not None and text_of(parameter.default).isdecimal():

@@ -95,8 +95,15 @@ def string_value(node: Node | None) -> str | None:
     return "".join(text_of(c) for c in node.children[1:-1])
 
 
+def without_parentheses(node: Node) -> Node:
+    """What stands in the parentheses that a formatter may have put around it."""
+    while node.type == "parenthesized_expression" and len(named(node)) == 1:
+        node = named(node)[0]
+    return node
+
+
 def call_parts(node: Node | None) -> tuple[str, list[Node]] | None:
     """The text of what is called, and the arguments, for a call without names for these."""
-    if node is None or node.type != "call":
+    if node is None or (node := without_parentheses(node)).type != "call":
         return None
     return text_of(field(node, "function")), named(field(node, "arguments"))

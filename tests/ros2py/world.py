@@ -253,7 +253,7 @@ class World:
         quiet: float = 1e6,
     ) -> None:
         """Start nodes, run the clock for some seconds or until all is quiet, and stop them."""
-        others = {thread.ident for thread in threading.enumerate()}
+        others = set(sys._current_frames())  # those that threading does not know, too
         threads = [threading.Thread(target=self._main, args=main, daemon=True) for main in mains]
         for thread in threads:
             thread.start()
@@ -286,7 +286,7 @@ class World:
         except BaseException as error:
             self.failures.append(error)
 
-    def _settle(self, others: Set[int | None]) -> None:
+    def _settle(self, others: Set[int]) -> None:
         """Wait until all threads of nodes do."""
         while not self.failures:
             frames = sys._current_frames()  # of one moment

@@ -34,7 +34,7 @@ def python_normal(model: m.Model) -> m.Model:
 
     `self.x` against `x` where nothing hides it, `x += 1` and `++x` against `x++` as statements,
     `m()` against `self.m()`, `1.5f` against `1.5`, where the start of a `for` stands, and
-    parentheses around a whole condition of it or around a conditional expression in another.
+    parentheses around a whole condition or around a conditional expression in another.
     """
     return rewrite(rewrite(model, _rule), _starts)
 
@@ -54,6 +54,8 @@ def _rule(node: object) -> object:
             return replace(node, updates=tuple(_step(_bare(u)) for u in updates), condition=bare)
         case m.Assign("+=" | "-=" as operator, target, m.IntLiteral(1)):
             return m.Unary(operator[0] * 2, target)
+        case m.If() | m.While():
+            return replace(node, condition=_bare(node.condition))
         case m.FloatLiteral(text) if text[-1] in "fF":
             return m.FloatLiteral(text[:-1])
         case m.Conditional(condition, then, otherwise):

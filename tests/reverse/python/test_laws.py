@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import shutil
 import subprocess
+import sys
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -63,7 +64,7 @@ def test_a_package_in_two_languages_comes_back() -> None:
     assert_says(files, model)
 
 
-@pytest.mark.skipif(shutil.which("ruff") is None, reason="ruff is not installed")
+@pytest.mark.skipif(find_spec("ruff") is None, reason="ruff is not installed")
 @pytest.mark.parametrize("length", LENGTHS)
 def test_layout_does_not_matter(length: int, tmp_path: Path) -> None:
     for example in EXAMPLES:
@@ -74,7 +75,10 @@ def test_layout_does_not_matter(length: int, tmp_path: Path) -> None:
             (folder / path).parent.mkdir(parents=True, exist_ok=True)
             (folder / path).write_text(text, encoding="utf-8")
         subprocess.run(
-            ["ruff", "format", "--quiet", "--isolated", f"--line-length={length}", str(folder)],
+            [
+                *(sys.executable, "-m", "ruff", "format", "--quiet", "--isolated"),
+                *(f"--line-length={length}", str(folder)),
+            ],
             check=True,
         )
         laid_out = {p: (folder / p).read_text(encoding="utf-8") for p in files}
