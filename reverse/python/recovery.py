@@ -22,7 +22,8 @@ from rebsync.reverse.graph import (
 from rebsync.reverse.python.model_classes import Classes, is_runtime_file
 from rebsync.reverse.python.model_roles import parameter_read
 from rebsync.reverse.python.model_types import call_parts, class_name
-from rebsync.reverse.python.py_calls import graph_of
+from rebsync.reverse.python.py_calls import graph_of, owner_of
+from rebsync.reverse.python.py_hooks import hooks_in
 from rebsync.reverse.python.py_index import PyCode
 from rebsync.reverse.python.py_tree import field, named, number_of, parse, text_of, unparsed
 from rebsync.source import Source
@@ -77,6 +78,7 @@ def read_python(
     classes = Classes(code, findings, messages or {})
     read = classes.read(path) if asked is not None or only is None else ()
     _list_callbacks(graph, classes, findings, path)
+    _list_hooks(code, classes, findings, path)
     used = tuple((e.key, (e.type, e.name, constant(e.default))) for e in classes.env())
     return PythonPart(graph, read, used, code)
 
@@ -115,15 +117,27 @@ def _list_callbacks(graph: Graph, classes: Classes, findings: Findings, path: st
             findings.unreadable(place.source, unread, callback.name or "lambda")
 
 
+def _list_hooks(code: PyCode, classes: Classes, findings: Findings, path: str | None) -> None:
+    for hook in hooks_in(code):
+        source = hook.place.source
+        if path in (None, source.path) and not _is_made(owner_of(hook.within), source, classes):
+            why = f'"{hook.name}" calls functions of the node in ways that the model does not have'
+            within = hook.functions or owner_of(hook.within) or ""
+            findings.unreadable(source, Unread(hook.place.span, why, ""), within)
+
+
+def _is_made(owner: str | None, source: Source, classes: Classes) -> bool:
+    """Whether code is generated: that of a class of the model, of what runs it, of a stand-in."""
+    own = any(o.name == owner and o.py.source.path == source.path for o in classes.owners)
+    is_stand_in = source.path.removesuffix(".py").endswith(_STAND_IN)
+    return own or is_runtime_file(source) or is_stand_in
+
+
 def _of_people(graph: Graph, classes: Classes) -> Iterator[Callback]:
     """The callbacks that stand in no generated code."""
-    own = {(o.name, o.py.source.path) for o in classes.owners}
     for fact in graph.facts:
-        path = fact.site.place.source.path
-        is_made = (fact.site.owner or "", path) in own or is_runtime_file(fact.site.place.source)
-        if is_made or path.removesuffix(".py").endswith(_STAND_IN):
-            continue
-        yield from (c for c in _callbacks(fact) if isinstance(c, Callback))
+        if not _is_made(fact.site.owner, fact.site.place.source, classes):
+            yield from (c for c in _callbacks(fact) if isinstance(c, Callback))
 
 
 def _callbacks(fact: Fact) -> Callbacks:
