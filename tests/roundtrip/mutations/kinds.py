@@ -13,6 +13,11 @@ from tests.roundtrip.mutations import (
     launch_xml,
     layout,
     neutral,
+    py_bodies,
+    py_joints,
+    py_neutral,
+    py_sending,
+    py_surroundings,
     rclcpp,
     roscpp,
     sending,
@@ -21,7 +26,7 @@ from tests.roundtrip.mutations import (
 )
 from tests.roundtrip.mutations.package import Kind
 
-_CPP = (*bodies.KINDS, *sending.KINDS, *joints.KINDS, *surroundings.KINDS, *building.KINDS)
+_CPP = (*bodies.KINDS, *sending.KINDS, *joints.KINDS, *building.KINDS)
 _CPP_NEUTRAL = (
     *neutral.KINDS,
     *spelling.KINDS,
@@ -30,13 +35,21 @@ _CPP_NEUTRAL = (
     *layout.KINDS,
 )
 
+_PY = (*py_bodies.KINDS, *py_sending.KINDS, *py_joints.KINDS, *py_surroundings.KINDS)
+_PY_NEUTRAL = (*py_neutral.KINDS, *surroundings.NEUTRAL, *layout.KINDS)
+_ALL = surroundings.KINDS
+
 BEHAVIOUR: Mapping[str, tuple[Kind, ...]] = {
-    "ros1-cpp": (*_CPP, *roscpp.KINDS, *launch_xml.KINDS),
-    "ros2-cpp": (*_CPP, *rclcpp.KINDS, *launch_py.KINDS),
+    "ros1-cpp": (*_CPP, *_ALL, *roscpp.KINDS, *launch_xml.KINDS),
+    "ros2-cpp": (*_CPP, *_ALL, *rclcpp.KINDS, *launch_py.KINDS),
+    "ros1-py": (*_PY, *_ALL, *py_surroundings.ROSPY, *launch_xml.KINDS),
+    "ros2-py": (*_PY, *_ALL, *py_surroundings.RCLPY, *launch_py.KINDS),
 }
 NEUTRAL: Mapping[str, tuple[Kind, ...]] = {
     "ros1-cpp": (*_CPP_NEUTRAL, *roscpp.NEUTRAL, *launch_xml.NEUTRAL),
     "ros2-cpp": (*_CPP_NEUTRAL, *rclcpp.NEUTRAL, *launch_py.NEUTRAL),
+    "ros1-py": (*_PY_NEUTRAL, *py_neutral.ROSPY, *launch_xml.NEUTRAL),
+    "ros2-py": (*_PY_NEUTRAL, *py_neutral.RCLPY, *launch_py.NEUTRAL),
 }
 
 

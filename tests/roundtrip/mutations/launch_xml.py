@@ -121,7 +121,9 @@ NEUTRAL = (
         in_files(".launch", r'(<node) (name="\w+") (pkg="\w+")', r"\1 \3 \2"),
     ),
     Kind("log instead of the screen", in_files(".launch", r'output="screen"', 'output="log"')),
-    Kind("single quotes", rewritten((".launch",), lambda t: t.replace('"', "'"))),
+    Kind(
+        "single quotes in the launch file", rewritten((".launch",), lambda t: t.replace('"', "'"))
+    ),
     Kind("remaps reordered", swapped_lines(r"    <remap [^\n]*", ".launch")),
     Kind("arguments reordered", swapped_lines(r"    <param [^\n]*", ".launch")),
     Kind(
