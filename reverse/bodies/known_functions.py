@@ -6,7 +6,10 @@ import re
 
 from rebsync.reverse.syntax.cpp_calls import CppCall
 
-LOGGING = ("ROS_DEBUG", "ROS_INFO", "ROS_WARN", "ROS_ERROR", "ROS_FATAL", "NODELET_", "ROS_LOG")
+LOGGING = (
+    *("ROS_DEBUG", "ROS_INFO", "ROS_WARN", "ROS_ERROR", "ROS_FATAL", "NODELET_", "ROS_LOG"),
+    *("RCLCPP_DEBUG", "RCLCPP_INFO", "RCLCPP_WARN", "RCLCPP_ERROR", "RCLCPP_FATAL", "RCLCPP_LOG"),
+)
 CONSOLE = frozenset({"printf", "std::printf", "puts", "std::puts"})
 STREAMS = frozenset(
     {"std::cout", "std::cerr", "std::clog", "cout", "cerr", "clog", "std::endl", "endl"}
