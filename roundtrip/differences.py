@@ -25,7 +25,7 @@ from rebsync.roundtrip.difference import (
 )
 from rebsync.roundtrip.differences_bodies import callable_differences
 from rebsync.roundtrip.matching import Matching, Pair, matched, names_of
-from rebsync.roundtrip.sides import Given, Item, Side, Unread, side, too_deep
+from rebsync.roundtrip.sides import Given, Item, Side, Unread, too_deep, two_sides
 from rebsync.roundtrip.tokens import Tokens
 from rebsync.source import SourceSpan
 
@@ -40,9 +40,9 @@ def compare(left: Given, right: Given, depth: Depth = Depth.EQUAL) -> Comparison
 
     RebsyncError: something in a model nests too deeply.
     """
-    sides = side(left, depth), side(right, depth)
+    both = two_sides(left, right, depth)
     try:
-        return Comparison(tuple(_Comparing.of(*sides).all()))
+        return Comparison(tuple(_Comparing.of(*both).all()))
     except RecursionError:
         raise too_deep(left) from None
 

@@ -8,10 +8,11 @@ from pathlib import Path
 
 from rebsync.files import BOM
 from rebsync.records import dataclass
-from rebsync.reverse.files.packages import Listing, is_read, listings
+from rebsync.reverse.files.packages import Listing, is_read
 from rebsync.roundtrip.manifest import BASE_MODEL
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
+from rebsync.roundtrip.units import listing_of
 
 _PART = 1 << 16  # bytes that are read at once; much more is memory from the system for each file
 
@@ -44,10 +45,10 @@ class Standing:
 
 def standing(kept: Kept, record: Record | None) -> Standing:
     """How a package stands against what its manifest records; without one, all is changed."""
-    listing = next(listings(kept.root, kept.tree), Listing(kept.root, {}))
+    wanted = record.files if record is not None else {}
+    listing = listing_of(kept.root, kept.tree, wanted)
     if kept.root == ".":  # as servers name the files of a change
         listing.files = {name: path.removeprefix("./") for name, path in listing.files.items()}
-    wanted = record.files if record is not None else {}
     digests: dict[str, str] = {}
     changed = []
     for name, path in listing.files.items():

@@ -14,7 +14,7 @@ from rebsync.roundtrip.difference import Depth
 from rebsync.roundtrip.matching import Pair
 from rebsync.roundtrip.patching_added import Additions
 from rebsync.roundtrip.patching_two import Declared, Two
-from rebsync.roundtrip.sides import Given, Item, side
+from rebsync.roundtrip.sides import Given, Item, two_sides
 from rebsync.source import NOWHERE, Span
 
 _CLASSES = ("reactiveclass", "interface")
@@ -27,7 +27,7 @@ def patched(today: Given, code: Given, wanted: Callable[[Item | None, Item | Non
     `wanted` is asked of each element, as it is in the model and in the code; None where one of the
     two does not have it.
     """
-    left, right = side(today, Depth.EQUAL), side(code, Depth.EQUAL)
+    left, right = two_sides(today, code, Depth.EQUAL)
     return _Patch(Two.of(left, right)).result(wanted)
 
 

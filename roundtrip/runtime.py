@@ -20,10 +20,10 @@ from rebsync.roundtrip.manifest import BASE
 from rebsync.roundtrip.markers import TOKEN
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
+from rebsync.roundtrip.units import manifest_of
 from rebsync.roundtrip.wiring_facts import MAIN, package_name
 from rebsync.source import NOWHERE, Source, Span
 
-_MANIFEST = "package.xml"
 _HEADER = re.compile(rf"include/[^/]+/(?:{'|'.join(RUNTIME_HEADERS)})\.h(?:pp)?\Z")
 _STAND_IN = re.compile(r"src/\w+_stand_in\.cpp\Z")
 _PROGRAM = re.compile(r"src/\w+_node\.cpp\Z")
@@ -49,7 +49,10 @@ def edited(kept: Kept, record: Record | None, now: Standing) -> tuple[Findings, 
     """The places that are not as they were generated."""
     if record is None:
         return ()
-    paths = (f"{kept.root}/{BASE}{_MANIFEST}", now.listing.files.get(_MANIFEST, ""))
+    paths = (
+        f"{kept.root}/{BASE}{manifest_of(record.files)}",
+        now.listing.files.get(manifest_of(now.listing.files), ""),
+    )
     own = frozenset(filter(None, map(package_name, paths)))
     names = sorted({*now.changed, *now.missing} & record.files.keys())
     return tuple(f for name in names if _is_runtime(name) for f in _edited(kept, now, name, own))

@@ -25,6 +25,7 @@ from rebsync.roundtrip.digests import Standing
 from rebsync.roundtrip.manifest import BASE
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
+from rebsync.roundtrip.units import manifest_of
 from rebsync.roundtrip.wiring_facts import (
     NOT_GIVEN,
     PLAYED,
@@ -58,7 +59,6 @@ _MISSED = frozenset(
 )
 # What was not there when the code was generated makes a difference too.
 _UNWANTED = frozenset({"setting", "compiler option"})
-_MANIFEST = "package.xml"
 _HELPING = frozenset({PROGRAM, PLAYED, TYPE, SPACE})
 _HINT = "take the edit back: no model tells this"
 # Run-time parameters that are settings of the model.
@@ -97,8 +97,8 @@ def odd_facts(kept: Kept, record: Record, now: Standing, of_code: Comparison) ->
         return ()
     listed = now.listing.files
     old_paths = {n: f"{kept.root}/{BASE}{n}" for n in record.files if _is_wiring(n)}
-    old = package_name(f"{kept.root}/{BASE}{_MANIFEST}")
-    own = package_name(listed.get(_MANIFEST, ""))
+    old = package_name(f"{kept.root}/{BASE}{manifest_of(record.files)}")
+    own = package_name(listed.get(manifest_of(listed), ""))
     before = facts_of({n: old_paths[n] for n in touched}, old)
     after = facts_of({n: listed[n] for n in [*touched, *new] if n in listed}, own)
     if _values(before) == _values(after):
