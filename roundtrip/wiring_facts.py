@@ -16,6 +16,7 @@ from rebsync.diagnostics import RebsyncError
 from rebsync.files import read_source
 from rebsync.records import dataclass
 from rebsync.reverse.launch.launch_python import read_python_launch
+from rebsync.roundtrip import wiring_ros2
 from rebsync.source import Source, Span
 
 PROGRAM, PLAYED, TYPE, SPACE = "program", "played sensor", "type of a node", "space of parameters"
@@ -106,7 +107,7 @@ def _of_file(name: str, source: Source, package: str) -> Iterable[Fact]:
     if name.endswith(".yaml"):
         return _settings(source)
     if name.endswith(".txt"):
-        return _programs(source)
+        return chain(_programs(source), (Fact(*told) for told in wiring_ros2.of_build(source)))
     if name.endswith(".py"):
         return _declared(source, package)
     is_launch = name.endswith(".launch")
@@ -114,7 +115,8 @@ def _of_file(name: str, source: Source, package: str) -> Iterable[Fact]:
     if is_launch:
         return _launched(source, text, package)
     program = Path(name).stem
-    return chain(_joints(source, text), _sendings(source, text), _made(program, source, text))
+    more = (Fact(*told) for told in wiring_ros2.of_code(source, text))
+    return chain(_joints(source, text), _sendings(source, text), _made(program, source, text), more)
 
 
 def _joints(source: Source, text: str) -> Iterator[Fact]:
@@ -126,8 +128,9 @@ def _joints(source: Source, text: str) -> Iterator[Fact]:
     for m in _SERVER.finditer(text):
         priority = _squeezed(m[3])
         yield Fact("priority", owner[1], m[2].strip('"'), priority, source, Span(*m.span()))
-    for m in _STARTED.finditer(text):
-        yield Fact("start of serving", owner[1], "", "there", source, Span(*m.span()))
+    for number, m in enumerate(_STARTED.finditer(text)):
+        told = "there again" if number else "there"
+        yield Fact("start of serving", owner[1], "", told, source, Span(*m.span()))
     for m in _BEST.finditer(text):
         yield Fact("best priority", owner[1], "", m[1] or "none", source, Span(*m.span()))
     for m in _SENT_BY.finditer(text):
@@ -235,8 +238,10 @@ def _declared(source: Source, package: str) -> Iterator[Fact]:
         for remap in node.remaps:
             yield Fact("remap", name, remap.private, str(remap.target), source, remap.span)
         for given in node.parameters:
+            kind = "setting" if _has_bearing(given.name) else "parameter"
             if given.name.partition("/")[0] in _BEARING:
-                yield Fact("parameter", name, given.name, repr(given.value), source, given.span)
+                yield Fact(kind, name, given.name, repr(given.value), source, given.span)
+    yield from (Fact(*told) for told in wiring_ros2.of_launch(source))
 
 
 def _fields(source: Source, package: str) -> Iterator[Fact]:

@@ -9,7 +9,7 @@ from rebsync.source import Source
 
 SUFFIX = ".py"
 # Where none of these is, nothing is asked of ROS; `rebsync:` is in generated code.
-_WORDS = (b"rospy", b"rclpy", b"message_filters", b"rebsync:")
+_WORDS = (b"rospy", b"rclpy", b"launch_ros", b"message_filters", b"rebsync:")
 _SCRIPT = re.compile(rb"#![^\n]*\bpython")
 _HEAD = 80  # bytes, in which the first line of a script says who runs it
 _IMPORT = re.compile(

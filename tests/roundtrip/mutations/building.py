@@ -27,6 +27,10 @@ KINDS = (
         in_files("CMakeLists.txt", r"(?<=pedantic) (-fwrapv)", r" \1 -Dafter=deadline"),
     ),
     Kind("source gone", gone("_node.cpp")),
+    Kind(
+        "message not generated",
+        in_files("CMakeLists.txt", r'^  "?(?:msg/)?(?!\w+State)\w+\.msg"?\n', ""),
+    ),
 )
 
 NEUTRAL = (

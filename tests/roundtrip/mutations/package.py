@@ -36,6 +36,7 @@ __all__ = [
     "Package",
     "Part",
     "Texts",
+    "anywhere",
     "at_end",
     "at_start",
     "generated",
@@ -278,3 +279,13 @@ def at_end(text: str, *kinds: str) -> Maker:
                 yield Edit(part.path, part.end, part.end, text, part.element)
 
     return make
+
+
+def anywhere(make: Maker) -> Maker:
+    """Edits whose change may be told at any element, as where a rebec gets another argument."""
+
+    def made(package: Package) -> Iterator[Made]:
+        for each in make(package):
+            yield replace(each, element="") if isinstance(each, Edit) else each
+
+    return made

@@ -12,6 +12,7 @@ from tests.roundtrip.mutations.package import (
     Kind,
     Maker,
     Package,
+    anywhere,
     at_end,
     at_start,
     in_files,
@@ -73,8 +74,11 @@ KINDS = (
     Kind("timer in set-up", _in_setup(r"^  mailbox_\.construct.*\n", _TIMER)),
     Kind("constant declared with another name", _in_setup(r'(\("env\.\w+)"', r'\1_b"')),
     Kind("constant declared beside the others", _in_setup(r'\("env\.(\w+)"', r'("\1"')),
-    Kind("argument declared with another name", _in_setup(_ARGUMENT, r"\1\2_b\3")),
-    Kind("arguments exchanged", _in_setup(_ARGUMENT + "( +)" + _ARGUMENT, r"\1\6\3\4\5\2\7")),
+    Kind("argument declared with another name", anywhere(_in_setup(_ARGUMENT, r"\1\2_b\3"))),
+    Kind(
+        "arguments exchanged",
+        anywhere(_in_setup(_ARGUMENT + "( +)" + _ARGUMENT, r"\1\6\3\4\5\2\7")),
+    ),
     Kind(
         "argument of another type",
         _in_setup(r'declare_parameter<int>(\("(?!env))', r"declare_parameter<double>\1"),
@@ -114,7 +118,6 @@ KINDS = (
         "stand-in publishes less often",
         in_files("_stand_in.cpp", r"from_seconds\((\d+)", r"from_seconds(1\1"),
     ),
-    Kind("message not generated", in_files("CMakeLists.txt", r'^  "msg/(?!\w+State).*\n', "")),
 )
 
 _LOG = "  RCLCPP_INFO(get_logger(), {});\n"
@@ -179,23 +182,6 @@ NEUTRAL = (
         _in_setup(r"const int32_t (\w+ = declare_parameter<int>)", r"const auto \1"),
     ),
     Kind("QoS on more lines", _in_setup(r"(QoS\(kQueueSize\))", r"\1\n          ")),
-    Kind(
-        "depth of the state in words",
-        _in_setup(r"QoS\(kQueueSize\)", "QoS(rclcpp::KeepLast(kQueueSize))"),
-    ),
-    Kind(
-        "node made before it spins",
-        _program(r"^  rclcpp::spin\((.*)\);$", r"  const auto node = \1;\n  rclcpp::spin(node);"),
-    ),
-    Kind(
-        "program of several threads",
-        _program(
-            r"^  rclcpp::spin\((.*)\);$",
-            r"  rclcpp::executors::MultiThreadedExecutor executor;\n  const auto node = \1;\n"
-            r"  executor.add_node(node);\n  executor.spin();",
-        ),
-    ),
-    Kind("program without a shutdown", _program(r"^  rclcpp::shutdown\(\);\n", "")),
     Kind(
         "warnings of the build",
         in_files("CMakeLists.txt", r"^(find_package\(Threads .*\n)", r"\1# mine\n"),

@@ -42,6 +42,7 @@ KINDS = (
             strings=True,
         ),
     ),
+    Kind("state not latched", within(r"(\"state\", \w+), true\)", r"\1)", "setup", strings=True)),
     Kind("program reads another parameter", _program(r'(node\.param\("\w+)"', r'\1_b"')),
     Kind(
         "program exchanges parameters",
