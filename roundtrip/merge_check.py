@@ -19,6 +19,7 @@ def read_with(listing: Listing, texts: Mapping[str, str | None]) -> Code:
     from rebsync.reverse.findings import Grade
     from rebsync.reverse.recovery import extract
     from rebsync.reverse.report import diagnostics
+    from rebsync.roundtrip.class_memory import ClassMemory
 
     chosen = read(listing)
     files = dict(chosen.files)
@@ -28,7 +29,7 @@ def read_with(listing: Listing, texts: Mapping[str, str | None]) -> Code:
             files.pop(path, None)
         elif is_read(name, f"{folder}/" if folder else ""):
             files[path] = Source(f"{listing.root}/{path}", text)
-    extracted = extract(files)
+    extracted = extract(files, memory=ClassMemory())
     unread = tuple(
         Unread(Place(f.source, f.span), f.why, f.within)
         for f in (*chosen.findings, *extracted.findings)
