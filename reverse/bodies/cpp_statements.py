@@ -79,15 +79,13 @@ class CppStatements:
         scope, listed = self.scope, len(self.findings.all)
         counted = self.findings.statements[self.within]
         while True:
-            try:
-                read = tuple(self.statements(nodes))
+            read = tuple(self.statements(nodes))
+            if not self.shared.again:
                 broken = broken_locals(read, self.shared.wide, self.scope) - scope.overflowing
                 if not broken:
                     self.scope.wide.update(self.shared.wide)
                     return tidied(read, self.shared.made)
                 scope = replace(scope, overflowing=scope.overflowing | broken)
-            except Demote as demote:
-                self.shared.demoted |= demote.names
             self.scope, self.before = scope, []
             self.own.clear()
             self.shared.clear()
@@ -143,6 +141,8 @@ class CppStatements:
         try:
             if node.id in self.scope.instead or not self._is_outside(node):
                 yield from self._one(node, annotations, local)
+        except Demote as demote:
+            self.shared.demote(demote.names)
         except RecursionError:
             unread = self.unread(node, "this leads deeper than it can be read")
             self.findings.unreadable(self.cpp.source, unread, self.within)
@@ -186,7 +186,8 @@ class CppStatements:
                 self.demote(effects.written, unread)
                 return
             except Touches as touches:
-                self.findings.open_members |= cpp_special.opened(self, node, unread)
+                if not self.shared.again:
+                    self.findings.open_members |= cpp_special.opened(self, node, unread)
                 unread = touches if cpp_special.says_more(node, unread) else unread
             except Unread:
                 pass
