@@ -19,6 +19,7 @@ from tests.ros2real.workspace import Workspace, build, missing_ros2
 _HERE = Path(__file__).parent
 DIALECTS = ("ros2-cpp", "ros2-py")
 
+Builder = Callable[[Path, str], Workspace]
 Play = Callable[[Path, str, Clock], Recording]
 
 
@@ -36,7 +37,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 @pytest.fixture(scope="session")
-def build_real(tmp_path_factory: pytest.TempPathFactory) -> Callable[[Path, str], Workspace]:
+def build_real(tmp_path_factory: pytest.TempPathFactory) -> Builder:
     """Builds the packages in a folder in a workspace of the given name.
 
     REBSYNC_ROS_WORKSPACE names a directory that keeps workspaces from run to run.
@@ -47,9 +48,7 @@ def build_real(tmp_path_factory: pytest.TempPathFactory) -> Callable[[Path, str]
 
 
 @pytest.fixture(scope="session")
-def play_real(
-    build_real: Callable[[Path, str], Workspace], tmp_path_factory: pytest.TempPathFactory
-) -> Play:
+def play_real(build_real: Builder, tmp_path_factory: pytest.TempPathFactory) -> Play:
     """Builds the package in a folder, of a dialect, and runs its launch file."""
 
     def play(folder: Path, dialect: str, clock: Clock) -> Recording:
