@@ -11,6 +11,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies import (
     cpp_control,
+    cpp_counts,
     cpp_inline,
     cpp_locals,
     cpp_loops,
@@ -192,6 +193,9 @@ class CppStatements:
                 self.demote(effects.written, unread)
                 return
             except Touches as touches:
+                if (counts := cpp_counts.counted(self, node)) is not None:
+                    yield from counts
+                    return
                 if not self.shared.again:
                     self.findings.open_members |= cpp_special.opened(self, node, unread)
                 unread = touches if cpp_special.says_more(node, unread) else unread

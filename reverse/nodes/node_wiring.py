@@ -8,6 +8,7 @@ from dataclasses import field, replace
 from rebsync.records import dataclass
 from rebsync.reverse.graph import (
     Access,
+    NodeFact,
     ParameterFact,
     PublisherFact,
     RateFact,
@@ -61,9 +62,18 @@ def _alone(starts: Sequence[Start], names: Names) -> Iterator[Instance]:
         program = start.program
         others = [s for s in starts if s.process == start.process]
         named = program.node.name if program is not None and program.node is not None else None
+        own = _named_itself(start)
         node = named if isinstance(named, str) and named else _program(program) or start.unit.name
-        wish = node if len(others) == 1 else _own(start)
+        node = own or node
+        wish = node if own or len(others) == 1 else _own(start)
         yield Instance(start, names.give(wish[:1].lower() + wish[1:]), node.strip("/"))
+
+
+def _named_itself(start: Start) -> str:
+    """The name that a class gives the node that it is, as those of rclcpp do; or empty."""
+    facts = (f for f in start.unit.facts if isinstance(f, NodeFact) and f.nodelet is None)
+    names = [f.name for f in facts if f.site.owner in start.unit.names]
+    return names[0] if len(names) == 1 and isinstance(names[0], str) else ""
 
 
 def _program(program: Program | None) -> str:
