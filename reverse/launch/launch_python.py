@@ -25,6 +25,7 @@ _MARKER = re.compile(r"\s*#\s*rebsync:\s*(.*?)\s*\Z")
 _YAML = (".yaml", ".yml")
 _WILDCARD = "/**/ros__parameters/"
 _JOINS = frozenset({"PathJoinSubstitution", "join"})
+NOT_GIVEN = "it is not given here"
 _NODES = frozenset({"ComposableNode", "LifecycleNode", "Node"})
 
 Load = Callable[[str], Source | None]
@@ -125,7 +126,7 @@ class _Reader:
 
     def _text(self, value: ast.expr | None, what: str) -> Text:
         if value is None:
-            return Open("it is not given here")
+            return Open(NOT_GIVEN)
         found = _literal(self._resolved(value))
         return found if isinstance(found, str) else self._open(value, what)
 

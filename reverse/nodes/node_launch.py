@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 
 from rebsync.records import dataclass
+from rebsync.reverse.files.python_files import LAUNCHES
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.launch.launch_files import read_launch
-from rebsync.reverse.launch.launch_python import SUFFIX as PYTHON
 from rebsync.reverse.launch.launch_python import read_python_launch
 from rebsync.reverse.launch.launch_values import Surroundings
 from rebsync.reverse.launch.launched import Launch
+from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_programs import Program
 from rebsync.source import Source
 
-_SUFFIXES = (".launch", PYTHON)
+_SUFFIXES = (".launch", *LAUNCHES)
 _ELSEWHERE = (
     "no launch file starts a program of these files: the model has one rebec for each object"
 )
@@ -70,6 +71,7 @@ def system_of(
     if not read:
         return None
     names = {name for p in programs for name in (p.name, p.stem)}
+    names = names.union(*executables(files).values())
     best = max(read, key=lambda each: (_known(each[1], names), _size(each[1], package)))
     included = {id(s) for s in best[1].sources}
     others = [(s, launch) for s, launch in read if id(s) not in included and _size(launch, package)]
@@ -84,7 +86,7 @@ def _known(launch: Launch, names: Collection[str]) -> int:
 
 
 def _read(source: Source, surroundings: Surroundings) -> Launch:
-    if not source.path.endswith(PYTHON):
+    if not source.path.endswith(LAUNCHES):
         return read_launch(source, surroundings)
     return read_python_launch(source, surroundings.load)
 

@@ -211,7 +211,7 @@ class Setup:
 
     def _parameter(self, fact: ParameterFact) -> None:
         statement = statement_of(fact.site.call)
-        found = asked(fact, self.instances, lambda n: self._type(n, fact))
+        found = asked(fact, self.instances, lambda n: self._type(n, fact), self.facts)
         if found is None or statement is None:
             if statement is not None and statement.type == "expression_statement":
                 self.instead[statement.id] = ()
@@ -242,7 +242,7 @@ class Setup:
         """The new parameter of the constructor, stored where it belongs."""
         if type_ is None or not isinstance(fact.name, str) or (None in values and self.instances):
             return ()
-        wish = fact.name.rpartition("/")[2].lstrip("~") or "value"
+        wish = fact.name.rpartition("/")[2].lstrip("~").replace(".", "_") or "value"
         free = [w for w in (wish, f"{wish}_given") if w not in self.state.taken]
         name = self.names.give(*free, f"{wish}_value")
         self.parameters.append(Given(name, type_, values))

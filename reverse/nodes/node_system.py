@@ -19,6 +19,7 @@ from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.nodes.node_bodies import Bodies, Common
 from rebsync.reverse.nodes.node_bound import note_bound, note_helpers
 from rebsync.reverse.nodes.node_classes import NodeClass, too_deep
+from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_listing import Listing
 from rebsync.reverse.nodes.node_names import Names, class_word
 from rebsync.reverse.nodes.node_parameters import Given
@@ -94,7 +95,8 @@ class NodeSystem:
         served = {u.name: servers(u, types, self._states[u.name].names) for u in units}
         names = Names.beside(())
         classes = {u.name: names.give(_class(u)) for u in units}
-        rebecs = instances(starts, self.launch, self.package, names)
+        known_as = executables(self.files)
+        rebecs = instances(starts, self.launch, self.package, names, known_as)
         wiring = Wiring((*rebecs, *idle(units, starts, rebecs, names)), served)
         reader = _Reader(self, reading, types, common, wiring, classes, names, starts)
         read = tuple(c for u in units if self._is_wanted(u) for c in reader.classes_of(u))

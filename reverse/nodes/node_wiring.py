@@ -15,6 +15,7 @@ from rebsync.reverse.graph import (
     SubscriptionFact,
     TimerFact,
 )
+from rebsync.reverse.launch.launch_python import NOT_GIVEN
 from rebsync.reverse.launch.launched import Launch, LaunchedNode
 from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_programs import Program
@@ -29,15 +30,23 @@ Edge = tuple[int, int, str]
 
 
 def instances(
-    starts: Sequence[Start], launch: Launch | None, package: str, names: Names
+    starts: Sequence[Start],
+    launch: Launch | None,
+    package: str,
+    names: Names,
+    known_as: Mapping[str, frozenset[str]],
 ) -> tuple[Instance, ...]:
-    """The rebecs that a launch file starts, or one of each kind without it."""
+    """The rebecs that a launch file starts, or one of each kind without it.
+
+    `known_as` are the names by which launch files start components, by their classes.
+    """
     if launch is None:
         return tuple(_alone(starts, names))
     found = []
     for node in launch.nodes:
-        of_node = [s for s in starts if _runs(node, s, package)]
+        of_node = [s for s in starts if _runs(node, s, package, known_as)]
         for start in of_node:
+            node = _with_own_name(node, start)
             plain = node.name if isinstance(node.name, str) else "node"
             wish = plain if len(of_node) == 1 else f"{plain}_{_own(start)}"
             space = node.namespace if isinstance(node.namespace, str) else ""
@@ -91,8 +100,20 @@ def _class(start: Start) -> str:
     return start.unit.owner.name if start.unit.owner is not None else start.unit.name
 
 
-def _runs(node: LaunchedNode, start: Start, package: str) -> bool:
+def _with_own_name(node: LaunchedNode, start: Start) -> LaunchedNode:
+    """A node that a launch file gives no name, under the name that its code gives it."""
+    own = _named_itself(start)
+    unnamed = isinstance(node.name, Open) and node.name.why == NOT_GIVEN
+    return replace(node, name=own) if own and unnamed else node
+
+
+def _runs(
+    node: LaunchedNode, start: Start, package: str, known_as: Mapping[str, frozenset[str]]
+) -> bool:
     """Whether a tag of a launch file starts this."""
+    if start.program is None and node.nodelet is None:
+        of_package = not package or node.package in (package, "")
+        return of_package and node.type in known_as.get(start.nodelet or "", ())
     if node.nodelet is not None:
         name = node.nodelet.class_name
         plain = name.replace("::", "/").rpartition("/")[2] if name is not None else None
