@@ -15,7 +15,7 @@ from typing import TypeAlias
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import read_source
 from rebsync.records import dataclass
-from rebsync.reverse.launch.launch_python import read_python_launch
+from rebsync.reverse.launch.launch_files_ros2 import read_ros2_launch
 from rebsync.source import Source, Span
 
 PROGRAM, PLAYED, TYPE, SPACE = "program", "played sensor", "type of a node", "space of parameters"
@@ -226,7 +226,7 @@ def _launched(source: Source, text: str, package: str) -> Iterator[Fact]:
 
 def _declared(source: Source, package: str) -> Iterator[Fact]:
     """The same of a launch file in Python, but for what a node is made of."""
-    for node in read_python_launch(source, lambda _: None).nodes:
+    for node in read_ros2_launch(source, lambda _: None).nodes:
         name = str(node.name)
         of = OWN if node.package == package else str(node.package)
         facts = {"pkg": of, "ns": str(node.namespace), "if": " ".join(node.only_if)}

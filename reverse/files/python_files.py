@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from rebsync.source import Source
 
 SUFFIX = ".py"
+_LAUNCH = ("_launch.py", "-launch.py", ".launch.py")
 # Where none of these is, nothing is asked of ROS; `rebsync:` is in generated code.
 _WORDS = (b"rospy", b"rclpy", b"message_filters", b"rebsync:")
 _SCRIPT = re.compile(rb"#![^\n]*\bpython")
@@ -39,7 +40,11 @@ def is_python(path: str, source: Source) -> bool:
 
 def relevant_python(code: Mapping[str, bytes], only: str | None = None) -> set[str]:
     """Those of some files of Python that can matter: those of ROS, and what they import."""
-    kept = {name for name, data in code.items() if name == only or _of_ros(data)}
+    kept = {
+        name
+        for name, data in code.items()
+        if name == only or name.endswith(_LAUNCH) or _of_ros(data)
+    }
     if not kept or len(kept) == len(code):
         return kept
     by_name: dict[bytes, list[str]] = {}
