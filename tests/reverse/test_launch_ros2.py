@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import pytest
 
 from rebsync.reverse.launch.launch_files_ros2 import is_of_ros_2, read_ros2_launch, speaks_ros_2
@@ -54,8 +56,8 @@ CASES: dict[str, tuple[dict[str, str], list[str], list[str]]] = {
             XML: '<group><push-ros-namespace namespace="g"/><set_remap from="a" to="b"/>'
             '<set_parameter name="s" value="1"/><let name="v" value="w"/>'
             '<node pkg="p" exec="e" name="n"/></group><node pkg="p" exec="e" name="o"/>',
-            YAML: "- group:\n  - push_ros_namespace: {namespace: g}\n  - set_remap: {from: a, to: b}"
-            "\n  - set_parameter: {name: s, value: 1}\n  - let: {name: v, value: w}\n"
+            YAML: "- group:\n  - push_ros_namespace: {namespace: g}\n"
+            "  - set_remap: {from: a, to: b}\n  - set_parameter: {name: s, value: 1}\n  - let: {name: v, value: w}\n"
             "  - node: {pkg: p, exec: e, name: n}\n- node: {pkg: p, exec: e, name: o}",
         },
         ["/g/n p e {s: 1} [a=b]", "/o p e {} []"],
@@ -63,8 +65,8 @@ CASES: dict[str, tuple[dict[str, str], list[str], list[str]]] = {
     ),
     "conditions": (
         {
-            PYTHON: "DeclareLaunchArgument('k', 'True'), Node(package='p', executable='e', name='a',"
-            " condition=IfCondition(LaunchConfiguration('k'))), Node(package='p', executable='e',"
+            PYTHON: "DeclareLaunchArgument('k', 'True'), Node(package='p', executable='e',"
+            " name='a', condition=IfCondition(LaunchConfiguration('k'))), Node(package='p', executable='e',"
             " name='b', condition=UnlessCondition(LaunchConfiguration('k')))",
             XML: '<arg name="k" default="True"/><node pkg="p" exec="e" name="a" if="$(var k)"/>'
             '<node pkg="p" exec="e" name="b" unless="$(var k)"/>',
@@ -197,7 +199,7 @@ def _shown(found: Launch) -> list[str]:
     return lines + ([_table(common)] if common else [])
 
 
-def _table(values: dict[str, object]) -> str:
+def _table(values: Mapping[str, object]) -> str:
     shown = (f"{k}: {'?' if isinstance(v, Open) else _value(v)}" for k, v in values.items())
     return f"{{{', '.join(shown)}}}"
 
