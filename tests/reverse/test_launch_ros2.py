@@ -57,7 +57,8 @@ CASES: dict[str, tuple[dict[str, str], list[str], list[str]]] = {
             '<set_parameter name="s" value="1"/><let name="v" value="w"/>'
             '<node pkg="p" exec="e" name="n"/></group><node pkg="p" exec="e" name="o"/>',
             YAML: "- group:\n  - push_ros_namespace: {namespace: g}\n"
-            "  - set_remap: {from: a, to: b}\n  - set_parameter: {name: s, value: 1}\n  - let: {name: v, value: w}\n"
+            "  - set_remap: {from: a, to: b}\n  - set_parameter: {name: s, value: 1}\n"
+            "  - let: {name: v, value: w}\n"
             "  - node: {pkg: p, exec: e, name: n}\n- node: {pkg: p, exec: e, name: o}",
         },
         ["/g/n p e {s: 1} [a=b]", "/o p e {} []"],
@@ -66,8 +67,9 @@ CASES: dict[str, tuple[dict[str, str], list[str], list[str]]] = {
     "conditions": (
         {
             PYTHON: "DeclareLaunchArgument('k', 'True'), Node(package='p', executable='e',"
-            " name='a', condition=IfCondition(LaunchConfiguration('k'))), Node(package='p', executable='e',"
-            " name='b', condition=UnlessCondition(LaunchConfiguration('k')))",
+            " name='a', condition=IfCondition(LaunchConfiguration('k'))),"
+            " Node(package='p', executable='e', name='b',"
+            " condition=UnlessCondition(LaunchConfiguration('k')))",
             XML: '<arg name="k" default="True"/><node pkg="p" exec="e" name="a" if="$(var k)"/>'
             '<node pkg="p" exec="e" name="b" unless="$(var k)"/>',
             YAML: "- arg: {name: k, default: 'True'}\n- node: {pkg: p, exec: e, name: a,"
