@@ -127,6 +127,10 @@ class PythonValues:
                 return self._joined(getattr(listed, "elts", [listed]), depth)
             case "join" if args:
                 return self._joined(args, depth)
+            case "str" if not args:
+                return ""
+            case "str" if isinstance(first, ast.Constant) and isinstance(first.value, int | float):
+                return str(first.value)
             case "Path" | "str" if len(args) == 1:
                 return self._single(inner(first))
             case _ if name in _FOLDERS:

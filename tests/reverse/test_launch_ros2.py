@@ -168,6 +168,13 @@ ONLY_PYTHON = {
         ["/n p e {} [] if"],
         ["the action `RegisterEventHandler`: it is computed when the file runs"],
     ),
+    "texts of numbers": (
+        "DeclareLaunchArgument('k', default_value=str(0)),"
+        " Node(package='p' + str(), executable='e',"
+        " name=f'n{1}', parameters=[{'a': LaunchConfiguration('k')}])",
+        ["? p e {a: 0} []"],
+        ["the name of a node: it is computed when the file runs"],
+    ),
     "a text of YAML": (
         "Node(package='p', executable='e', name='n', parameters=[{'a': ParameterValue("
         "LaunchConfiguration('k', default='1'), value_type=str), 'b': LaunchConfiguration("
@@ -195,7 +202,8 @@ def _shown(found: Launch) -> list[str]:
     for node in found.nodes:
         values = {p.name: p.value for p in node.parameters}
         remaps = ", ".join(f"{r.private}={r.target}" for r in node.remaps)
-        place = f"{node.path} {node.package} {node.type}"
+        path = "?" if isinstance(node.path, Open) else node.path
+        place = f"{path} {node.package} {node.type}"
         lines.append(f"{place} {_table(values)} [{remaps}]{' if' * bool(node.only_if)}")
     common = {p.name: p.value for p in found.parameters}
     return lines + ([_table(common)] if common else [])
