@@ -8,7 +8,7 @@ from dataclasses import field, replace
 import yaml
 
 from rebsync.records import dataclass
-from rebsync.reverse.launch.launched import Launch, LaunchedNode, LaunchedRemap
+from rebsync.reverse.launch.launched import NOT_GIVEN, Launch, LaunchedNode, LaunchedRemap
 from rebsync.reverse.launch.parameters import Parameter, ParameterValue, read_parameters
 from rebsync.reverse.launch.ros2_actions import (
     Action,
@@ -290,7 +290,7 @@ class Reader:
     # --- texts and unknowns ---------------------------------------------------------------------
 
     def _given(self, words: Words | None, what: str, scope: _Scope) -> Text:
-        return Open("it is not given here") if words is None else self._text(words, what, scope)
+        return Open(NOT_GIVEN) if words is None else self._text(words, what, scope)
 
     def _text(self, words: Words, what: str, scope: _Scope) -> Text:
         found = scope.text(words)
