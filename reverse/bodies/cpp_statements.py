@@ -322,8 +322,7 @@ class CppStatements:
         if not children:
             yield m.Empty(annotations, span)
             return
-        expression = children[0]
-        if cpp_users.is_log(self, node, expression):
+        if cpp_users.is_log(self, node, expression := children[0]):
             return
         if declared := cpp_plain_locals.late(self, expression):
             yield m.Local(declared, annotations, span)
