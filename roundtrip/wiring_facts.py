@@ -15,6 +15,7 @@ from typing import TypeAlias
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import read_source
 from rebsync.records import dataclass
+from rebsync.reverse.files.python_files import is_python
 from rebsync.reverse.launch.launch_python import read_python_launch
 from rebsync.roundtrip import wiring_ros2
 from rebsync.source import Source, Span
@@ -48,6 +49,7 @@ _BEARING = {
     "drive": ("cell_size", "kind", "heading", "move_time"),
 }
 _PROGRAM = re.compile(r"\b(add_executable|set_target_properties)\s*\(\s*(\S+)\s+([^)]*)\)")
+_SCRIPT = re.compile(r"^[ \t]*scripts/(\w+)[ \t]*$", re.MULTILINE)
 _COMPILED = re.compile(
     r"\b(?:add|target)_(?:compile_\w+|definitions)\s*\(([^)]*)\)|_FLAGS\s+([^)]*)\)"
 )
@@ -108,8 +110,12 @@ def _of_file(name: str, source: Source, package: str) -> Iterable[Fact]:
         return _settings(source)
     if name.endswith(".txt"):
         return chain(_programs(source), (Fact(*told) for told in wiring_ros2.of_build(source)))
-    if name.endswith(".py"):
+    if name.endswith(".launch.py"):
         return _declared(source, package)
+    if is_python(name, source):
+        from rebsync.roundtrip.wiring_python import facts_in_python
+
+        return facts_in_python(name, source, package)
     is_launch = name.endswith(".launch")
     text = (_REMARK if is_launch else _COMMENT).sub(lambda m: " " * len(m[0]), source.text)
     if is_launch:
@@ -273,6 +279,8 @@ def _programs(source: Source) -> Iterator[Fact]:
     for m in _COMPILED.finditer(_HASH.sub(lambda m: " " * len(m[0]), source.text)):
         for option in _OPTION.findall(m[1] or m[2] or ""):
             yield Fact("compiler option", "", _squeezed(option), "given", source, Span(*m.span()))
+    for m in _SCRIPT.finditer(source.text):
+        yield Fact("installed program", "", m[1], "there", source, Span(*m.span()))
     for m in _PROGRAM.finditer(source.text):
         command, target, rest = m.groups()
         span = Span(*m.span(2))

@@ -12,6 +12,7 @@ from tree_sitter import Node
 from rebsync.names import graph_name
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_roles import Roles
 from rebsync.reverse.python.model_types import call_parts
 from rebsync.reverse.python.py_callbacks import body_of
@@ -60,7 +61,8 @@ class Plumbing:
         self.findings.unreadable(py.source, Unread(py.span(node), why, _HINT), within)
 
     def _odd(self, function: Scope) -> Iterator[Node]:
-        name, body = function.name, body_of(function)
+        name = function.name
+        body = [s for s in body_of(function) if not only_logs(s)]
         if name in ("__init__", "_wire"):
             yield from (s for s in body if not self._sets_up(function, s))
         elif name in self.roles.shims:
@@ -120,13 +122,14 @@ class Plumbing:
             return False
         parameter = field(function.node, "parameters").named_children[-1]
         type_ = parameter.child_by_field_name("type")
-        if type_ is None or text_of(arguments[1]) != "msg.timing":
+        message = function.parameters[-1].name
+        if type_ is None or text_of(arguments[1]) != f"{message}.timing":
             return False
         served = arguments[4]
         _, values = (
             call_parts(field(served, "body")) or ("", []) if served.type == "lambda" else ("", [])
         )
-        given = [_field_read(v) for v in values]
+        given = [_field_read(v, message) for v in values]
         wanted = self.fields.get(text_of(type_))
         if wanted is not None:
             return given == list(wanted)
@@ -189,11 +192,11 @@ def _posts(arguments: list[Node], passed: list[str]) -> bool:
     return [text_of(v) for v in values] == passed
 
 
-def _field_read(node: Node) -> str:
+def _field_read(node: Node, message: str) -> str:
     """The field of a message that a value is: as it is, as a rebec's name, or as an array."""
     inside = call_parts(node)
     plain = inside[1][0] if inside is not None and inside[1] else node
-    return text_of(plain).removeprefix("msg.")
+    return text_of(plain).removeprefix(f"{message}.")
 
 
 def _is_of_state(statement: Node) -> bool:

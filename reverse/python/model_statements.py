@@ -16,6 +16,7 @@ from rebsync.reserved import PYTHON_RESERVED
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python.model_expressions import Expressions
+from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_types import call_parts, is_unset, markers_above, type_of
 from rebsync.reverse.python.py_tree import field, named, text_of
 
@@ -51,6 +52,8 @@ class Statements:
         waiting = list(nodes)
         while waiting:
             node = waiting.pop(0)
+            if only_logs(node):
+                continue
             try:
                 if self._goes_on(node, waiting):
                     found.append(m.Continue(span=self.expressions.py.span(node)))
