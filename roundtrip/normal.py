@@ -208,6 +208,45 @@ def _spread(statements: Iterable[m.Statement]) -> Iterator[m.Statement]:
         yield statement
 
 
+def with_starts(node: _Node) -> _Node:
+    """What was read from Python as it is written: what gives a loop its variable in its head."""
+    return rewrite(node, _headed)
+
+
+def _headed(node: object) -> object:
+    match node:
+        case m.Block(statements) | m.Case(statements=statements):
+            return replace(node, statements=joined_starts(statements))
+        case _:
+            return node
+
+
+def joined_starts(statements: Iterable[m.Statement]) -> tuple[m.Statement, ...]:
+    """Statements of which those that start a loop are in its head."""
+    found: list[m.Statement] = []
+    for statement in statements:
+        if isinstance(statement, m.For) and not statement.initial and found:
+            initial = _initial_of(found[-1], statement)
+            if initial:
+                found.pop()
+                statement = replace(statement, initial=initial)
+        found.append(statement)
+    return tuple(found)
+
+
+def _initial_of(start: m.Statement, loop: m.For) -> m.Declaration | tuple[m.Expression, ...]:
+    """What a statement gives to a variable that the head of a loop uses; nothing if it does not."""
+    parts = (*([loop.condition] if loop.condition is not None else []), *loop.updates)
+    used = {n.name for part in parts for n in m.walk(part) if isinstance(n, m.Name)}
+    match start:
+        case m.Local(declaration, annotations=()) if len(declaration.declarators) == 1:
+            return declaration if declaration.declarators[0].name in used else ()
+        case m.ExpressionStatement(m.Assign("=", m.Name(name)) as first, annotations=()):
+            return (first,) if name in used else ()
+        case _:
+            return ()
+
+
 def _starts(initial: m.Declaration | tuple[m.Expression, ...]) -> Iterator[m.Statement]:
     if not isinstance(initial, m.Declaration):
         yield from (m.ExpressionStatement(e, span=e.span) for e in initial)

@@ -72,13 +72,14 @@ class _Patch:
                 self._callable(a, b)
 
     def _callable(self, x: _Callable, r: _Callable) -> None:
-        printed = self.two.bodies.printed
-        made = replace(printed.of(r), name=x.name if isinstance(x, m.Constructor) else r.name)
+        made = self.two.written(r)
+        made = replace(made, name=x.name if isinstance(x, m.Constructor) else r.name)
         whole = print_member(made)
         if x.body is None or r.body is None:
             if (x.body is None) != (r.body is None) or not self._is_head_same(x, r):
                 self.two.out.replace(x.span, whole)
             return
+        mark = len(self.two.out.edits)
         if not self._is_head_same(x, r):
             same = self.two.bodies.same(x.annotations, r.annotations)
             start = _past(self.two.out.text, x.annotations, x.span.start) if same else x.span.start
@@ -86,6 +87,7 @@ class _Patch:
             head = print_member(shown).removesuffix("\n").removesuffix(";")
             self.two.out.replace(Span(start, x.body.span.start), f"{head} ")
         if not self.two.bodies.body(x.body, r.body):
+            self.two.out.take_back(mark)
             self.two.out.replace(x.span, whole)
 
     def _is_head_same(self, x: _Callable, r: _Callable) -> bool:

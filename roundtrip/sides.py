@@ -79,6 +79,7 @@ class Side:
     given: Given
     depth: Depth
     items: tuple[Item, ...] = field(repr=False)
+    in_python: bool = False
 
     def place(self, *spans: Span) -> Place | None:
         """The first of the spans that is a place."""
@@ -111,7 +112,8 @@ def side(given: Given, depth: Depth, others: frozenset[str] | None = None) -> Si
     except RecursionError:
         raise too_deep(given) from None
     analysis = analyse(model, fragment=True, incomplete=True)
-    return Side(model, analysis, given, depth, tuple(_items(model)))
+    items = tuple(_items(model))
+    return Side(model, analysis, given, depth, items, others is not None)
 
 
 def two_sides(left: Given, right: Given, depth: Depth) -> tuple[Side, Side]:
