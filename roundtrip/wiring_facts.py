@@ -50,6 +50,7 @@ _BEARING = {
 }
 _PROGRAM = re.compile(r"\b(add_executable|set_target_properties)\s*\(\s*(\S+)\s+([^)]*)\)")
 _SCRIPT = re.compile(r"^[ \t]*scripts/(\w+)[ \t]*$", re.MULTILINE)
+_MODULES = re.compile(r"\bcatkin_python_setup\s*\(\s*\)")
 _COMPILED = re.compile(
     r"\b(?:add|target)_(?:compile_\w+|definitions)\s*\(([^)]*)\)|_FLAGS\s+([^)]*)\)"
 )
@@ -281,6 +282,8 @@ def _programs(source: Source) -> Iterator[Fact]:
             yield Fact("compiler option", "", _squeezed(option), "given", source, Span(*m.span()))
     for m in _SCRIPT.finditer(source.text):
         yield Fact("installed program", "", m[1], "there", source, Span(*m.span()))
+    for m in _MODULES.finditer(_HASH.sub(lambda m: " " * len(m[0]), source.text)):
+        yield Fact("Python package", "", "", "built", source, Span(*m.span()))
     for m in _PROGRAM.finditer(source.text):
         command, target, rest = m.groups()
         span = Span(*m.span(2))

@@ -181,7 +181,7 @@ NEUTRAL = (
     Kind(
         "names of the launch file renamed",
         rewritten(
-            (_FILE,), lambda t: re.sub(r"\b(?<!mailbox\.)system\b(?=[, ])", "all_of_them", t)
+            (_FILE,), lambda t: re.sub(r"\b(?<!mailbox\.)system\b(?=[], ])", "all_of_them", t)
         ),
     ),
 )

@@ -260,7 +260,6 @@ KINDS = (
     Kind("pass", at_start("        pass\n", *BODIES)),
     Kind("pass in the end", at_end("        pass\n", "constructor", "msgsrv")),
     Kind("...", at_start("        ...\n", *BODIES)),
-    Kind("return at the end", at_end("        return\n", "constructor", "msgsrv")),
     Kind("hexadecimal number", within(r"(?<=[=<>+] )(10|8|15)\b", lambda p, q, m: hex(int(m[1])))),
     Kind(
         "elif taken apart",
@@ -275,7 +274,6 @@ KINDS = (
     Kind("parameter of plumbing renamed", _renamed_parameter),
     Kind("constant extracted", _constant),
     Kind("constant of the class", _class_constant),
-    Kind("types left out", _rewritten(_no_hints)),
     Kind("types of results left out", _rewritten(_some_hints)),
     Kind("no future import", _in_sources(r"^from __future__ import annotations\n\n", "")),
     Kind(
@@ -328,7 +326,6 @@ KINDS = (
         ),
     ),
     Kind("unused constant", _in_sources(r"^(_\w+ = Server.*\n)(?=\n)", r"\1_UNUSED = 3\n")),
-    Kind("unused local", at_start("        own = 1\n", *BODIES)),
     Kind("object as base", _in_sources(r"^(class \w+)(:\n)", r"\1(object)\2")),
     Kind(
         "__repr__",
@@ -337,8 +334,6 @@ KINDS = (
             r'    def __repr__(self) -> str:\n        return "own"\n\n\1',
         ),
     ),
-    Kind("method in a class of its own", _in_base_class),
-    Kind("send in a method of its own", _helper),
     Kind(
         "lambda for a method", within(r"(?<=, )(self\.\w+)\)$", r"lambda: \1())", "receive", "send")
     ),
