@@ -65,7 +65,8 @@ def as_in_python(node: _Node) -> _Node:
     """A class, or a model, without what Python does not show of it.
 
     `x += 1` and `++x`, `1.5f` and `1.5`, and whether the start of a `for` stands in its head or
-    directly before it. What compares as one anyway is left: parentheses, `x++` as a statement.
+    directly before it, and `X + -1` and `X - 1` in a `@Move`. What compares as one anyway is left:
+    parentheses, `x++` as a statement.
     """
     return rewrite(rewrite(node, _unwritten), _started)
 
@@ -191,10 +192,20 @@ def _unwritten(node: object) -> object:
     match node:
         case m.Assign("+=" | "-=" as operator, target, m.IntLiteral(1)):
             return m.Unary(operator[0] * 2, target, node.span)
+        case m.Annotation("Move", arguments) if arguments:
+            return replace(node, arguments=tuple(map(_less, arguments)))
         case m.FloatLiteral(text) if text[-1] in "fF":
             return replace(node, text=text[:-1])
         case _:
             return node
+
+
+def _less(cell: m.Expression) -> m.Expression:
+    match cell:
+        case m.Binary("+", m.Name() as axis, m.Unary("-", by)):
+            return m.Binary("-", axis, by, cell.span)
+        case _:
+            return cell
 
 
 def _started(node: object) -> object:

@@ -14,7 +14,7 @@ MODULE = re.compile(r"(?:.*/)?(?:__init__|drive|mailbox|sensor|startup|values)\.
 _OTHERS = re.compile(r"(?:.*/)?(?:setup|\w+_sensors|\w+\.launch)\.py\Z")
 PYTHON = re.compile(r"(?:.*\.py|(?:.*/)?scripts/\w+)\Z")
 _CLASS = re.compile(r"^# rebsync: (?:reactiveclass|interface) ", re.M)
-_READS = re.compile(r"(?:rospy\.get_param|declared|read_array|declared_array)\(")
+_READS = re.compile(r"(?:rospy\.get_param|declared|read_array|declare_array)\(")
 _IMPORTS = (ast.Import, ast.ImportFrom)
 
 

@@ -23,7 +23,7 @@ from rebsync.roundtrip.runtime_python import MODULE
 from rebsync.roundtrip.wiring_facts import PLAYED, PROGRAM, Fact
 from rebsync.source import Source
 
-_READS = frozenset({"rospy.get_param", "declared", "read_array", "declared_array"})
+_READS = frozenset({"rospy.get_param", "declared", "read_array", "declare_array"})
 _CONNECTING = {"subscribe": "subscribe", "subscribe_on_bridge": "subscribeOnBridge"}
 _UNSET = re.compile(r"(?:int|Byte|Short|Float|float|bool|Rebec)\(\)\Z|array\(")
 _FILLS = re.compile(r"_local\d+\.\w+ = \w+\Z")

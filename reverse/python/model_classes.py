@@ -113,7 +113,8 @@ class Classes:
     def _interface(self, owner: Scope) -> m.Interface:
         functions = self._of(owner).functions.values()
         servers = tuple(self._server(owner, f, plain_name(f)) for f in functions)
-        extends = tuple(class_name(c.name) for c in self.line(owner)[1:] if self._is_base(owner, c))
+        line = _once(self.line(owner)[1:])
+        extends = tuple(class_name(c.name) for c in line if self._is_base(owner, c))
         span = owner.py.span(owner.node)
         return m.Interface(class_name(owner.name), servers, extends, _annotations(owner), span)
 
@@ -136,7 +137,7 @@ class Classes:
         served = {f.name: self._served(owner, f) for f in rest}
         members += [self._server(owner, f, s) for f in rest if (s := served[f.name]) is not None]
         members += [self._method(owner, f) for f in rest if served[f.name] is None]
-        bases = [c for c in self.line(owner)[1:] if self._is_base(owner, c)]
+        bases = [c for c in _once(self.line(owner)[1:]) if self._is_base(owner, c)]
         extends = [class_name(c.name) for c in bases if self._has_mailbox(c)]
         return m.ReactiveClass(
             class_name(owner.name),
@@ -171,7 +172,14 @@ class Classes:
 
     def _is_of_model(self, owner: Scope, function: Scope) -> bool:
         name = function.name
+        if _is_abstract(function) and self._is_of_interface(owner, name):
+            return False
         return not (self._of(owner).is_plumbing(name) or _is_constructor(name))
+
+    def _is_of_interface(self, owner: Scope, name: str) -> bool:
+        """Whether an interface above declares a function."""
+        above = (c for c in self.line(owner)[1:] if not self._has_mailbox(c))
+        return any(name in self._of(c).functions for c in above)
 
     def _served(self, owner: Scope, function: Scope) -> str | None:
         """The server whose messages a function serves, here or in a class above."""
@@ -306,6 +314,11 @@ def _messages_of(owners: list[Scope]) -> Iterator[str]:
 
 def _brings_messages(node: Node) -> bool:
     return text_of(node.child_by_field_name("module_name") or node).endswith(".msg")
+
+
+def _once(line: list[Scope]) -> list[Scope]:
+    """The classes above one, of which some may be above each other too."""
+    return list({id(c): c for c in line}.values())
 
 
 def _is_marked(owner: Scope) -> bool:

@@ -34,7 +34,7 @@ _RUNTIME = {"_mailbox", "_drive", "_state_pub"}
 _PLUMBING = {"__init__", "_wire", "_publish_state", "mailbox"}
 _SENSOR = "_sensor"
 # What reads a parameter in ROS 1, in ROS 2, and one that is an array.
-_READS = frozenset({"rospy.get_param", "declared", "read_array", "declared_array"})
+_READS = frozenset({"rospy.get_param", "declared", "read_array", "declare_array"})
 
 
 @dataclass(frozen=True, slots=True)
