@@ -8,6 +8,7 @@ relative `x`, private `~x`; the namespace of a node handle is part of the name.
 
 from __future__ import annotations
 
+from dataclasses import field
 from enum import Enum
 from typing import TypeAlias
 
@@ -64,9 +65,13 @@ class FromParameter:
 
 @dataclass(frozen=True, slots=True)
 class OneOf:
-    """One of several values, by the way that the program takes."""
+    """One of several values, by the way that the program takes.
+
+    `by` says which it is after which calls: those whose arguments are the nodes of these numbers.
+    """
 
     values: tuple[Resolved, ...]
+    by: tuple[tuple[frozenset[int], Resolved], ...] = field(default=(), compare=False)
 
 
 @dataclass(frozen=True, slots=True)

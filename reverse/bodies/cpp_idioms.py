@@ -40,6 +40,8 @@ _LIMITS = {
     **{"UINT8_MAX": 255, "UINT16_MAX": 2**16 - 1, "SHRT_MAX": 2**15 - 1, "SHRT_MIN": -(2**15)},
 }
 _REAL = {"M_PI": "3.141592653589793d", "M_PI_2": "1.5707963267948966d", "M_E": "2.718281828459045d"}
+# What has a method `now` in ROS 2: clocks and nodes.
+_CLOCKS = re.compile(r"(?i)(?!.*chrono)(?:.*clock\w*(?:\(.*\))?|.*node_?|nh_?|n_?)\Z", re.DOTALL)
 _NODES = re.compile(r"(?i)(?:nh|node|handle|n)_?\Z|.*(?:nh|node_?handle)_?\Z")
 _LIMIT = re.compile(r"(?:std::)?numeric_limits<\s*(?:int|int32_t|std::int32_t)\s*>::(\w+)\Z")
 
@@ -182,9 +184,9 @@ def member_call(
     """The call of a function of an array, a time or a node handle."""
     if arguments:
         return None
-    if name == "toSec":
+    if name == "toSec" or (name == "seconds" and _asks_now(target) and is_for_ros2(reader)):
         return to_seconds(reader, target)
-    if name == "now" and is_for_ros2(reader) and "chrono" not in text_of(target):
+    if name == "now" and is_for_ros2(reader) and _CLOCKS.match(text_of(target)):
         return m.Name("now", reader.cpp.span(node))
     if name.partition("<")[0] in HELD and target.type == "call_expression":
         return reader.read(target)
@@ -212,6 +214,11 @@ def member_call(
             return m.Index(reader.read(target), m.IntLiteral(length - 1), reader.cpp.span(node))
         case _:
             return None
+
+
+def _asks_now(target: Node) -> bool:
+    """Whether it is the time that a node or a clock of ROS 2 gives."""
+    return target.type == "call_expression" and text_of(target).endswith("now()")
 
 
 # --- arguments ----------------------------------------------------------------------------------

@@ -296,15 +296,23 @@ def _sends(
         try:
             record, fresh = given(reader, argument)
         except Unknown:
-            Effects(reader.cpp, reader.scope).check(argument)
+            Effects(reader.cpp, reader.scope).check(_moved(argument))
     else:
-        Effects(reader.cpp, reader.scope).check(argument)
+        Effects(reader.cpp, reader.scope).check(_moved(argument))
     for target in publishes.targets:
         values = _values(reader, argument, target, record, fresh, publishes.type)
         to = m.Name(target.known) if target.known is not None else m.Self()
         after, deadline = times.get("after"), times.get("deadline")
         call = m.Call(to, target.server, values, after, deadline, span)
         yield m.ExpressionStatement(call, (), span)
+
+
+def _moved(argument: Node) -> Node:
+    """What is handed over by `std::move`."""
+    if argument.type == "call_expression" and text_of(part(argument, "function")) == "std::move":
+        inner = named(part(argument, "arguments"))
+        return inner[0] if len(inner) == 1 else argument
+    return argument
 
 
 def _values(

@@ -15,7 +15,7 @@ from rebsync import model as m
 from rebsync.reverse.bodies.building import binary
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.scope import Switch, TimerOf
-from rebsync.reverse.syntax.cpp_tree import part, text_of
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_statements import CppStatements
@@ -34,6 +34,8 @@ def switched(reader: CppStatements, node: Node, function: Node) -> Iterator[m.St
     """
     meaning = resolve(reader.scope, part(function, "argument"))
     name = text_of(part(function, "field"))
+    if name == "reset" and named(part(node, "arguments")):
+        return None  # the variable gets another timer
     if name == "reset" and not any(c.type == "->" for c in function.children):
         name = "cancel"
     if not isinstance(meaning, TimerOf) or name not in (*SWITCHING, "setPeriod"):

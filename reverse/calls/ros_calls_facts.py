@@ -13,7 +13,7 @@ from rebsync.reverse.calls.rclcpp_facts import interface_of, several
 from rebsync.reverse.calls.ros_calls_callbacks import Callbacks, Called
 from rebsync.reverse.calls.ros_calls_filters import registered
 from rebsync.reverse.calls.ros_calls_options import Given, options_of
-from rebsync.reverse.calls.ros_calls_shapes import Asked, distinct, nodelets_of, truth_of
+from rebsync.reverse.calls.ros_calls_shapes import Asked, distinct, given_to, nodelets_of, truth_of
 from rebsync.reverse.calls.ros_calls_types import MessageTypes
 from rebsync.reverse.graph import (
     Access,
@@ -21,6 +21,7 @@ from rebsync.reverse.graph import (
     ClientFact,
     Fact,
     NodeFact,
+    OneOf,
     ParameterFact,
     PublisherFact,
     RateFact,
@@ -57,6 +58,7 @@ _FEW = 3
 class _Answer:
     """What the arguments of a call are on one way into the function around it."""
 
+    frame: Frame
     values: dict[str, Resolved | None] = field(default_factory=dict)
     called: list[Called] = field(default_factory=list)
     searched: bool = False
@@ -87,7 +89,7 @@ class Facts:
         merged: dict[str, Resolved | None] = {}
         for key in {k: None for a in answers for k in a.values}:
             known = [v for a in answers if (v := a.values.get(key)) is not None]
-            merged[key] = one_of(known)
+            merged[key] = _told_apart(one_of(known), key, answers)
         if self.values.truncated:
             more = self._unknown(asked, "it is called from too many places")
             merged = {k: one_of([v, more]) if v is not None else None for k, v in merged.items()}
@@ -111,7 +113,7 @@ class Facts:
     # --- on one way -----------------------------------------------------------------------------
 
     def _answer(self, asked: Asked, frame: Frame) -> _Answer:
-        answer = _Answer()
+        answer = _Answer(frame)
         namespace = self._namespace(asked, frame)
         for role, given in self._roles(asked, frame).items():
             match role:
@@ -380,6 +382,14 @@ class Facts:
 
     def _unknown(self, asked: Asked, why: str) -> Unresolved:
         return Unresolved(why, asked.site.place)
+
+
+def _told_apart(value: Resolved | None, key: str, answers: list[_Answer]) -> Resolved | None:
+    """One of several values with the calls that lead to each."""
+    if not isinstance(value, OneOf):
+        return value
+    known = [(a.frame, v) for a in answers if (v := a.values.get(key)) is not None]
+    return OneOf(value.values, tuple((given_to(frame), v) for frame, v in known))
 
 
 def _text(nodes: tuple[Node, ...]) -> bool:

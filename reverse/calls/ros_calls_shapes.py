@@ -22,6 +22,7 @@ from rebsync.reverse.roscpp_vocabulary import Ask
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.reverse.values.cpp_flow import declaration_of, made_of
 from rebsync.reverse.values.cpp_values_names import one_of
+from rebsync.reverse.values.cpp_values_plain import Frame
 
 TEMPLATES = ("template_type", "template_function", "template_method")
 
@@ -44,6 +45,16 @@ def types_of(node: Node | None) -> tuple[Node, ...]:
     if node is None or node.type not in TEMPLATES:
         return ()
     return tuple(named(part(node, "arguments")))
+
+
+def given_to(frame: Frame) -> frozenset[int]:
+    """The arguments of the calls that led into a function, as numbers of nodes."""
+    found: set[int] = set()
+    at: Frame | None = frame
+    while at is not None:
+        found |= {node.id for node in at.call.arguments} if at.call is not None else set()
+        at = at.caller
+    return frozenset(found)
 
 
 def objects_of(node: Node, above: Node) -> Iterator[tuple[Node, tuple[Node, ...]]]:

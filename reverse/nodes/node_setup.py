@@ -188,7 +188,8 @@ class Setup:
         if not kept.isidentifier() or any(f not in replaced(self.facts) for f in others):
             return False
         calls = (c for f in self.state.unit.functions for c in self.code.calls_of(f))
-        return any(c.name in SWITCHING and c.on.removeprefix("this->") == kept for c in calls)
+        own = (c for c in calls if c.on.removeprefix("this->") == kept and not c.arguments)
+        return any(c.name in SWITCHING for c in own)
 
     def _running(self, server: str) -> tuple[m.Statement, ...]:
         """What says that a timer runs that is stopped at times."""

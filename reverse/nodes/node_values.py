@@ -45,6 +45,8 @@ class Instance:
             case FromParameter():
                 return self._from(resolved)
             case OneOf(values):
+                if (own := of_object(self.start, resolved)) is not resolved:
+                    return self.value(own)
                 found = [self.value(v) for v in values]
                 if found and all(f == found[0] for f in found):
                     return found[0]
@@ -115,6 +117,15 @@ class Instance:
                 return Open("its node handle is one of several")
             return _text(join(resolved.within[0], value))
         return value
+
+
+def of_object(start: Start, value: Resolved) -> Resolved:
+    """Which of several values is that of an object, by the arguments that it is made of."""
+    if not isinstance(value, OneOf) or start.made is None or not start.made.arguments:
+        return value
+    given = {node.id for node in start.made.arguments}
+    own = [v for arguments, v in value.by if given <= arguments]
+    return own[0] if own and all(v == own[0] for v in own) else value
 
 
 def _text(text: Text) -> Plain | Open:

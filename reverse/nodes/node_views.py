@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 from rebsync.reverse.files.packages import HEADERS
@@ -10,6 +11,9 @@ from rebsync.reverse.nodes.node_programs import Program
 from rebsync.reverse.nodes.node_units import Start, Unit, Units
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import Cpp
+
+# The last part of the path of what a file includes.
+_INCLUDE = re.compile(rb'#[ \t]*include[ \t]*["<](?:[^">\n]*/)?([^">\n/]+)[">]')
 
 
 def all_units(
@@ -21,7 +25,8 @@ def all_units(
     units: list[Unit] = []
     starts: list[Start] = []
     for program in programs:
-        view = code.view(cpp for cpp in code.files if is_header(cpp) or program.has(cpp))
+        seen = _seen_by(code, program)
+        view = code.view(cpp for cpp in code.files if cpp.source.path in seen)
         of_program, started = Units(view, graph, (program,), generated).all()
         known = {id(u): _same(u, units) for u in of_program}
         used = {id(s.unit) for s in started}
@@ -31,6 +36,22 @@ def all_units(
     places = {u.owner.cpp.source.path for u in units if u.owner is not None}
     units += [u for u in rest if u.owner is not None and u.owner.cpp.source.path not in places]
     return _renamed(units, [*starts, *(s for s in more if s.unit in units)])
+
+
+def _seen_by(code: Code, program: Program) -> set[str]:
+    """The paths of a program's sources, and of the headers that they include, however deep."""
+    headers: dict[bytes, list[Cpp]] = {}
+    for cpp in filter(is_header, code.files):
+        name = cpp.source.path.rpartition("/")[2].encode()
+        headers.setdefault(name, []).append(cpp)
+    waiting = [cpp for cpp in code.files if program.has(cpp)]
+    found = {cpp.source.path for cpp in waiting}
+    while waiting:
+        for name in _INCLUDE.findall(waiting.pop().data):
+            fresh = [h for h in headers.get(name, ()) if h.source.path not in found]
+            found |= {h.source.path for h in fresh}
+            waiting += fresh
+    return found
 
 
 def is_header(cpp: Cpp) -> bool:

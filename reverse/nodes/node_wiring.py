@@ -21,7 +21,7 @@ from rebsync.reverse.nodes.node_programs import Program
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_times import period_of
 from rebsync.reverse.nodes.node_units import Start, Unit
-from rebsync.reverse.nodes.node_values import Instance
+from rebsync.reverse.nodes.node_values import Instance, of_object
 from rebsync.reverse.unknowns import Open
 
 # By the publisher's place in the facts of its unit, a receiver and its server.
@@ -80,8 +80,9 @@ def _alone(starts: Sequence[Start], names: Names) -> Iterator[Instance]:
 def _named_itself(start: Start) -> str:
     """The name that a class gives the node that it is, as those of rclcpp do; or empty."""
     facts = (f for f in start.unit.facts if isinstance(f, NodeFact) and f.nodelet is None)
-    names = [f.name for f in facts if f.site.owner in start.unit.names]
-    return names[0] if len(names) == 1 and isinstance(names[0], str) else ""
+    names = [f.name for f in facts if f.site.owner in start.unit.names and f.name is not None]
+    own = of_object(start, names[0]) if len(names) == 1 else None
+    return own if isinstance(own, str) else ""
 
 
 def _program(program: Program | None) -> str:

@@ -37,7 +37,7 @@ from rebsync.reverse.values.cpp_values_plain import (
     each,
     ways,
 )
-from rebsync.reverse.values.cpp_values_ros2 import literal, profile
+from rebsync.reverse.values.cpp_values_ros2 import literal, named_by_ros2
 from rebsync.reverse.values.cpp_values_variables import Variables
 
 T = TypeVar("T")
@@ -277,8 +277,8 @@ class Values:
             return self._constant(*constant)
         if self.code.definitions.get(("", name)):
             return Function(node, frame)
-        if (quality := profile(name)) is not None:
-            return quality
+        if (known := named_by_ros2(text)) is not None:
+            return known
         return self.unknown(f"{text} is not declared in the files", node, frame)
 
     def _constant(self, cpp: Cpp, node: Node) -> Value:

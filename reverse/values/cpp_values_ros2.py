@@ -45,6 +45,7 @@ if TYPE_CHECKING:
 _SPANS = frozenset({"Duration"})
 _KEPT = re.compile(r"(?:TransientLocal|TRANSIENT_LOCAL)\Z")
 _LOST = re.compile(r"(?:Volatile|VOLATILE)\Z")
+_TYPE = re.compile(r"\b(?:rclcpp|ParameterType)::PARAMETER_[A-Z_]+\Z")
 _DECLARE = "declare_parameter"
 # The classes of which this makes values.
 MADE = frozenset({*QUALITIES, *UNITS, *VALUES})
@@ -148,10 +149,12 @@ def _deep(values: Values, value: Value, node: Node, frame: Frame) -> Value:
     return Quality(depth if depth is not None else unknown)
 
 
-def profile(name: str) -> Quality | None:
-    """The quality that rmw has a name for."""
-    name = name.rpartition("::")[2]
-    return Quality(PROFILES[name]) if name in PROFILES else None
+def named_by_ros2(text: str) -> Value | None:
+    """What a name of rmw or rclcpp is: a quality, or a type of parameters that have no value."""
+    name = text.rpartition("::")[2]
+    if name in PROFILES:
+        return Quality(PROFILES[name])
+    return Nothing() if _TYPE.search(text) else None
 
 
 def changed(

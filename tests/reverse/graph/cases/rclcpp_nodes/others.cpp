@@ -33,6 +33,7 @@ class Managed : public rclcpp_lifecycle::LifecycleNode {
     if (has_parameter("old")) {  //= parameter has "old"
       undeclare_parameter("old");  //= parameter delete "old"
     }
+    declare_parameter("late", rclcpp::PARAMETER_STRING);  //= parameter declare "late"
     bool on;
     get_parameter_or("on", on, true);  //= parameter get "on" = true
     set_parameter(rclcpp::Parameter("axis.x", 4));  //= parameter set "axis.x" := 4
