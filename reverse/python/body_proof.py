@@ -36,6 +36,7 @@ class PyProof(Proof):
 
     def body(self, statements: Sequence[m.Statement]) -> None:
         """Looks at a body, and at what it leaves in the state variables."""
+        self._now = {}
         self._now = {n: self._of(n) for n in self.state if n in self.wide}
         self._real = set()
         if self._each(statements):
