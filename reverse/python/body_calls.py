@@ -9,10 +9,9 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync import precedence
-from rebsync.literals import literal_of
 from rebsync.reverse.bodies.building import bare, binary, chosen, is_calm, tight
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.python.body_scope import REAL, TRUTH, WHOLE, Value, unknown
+from rebsync.reverse.python.body_scope import REAL, TRUTH, WHOLE, Value, literal, unknown
 from rebsync.reverse.python.py_index import arguments_of, last_name
 from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.unknowns import Open
@@ -93,7 +92,7 @@ def _builtin(reader: PyExpressions, name: str, arguments: list[Node], node: Node
             value = reader.read(only)
             if value.kind == TRUTH or not is_calm(value.expression):
                 return None
-            zero = literal_of(0 if value.kind == WHOLE else 0.0)
+            zero = literal(0 if value.kind == WHOLE else 0.0)
             if value.kind == WHOLE:
                 reader.need(value, node, "abs")
             less = binary("<", value.expression, zero)
@@ -132,10 +131,10 @@ def _random(reader: PyExpressions, name: str, arguments: list[Node], node: Node)
     match name, arguments:
         case "randint", [low, high]:
             bounds = [bare(reader.read(n).expression) for n in (low, high)]
-            first, last = (_literal(b) for b in bounds)
+            first, last = (_number_of(b) for b in bounds)
             if first is None or last is None or not first <= last < first + _MOST:
                 return None
-            options = tuple(literal_of(n) for n in range(first, last + 1))
+            options = tuple(literal(n) for n in range(first, last + 1))
             return Value(m.Choice(options, span) if len(options) > 1 else options[0], WHOLE)
         case "choice", [listed] if listed.type in ("list", "tuple"):
             values = [reader.read(n) for n in named(listed)]
@@ -147,7 +146,7 @@ def _random(reader: PyExpressions, name: str, arguments: list[Node], node: Node)
             return None
 
 
-def _literal(expression: m.Expression) -> int | None:
+def _number_of(expression: m.Expression) -> int | None:
     match expression:
         case m.IntLiteral(value):
             return value

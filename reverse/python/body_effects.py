@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.python.body_reading import Reading
-from rebsync.reverse.python.body_scope import Frame, Message, Own
+from rebsync.reverse.python.body_scope import Frame, Message, Own, Var
 from rebsync.reverse.python.py_index import last_name
 from rebsync.reverse.python.py_tree import field, text_of
 
@@ -46,6 +46,8 @@ def is_harmless(reading: Reading, node: Node, frame: Frame) -> bool:
 def _is_one(reading: Reading, node: Node, frame: Frame) -> bool:
     if node.type in _WORDS:
         return False
+    if node.type in ("binary_operator", "augmented_assignment"):
+        return not _may_divide_by_zero(reading, node, frame)
     if node.type != "call":
         return _is_safe_name(reading, node, frame)
     if is_log(node):
@@ -57,6 +59,25 @@ def _is_one(reading: Reading, node: Node, frame: Frame) -> bool:
     if reading.function(function, frame) is not None:
         return False
     return name in _PLAIN or (bool(name) and _ACTS.match(name) is None and _ends(name))
+
+
+def _may_divide_by_zero(reading: Reading, node: Node, frame: Frame) -> bool:
+    """Whether a number of the model divides: if it is 0, Python ends the callback."""
+    right, operator = field(node, "right"), text_of(field(node, "operator"))
+    left = field(node, "left").type
+    if operator.removesuffix("=") not in ("/", "//", "%") or left.endswith("string"):
+        return False
+    while right.type == "parenthesized_expression" and right.named_children:
+        right = right.named_children[0]
+    if right.type == "attribute" and field(right, "object").type == "identifier":
+        holder = field(right, "object")
+        meaning = reading.name(text_of(holder), holder, frame)
+        name = text_of(field(right, "attribute"))
+        own = isinstance(meaning, Own) and isinstance(reading.attribute(name, right, frame), Var)
+        return own or isinstance(meaning, Message)
+    if right.type == "identifier":
+        return isinstance(reading.name(text_of(right), right, frame), Var)
+    return False
 
 
 def _is_parameter(name: str) -> bool:

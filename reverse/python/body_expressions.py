@@ -10,7 +10,6 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync import precedence
-from rebsync.literals import literal_of
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import bare, binary, cast, chosen, is_calm, negated, tight
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
@@ -31,6 +30,7 @@ from rebsync.reverse.python.body_scope import (
     Pending,
     Value,
     Var,
+    literal,
     unknown,
 )
 from rebsync.reverse.python.py_tree import field, named, number_of, text_of
@@ -38,7 +38,9 @@ from rebsync.source import Span
 from rebsync.static.types import DOUBLE, INT_MAX, INT_MIN
 
 _COMPARES = frozenset({"<", ">", "<=", ">=", "==", "!=", "<>"})
+_DIVISOR = "a divisor that may be 0 or negative"
 _RING = frozenset({"+", "-", "*"})
+_HUGE = 1e300
 _BITS = frozenset({"&", "|", "^"})
 
 
@@ -102,7 +104,7 @@ class PyExpressions:
         """What Python takes for true."""
         if value.kind == TRUTH:
             return bare(value.expression)
-        zero = literal_of(0 if value.kind == WHOLE else 0.0)
+        zero = literal(0 if value.kind == WHOLE else 0.0)
         if value.kind == WHOLE:
             self.need(value, node)
         return binary("!=", value.expression, zero, self._span(node))
@@ -154,9 +156,9 @@ class PyExpressions:
         number = number_of(node)
         if isinstance(number, int) and number > INT_MAX:
             raise unknown(self.frame, node, "a number beyond its int")
-        if number is None or abs(number) > 1e300:
+        if number is None or abs(number) > _HUGE:
             raise Unread(self._span(node), "this number is none of the model")
-        return Value(literal_of(number), REAL if isinstance(number, float) else WHOLE)
+        return Value(literal(number), REAL if isinstance(number, float) else WHOLE)
 
     def _unary(self, node: Node) -> Value:
         inner = field(node, "argument")
@@ -181,9 +183,8 @@ class PyExpressions:
             if operator == "/":
                 self._is_not_zero(right, node)
                 self._is_real(left, right, node)
-            span = self._span(node)
-            found = binary(operator, self.real(left, node), self.real(right, node), span)
-            return Value(found, REAL)
+            sides = self.real(left, node), self.real(right, node)
+            return Value(_doubled(operator, *sides, self._span(node)), REAL)
         raise Unread(self._span(node), f'"{operator}" of floats has no like in the model')
 
     def _whole(self, operator: str, left: Value, right: Value, node: Node) -> Value:
@@ -194,8 +195,8 @@ class PyExpressions:
         if operator == "/" and self.reading.unit.version != 2:
             self._is_real(left, right, node)
             self._is_not_zero(right, node)
-            one = cast(DOUBLE, self.need(left, node, "left"))
-            return Value(binary("/", one, self.real(right, node), self._span(node)), REAL)
+            sides = self.real(left, node), self.real(right, node, "right")
+            return Value(_doubled("/", *sides, self._span(node)), REAL)
         if operator in ("/", "//", "%"):
             return self._divided("%" if operator == "%" else "/", left, right, node)
         if operator in _BITS or operator == ">>":
@@ -212,7 +213,7 @@ class PyExpressions:
     def _divided(self, operator: str, left: Value, right: Value, node: Node) -> Value:
         """Python rounds down, the model towards 0: the same where nothing is negative."""
         by = bare(right.expression)
-        self.need(right, node, "by", 1, INT_MAX, strict=True)
+        self.need(right, node, "by", 1, INT_MAX, strict=_DIVISOR)
         span = self._span(node)
         if not self._is_refused(node, "dividend"):
             self._noted(left.expression, node, "dividend", 0, INT_MAX)
@@ -239,7 +240,7 @@ class PyExpressions:
                 ):
                     return
         if value.kind == WHOLE:
-            self.need(value, node, "by", 1, INT_MAX, strict=True)
+            self.need(value, node, "by", 1, INT_MAX, strict=_DIVISOR)
             return
         raise Unread(self._span(node), "it may divide by 0, which ends the callback in Python")
 
@@ -251,13 +252,13 @@ class PyExpressions:
                 "say which in its first line: #!/usr/bin/env python3",
             )
 
-    def real(self, value: Value, node: Node) -> m.Expression:
+    def real(self, value: Value, node: Node, what: str = "real") -> m.Expression:
         """A number where the model is to compute with 64 bits."""
         if value.kind == WHOLE:
-            self.need(value, node, "real")
+            self.need(value, node, what)
             inner = bare(value.expression)
             if isinstance(inner, m.IntLiteral):
-                return literal_of(float(inner.value))
+                return literal(float(inner.value))
             return cast(DOUBLE, value.expression)
         return cast(DOUBLE, value.expression) if value.single else value.expression
 
@@ -327,12 +328,12 @@ class PyExpressions:
         what: str = "",
         low: int = INT_MIN,
         high: int = INT_MAX,
-        strict: bool = False,
+        strict: str = "",
     ) -> m.Expression:
         """The value, of which the model must have the same number."""
         if self._is_refused(node, what):
             if strict:
-                raise Unread(self._span(node), "a divisor that may be 0 or negative")
+                raise Unread(self._span(node), strict)
             raise unknown(self.frame, node, "a number that may be beyond its int")
         self._noted(value.expression, node, what, low, high)
         return value.expression
@@ -348,6 +349,27 @@ class PyExpressions:
 
     def _span(self, node: Node) -> Span:
         return self.frame.span(node)
+
+
+def _doubled(operator: str, left: m.Expression, right: m.Expression, span: Span) -> m.Expression:
+    """An operation of the model with 64 bits: its literals have 32."""
+    if _is_literal(left) and _is_literal(right):
+        left = cast(DOUBLE, left)
+    return binary(operator, left, right, span)
+
+
+def _is_literal(expression: m.Expression) -> bool:
+    match bare(expression):
+        case m.FloatLiteral():
+            return True
+        case m.Unary(_, operand):
+            return _is_literal(operand)
+        case m.Conditional(_, then, otherwise):
+            return _is_literal(then) and _is_literal(otherwise)
+        case m.Choice(options):
+            return all(map(_is_literal, options))
+        case _:
+            return False
 
 
 def _is_float(value: Value) -> bool:

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.python.body_expressions import PyExpressions
     from rebsync.reverse.python.body_statements import PyStatements
 
+_BEYOND = "a number that the field of the message may not hold, which Python refuses"
 # The fields of a message that an expression makes: nodes, with what is read there.
 Given = Mapping[str, Node]
 
@@ -121,6 +122,7 @@ def _sends(
         is_name = node.type in ("identifier", "attribute")
         if not targets and not is_name and not is_harmless(reader.reading, node, reader.frame):
             raise Unread(span, "what is published here does more than to give a value")
+    _check(reader, message, type_, given)
     read: dict[str, m.Expression] = {}
     for target in targets:
         arguments = []
@@ -131,6 +133,22 @@ def _sends(
         to: m.Expression = m.Self() if target.target.known is None else m.Name(target.target.known)
         sent = m.Call(to, target.target.server, tuple(arguments), span=span)
         yield m.ExpressionStatement(sent, (), span)
+
+
+def _check(reader: PyStatements, message: Node, type_: str, given: Given | None) -> None:
+    """Fields that nobody gets must hold what they are given as well."""
+    if given is None and reader.reading.message_type(message, reader.frame) is None:
+        return
+    fields = reader.reading.types.fields(type_) or {}
+    parts = arguments_by_name(reader.expressions, message, fields) if given is None else given
+    for path, kind in fields.items():
+        if kind is None or kind.dimensions or path not in parts:
+            continue
+        try:
+            value = field_of(reader.expressions, message, type_, path, given)
+            as_field(reader.expressions, value, type_, path, message)
+        except Unknown:
+            continue
 
 
 def _is_message(reader: PyStatements, node: Node, type_: str) -> bool:
@@ -189,7 +207,7 @@ def as_field(
             raise Unread(span, f'rclpy takes no whole number for "{path}" of {type_}')
     if wanted == WHOLE:
         low, high = bounds(fields, reader.reading.types.widths.get(type_, {}), path)
-        found = reader.need(value, node, f"field {path}", low, high)
+        found = reader.need(value, node, f"field {path}", low, high, strict=_BEYOND)
         return cast(m.Type(kind.name), found) if kind.name != "int" else found
     if wanted == REAL:
         if kind.name == "float" and not (value.single and not _is_now(value)):

@@ -36,6 +36,7 @@ class PyProof(Proof):
 
     def body(self, statements: Sequence[m.Statement]) -> None:
         """Looks at a body, and at what it leaves in the state variables."""
+        self._now = {}
         self._now = {n: self._of(n) for n in self.state if n in self.wide}
         self._real = set()
         if self._each(statements):
@@ -63,6 +64,28 @@ class PyProof(Proof):
 
     def _forget_state(self) -> None:
         """No function of the class is called: each stands in the place of its call."""
+
+    def _compared(self, left: m.Expression, sign: str, right: m.Expression) -> None:
+        """`x + 1 < 5` says of `x` what `x < 4` does."""
+        match bare(left), bare(right):
+            case m.Binary("+" | "-" as operator, place, m.IntLiteral(by)), m.IntLiteral(number):
+                less = number - by if operator == "+" else number + by
+                Proof._compared(self, place, sign, m.IntLiteral(less))
+            case _:
+                Proof._compared(self, left, sign, right)
+
+    def _alternatives(self, expression: m.Conditional | m.Choice) -> Interval:
+        """Of two values the lesser or greater is within the bounds of both."""
+        found = Proof._alternatives(self, expression)
+        match expression:
+            case m.Conditional(m.Binary("<" | ">" as sign, one, other), then, otherwise) if bare(
+                one
+            ) is bare(then) and bare(other) is bare(otherwise):
+                first, second = Proof._value(self, one), Proof._value(self, other)
+                best = min if sign == "<" else max
+                return best(first[0], second[0]), best(first[1], second[1])
+            case _:
+                return found
 
     def _value(self, expression: m.Expression) -> Interval:
         found = Proof._value(self, expression)

@@ -9,7 +9,6 @@ from fractions import Fraction
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.literals import literal_of
 from rebsync.records import dataclass
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings
@@ -35,6 +34,7 @@ from rebsync.reverse.python.body_scope import (
     Value,
     Var,
     field_kind,
+    literal,
     unknown,
 )
 from rebsync.reverse.python.py_index import CLASS, FUNCTION, MODULE, PyCode, Scope
@@ -159,11 +159,11 @@ class Reading:
         """The value of what is always the same number."""
         match ways:
             case (bool() as truth,):
-                return Value(literal_of(truth), TRUTH)
+                return Value(literal(truth), TRUTH)
             case (int() as number,) if -(1 << 31) <= number < 1 << 31:
-                return Value(literal_of(number), WHOLE)
+                return Value(literal(number), WHOLE)
             case (float() as number,) if abs(number) < 1e300:
-                return Value(literal_of(number), REAL)
+                return Value(literal(number), REAL)
             case _:
                 return None
 
@@ -318,4 +318,4 @@ def field_key(message: Message, path: str) -> Key:
 
 def zero(kind: str) -> Value:
     """What a field holds in a new message."""
-    return Value(literal_of({TRUTH: False, WHOLE: 0}.get(kind, 0.0)), kind)
+    return Value(literal({TRUTH: False, WHOLE: 0}.get(kind, 0.0)), kind)

@@ -186,7 +186,7 @@ def augmented(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
         read = reader.expressions.operation(operator, before, reader.expressions.read(value), node)
     except Unknown:
         forget(reader, target)
-        outside(reader, value, node)
+        outside(reader, node, node)
         return
     if isinstance(meaning, Var):
         yield from give(reader, meaning, text_of(target), read, node)

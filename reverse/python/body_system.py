@@ -6,7 +6,7 @@ fields of messages are read, and which whole numbers may leave the model's `int`
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field as with_default
 from fractions import Fraction
 
@@ -116,7 +116,7 @@ class _Round:
             waiting = {k for k in self.learnt.pending if k not in self.learnt.kinds}
             for key in waiting:
                 self.learnt.join(key, OTHER)
-            if not waiting and not self._refuse(read):
+            if not waiting and not proved_otherwise(self.learnt, read.values()):
                 break
         found = {}
         for unit in self.units:
@@ -125,19 +125,6 @@ class _Round:
             found[unit.name], proof = self._read(unit, findings)
             self._note_counted(found[unit.name], proof)
         return found
-
-    def _refuse(self, read: Mapping[str, tuple[PyClass, Proved]]) -> bool:
-        """Takes note of what may leave the model's `int`; whether there is anything new."""
-        before = self.learnt.changes
-        for class_, proof in read.values():
-            for mark in proof.failed:
-                self.learnt.refuse(mark)
-            for name in proof.broken:
-                reading = class_.reading
-                key = reading.state.get(name) or reading.keys.get(name)
-                if key is not None:
-                    self.learnt.join(key, OTHER)
-        return self.learnt.changes != before
 
     def _read(self, unit: PyUnit, findings: Findings) -> tuple[PyClass, Proved]:
         reading = self._reading(unit, findings)
@@ -222,3 +209,17 @@ class _Round:
         instance = self._instance(unit)
         bindings = [m.Name(self.wiring.instances[n].name) for n in self.wiring.known(instance)]
         return m.Rebec(m.Type(self.classes[unit.name]), instance.name, tuple(bindings), ())
+
+
+def proved_otherwise(learnt: Learnt, read: Iterable[tuple[PyClass, Proved]]) -> bool:
+    """Takes note of what may leave the model's `int`; whether there is anything new."""
+    before = learnt.changes
+    for class_, proof in read:
+        for mark in proof.failed:
+            learnt.refuse(mark)
+        for name in proof.broken:
+            reading = class_.reading
+            key = reading.state.get(name) or reading.keys.get(name)
+            if key is not None:
+                learnt.join(key, OTHER)
+    return learnt.changes != before
