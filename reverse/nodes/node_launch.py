@@ -10,6 +10,7 @@ from rebsync.reverse.launch.launch_files import read_launch
 from rebsync.reverse.launch.launch_files_ros2 import is_of_ros_2, read_ros2_launch, speaks_ros_2
 from rebsync.reverse.launch.launch_values import Surroundings
 from rebsync.reverse.launch.launched import Launch
+from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_programs import Program
 from rebsync.source import Source
 
@@ -68,6 +69,7 @@ def system_of(
     if not read:
         return None
     names = {name for p in programs for name in (p.name, p.stem)}
+    names = names.union(*executables(files).values())
     best = max(read, key=lambda each: (_known(each[1], names), _size(each[1], package)))
     included = {id(s) for s in best[1].sources}
     others = [(s, launch) for s, launch in read if id(s) not in included and _size(launch, package)]
