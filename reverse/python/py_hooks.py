@@ -12,8 +12,9 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.graph import Callback, Callbacks, Place
-from rebsync.reverse.python.py_callbacks import callbacks_of
-from rebsync.reverse.python.py_index import PyCode, Scope, arguments_of
+from rebsync.reverse.python.py_callbacks import callback_name, callbacks_of
+from rebsync.reverse.python.py_index import CLASS, PyCode, Scope, arguments_of
+from rebsync.reverse.python.py_lookup import lineage
 from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_values import Values
 from rebsync.reverse.python.py_worth import Class, External, Function, Module
@@ -69,12 +70,22 @@ ENTRIES: dict[str, tuple[Entry, ...]] = {
     "SubscriptionEventCallbacks": (Entry((), (*_EVENTS, "message_lost"), _IN_EVENTS),),
     "create_guard_condition": (Entry((0,), ("callback",)),),
     "Server": (Entry((1,), ("callback",), ("dynamic_reconfigure.server",)),),
+    "Publisher": (Entry((2,), ("subscriber_listener",), ("rospy",)),),
 }
+# What a node with managed states has that rclpy calls when its state changes.
+_MANAGED = "rclpy.lifecycle."
+_CHANGES = tuple(
+    f"on_{change}"
+    for change in ("configure", "activate", "deactivate", "cleanup", "shutdown", "error")
+)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Hook:
-    """A call that hands functions over: `name` is what is called, `within` where it stands."""
+    """A call that hands functions over: `name` is what is called, `within` where it stands.
+
+    Or the method `name` of a node that its library calls.
+    """
 
     name: str
     place: Place
@@ -89,13 +100,24 @@ class Hook:
 
 
 def hooks_in(code: PyCode) -> Iterator[Hook]:
-    """All such calls that hand over something, file by file in the order of the text."""
+    """All such calls that hand over something, and changes of state: in the order of the text."""
     calls = [(call, scope) for name in ENTRIES for call, scope in code.by_callee.get(name, ())]
     values = Values(code)
-    for call, scope in sorted(calls, key=lambda c: (c[1].py.source.path, c[0].start_byte)):
-        hook = _hook(values, call, scope)
-        if hook is not None:
-            yield hook
+    found = [hook for call, scope in calls if (hook := _hook(values, call, scope)) is not None]
+    found += (hook for scope in code.scopes.values() for hook in _changes(values, scope))
+    yield from sorted(found, key=lambda h: (h.place.source.path, h.place.span.start))
+
+
+def _changes(values: Values, owner: Scope) -> Iterator[Hook]:
+    """The methods of a class that rclpy calls when the state of its node changes."""
+    names = [name for name in _CHANGES if name in owner.names] if owner.kind == CLASS else []
+    above = lineage(values, owner) if names else []
+    if any(isinstance(c, External) and c.name.startswith(_MANAGED) for c in above):
+        for name in names:
+            method = values.code.scope_of(owner.names[name][-1].node, owner.py)
+            word = field(method.node, "name")
+            place = Place(owner.py.source, owner.py.span(word))
+            yield Hook(name, place, method, (Callback(callback_name(method), place),))
 
 
 def _hook(values: Values, call: Node, scope: Scope) -> Hook | None:

@@ -25,8 +25,11 @@ def depth_of(values: Values, asked: Asked) -> Resolved:
     node = asked.given.get("depth")
     if node is None:
         return values.unknown(_NO_BOUND, asked.name, asked.scope)
-    found = [d for way in values.ways(node, asked.scope) for d in _depths(values, way, node, asked)]
-    return resolved(distinct(found), values.unknown(_NO_BOUND, node, asked.scope))
+    ways = values.ways(node, asked.scope)
+    found = [d for way in ways for d in _depths(values, way, node, asked)]
+    is_none = any(isinstance(way, Nothing) for way in ways)
+    why = _NO_BOUND if is_none else "the depth is computed"
+    return resolved(distinct(found), values.unknown(why, node, asked.scope))
 
 
 def _depths(values: Values, way: Value, node: Node, asked: Asked) -> Iterable[Value]:

@@ -1,8 +1,9 @@
 """What nodes ask of ROS, without what only tells the two generations of ROS apart.
 
 Taken for the same: a private parameter of ROS 1 and a parameter of ROS 2, whose levels are set off
-by slashes or dots; reading a parameter with a default and declaring it; a loop's rate and a timer;
-waiting for one message and a subscription; names in camelCase and in snake_case.
+by slashes or dots; a parameter that is a map and those below a name; reading a parameter with a
+default and declaring it; a loop's rate and a timer; waiting for one message and a subscription;
+names in camelCase and in snake_case.
 """
 
 from __future__ import annotations
@@ -68,8 +69,8 @@ def _entity(item: Json, kind: str) -> Entity:
     if kind == "timer":
         return Entity(kind, plain(item["period"]), None, details, place)
     name = plain(item.get("topic", item.get("name")))
-    if kind == "parameter" and isinstance(name, str):
-        name = _parameter(name)
+    if kind == "parameter":
+        name = _group(name)
     return Entity(kind, name, plain(item.get("type")), details, place)
 
 
@@ -107,6 +108,14 @@ def plain(value: Json) -> Json:
             return tidied(value)
         case _:
             return value
+
+
+def _group(name: Json) -> Json:
+    """The name of a parameter; of all below a name, which in ROS 1 are one, that name."""
+    partial = name["unknown"] if isinstance(name, dict) and "unknown" in name else name
+    if not isinstance(partial, str) or "*" in partial[:-1] or partial == "*":
+        return name
+    return _parameter(partial.removesuffix("*").rstrip("./"))
 
 
 def _parameter(name: str) -> str:

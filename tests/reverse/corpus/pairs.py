@@ -30,7 +30,7 @@ _TB3 = "turtlebot3_example"
 _TB3_1, _TB3_2 = f"turtlebot3-ros1/{_TB3}/nodes", f"turtlebot3/{_TB3}/{_TB3}"
 _ROSPY, _DEMO = "ros_tutorials/rospy_tutorials", "demos/demo_nodes_py/demo_nodes_py"
 _TOOLS_1, _TOOLS_2 = "teleop_tools-ros1", "teleop_tools-ros2"
-# One node ported from one generation to the other, then counterparts that were written anew.
+# Nodes ported from one generation to the other, counterparts that were written anew, C++.
 PORTS = {
     "twist_mux joystick_relay": (
         "twist_mux-ros1/scripts/joystick_relay.py",
@@ -87,7 +87,18 @@ REWRITTEN = {
         f"{_DEMO}/services/add_two_ints_client.py",
     ),
 }
-PAIRS = {**PORTS, **REWRITTEN}
+IN_CPP = {
+    "twist_mux": ("twist_mux-ros1/src", "twist_mux-ros2/src"),
+    "turtlesim": ("ros_tutorials/turtlesim/src", "ros_tutorials-ros2/turtlesim/src"),
+    "turtlesim tutorials": (
+        "ros_tutorials/turtlesim/tutorials",
+        "ros_tutorials-ros2/turtlesim/tutorials",
+    ),
+    "pointcloud_to_laserscan": ("pointcloud_to_laserscan/src", "pointcloud_to_laserscan-ros2/src"),
+    "teleop_twist_joy": ("teleop_twist_joy/src", "teleop_twist_joy-ros2/src"),
+    "usb_cam": ("usb_cam/src", "usb_cam-ros2/src"),
+}
+PAIRS = {**PORTS, **REWRITTEN, **IN_CPP}
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,8 +131,9 @@ class Alike:
 
 def read(path: Path) -> list[Entity]:
     """What the nodes in a file or below a folder ask of ROS."""
-    root = str(path)
-    return [e for given in packages([root]) for g in _graphs(given) for e in entities(g, root)]
+    root = next((d for d in (path, *path.parents) if (d / "package.xml").is_file()), path)
+    given = packages([str(root)])
+    return [e for chosen in given for g in _graphs(chosen) for e in entities(g, str(path))]
 
 
 def _graphs(given: Chosen) -> Iterator[dict[str, list[Json]]]:

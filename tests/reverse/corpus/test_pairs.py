@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.reverse.corpus.generations import agree, plain
+from tests.reverse.corpus.generations import agree, entities, plain
 from tests.reverse.corpus.pairs import aligned, differences, main, read
 from tests.reverse.corpus.values import Json
 
@@ -89,3 +89,13 @@ def test_the_command(pair: tuple[Path, Path], capsys: pytest.CaptureFixture[str]
 )
 def test_values_agree(one: Json, other: Json, same: bool) -> None:
     assert agree(plain(one), plain(other)) is same
+
+
+def test_parameters_below_a_name_are_as_one_that_is_a_map() -> None:
+    places = {"file": "a.cpp", "line": 1, "access": "get", "default": None, "within": None}
+    lists = ("nodes", "publishers", "subscriptions", "timers", "rates", "services", "clients")
+    names: list[Json] = ["~axes", {"unknown": "a loop", "partial": "axes.*"}, {"unknown": "all"}]
+    graph = {name: list[Json]() for name in lists}
+    graph["parameters"] = [{"name": name, **places} for name in names]
+    found = entities(graph, "a.cpp")
+    assert [e.name for e in found] == ["axes", {"unknown": "*"}]

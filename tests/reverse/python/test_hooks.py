@@ -65,6 +65,11 @@ CASES = {
         "SubscriptionEventCallbacks: Own.stop",
     ),
     "not known": (RCLPY, "self.f.add_done_callback(given)", "add_done_callback: Own"),
+    "listener": (
+        ROSPY,
+        "self.p = rospy.Publisher('t', T, self, queue_size=1)",
+        "Publisher: Own",
+    ),
     "one of one's own": (RCLPY, "self.send_goal(1, 2)", ""),
     "of the class above": (RCLPY, "return super().on_shutdown(given)", ""),
     "of another library": (RCLPY, "import x; x.send_goal(1, self.stop)", ""),
@@ -81,4 +86,19 @@ def test_what_is_handed_over_is_listed(case: str) -> None:
     )
     findings = Findings()
     read_python({"a.py": Source("a.py", text)}, findings)
-    assert [f"{f.text}: {f.within}" for f in findings.all] == ([expected] if expected else [])
+    assert _hooks(findings) == ([expected] if expected else [])
+
+
+def test_changes_of_state_are_listed() -> None:
+    text = (
+        "from rclpy.lifecycle import Node as Managed\nclass Own(Managed):\n"
+        "  def on_configure(self, state): return super().on_configure(state)\n"
+        "  def on_other(self, state): pass\nclass Other:\n  def on_configure(self): pass\n"
+    )
+    findings = Findings()
+    read_python({"a.py": Source("a.py", text)}, findings)
+    assert _hooks(findings) == ["on_configure: Own.on_configure"]
+
+
+def _hooks(findings: Findings) -> list[str]:
+    return [f"{f.text}: {f.within}" for f in findings.all if "calls functions of" in f.why]
