@@ -50,7 +50,6 @@ class Aspect(Enum):
     BODY = "body"
     SECTIONS = "sections"
     TOPIC = "topic"
-    PRIORITY = "priority"
     SETTING = "setting"
 
 

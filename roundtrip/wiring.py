@@ -1,4 +1,4 @@
-"""How generated nodes are joined: topics, priorities of servers, remaps, fields of messages.
+"""How generated nodes are joined: topics, remaps, fields of messages.
 
 An extracted model does not show these: it knows who sends what to whom, not by which topic. So they
 must be as they were generated, but for classes whose servers, known rebecs or instances changed:
@@ -50,7 +50,7 @@ _JOINING = frozenset(
     }
 )
 # Without these extraction lists what they were for; and somebody may call them otherwise.
-_MISSED = frozenset({"subscription", "publisher", "sensor", "priority", "sending", "sender"})
+_MISSED = frozenset({"subscription", "publisher", "sensor"})
 # What was not there when the code was generated makes a difference too.
 _UNWANTED = frozenset({"setting", "compiler option"})
 _MANIFEST = "package.xml"
@@ -145,9 +145,7 @@ def _hint(fact: Fact) -> str:
     match fact.kind:
         case "remap" | "publisher" | "subscription" | "sensor":
             return "let the other end have the same name, or take the edit back"
-        case "priority" | "best priority":
-            return "give the priority in the model, then `rebsync sync`; or take the edit back"
-        case "field" | "parameter" | "sender" | "sending":
+        case "field" | "parameter":
             return "take the edit back, or tell of it in the model"
         case _:
             return _HINT

@@ -19,11 +19,7 @@ _TOLD: Mapping[str, tuple[str, Aspect, bool]] = {
     "subscription": ("msgsrv", Aspect.TOPIC, False),
     "publisher": ("knownrebec", Aspect.TOPIC, True),
     "sensor": ("msgsrv", Aspect.TOPIC, True),
-    "priority": ("msgsrv", Aspect.PRIORITY, False),
-    "sender": ("msgsrv", Aspect.SETTING, False),
     "field": ("msgsrv", Aspect.TYPE, True),
-    "best priority": ("reactiveclass", Aspect.PRIORITY, False),
-    "sending": ("reactiveclass", Aspect.SETTING, True),
 }
 
 
