@@ -109,10 +109,12 @@ def extract(
         ).read()
     if system is not None and only is None and (read or nodes.classes):
         system.note(findings)
-    python = _python(files, findings, only)
+    python = _python(files, findings, only, package)
     if python is not None:
         read = (*read, *python.classes)
     made = _System(code, classes, read, launch if only is None else None, started, python)
+    if python is not None:
+        nodes = nodes.beside(python.nodes.classes, python.nodes.rebecs)
     main = _main(made, nodes, only is not None and len(files) > 1)
     model = m.Model(tuple(made.heads() if read else ()), (*read, *nodes.classes), main)
     statements = tuple(findings.statements.items())
@@ -120,7 +122,9 @@ def extract(
     return Extracted(model, tuple(findings.all), statements, asking, in_python)
 
 
-def _python(files: Mapping[str, Source], findings: Findings, only: str | None) -> PythonPart | None:
+def _python(
+    files: Mapping[str, Source], findings: Findings, only: str | None, package: str
+) -> PythonPart | None:
     """What the files of Python say; what of them is not in the model is listed."""
     sources = {path: source for path, source in files.items() if is_python(path, source)}
     if not sources:
@@ -128,7 +132,7 @@ def _python(files: Mapping[str, Source], findings: Findings, only: str | None) -
     from rebsync.reverse.python.recovery import read_python
 
     messages = {t.rpartition("/")[2]: tuple(f) for t, f in own_messages(files).items()}
-    return read_python(sources, findings, only, messages)
+    return read_python(sources, findings, only, messages, files, package)
 
 
 def _main(generated: _System, nodes: Nodes, is_part: bool) -> m.Main | None:

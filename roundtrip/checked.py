@@ -21,9 +21,6 @@ if TYPE_CHECKING:
     from rebsync.roundtrip.verdict import Drift, Mover
 
 
-_READ = frozenset({"ros1-cpp", "ros2-cpp"})
-
-
 @dataclass(frozen=True, slots=True)
 class Checked:
     """A package, and how it stands to its model.
@@ -117,13 +114,13 @@ def _about_base(kept: Kept, record: Record) -> tuple[Findings, ...]:
 
 
 def _refuse_dialect(kept: Kept, record: Record | None) -> None:
-    """Code that cannot be read back yet must not look as if it said nothing."""
-    target = record.options.get("target", "ros1-cpp") if record is not None else "ros1-cpp"
-    if record is not None and record.options.get("targets"):
-        target = "several languages"
-    if target not in _READ:
-        message = f"code in {target} cannot be read yet"
-        hint = "`rebsync generate` still takes changes of the model into it"
+    """Code that cannot be read must not look as if it said nothing."""
+    from rebsync.config import TARGETS
+
+    target = record.options.get("target", TARGETS[0]) if record is not None else TARGETS[0]
+    if target not in TARGETS:
+        message = f'code in "{target}" cannot be read'
+        hint = f"this rebsync knows {', '.join(TARGETS)}"
         raise RebsyncError.of(kept.root, "RS709", message, hint)
 
 

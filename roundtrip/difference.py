@@ -50,6 +50,7 @@ class Aspect(Enum):
     BODY = "body"
     SECTIONS = "sections"
     TOPIC = "topic"
+    PRIORITY = "priority"
     SETTING = "setting"
 
 

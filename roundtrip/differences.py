@@ -26,7 +26,7 @@ from rebsync.roundtrip.difference import (
 from rebsync.roundtrip.differences_bodies import callable_differences
 from rebsync.roundtrip.matching import Matching, Pair, matched, names_of
 from rebsync.roundtrip.sameness import are_same
-from rebsync.roundtrip.sides import Given, Item, Side, Unread, side, too_deep
+from rebsync.roundtrip.sides import Given, Item, Side, Unread, too_deep, two_sides
 from rebsync.roundtrip.tokens import Tokens
 from rebsync.source import SourceSpan
 
@@ -48,9 +48,9 @@ def compare(left: Given, right: Given, depth: Depth = Depth.EQUAL) -> Comparison
 
 def compare_in_full(left: Given, right: Given, depth: Depth = Depth.EQUAL) -> Comparison:
     """The same, looked for even where both are plainly the same."""
-    sides = side(left, depth), side(right, depth)
+    both = two_sides(left, right, depth)
     try:
-        return Comparison(tuple(_Comparing.of(*sides).all()))
+        return Comparison(tuple(_Comparing.of(*both).all()))
     except RecursionError:
         raise too_deep(left) from None
 

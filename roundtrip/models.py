@@ -15,6 +15,7 @@ from rebsync.roundtrip.extraction_cache import keep, kept, key_of
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import conflict_in
 from rebsync.roundtrip.sides import Given, Unread
+from rebsync.roundtrip.units import as_one
 from rebsync.source import Source
 
 
@@ -72,7 +73,7 @@ def _extracted(standing: Standing) -> Code:
     from rebsync.reverse.report import diagnostics
     from rebsync.roundtrip.class_memory import ClassMemory
 
-    chosen = read(standing.listing)
+    chosen = read(as_one(standing.listing))
     if conflicts := [c for s in chosen.files.values() if (c := conflict_in(s)) is not None]:
         raise RebsyncError(conflicts)
     extracted = extract(chosen.files, memory=ClassMemory())
