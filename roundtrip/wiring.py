@@ -52,10 +52,7 @@ _JOINING = frozenset(
 )
 # Without these extraction lists what they were for; and somebody may call them otherwise.
 _MISSED = frozenset(
-    {
-        *("subscription", "publisher", "sensor", "priority", "sending", "sender"),
-        "type of the parameter",
-    }
+    {"subscription", "publisher", "sensor", "priority", "sending", "type of the parameter"}
 )
 # What was not there when the code was generated makes a difference too.
 _UNWANTED = frozenset({"setting", "compiler option"})
@@ -175,7 +172,7 @@ def _hint(fact: Fact) -> str:
             return "let the other end have the same name, or take the edit back"
         case "priority" | "best priority":
             return "give the priority in the model, then `rebsync sync`; or take the edit back"
-        case "field" | "parameter" | "sender" | "sending":
+        case "field" | "parameter" | "sending":
             return "take the edit back, or tell of it in the model"
         case _:
             return _HINT

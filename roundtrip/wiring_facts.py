@@ -1,4 +1,4 @@
-"""The facts that join generated nodes: topics, priorities, remaps, fields of messages, programs.
+"""The facts that join generated nodes: topics, remaps, fields of messages, programs.
 
 They are read from the texts alone, whatever the model says.
 """
@@ -27,10 +27,7 @@ _PACKAGE = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
 Facts: TypeAlias = "dict[tuple[str, str, str], list[Fact]]"
 
 _LAYOUT = re.compile(r" ?([^\w \"]) ?")
-_BEST = re.compile(r"\bmailbox_\s*\(\s*\w+\s*,[^,()]*(?:,\s*([^()]*?)\s*)?\)")
 _STARTED = re.compile(r"\bmailbox_\s*\.\s*start\s*\(\s*\)")
-_SENT_BY = re.compile(r"\bmailbox_\s*\.\s*receive\s*\(\s*(\w+)\s*,[^,]*,\s*([^,]*?)\s*,")
-_OF_MESSAGE = re.compile(r"^\w+->")  # a parameter, which may have any name
 _HASH = re.compile(r"#[^\n]*")
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _REMARK = re.compile(r"<!--.*?-->", re.DOTALL)
@@ -55,11 +52,6 @@ _COMPILED = re.compile(
     r"\b(?:add|target)_(?:compile_\w+|definitions)\s*\(([^)]*)\)|_FLAGS\s+([^)]*)\)"
 )
 _OPTION = re.compile(r"(?:^|[\s\"])((?:-D|-U|-f|-include)\s*[^\s\"]+)")
-_SENDER = re.compile(
-    r"\b(\w+)::(\w+)\s*\([^;{}]*\bWhen\s*&[^;{}]*\)\s*\{(.*?)^\}", re.M | re.DOTALL
-)
-_CALLED = re.compile(r"\bmailbox_\s*\.\s*(?:post|publish)\s*\(")
-_BRANCH = re.compile(r"\b(?:if|for|while|switch|return|throw)\b|&&|\|\|")
 _FAR = 400  # characters within which a subscription names its handler
 _POSTED = re.compile(r"\bk[A-Z]\w*")
 _TAG = re.compile(r"<(/?)([\w-]+)((?:\s+[\w-]+\s*=\s*(?:\"[^\"]*\"|'[^']*'))*)\s*(/?)>")
@@ -123,27 +115,18 @@ def _of_file(name: str, source: Source, package: str) -> Iterable[Fact]:
         return _launched(source, text, package)
     program = Path(name).stem
     more = (Fact(*told) for told in wiring_ros2.of_code(source, text))
-    return chain(_joints(source, text), _sendings(source, text), _made(program, source, text), more)
+    return chain(_joints(source, text), _made(program, source, text), more)
 
 
 def _joints(source: Source, text: str) -> Iterator[Fact]:
-    """Subscriptions by the server that they are for, publishers, priorities."""
+    """Subscriptions by the server that they are for, publishers, sensors."""
     owner = _OWNER.search(text)
     if owner is None:
         return
     servers = {m[1]: m[2].strip('"') for m in _SERVER.finditer(text)}
-    for m in _SERVER.finditer(text):
-        priority = _squeezed(m[3])
-        yield Fact("priority", owner[1], m[2].strip('"'), priority, source, Span(*m.span()))
     for number, m in enumerate(_STARTED.finditer(text)):
         told = "there again" if number else "there"
         yield Fact("start of serving", owner[1], "", told, source, Span(*m.span()))
-    for m in _BEST.finditer(text):
-        yield Fact("best priority", owner[1], "", m[1] or "none", source, Span(*m.span()))
-    for m in _SENT_BY.finditer(text):
-        name = servers.get(m[1], m[1])
-        sender = _OF_MESSAGE.sub("", _squeezed(m[2]))
-        yield Fact("sender", owner[1], name, sender, source, Span(*m.span()))
     for m in _SENSOR.finditer(text):
         yield Fact("sensor", owner[1], m[1], m[2], source, Span(*m.span(2)))
     for m in _SUBSCRIBED.finditer(text):
@@ -162,13 +145,6 @@ def _made(program: str, source: Source, text: str) -> Iterator[Fact]:
         yield Fact(PROGRAM, program, "", m[1], source, Span(*m.span()))
     for m in _PLAYED.finditer(text):
         yield Fact(PLAYED, program, m[1], m[1], source, Span(*m.span()))
-
-
-def _sendings(source: Source, text: str) -> Iterator[Fact]:
-    """How often functions that send do that."""
-    for m in _SENDER.finditer(text):
-        value = f"{len(_CALLED.findall(m[3]))} sent, {len(_BRANCH.findall(m[3]))} branches"
-        yield Fact("sending", m[1], m[2], value, source, Span(*m.span(2)))
 
 
 def _server_of(text: str, start: int, servers: Mapping[str, str]) -> str:
