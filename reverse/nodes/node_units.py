@@ -89,6 +89,7 @@ class Units:
     programs: tuple[Program, ...]
     generated: bool = False
     _owners: dict[int, str | None] = field(default_factory=dict)
+    _here: list[Fact] | None = None
 
     def all(self) -> tuple[list[Unit], list[Start]]:
         """All units, in the order of the code, and all objects of them that programs make."""
@@ -191,10 +192,12 @@ class Units:
         ]
         return Unit(name, lineage[0], lineage, tuple(functions.values()), tuple(facts), self.code)
 
-    def _facts(self) -> Iterator[Fact]:
+    def _facts(self) -> list[Fact]:
         """The facts that calls in these files give; there may be more files in the package."""
-        paths = {cpp.source.path for cpp in self.code.files}
-        return (f for f in self.graph.facts if f.site.cpp.source.path in paths)
+        if self._here is None:
+            paths = {cpp.source.path for cpp in self.code.files}
+            self._here = [f for f in self.graph.facts if f.site.cpp.source.path in paths]
+        return self._here
 
     # --- programs -------------------------------------------------------------------------------
 
@@ -203,13 +206,14 @@ class Units:
         functions = [
             f
             for (owner, _), all_of in self.code.definitions.items()
+            if not owner
             for f in all_of
-            if not owner and program.has(f.cpp) and f.body is not None
+            if f.cpp.source.path in program.sources and f.body is not None
         ]
         facts = [
             f
             for f in self.graph.facts
-            if program.has(f.site.cpp)
+            if f.site.cpp.source.path in program.sources
             and self.owner_of(f) is None
             and f.site.owner not in self.code.classes
         ]
