@@ -214,6 +214,8 @@ _NAMES = frozenset(
 )
 _FUNCTIONS = frozenset(name for _, name in FUNCTIONS) - _NAMES
 _PLAIN = tuple(name.encode() for name in sorted(_NAMES))
+# What is part of each of them: a text without these has none.
+_STEMS = tuple(n for n in _PLAIN if not any(o in n and o != n for o in _PLAIN))
 _WORDS = re.compile(rb"(?:" + b"|".join(sorted(_PLAIN, reverse=True)) + rb")\b")
 _SCOPED = re.compile(rb"::\s*(" + "|".join(sorted(_FUNCTIONS)).encode() + rb")\b")
 _WORD = re.compile(rb"\w")
@@ -222,7 +224,7 @@ _WORD = re.compile(rb"\w")
 def words_in(data: bytes) -> Iterator[tuple[int, int, str]]:
     """The places of words of the vocabulary, from the first: start, end, and the word."""
     found = [(m.start(1), m.end(1)) for m in _SCOPED.finditer(data)]
-    if any(name in data for name in _PLAIN):
+    if any(stem in data for stem in _STEMS):
         matches = (m.span() for m in _WORDS.finditer(data))
         found += (m for m in matches if not _WORD.match(data, m[0] - 1, m[0]))
         found.sort()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import field, fields, replace
 from fractions import Fraction
+from operator import attrgetter
 from typing import Literal, TypeAlias
 
 from tree_sitter import Node
@@ -283,8 +284,8 @@ class Scope:
     def with_locals(self, found: Mapping[str, Meaning]) -> Scope:
         """The same with more locals, which hide what has their names."""
         whole = {**self.locals, **found}
-        same = [getattr(self, name) for name in _OTHERS]  # asked for often: `replace` is slow
-        return Scope(*(*same[:_LOCALS], whole, *same[_LOCALS:]))
+        # Asked for often: `replace` is slow.
+        return Scope(*(*_BEFORE(self), whole, *_BEHIND(self)))
 
     def without_constant(self, name: str) -> Scope:
         """What the value of a constant can name: all but itself."""
@@ -302,4 +303,4 @@ class Scope:
 
 _ALL = tuple(f.name for f in fields(Scope))
 _LOCALS = _ALL.index("locals")
-_OTHERS = tuple(name for name in _ALL if name != "locals")
+_BEFORE, _BEHIND = attrgetter(*_ALL[:_LOCALS]), attrgetter(*_ALL[_LOCALS + 1 :])

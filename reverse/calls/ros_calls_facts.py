@@ -276,8 +276,8 @@ class Facts:
         return self._resolved(value, given)
 
     def _fallback(self, asked: Asked, given: Given) -> Resolved | None:
-        """What a variable holds before a parameter is read into it."""
-        if len(asked.arguments) > 2:
+        """What a variable holds before a parameter is read into it; nothing for a list."""
+        if len(asked.arguments) > 2 or self.values.types.is_list(given.frame.cpp, given.node):
             return None
         value = self.values.value(given.node, given.frame)
         return value if isinstance(value, (bool, int, float, str)) else None

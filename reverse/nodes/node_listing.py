@@ -176,7 +176,7 @@ class Listing:
 
     def _common_variables(self, units: list[Unit]) -> None:
         """Variables outside of classes that several rebecs of one program use."""
-        if len(units) < 2:
+        if len(units) < 2 or not units[0].code.variables:
             return
         uses = [{text_of(n) for _, body in bodies(u) for n in _words(body)} for u in units]
         for name, variables in units[0].code.variables.items():

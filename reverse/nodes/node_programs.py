@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 
 from tree_sitter import Node
@@ -71,7 +71,8 @@ def programs(code: Code, files: Mapping[str, Source]) -> tuple[Program, ...]:
 
 def with_nodes(found: tuple[Program, ...], graph: Graph) -> tuple[Program, ...]:
     """The programs, each with the node that it is."""
-    return tuple(replace(p, node=_node(graph, p.main, p.sources)) for p in found)
+    nodes = [f for f in graph.facts if isinstance(f, NodeFact) and f.nodelet is None]
+    return tuple(replace(p, node=_node(nodes, p.main, p.sources)) for p in found)
 
 
 def _build(files: Mapping[str, Source]) -> BuildFiles | None:
@@ -90,9 +91,8 @@ def _targets(build: BuildFiles, path: str) -> list[tuple[str, frozenset[str]]]:
     return found
 
 
-def _node(graph: Graph, main: CppFunction, paths: Collection[str]) -> NodeFact | None:
+def _node(nodes: Sequence[NodeFact], main: CppFunction, paths: Collection[str]) -> NodeFact | None:
     """The node that a program is: made in its `main`, or in a function of its sources."""
-    nodes = [f for f in graph.facts if isinstance(f, NodeFact) and f.nodelet is None]
     own = [f for f in nodes if f.site.place.source.path == main.cpp.source.path]
     others = [f for f in nodes if f.site.place.source.path in paths]
     return next(iter([*own, *others]), None)
@@ -116,7 +116,7 @@ class Objects:
         for (owner, name), functions in self.code.definitions.items():
             if not owner and name != "main":
                 for function in functions:
-                    if program.has(function.cpp):
+                    if function.cpp.source.path in program.sources:
                         found += self._in(function, False)
         for name, variables in self.code.variables.items():
             for variable in variables:

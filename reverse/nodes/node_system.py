@@ -30,7 +30,7 @@ from rebsync.reverse.nodes.node_setup import Setup
 from rebsync.reverse.nodes.node_starts import first_functions, opening
 from rebsync.reverse.nodes.node_state import State
 from rebsync.reverse.nodes.node_times import Times
-from rebsync.reverse.nodes.node_units import Start, Unit, Units
+from rebsync.reverse.nodes.node_units import Facts, Start, Unit, Units
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.nodes.node_views import all_units
 from rebsync.reverse.nodes.node_wiring import Wiring, idle, instances
@@ -82,7 +82,7 @@ class NodeSystem:
         found = self.programs
         if self.generated:
             found = tuple(p for p in found if not p.name.endswith(STAND_IN))
-        reading = Units(self.code, self.graph, found, self.generated)
+        reading = Units(self.code, Facts.of(self.graph), found, self.generated)
         units, starts = all_units(self.code, self.graph, found, self.generated)
         if not units:
             return Nodes((), (), False)

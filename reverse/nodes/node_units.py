@@ -5,7 +5,7 @@ A class counts with all that it inherits; a program stands for its functions out
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import field
 
 from tree_sitter import Node
@@ -87,15 +87,37 @@ class Start:
         return self.program.main.node.id if self.program is not None else self.nodelet or self
 
 
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """The facts of a graph by the paths of their files, and the nodelets among them."""
+
+    by_path: Mapping[str, Sequence[Fact]]
+    nodelets: frozenset[str]
+
+    @staticmethod
+    def of(graph: Graph) -> Facts:
+        by_path: dict[str, list[Fact]] = {}
+        for fact in graph.facts:
+            by_path.setdefault(fact.site.cpp.source.path, []).append(fact)
+        nodelets = (f.nodelet for f in graph.facts if isinstance(f, NodeFact))
+        names = frozenset(n.rpartition("::")[2] for n in nodelets if n is not None)
+        return Facts(by_path, names)
+
+    def of_files(self, paths: Collection[str]) -> list[Fact]:
+        """Those of some files, in the order of the graph."""
+        return [f for path, facts in self.by_path.items() if path in paths for f in facts]
+
+
 @dataclass(slots=True)
 class Units:
     """The units of some code, and where they start."""
 
     code: Code
-    graph: Graph
+    facts: Facts
     programs: tuple[Program, ...]
     generated: bool = False
     _owners: dict[int, str | None] = field(default_factory=dict)
+    _here: list[Fact] | None = None
 
     def all(self) -> tuple[list[Unit], list[Start]]:
         """All units, in the order of the code, and all objects of them that programs make."""
@@ -141,9 +163,7 @@ class Units:
 
     def nodelets(self) -> set[str]:
         """The classes that are exported as nodelets."""
-        facts = (f for f in self.graph.facts if isinstance(f, NodeFact))
-        found = {f.nodelet.rpartition("::")[2] for f in facts if f.nodelet is not None}
-        return {n for n in found if n in self.code.classes}
+        return {n for n in self.facts.nodelets if n in self.code.classes}
 
     # --- classes --------------------------------------------------------------------------------
 
@@ -200,10 +220,12 @@ class Units:
         ]
         return Unit(name, lineage[0], lineage, tuple(functions.values()), tuple(facts), self.code)
 
-    def _facts(self) -> Iterator[Fact]:
+    def _facts(self) -> list[Fact]:
         """The facts that calls in these files give; there may be more files in the package."""
-        paths = {cpp.source.path for cpp in self.code.files}
-        return (f for f in self.graph.facts if f.site.cpp.source.path in paths)
+        if self._here is None:
+            paths = {cpp.source.path for cpp in self.code.files}
+            self._here = self.facts.of_files(paths)
+        return self._here
 
     # --- programs -------------------------------------------------------------------------------
 
@@ -212,15 +234,14 @@ class Units:
         functions = [
             f
             for (owner, _), all_of in self.code.definitions.items()
+            if not owner
             for f in all_of
-            if not owner and program.has(f.cpp) and f.body is not None
+            if f.cpp.source.path in program.sources and f.body is not None
         ]
         facts = [
             f
-            for f in self.graph.facts
-            if program.has(f.site.cpp)
-            and self.owner_of(f) is None
-            and f.site.owner not in self.code.classes
+            for f in self.facts.of_files(program.sources)
+            if self.owner_of(f) is None and f.site.owner not in self.code.classes
         ]
         return Unit(program.name, None, (), tuple(functions), tuple(facts), self.code, program)
 

@@ -8,31 +8,33 @@ from dataclasses import replace
 from rebsync.reverse.files.packages import HEADERS
 from rebsync.reverse.graph import Graph
 from rebsync.reverse.nodes.node_programs import Program
-from rebsync.reverse.nodes.node_units import Start, Unit, Units
+from rebsync.reverse.nodes.node_units import Facts, Start, Unit, Units
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import Cpp
 
 # The last part of the path of what a file includes.
 _INCLUDE = re.compile(rb'#[ \t]*include[ \t]*["<](?:[^">\n]*/)?([^">\n/]+)[">]')
+_HEADERS = tuple(HEADERS)
 
 
 def all_units(
     code: Code, graph: Graph, programs: tuple[Program, ...], generated: bool
 ) -> tuple[list[Unit], list[Start]]:
     """All units of some code, and where they start; the names of units are different."""
+    facts = Facts.of(graph)
     if not _is_ambiguous(code):
-        return _renamed(*Units(code, graph, programs, generated).all())
+        return _renamed(*Units(code, facts, programs, generated).all())
     units: list[Unit] = []
     starts: list[Start] = []
     for program in programs:
         seen = _seen_by(code, program)
         view = code.view(cpp for cpp in code.files if cpp.source.path in seen)
-        of_program, started = Units(view, graph, (program,), generated).all()
+        of_program, started = Units(view, facts, (program,), generated).all()
         known = {id(u): _same(u, units) for u in of_program}
         used = {id(s.unit) for s in started}
         units += [u for u in of_program if known[id(u)] is u and id(u) in used]
         starts += [replace(s, unit=known[id(s.unit)]) for s in started]
-    rest, more = Units(code, graph, (), generated).all()
+    rest, more = Units(code, facts, (), generated).all()
     places = {u.owner.cpp.source.path for u in units if u.owner is not None}
     units += [u for u in rest if u.owner is not None and u.owner.cpp.source.path not in places]
     return _renamed(units, [*starts, *(s for s in more if s.unit in units)])
@@ -56,7 +58,7 @@ def _seen_by(code: Code, program: Program) -> set[str]:
 
 def is_header(cpp: Cpp) -> bool:
     """Whether a file is one that others include."""
-    return cpp.source.path.endswith(tuple(HEADERS))
+    return cpp.source.path.endswith(_HEADERS)
 
 
 def _is_ambiguous(code: Code) -> bool:

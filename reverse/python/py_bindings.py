@@ -35,6 +35,15 @@ class Binding:
     path: tuple[int, ...] = ()
 
 
+# What `bindings_of` finds something in.
+BINDING = frozenset(
+    {
+        *("assignment", "augmented_assignment", "named_expression", "for_statement"),
+        *("for_in_clause", "as_pattern", "import_statement", "import_from_statement"),
+    }
+)
+
+
 def bindings_of(node: Node) -> Iterator[tuple[Node, Binding]]:
     """What a statement binds, each target by itself."""
     match node.type:

@@ -8,7 +8,7 @@ from dataclasses import field as with_default
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.python.py_bindings import Binding, bindings_of
+from rebsync.reverse.python.py_bindings import BINDING, Binding, bindings_of
 from rebsync.reverse.python.py_tree import Py, field, named, text_of
 
 MODULE, CLASS, FUNCTION, LAMBDA = "module", "class", "function", "lambda"
@@ -150,8 +150,11 @@ class PyCode:
         waiting: list[tuple[Node, Scope]] = [(module.node, module)]
         while waiting:
             node, scope = waiting.pop()
-            inner = self._entered(node, scope)
-            waiting += [(child, inner) for child in reversed(node.named_children)]
+            if node.type in _SAYING:
+                scope = self._entered(node, scope)
+            if node.named_child_count:
+                children = [c for c in node.named_children if c.type not in _SILENT]
+                waiting += [(child, scope) for child in reversed(children)]
 
     def _entered(self, node: Node, scope: Scope) -> Scope:
         """Notes what a node says; the scope of what is in it."""
@@ -187,6 +190,14 @@ class PyCode:
 
 
 _SCOPES = {"class_definition": CLASS, "function_definition": FUNCTION, "lambda": LAMBDA}
+_SAYING = BINDING.union(_SCOPES, ("call", "global_statement", "return_statement"))
+# What neither says anything nor holds what does: most of all nodes.
+_SILENT = frozenset(
+    {
+        *("identifier", "string_start", "string_content", "string_end", "integer", "float"),
+        *("comment", "true", "false", "none", "pass_statement", "escape_sequence"),
+    }
+)
 
 
 def _bind(scope: Scope, target: Node, binding: Binding) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterator
 from dataclasses import field
+from functools import lru_cache
 
 from tree_sitter import Node
 
@@ -220,9 +221,14 @@ class Texts:
 
 def nearness(one: Cpp, other: Cpp) -> tuple[int, int]:
     """How near two files are: the folders they share; a file is nearest to itself."""
-    if one.source.path == other.source.path:
+    return _near(one.source.path, other.source.path)
+
+
+@lru_cache(maxsize=1 << 14)  # few files are compared often
+def _near(one: str, other: str) -> tuple[int, int]:
+    if one == other:
         return (1000, 0)
-    left, right = one.source.path.split("/")[:-1], other.source.path.split("/")[:-1]
+    left, right = one.split("/")[:-1], other.split("/")[:-1]
     shared = 0
     while shared < min(len(left), len(right)) and left[shared] == right[shared]:
         shared += 1

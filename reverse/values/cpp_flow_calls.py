@@ -67,8 +67,11 @@ class Calls:
         if not scope and around is not None and (found := self._methods(around, name, True)):
             return found
         free = self.texts.code.definitions.get(("", name), [])
-        best = max((nearness(f.cpp, cpp) for f in free), default=None)
-        return [f for f in free if nearness(f.cpp, cpp) == best]
+        if len(free) < 2:
+            return free
+        near = [nearness(f.cpp, cpp) for f in free]
+        best = max(near)
+        return [f for f, of in zip(free, near, strict=True) if of == best]
 
     def _only(self, name: str) -> list[CppFunction]:
         """The methods of a name, if those of one class and its descendants only have it."""

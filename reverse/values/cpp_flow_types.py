@@ -128,6 +128,11 @@ class Types:
         best = max(found, key=lambda f: (nearness(f.cpp, cpp), f.value is not None))
         return Variable("global", name, best.cpp, best.node, best.type, field=best)
 
+    def is_list(self, cpp: Cpp, node: Node) -> bool:
+        """Whether an expression is the name of a variable that holds a list."""
+        variable = self.variable(cpp, node) if node.type == "identifier" else None
+        return variable is not None and is_list(variable)
+
     # --- types ----------------------------------------------------------------------------------
 
     def plain(self, cpp: Cpp, type_: Node | None, depth: int = 0) -> str:

@@ -63,7 +63,10 @@ def spoken(text: str) -> str:
 def one_of(values: Iterable[Resolved]) -> Resolved | None:
     """One of these; unknown as soon as one of them is, with what they have in common."""
     found: list[Resolved] = []
-    for value in values:
+    given = list(values)
+    if len(given) == 1 and not isinstance(given[0], OneOf):
+        return given[0]
+    for value in given:
         for way in value.values if isinstance(value, OneOf) else (value,):
             if not any(same(way, f) for f in found):
                 found.append(way)
