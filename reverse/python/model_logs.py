@@ -10,7 +10,7 @@ from rebsync.reverse.python.py_tree import field, named, text_of
 
 LOGS = re.compile(
     r"(?:rospy\.log\w+|(?:\w+\.)*get_logger\([^()]*\)\.\w+|print"
-    r"|logging\.(?:getLogger\([^()]*\)\.)?\w+|_?log(?:ger)?\.\w+)\Z"
+    r"|logging\.(?:getLogger\([^()]*\)\.)?\w+|(?:self\.)?_?log(?:ger)?\.\w+)\Z"
 )
 HARMLESS = frozenset({"str", "repr", "len", "format", "round"})
 _STORING = frozenset({"named_expression", "await", "yield", "lambda"})
