@@ -55,7 +55,15 @@ class BodyPatch:
             return False
         if x.span != NOWHERE:
             return self._lists(x.statements, r.statements, x.span)
-        (only,) = x.statements  # braces that are not in the text
+        *starts, only = x.statements  # braces that are not in the text
+        if starts:
+            mark = len(self.out.edits)
+            if len(x.statements) == len(r.statements) and all(
+                map(self._in_place, x.statements, r.statements)
+            ):
+                return True
+            self.out.take_back(mark)
+            return self._whole(only, r)
         if len(r.statements) == 1 and self.statement(only, r.statements[0]):
             return True
         return self._whole(only, r)
@@ -274,7 +282,7 @@ def _is_in(statement: m.Statement, loop: m.For) -> bool:
 
 def _only(block: m.Statement) -> m.Statement:
     """The statement that braces were put around."""
-    return block.statements[0] if isinstance(block, m.Block) else block
+    return block.statements[-1] if isinstance(block, m.Block) else block
 
 
 def _bare(expression: m.Expression) -> m.Expression:

@@ -7,6 +7,7 @@ own for these. Files go by their paths from the folder of both.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
+from itertools import islice
 
 from rebsync.reverse.files.packages import MANIFEST, Listing, listings
 
@@ -33,6 +34,18 @@ def listing_of(root: str, tree: str, generated: Iterable[str]) -> Listing:
         whole.odd |= {n: w for n, w in odd.items() if n.partition("/")[0] in folders}
         whole.size += listing.size
     return whole
+
+
+def both_at(path: str) -> Listing | None:
+    """The nodes and the messages in a folder of both, read as one; None where there is no such.
+
+    RebsyncError: there is no such path, or it may not be read.
+    """
+    found = [each.root for each in islice(listings(path), 4) if each.is_package]
+    if len(found) != 2 or found[1] != f"{found[0]}{_MESSAGES}":
+        return None
+    inside = (root.removeprefix(path).strip("/") for root in found)
+    return as_one(listing_of(path, path, [f"{folder}/{MANIFEST}" for folder in inside]))
 
 
 def folders_of(names: Iterable[str]) -> tuple[str, ...]:

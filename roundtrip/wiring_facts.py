@@ -16,7 +16,7 @@ from rebsync.diagnostics import RebsyncError
 from rebsync.files import read_source
 from rebsync.records import dataclass
 from rebsync.reverse.files.python_files import is_python
-from rebsync.reverse.launch.launch_python import read_python_launch
+from rebsync.reverse.launch.launch_files_ros2 import read_ros2_launch
 from rebsync.roundtrip import wiring_ros2
 from rebsync.source import Source, Span
 
@@ -239,7 +239,7 @@ def _launched(source: Source, text: str, package: str) -> Iterator[Fact]:
 
 def _declared(source: Source, package: str) -> Iterator[Fact]:
     """The same of a launch file in Python, but for what a node is made of."""
-    for node in read_python_launch(source, lambda _: None).nodes:
+    for node in read_ros2_launch(source, lambda _: None).nodes:
         name = str(node.name)
         of = OWN if node.package == package else str(node.package)
         facts = {"pkg": of, "ns": str(node.namespace), "if": " ".join(node.only_if)}
