@@ -43,6 +43,9 @@ def said(body: list[ast.stmt]) -> Iterator[ast.stmt]:
                 continue
             case ast.If(ast.Name("TYPE_CHECKING")):
                 continue
+            case ast.If(ast.Compare(ast.Name("__name__")), [ast.Expr(call)], []):
+                if ast.unparse(call) != "main()":
+                    yield statement
             case _:
                 yield statement
 

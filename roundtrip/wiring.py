@@ -38,11 +38,12 @@ from rebsync.roundtrip.wiring_facts import (
     package_name,
 )
 from rebsync.roundtrip.wiring_names import TOPICS, Joined, is_about, joined, replaced
+from rebsync.roundtrip.wiring_ranges import ANY, RANGE
 from rebsync.source import NOWHERE, Source
 
 _WIRED = (
     *(".cpp", ".h", ".hpp", ".launch", ".py", ".msg"),
-    *("CMakeLists.txt", "config/params.yaml"),
+    *("CMakeLists.txt", "config/params.yaml", "setup.cfg"),
 )
 _JOINING = frozenset(
     {
@@ -130,6 +131,8 @@ def _odd(kept: Kept, before: list[Fact], now: list[Fact]) -> Odd | None:
     old, new = {f.value for f in before}, {f.value for f in now}
     first = (before or now)[0]
     if old == new or (not new and _is_missed(first)):
+        return None
+    if first.kind == RANGE and (ANY not in new or ANY in old):
         return None
     what = " ".join(filter(None, ("the", first.kind, first.name)))
     what += f" of {first.owner}" if first.owner else ""

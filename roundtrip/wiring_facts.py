@@ -48,6 +48,7 @@ _BEARING = {
 _PROGRAM = re.compile(r"\b(add_executable|set_target_properties)\s*\(\s*(\S+)\s+([^)]*)\)")
 _SCRIPT = re.compile(r"^[ \t]*scripts/(\w+)[ \t]*$", re.MULTILINE)
 _MODULES = re.compile(r"\bcatkin_python_setup\s*\(\s*\)")
+_FOLDER = re.compile(r"^(script_dir|install_scripts)[ \t]*=[ \t]*(\S+)", re.MULTILINE)
 _COMPILED = re.compile(
     r"\b(?:add|target)_(?:compile_\w+|definitions)\s*\(([^)]*)\)|_FLAGS\s+([^)]*)\)"
 )
@@ -101,6 +102,8 @@ def _of_file(name: str, source: Source, package: str) -> Iterable[Fact]:
         return _fields(source, package)
     if name.endswith(".yaml"):
         return _settings(source)
+    if name.endswith(".cfg"):
+        return _folders(source)
     if name.endswith(".txt"):
         return chain(_programs(source), (Fact(*told) for told in wiring_ros2.of_build(source)))
     if name.endswith(".launch.py"):
@@ -244,6 +247,12 @@ def _settings(source: Source) -> Iterator[Fact]:
             section = m[2]
         elif m[2] in _BEARING.get(section, ()):
             yield Fact("parameter", "", f"{section}/{m[2]}", m[3], source, Span(*m.span(2)))
+
+
+def _folders(source: Source) -> Iterator[Fact]:
+    """Where a `setup.cfg` has programs installed, from where launch files start them."""
+    for m in _FOLDER.finditer(source.text):
+        yield Fact("folder of programs", "", m[1], m[2], source, Span(*m.span()))
 
 
 def _has_bearing(name: str) -> bool:

@@ -21,6 +21,7 @@ from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.roundtrip.python_trees import bindings, plain, said, span_of, tree_of
 from rebsync.roundtrip.runtime_python import MODULE
 from rebsync.roundtrip.wiring_facts import PLAYED, PROGRAM, Fact
+from rebsync.roundtrip.wiring_ranges import RANGE, ranges_in
 from rebsync.source import Source
 
 _READS = frozenset({"rospy.get_param", "declared", "read_array", "declare_array"})
@@ -116,6 +117,9 @@ class _Class:
                 yield self.fact("receiving", name, self._plain(function), function)
             elif sent := self._sent(function):
                 yield self.fact("sending", sent, self._plain(function), function)
+            else:
+                for name, range_, at in ranges_in(function):
+                    yield self.fact(RANGE, name, range_, at)
 
     def _sent(self, function: ast.FunctionDef) -> str:
         """What a function sends, to whom; empty for one that does not send."""
@@ -177,7 +181,8 @@ class _Class:
         elif (read := _parameter(value)) is not None:
             key, default = read
             yield self.fact("default", key, default, at)
-            yield self.fact("set-up", key, plain(value).replace(f", {default}", ", ...", 1), at)
+            shown = plain(_undescribed(value)).replace(f", {default}", ", ...", 1)
+            yield self.fact("set-up", key, shown, at)
         elif not _UNSET.match(ast.unparse(value)):
             yield self.fact("set-up", member.strip("_"), plain(value), at)
 
@@ -242,6 +247,11 @@ def _entries(source: Source, tree: ast.Module, package: str) -> Iterator[Fact]:
                 value = re.sub(rf"^{re.escape(package)}\.", "", entry[2])
                 span = span_of(source, node)
                 yield Fact("installed program", "", entry[1], value, source, span)
+            case ast.keyword("data_files", ast.List(listed)):
+                for each in listed:
+                    to, *files = each.elts if isinstance(each, ast.Tuple) else [each]
+                    name, text = plain(to), ", ".join(map(plain, files))
+                    yield Fact("installed file", "", name, text, source, span_of(source, each))
             case ast.keyword("packages" | "package_dir" as name, value):
                 text = plain(value).replace(f"'{package}'", "package_name")
                 yield Fact("Python package", "", name, text, source, span_of(source, value))
@@ -304,6 +314,17 @@ def _parameter(value: ast.expr) -> tuple[str, str] | None:
                 key = argument.value.replace(".", "/").lstrip("~")
                 return key, ast.unparse(default[0]) if default else ""
     return next((r for a in value.args if (r := _parameter(a)) is not None), None)
+
+
+def _undescribed(value: ast.expr) -> ast.expr:
+    """A call without the description of the parameter that it declares."""
+    match value:
+        case ast.Call(ast.Name("declared" | "declared_array"), [*rest, ast.Constant(str())]):
+            return ast.Call(value.func, rest, value.keywords)
+        case ast.Call(of, [inner]):
+            return ast.Call(of, [_undescribed(inner)], value.keywords)
+        case _:
+            return value
 
 
 def _text(node: ast.expr) -> str:

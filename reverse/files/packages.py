@@ -17,7 +17,7 @@ MANIFEST = "package.xml"
 HEADERS = frozenset({".h", ".hh", ".hpp", ".hxx", ".cuh", ".ipp", ".tpp", ".inl", ".H"})
 CODE = HEADERS | {".c", ".cc", ".cpp", ".cxx", ".c++", ".C", ".cu"}
 _OTHERS = frozenset({".launch", ".msg", ".srv", ".action", ".yaml", ".yml", ".xml"})
-_NAMED = frozenset({"CMakeLists.txt", "rebsync.toml"})
+_NAMED = frozenset({"CMakeLists.txt", "rebsync.toml", "setup.cfg"})
 _IGNORING = frozenset({"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"})
 # What a build leaves in a directory of its own: by this it is told from code of the same name.
 _BUILT = frozenset({"CMakeCache.txt", ".catkin", "_setup_util.py", "local_setup.sh", ".built_by"})

@@ -6,6 +6,6 @@ import re
 
 LOGS = re.compile(
     r"(?:rospy\.log\w+|(?:\w+\.)*get_logger\([^()]*\)\.\w+|print"
-    r"|logging\.(?:getLogger\([^()]*\)\.)?\w+|_?log(?:ger)?\.\w+)\Z"
+    r"|logging\.(?:getLogger\([^()]*\)\.)?\w+|(?:self\.)?_?log(?:ger)?\.\w+)\Z"
 )
 HARMLESS = frozenset({"str", "repr", "len", "format", "round"})

@@ -31,6 +31,7 @@ _AT_TOP = frozenset(
     }
 )
 _IN_CLASS = frozenset({"function_definition", "decorated_definition", "pass_statement"})
+_DECORATORS = frozenset({"abstractmethod", "final", "override", "property"})
 _WHY = "what this does is not in the model"
 _HINT = "say it in the model, or move it into a user block"
 
@@ -53,6 +54,10 @@ class Plumbing:
         for function in self.roles.functions.values():
             for node in self._odd(function):
                 self._list(owner.py, node, _WHY, function.name)
+        for function in self.roles.functions.values():
+            if odd := [d for d in function.decorators if d not in _DECORATORS]:
+                why = f'nobody knows what "@{odd[0]}" makes of it'
+                self._list(owner.py, function.node, why, function.name)
         for statement in named(field(owner.node, "body")):
             if statement.type in _IN_CLASS or _is_text(statement) or self._is_constant(statement):
                 continue
@@ -99,6 +104,8 @@ class Plumbing:
         if member in roles.state or member in roles.known or member in roles.env:
             return member not in roles.state or _is_of_type(inner)
         called, arguments = call_parts(inner.child_by_field_name("right")) or ("", [])
+        if called.endswith("get_logger"):
+            return True
         method = called.removeprefix("self._mailbox.")
         if method != called:
             return method in _CONNECTING and self._is_connected(member, arguments)

@@ -8,16 +8,22 @@ from tests.roundtrip.mutations.harness import Result, Said, Task, results
 from tests.roundtrip.mutations.kinds import BEHAVIOUR, NEUTRAL
 from tests.roundtrip.mutations.package import Kind, Package
 
-_SHARE = 6  # one kind in so many
+_SHARE = {"cpp": 12, "py": 24}  # one kind in so many
 _PACKAGES = ("experiment3", "experiment2", "warehouse", "experiment1")
-_AT_LEAST = {"ros1-cpp": (160, 135), "ros2-cpp": (180, 150)}  # kinds that change, that do not
+# How many kinds there are that change behaviour, and that do not.
+_AT_LEAST = {
+    "ros1-cpp": (160, 135),
+    "ros2-cpp": (180, 150),
+    "ros1-py": (180, 90),
+    "ros2-py": (200, 95),
+}
 
 
 def share(dialect: str, kinds: tuple[Kind, ...]) -> list[Task]:
-    """Every sixth kind, others in each dialect, each on the first example with a place for it."""
+    """A share of the kinds, others in each dialect, each on the first example with a place."""
     packages = [Package(name, dialect) for name in _PACKAGES]
     tasks = []
-    for kind in kinds[list(BEHAVIOUR).index(dialect) :: _SHARE]:
+    for kind in kinds[list(BEHAVIOUR).index(dialect) :: _SHARE[dialect.partition("-")[2]]]:
         name = next((p.name for p in packages if any(True for _ in kind.mutants(p))), None)
         if name is not None:
             tasks.append(Task(name, (kind.name,), 1, 1, dialect))
@@ -27,7 +33,7 @@ def share(dialect: str, kinds: tuple[Kind, ...]) -> list[Task]:
 @pytest.mark.parametrize("dialect", BEHAVIOUR)
 def test_there_are_enough_kinds(dialect: str) -> None:
     changing, quiet = BEHAVIOUR[dialect], NEUTRAL[dialect]
-    assert (len(changing), len(quiet)) >= _AT_LEAST[dialect]
+    assert len(changing) >= _AT_LEAST[dialect][0] and len(quiet) >= _AT_LEAST[dialect][1]
     names = [kind.name for kind in (*changing, *quiet)]
     assert len(set(names)) == len(names)
 
@@ -37,7 +43,7 @@ def test_there_are_enough_kinds(dialect: str) -> None:
 def test_every_mutant_is_another_package(dialect: str, name: str) -> None:
     package = Package(name, dialect)
     for kind in (*BEHAVIOUR[dialect], *NEUTRAL[dialect]):
-        if kind.name.startswith("clang-format"):
+        if kind.name.startswith(("clang-format", "ruff format")):
             continue
         for mutant in kind.mutants(package):
             assert any(package.files.get(p) != text for p, text in mutant.files.items())
@@ -56,5 +62,5 @@ def test_what_changes_nothing_is_not(dialect: str) -> None:
 
 def wrong(found: list[Result], *fine: Said) -> list[str]:
     """What should have been told otherwise."""
-    assert len(found) > 10
+    assert len(found) > 3
     return [str(result) for result in found if result.said not in fine]

@@ -390,5 +390,5 @@ RCLPY = (
     ),
     Kind("messages reordered", swapped_lines(r"  \"msg/\w+\.msg\"", "CMakeLists.txt")),
     Kind("comment in the build", in_files("CMakeLists.txt", r"^(rosidl_gen)", r"# so\n\1")),
-    Kind("another description", in_files(".py", r'"constant of the model"', '"own"')),
+    Kind("another description", _in_sources(r'"constant of the model"', '"own"')),
 )

@@ -125,7 +125,6 @@ ROSPY = (
     Kind("state not latched", in_files(".py", r"latch=True", "latch=False")),
     Kind("depth of the state", in_files(".py", r"queue_size=QUEUE_SIZE", "queue_size=1")),
     Kind("program of another node", _program(r'(init_node\("\w+)"', r'\1", anonymous=True')),
-    Kind("environment of the program", _program(r"^(rospy\.init_node.*)$", r"\1\nimport own")),
 )
 
 RCLPY = (
