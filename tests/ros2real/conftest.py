@@ -17,6 +17,7 @@ from tests.ros2real.running import run
 from tests.ros2real.workspace import Workspace, build, missing_ros2
 
 _HERE = Path(__file__).parent
+_TIMEOUT = 1800  # s: the first test of a package builds it
 DIALECTS = ("ros2-cpp", "ros2-py")
 
 Builder = Callable[[Path, str], Workspace]
@@ -32,6 +33,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         item.add_marker(pytest.mark.ros2)
         # On a busy machine real nodes may be too late for the clock of a test: it is tried again.
         item.add_marker(pytest.mark.flaky(reruns=2))
+        item.add_marker(pytest.mark.timeout(_TIMEOUT))
         if reason is not None:
             item.add_marker(pytest.mark.skip(reason=reason))
 
