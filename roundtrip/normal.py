@@ -60,7 +60,8 @@ def as_in_python(node: _Node) -> _Node:
     """A class, or a model, without what Python does not show of it.
 
     `x += 1` and `++x`, `1.5f` and `1.5`, and whether the start of a `for` stands in its head or
-    directly before it, and `X + -1` and `X - 1` in a `@Move`. What compares as one anyway is left: parentheses, `x++` as a statement.
+    directly before it, and `X + -1` and `X - 1` in a `@Move`. What compares as one anyway is left:
+    parentheses, `x++` as a statement.
     """
     return rewrite(rewrite(node, _unwritten), _started)
 
