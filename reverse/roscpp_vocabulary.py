@@ -24,6 +24,9 @@ class Kind(Enum):
     TIMER = "timer"
     RATE = "rate"
     PARAMETER = "parameter"
+    DECLARED = "declared together"
+    READ = "read together"
+    SET = "set together"
     SERVICE = "service"
     CLIENT = "client"
 
@@ -33,7 +36,10 @@ class Ask:
     """A call that asks for something; `arguments` are the roles of its arguments.
 
     `type` is the message type where the call has no other; `wall` says that it goes by the clock
-    on the wall. `options` is the class that may stand for all of the arguments.
+    on the wall. `options` is the class that may stand for all of the arguments. Names of `flat`
+    calls, those of ROS 2, are not under the namespace of a handle, and their arguments stand in
+    one order; `least` is how many a method has at least that is taken for this one without knowing
+    its object.
     """
 
     kind: Kind
@@ -43,6 +49,8 @@ class Ask:
     transport: str | None = None
     wall: bool = False
     options: str | None = None
+    flat: bool = False
+    least: int = 9
 
 
 HANDLE_TYPE = "NodeHandle"

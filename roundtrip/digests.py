@@ -9,6 +9,7 @@ from pathlib import Path
 from rebsync.files import BOM
 from rebsync.records import dataclass
 from rebsync.reverse.files.packages import Listing, is_read
+from rebsync.reverse.files.python_files import may_be_script
 from rebsync.roundtrip.manifest import BASE_MODEL
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
@@ -83,7 +84,8 @@ def _counts(name: str) -> bool:
     parts = name.split("/")
     if any(part.startswith(".") for part in parts):
         return False
-    return is_read(parts[-1], "".join(f"{part}/" for part in parts[:-1]))
+    inside = "".join(f"{part}/" for part in parts[:-1])
+    return is_read(parts[-1], inside) or (inside.endswith("scripts/") and may_be_script(parts[-1]))
 
 
 def is_base_whole(kept: Kept, record: Record) -> bool:

@@ -20,6 +20,7 @@ def read_with(listing: Listing, texts: Mapping[str, str | None]) -> Code:
     from rebsync.reverse.findings import Grade
     from rebsync.reverse.recovery import extract
     from rebsync.reverse.report import diagnostics
+    from rebsync.roundtrip.class_memory import ClassMemory
 
     chosen, folders = read(as_one(listing)), folders_of(listing.files)
     files = dict(chosen.files)
@@ -32,7 +33,7 @@ def read_with(listing: Listing, texts: Mapping[str, str | None]) -> Code:
             files.pop(path, None)
         elif is_read(name, f"{folder}/" if folder else ""):
             files[path] = Source(f"{listing.root}/{whole_path}", text)
-    extracted = extract(files)
+    extracted = extract(files, memory=ClassMemory())
     unread = tuple(
         Unread(Place(f.source, f.span), f.why, f.within)
         for f in (*chosen.findings, *extracted.findings)

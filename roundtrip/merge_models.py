@@ -223,7 +223,7 @@ def parsed_again(source: Source) -> m.Model:
         return parsed(source)
     except RebsyncError as error:
         found = error.findings[0].diagnostics[0]
-        line = source.position(found.span.start).line
+        line = source.line(source.position(found.span.start).line).strip()
         message = "the changes of model and code cannot be put together"
-        hint = f"it would say, in line {line}: {source.line(line).strip()}; {found.message}"
+        hint = f"it would say `{line}`: {found.message}"
         raise RebsyncError.of(source.path, "RS967", message, hint) from None

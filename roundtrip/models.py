@@ -71,11 +71,12 @@ def _extracted(standing: Standing) -> Code:
     from rebsync.reverse.findings import Grade
     from rebsync.reverse.recovery import extract
     from rebsync.reverse.report import diagnostics
+    from rebsync.roundtrip.class_memory import ClassMemory
 
     chosen = read(as_one(standing.listing))
     if conflicts := [c for s in chosen.files.values() if (c := conflict_in(s)) is not None]:
         raise RebsyncError(conflicts)
-    extracted = extract(chosen.files)
+    extracted = extract(chosen.files, memory=ClassMemory())
     findings = (*chosen.findings, *extracted.findings)
     unread = tuple(
         Unread(Place(f.source, f.span), f.why, f.within)

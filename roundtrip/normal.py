@@ -31,13 +31,18 @@ _Node = TypeVar("_Node")
 
 def normal(model: m.Model) -> m.Model:
     """The normal form; in a model with errors, constants stay as they are written."""
-    analysis = analyse(model, fragment=True)
-    classes = sorted((_class(c) for c in model.classes), key=lambda c: c.name)
-    if analysis.errors:
-        return m.Model(model.heads, tuple(classes), model.main)
-    heads = tuple(_heads(model, analysis))
-    main = _main(model, analysis) if model.main is not None else None
+    classes = sorted((normal_class(c) for c in model.classes), key=lambda c: c.name)
+    heads, main = normal_frame(model)
     return m.Model(heads, tuple(classes), main)
+
+
+def normal_frame(model: m.Model) -> tuple[tuple[m.Head, ...], m.Main | None]:
+    """What is around the classes: `env` variables and `main`."""
+    analysis = analyse(model, fragment=True)
+    if analysis.errors:
+        return model.heads, model.main
+    main = _main(model, analysis) if model.main is not None else None
+    return tuple(_heads(model, analysis)), main
 
 
 def rewrite(node: _Node, rule: Callable[[object], object]) -> _Node:
@@ -110,7 +115,8 @@ def _rebec(rebec: m.Rebec, analysis: Analysis) -> m.Rebec:
 # --- classes ------------------------------------------------------------------------------------
 
 
-def _class(declaration: m.ReactiveClass | m.Interface) -> m.ReactiveClass | m.Interface:
+def normal_class(declaration: m.ReactiveClass | m.Interface) -> m.ReactiveClass | m.Interface:
+    """The normal form of a class, which follows from this class alone."""
     plain = rewrite(declaration, _rule)
     if isinstance(plain, m.Interface):
         return plain

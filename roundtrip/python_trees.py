@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 
-from rebsync.reverse.python.model_logs import HARMLESS, LOGS
+from rebsync.reverse.python.log_words import HARMLESS, LOGS
 from rebsync.source import Source, Span
 
 

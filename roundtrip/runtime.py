@@ -69,7 +69,7 @@ def _edited(kept: Kept, now: Standing, name: str, own: frozenset[str]) -> Iterat
     """The place where a file is not as it was generated; `own` are the names of the package."""
     path = now.listing.files.get(name) or _moved(now, name)
     if path is None:
-        if _HEADER.match(name) or MODULE.match(name):
+        if _HEADER.match(name) or MODULE.match(name) or _is_python_program(kept, name):
             message = "generated code that the rest needs is gone"
             yield _finding(Source(f"{kept.root}/{name}", ""), NOWHERE, message)
         return
@@ -84,6 +84,17 @@ def _edited(kept: Kept, now: Standing, name: str, own: frozenset[str]) -> Iterat
     span = _difference(name, base, source, own)
     if span is not None:
         yield _finding(source, span, "this is not as it was generated, and no model describes it")
+
+
+def _is_python_program(kept: Kept, name: str) -> bool:
+    """Whether a file that is gone was a program, or played sensors."""
+    if not PYTHON.match(name):
+        return False
+    try:
+        base = read_source(f"{kept.root}/{BASE}{name}")
+    except RebsyncError:
+        return False
+    return is_python_runtime(name, base.text)
 
 
 def _difference(name: str, base: Source, source: Source, own: frozenset[str]) -> Span | None:

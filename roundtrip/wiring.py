@@ -51,7 +51,12 @@ _JOINING = frozenset(
     }
 )
 # Without these extraction lists what they were for; and somebody may call them otherwise.
-_MISSED = frozenset({"subscription", "publisher", "sensor", "priority", "sending", "sender"})
+_MISSED = frozenset(
+    {
+        *("subscription", "publisher", "sensor", "priority", "sending", "sender"),
+        "type of the parameter",
+    }
+)
 # What was not there when the code was generated makes a difference too.
 _UNWANTED = frozenset({"setting", "compiler option"})
 _SAYING = frozenset({"receiving", "sending", "set-up"})
@@ -243,8 +248,9 @@ class _Excuses:
 
     def _has_moved(self, fact: Fact) -> bool:
         """Whether a fact is about a file that is somewhere else, or called otherwise."""
-        about = {"source of a program": fact.name, "field": f"{fact.owner}.msg"}.get(fact.kind)
-        return about is not None and about not in self.files
+        message = f"{fact.owner or fact.name}.msg"
+        about = {"source of a program": fact.name, "field": message, "message": message}
+        return about.get(fact.kind, fact.name) not in self.files and fact.kind in about
 
     def _follows(self, fact: Fact) -> bool:
         """Whether it is about what the code has changed on the whole."""

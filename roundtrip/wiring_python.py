@@ -10,8 +10,9 @@ from __future__ import annotations
 import ast
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
+from itertools import groupby
 from pathlib import Path
 
 from rebsync.names import uncarry
@@ -25,6 +26,7 @@ from rebsync.source import Source
 _READS = frozenset({"rospy.get_param", "declared", "read_array", "declare_array"})
 _CONNECTING = {"subscribe": "subscribe", "subscribe_on_bridge": "subscribeOnBridge"}
 _UNSET = re.compile(r"(?:int|Byte|Short|Float|float|bool|Rebec)\(\)\Z|array\(")
+_FILLS = re.compile(r"_local\d+\.\w+ = \w+\Z")
 _OF_ROS = frozenset({"rospy", "rclpy"})
 _ENTRY = re.compile(r"\s*(\w+)\s*=\s*([\w.]+:\w+)\s*\Z")
 
@@ -139,8 +141,10 @@ class _Class:
         text = plain(function, names)
         for handler, server in self.handlers.items():
             text = re.sub(rf"\bself\.{handler}\b(?=\(|\))", f"self.<{server}>", text)
+        text = re.sub(r"\blambda: (self\.[\w<>]+)\(\)", r"\1", text)
         _, _, body = text.partition("\n    ")
-        return "; ".join(line.strip() for line in body.split("\n"))
+        defaults = [f"by default {plain(d)}" for d in function.args.defaults]
+        return "; ".join([*defaults, *_in_order(line.strip() for line in body.split("\n"))])
 
     # --- set up ---------------------------------------------------------------------------------
 
@@ -262,6 +266,13 @@ def _calls(node: ast.AST, name: str) -> Iterator[ast.Call]:
     for each in ast.walk(node):
         if isinstance(each, ast.Call) and ast.unparse(each.func) == name:
             yield each
+
+
+def _in_order(lines: Iterable[str]) -> Iterator[str]:
+    """The lines of a function, those that only fill fields of its message in one order."""
+    for is_filling, group in groupby(lines, lambda line: bool(_FILLS.match(line))):
+        found = list(group)
+        yield from sorted(found) if is_filling else found
 
 
 def _is_server(value: ast.Call) -> bool:

@@ -25,6 +25,7 @@ from rebsync.reverse.bodies.cpp_literals import in_range, is_bare_macro, literal
 from rebsync.reverse.bodies.cpp_misread import Chain, Operand, Operation, chain_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_stores import kept
+from rebsync.reverse.bodies.cpp_time import written
 from rebsync.reverse.bodies.cpp_unknowns import HINT, Unknown, choice, domain_near
 from rebsync.reverse.bodies.scope import (
     Inline,
@@ -187,6 +188,8 @@ class CppExpressions:
     # --- names ----------------------------------------------------------------------------------
 
     def _literal(self, node: Node) -> m.Expression:
+        if (length := written(self, node)) is not None:
+            return length
         try:
             read = literal(self.cpp, node)
             return in_range(read, node) if self.scope.open else read

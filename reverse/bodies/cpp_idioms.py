@@ -16,12 +16,13 @@ from rebsync.reverse.bodies.cpp_conversions import as_number, operands, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_literals import lower
 from rebsync.reverse.bodies.cpp_places import resolve
-from rebsync.reverse.bodies.cpp_time import time_called, to_seconds
+from rebsync.reverse.bodies.cpp_time import is_for_ros2, time_called, to_seconds
 from rebsync.reverse.bodies.cpp_types import carried
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.cpp_widths import check_whole, check_wide_call
 from rebsync.reverse.bodies.scope import Called, Record, Variable
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.rclcpp_vocabulary import HELD
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
 from rebsync.reverse.syntax.cpp_tree import named, text_of
 from rebsync.source import Span
@@ -68,7 +69,7 @@ def call(
         for argument in arguments:
             check_whole(reader, argument)
     match plain, count:
-        case "ros::ok", 0:
+        case "ros::ok" | "rclcpp::ok", 0:
             return m.BoolLiteral(True, span)
         case "min" | "max", 2:
             check_wide_call(reader, node)
@@ -93,7 +94,7 @@ def call(
         least = limit[1] in ("min", "lowest")
         return whole(_LEAST if least else 2**31 - 1, span) if least or limit[1] == "max" else None
     kept = carried(_function(node), reader.scope.enums) if count == 1 else None
-    if kept is not None and not name.startswith("ros::"):
+    if kept is not None and not name.startswith(("ros::", "rclcpp::")):
         return reader.cast(_function(node), arguments[0], node)
     return time_called(reader, node, name, list(arguments))
 
@@ -183,6 +184,10 @@ def member_call(
         return None
     if name == "toSec":
         return to_seconds(reader, target)
+    if name == "now" and is_for_ros2(reader) and "chrono" not in text_of(target):
+        return m.Name("now", reader.cpp.span(node))
+    if name.partition("<")[0] in HELD and target.type == "call_expression":
+        return reader.read(target)
     if name == "ok" and _NODES.match(text_of(target)):
         return m.BoolLiteral(True, reader.cpp.span(node))
     meaning = resolve(reader.scope, target)

@@ -40,6 +40,8 @@ _SHARED = re.compile(r"(?:::)?(?:boost|std)::(?:shared|unique)_ptr<(.*)>$")
 # A field of something, with those of it; what gives the last of them a value.
 _CHAIN = re.compile(r"(?:\.|->)\s*(\w+(?:\s*\.\s*\w+)*)")
 _SET = re.compile(r"\s*=[^=]")
+# The namespace of messages in ROS 2.
+_SPACE = re.compile(r"::(?:msg|srv|action)::(?=\w+\Z)")
 _MAKES = re.compile(r"(?:::)?(?:boost|std)::make_(?:shared|unique)<(.*)>$")
 
 
@@ -48,7 +50,7 @@ def message_type(scope: Scope, text: str) -> str | None:
     plain = "".join(re.sub(r"\bconst\b", " ", text).split()).rstrip("&*").removeprefix("::")
     shared = _SHARED.match(plain)
     plain = _POINTER.sub("", shared[1] if shared is not None else plain)
-    package, _, name = plain.rpartition("::")
+    package, _, name = _SPACE.sub("::", plain).rpartition("::")
     if package:
         full = f"{package}/{name}"
         return full if full in scope.messages else None

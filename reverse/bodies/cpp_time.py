@@ -14,6 +14,7 @@ from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_widths import check_whole
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.rclcpp_vocabulary import MARK
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.constants import constant
 from rebsync.static.types import DOUBLE, is_integer
@@ -31,13 +32,18 @@ _SPANS = {
 }
 _SLEEPS = {"sleep": _SECOND, "usleep": Fraction(1, 10**6)}
 _CLOCKS = frozenset({"ros::Time::now", "ros::WallTime::now", "ros::SteadyTime::now"})
+# What a number with one of these endings means, in seconds: `500ms`.
+_SUFFIXES = {
+    **{"h": Fraction(3600), "min": Fraction(60), "s": _SECOND, "ms": Fraction(1, 10**3)},
+    **{"us": Fraction(1, 10**6), "ns": Fraction(1, 10**9)},
+}
 
 
 def time_called(
     reader: CppExpressions, node: Node, name: str, arguments: list[Node]
 ) -> m.Expression | None:
     """`ros::Time::now()`, `ros::Duration(0.5)`, `std::chrono::milliseconds(20)`."""
-    if name in _CLOCKS and not arguments:
+    if not arguments and (name in _CLOCKS or (name == "now" and is_for_ros2(reader))):
         return m.Name("now", reader.cpp.span(node))
     seconds = seconds_of(name)
     if seconds is None:
@@ -55,6 +61,20 @@ def time_called(
             return binary("+", *of_two)
         case _:
             return None
+
+
+def is_for_ros2(reader: CppExpressions) -> bool:
+    """Whether the code is for rclcpp, whose nodes and clocks have a method `now`."""
+    return MARK in reader.cpp.data
+
+
+def written(reader: CppExpressions, node: Node) -> m.Expression | None:
+    """`500ms`; None for a literal that is no span of time."""
+    inner = named(node)
+    suffix = text_of(inner[1]) if len(inner) == 2 else ""
+    if node.type != "user_defined_literal" or suffix not in _SUFFIXES:
+        return None
+    return units(reader, inner[0], _SUFFIXES[suffix])
 
 
 def seconds_of(name: str) -> Fraction | None:

@@ -20,20 +20,35 @@ from rebsync.reverse.syntax.cpp_tree import part, text_of
 if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_statements import CppStatements
 
+# Methods that stop a timer, or let it go on.
+SWITCHING = frozenset({"start", "stop", "cancel", "reset"})
 _ZERO, _ONE = m.IntLiteral(0), m.IntLiteral(1)
 _WHY = "the model cannot stop, start or change what it sent itself for later"
 _HINT = "let the callback look at a variable that says whether it is wanted"
 
 
 def switched(reader: CppStatements, node: Node, function: Node) -> Iterator[m.Statement] | None:
-    """`timer.stop()`, `timer.start()`; None for a call of something else."""
+    """`timer.stop()`, `timer.start()`; None for a call of something else.
+
+    In ROS 2 `timer->cancel()` and `timer->reset()`; `timer.reset()` ends the timer.
+    """
     meaning = resolve(reader.scope, part(function, "argument"))
     name = text_of(part(function, "field"))
-    if not isinstance(meaning, TimerOf) or name not in ("start", "stop", "setPeriod"):
+    if name == "reset" and not any(c.type == "->" for c in function.children):
+        name = "cancel"
+    if not isinstance(meaning, TimerOf) or name not in (*SWITCHING, "setPeriod"):
         return None
     if meaning.switch is None or name == "setPeriod":
         raise reader.unread(node, _WHY, _HINT)
+    if name == "reset":
+        return iter(_again(meaning.server, meaning.switch))
     return iter((_changed(meaning.server, meaning.switch, name == "start"),))
+
+
+def _again(server: str, switch: Switch) -> Iterator[m.Statement]:
+    """A timer that begins its period anew, whether it runs or not."""
+    yield _changed(server, switch, False)
+    yield _changed(server, switch, True)
 
 
 def _changed(server: str, switch: Switch, start: bool) -> m.Statement:

@@ -6,7 +6,10 @@ import re
 
 from rebsync.reverse.syntax.cpp_calls import CppCall
 
-LOGGING = ("ROS_DEBUG", "ROS_INFO", "ROS_WARN", "ROS_ERROR", "ROS_FATAL", "NODELET_", "ROS_LOG")
+LOGGING = (
+    *("ROS_DEBUG", "ROS_INFO", "ROS_WARN", "ROS_ERROR", "ROS_FATAL", "NODELET_", "ROS_LOG"),
+    *("RCLCPP_DEBUG", "RCLCPP_INFO", "RCLCPP_WARN", "RCLCPP_ERROR", "RCLCPP_FATAL", "RCLCPP_LOG"),
+)
 CONSOLE = frozenset({"printf", "std::printf", "puts", "std::puts"})
 STREAMS = frozenset(
     {"std::cout", "std::cerr", "std::clog", "cout", "cerr", "clog", "std::endl", "endl"}
@@ -22,6 +25,11 @@ ACTS = {
     **dict.fromkeys(("shutdown", "requestShutdown", "exit", "_exit", "abort"), "ends the node"),
     **dict.fromkeys(("quick_exit", "terminate", "kill", "raise"), "ends the node"),
     **dict.fromkeys(("spin", "spinOnce", "callAvailable", "callOne"), "runs other callbacks"),
+    **dict.fromkeys(("spin_some", "spin_once", "spin_all"), "runs other callbacks"),
+    **dict.fromkeys(("spin_until_future_complete", "spin_node_once"), "runs other callbacks"),
+    **dict.fromkeys(("wait_for_service", "wait_for_action_server"), "waits"),
+    **dict.fromkeys(("create_subscription", "create_wall_timer"), "asks for callbacks"),
+    **dict.fromkeys(("create_service", "create_timer"), "asks for callbacks"),
     **dict.fromkeys(("longjmp", "fork", "execv", "execvp"), "leaves the function"),
     **dict.fromkeys(("subscribe", "createTimer", "createWallTimer"), "asks for callbacks"),
     **dict.fromkeys(("advertiseService", "createSteadyTimer"), "asks for callbacks"),
@@ -36,6 +44,8 @@ LOOKS = frozenset(
     {
         *("at", "back", "count", "empty", "front", "getNumSubscribers", "getTopic", "hasPending"),
         *("hasStarted", "isLatched", "isValid", "isZero", "length", "max_size", "size", "toNSec"),
+        *("get_subscription_count", "get_publisher_count", "get_topic_name", "get_logger"),
+        *("is_canceled", "time_until_trigger", "service_is_ready", "nanoseconds", "seconds"),
         *("toSec", "c_str", "str", "cbegin", "cend"),
         *("now", "self", "sender", "arrival", "expiry", "waitingTime"),
     }

@@ -24,6 +24,8 @@ _TYPES = {
 # `int`. A truth value is a byte in the code.
 _WIDTHS = {"bool": 8, "uint8": 8, "uint16": 16, "uint32": 32, "int64": 63, "uint64": 64}
 _DEEPEST = 8
+# The namespace of messages in ROS 2: `std_msgs::msg::String`.
+_SPACE = re.compile(r"::(?:msg|srv|action)::(?=\w+\Z)")
 _POINTERS = re.compile(r"(::)?(Const)?(Shared|Unique|Weak)?Ptr$")
 _WORD = re.compile(r"[A-Z]\w*")
 _MESSAGE = re.compile(r"/?msg/([^/]+)\.msg\Z")
@@ -101,6 +103,7 @@ class MessageTypes:
         if inner is not None:
             return self.named(inner[1].removesuffix("const"))
         plain = _POINTERS.sub("", plain).removesuffix("_<std::allocator<void>>")
+        plain = _SPACE.sub("::", plain)
         package, _, name = plain.rpartition("::")
         if package:
             full = f"{package}/{name}"

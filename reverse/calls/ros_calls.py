@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import replace
 
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.calls.ros_calls_facts import Asked, Facts
+from rebsync.reverse.calls.rclcpp_calls import asked_of_ros2
+from rebsync.reverse.calls.ros_calls_facts import Facts
+from rebsync.reverse.calls.ros_calls_shapes import TEMPLATES, Asked, objects_of, types_of
 from rebsync.reverse.calls.ros_calls_sites import owner_of, site_of
 from rebsync.reverse.graph import Fact, Graph
+from rebsync.reverse.rclcpp_vocabulary import words_in as words_of_ros2
 from rebsync.reverse.roscpp_vocabulary import (
     FILTER_SCOPES,
     FILTERS,
@@ -27,10 +30,10 @@ from rebsync.reverse.roscpp_vocabulary import (
 )
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
-from rebsync.reverse.values.cpp_flow import climb, declaration_of, made_of
+from rebsync.reverse.values.cpp_flow import climb
 from rebsync.reverse.values.cpp_values import Values
+from rebsync.reverse.values.cpp_values_ros2 import uses_rclcpp
 
-_TEMPLATES = ("template_type", "template_function", "template_method")
 _CALLED = frozenset({"template_method", "template_function", "dependent_name"})
 
 
@@ -76,17 +79,32 @@ def graph_of(code: Code) -> Graph:
 
 def _calls_in(code: Code, values: Values, without: Collection[str]) -> Iterator[Asked]:
     """The calls but for those in functions of some classes, or of that name."""
+    ros2 = uses_rclcpp(values)
     for cpp in code.files:
         data = values.texts.data(cpp)
         for start, end, word in words_in(data):
-            place = cpp.root.descendant_for_byte_range(start, end)
-            if place is None or place.start_byte != start or place.named_child_count:
-                continue
-            if owner_of(values, cpp, place) in without:
-                continue
-            for asked in _asked(values, cpp, place, word):
-                if asked.site.owner not in without:
-                    yield asked
+            yield from _at(values, cpp, (start, end, word), without, _asked)
+        for start, end, word in words_of_ros2(data) if ros2 else ():
+            yield from _at(values, cpp, (start, end, word), without, asked_of_ros2)
+
+
+def _at(
+    values: Values,
+    cpp: Cpp,
+    found: tuple[int, int, str],
+    without: Collection[str],
+    asked_by: Callable[[Values, Cpp, Node, str], Iterator[Asked]],
+) -> Iterator[Asked]:
+    """What a word asks for where it was found in a file."""
+    start, end, word = found
+    place = cpp.root.descendant_for_byte_range(start, end)
+    if place is None or place.start_byte != start or place.named_child_count:
+        return
+    if owner_of(values, cpp, place) in without:
+        return
+    for asked in asked_by(values, cpp, place, word):
+        if asked.site.owner not in without:
+            yield asked
 
 
 def _order(fact: Fact) -> tuple[str, int]:
@@ -136,7 +154,7 @@ def _of_function(
         return
     given = tuple(named(part(above, "arguments")))
     if scope or (len(given) >= len(ask.arguments) - 1 and not values.calls.functions(cpp, above)):
-        yield Asked(ask, site_of(values, cpp, place, above), given, _types(last))
+        yield Asked(ask, site_of(values, cpp, place, above), given, types_of(last))
 
 
 def _is_own(call: Node, scope: str) -> bool:
@@ -160,7 +178,7 @@ def _of_method(
     site = site_of(values, cpp, place, call)
     if type_ in FILTERS and name == "subscribe":
         variable = values.types.variable(cpp, target)
-        types = _types(variable.type) if variable is not None else ()
+        types = types_of(variable.type) if variable is not None else ()
         site = replace(site, kept=text_of(target))
         yield Asked(FILTERS[type_], site, given, types)
         return
@@ -175,7 +193,7 @@ def _of_method(
     elif not type_ and _is_undeclared(values, cpp, target) and len(given) >= LEAST.get(name, 9):
         ask = HANDLE[name]
     if ask is not None:
-        yield Asked(ask, site, given, _types(called), target)
+        yield Asked(ask, site, given, types_of(called), target)
 
 
 def _is_undeclared(values: Values, cpp: Cpp, target: Node) -> bool:
@@ -185,15 +203,6 @@ def _is_undeclared(values: Values, cpp: Cpp, target: Node) -> bool:
     if target.type == "parenthesized_expression":
         return _is_undeclared(values, cpp, named(target)[-1])
     return target.type == "identifier" and values.types.variable(cpp, target) is None
-
-
-def _types(node: Node | None) -> tuple[Node, ...]:
-    """The arguments of the template that a name, or the last of several, is one of."""
-    while node is not None and node.type == "qualified_identifier":
-        node = part(node, "name")
-    if node is None or node.type not in _TEMPLATES:
-        return ()
-    return tuple(named(part(node, "arguments")))
 
 
 def _nodelet(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
@@ -211,21 +220,21 @@ def _object(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]
     node, above = place, place.parent
     types: tuple[Node, ...] = ()
     scope = ""
-    while above is not None and above.type in (*_TEMPLATES, "qualified_identifier"):
+    while above is not None and above.type in (*TEMPLATES, "qualified_identifier"):
         if above.type != "qualified_identifier":
-            types = _types(above)
+            types = types_of(above)
         elif not scope:
             written = above.child_by_field_name("scope")
             scope = text_of(written) if written is not None else ""
         node, above = above, above.parent
-    wanted = FILTER_SCOPES.get(name, "ros")
-    if above is None or scope not in ("", wanted) or (name in FILTERS and not scope):
+    wanted = (FILTER_SCOPES[name],) if name in FILTERS else ("ros", "rclcpp")
+    if above is None or scope not in ("", *wanted) or (name in FILTERS and not scope):
         return
     if above.type == "field_declaration" and name in FILTERS:
         yield from _initialised(values, above, FILTERS[name], types)
         return
     ask = RATES.get(name) or FILTERS[name]
-    for call, given in _objects(node, above):
+    for call, given in objects_of(node, above):
         if given and not (name in RATES and _handed_on(call)):
             yield Asked(ask, site_of(values, cpp, place, call), given, types)
 
@@ -246,28 +255,6 @@ def _initialised(
             if given := tuple(named(lists[-1])):
                 site = replace(site_of(values, other, place, above), kept=text_of(place))
                 yield Asked(ask, site, given, types)
-
-
-def _objects(node: Node, above: Node) -> Iterator[tuple[Node, tuple[Node, ...]]]:
-    """The objects that are made where a type is named, with their arguments."""
-    match above.type:
-        case "declaration":
-            for declarator in above.children_by_field_name("declarator"):
-                name = declarator
-                while name.type not in ("identifier", "field_identifier"):
-                    inner = name.child_by_field_name("declarator")
-                    if inner is None:
-                        break
-                    name = inner
-                if declaration_of(name) is not None and (given := made_of(name)):
-                    yield declarator, given
-        case "call_expression" if part(above, "function") == node:
-            yield above, tuple(named(part(above, "arguments")))
-        case "new_expression":
-            arguments = above.child_by_field_name("arguments")
-            yield above, tuple(named(arguments)) if arguments is not None else ()
-        case _:
-            return
 
 
 def _handed_on(call: Node) -> bool:

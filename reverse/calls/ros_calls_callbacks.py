@@ -56,7 +56,11 @@ class Callbacks:
         cpp = frame.cpp
         match node.type:
             case "lambda_expression":
-                yield Called(Callback("", at(cpp, node), lambda_=node), cpp, _lambda_type(node))
+                inner = self._handed_on(node, cpp)
+                label = f"{inner.owner}::{inner.name}" if inner is not None else ""
+                lambda_ = node if inner is None else None
+                found = Callback(label, at(cpp, node), inner, lambda_)
+                yield Called(found, cpp, _lambda_type(node))
             case "call_expression":
                 yield from self._bound(node, frame)
             case "pointer_expression":
@@ -139,6 +143,24 @@ class Callbacks:
             callback = Callback(f"{label}::{_FUNCTOR}", place, function, through=label)
         return Called(callback, *self._typed(function, frame.cpp))
 
+    def _handed_on(self, node: Node, cpp: Cpp) -> CppFunction | None:
+        """The method that a lambda does nothing but call on `this`, with what it gets itself."""
+        body = node.child_by_field_name("body")
+        statements = named(body) if body is not None else []
+        inside = named(statements[0]) if len(statements) == 1 else []
+        if len(inside) != 1 or inside[0].type != "call_expression":
+            return None
+        call = inside[0]
+        function = part(call, "function")
+        on_this = function.type == "identifier" or (
+            function.type == "field_expression" and part(function, "argument").type == "this"
+        )
+        given = [text_of(a) for a in named(part(call, "arguments"))]
+        if not on_this or given != list(_lambda_names(node)):
+            return None
+        found = self.values.calls.functions(cpp, call)
+        return found[0] if len(found) == 1 and found[0].owner else None
+
     def _only_call(self, function: CppFunction) -> CppFunction | None:
         """The method that a functor does nothing but call."""
         statements = named(function.body) if function.body is not None else []
@@ -174,6 +196,17 @@ def _first(arguments: list[Node]) -> int | None:
 
 def _type_at(function: CppFunction, index: int) -> Node | None:
     return function.parameters[index].type if index < len(function.parameters) else None
+
+
+def _lambda_names(node: Node) -> Iterator[str]:
+    """The names of a lambda's parameters; empty for one that has none."""
+    declarator = node.child_by_field_name("declarator")
+    parameters = declarator.child_by_field_name("parameters") if declarator is not None else None
+    for parameter in named(parameters) if parameters is not None else []:
+        at_: Node | None = parameter.child_by_field_name("declarator")
+        while at_ is not None and at_.type != "identifier":
+            at_ = at_.named_children[-1] if at_.named_children else None
+        yield text_of(at_) if at_ is not None else ""
 
 
 def _lambda_type(node: Node) -> Node | None:

@@ -9,30 +9,29 @@ from functools import partial
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.calls.rclcpp_facts import interface_of, several
 from rebsync.reverse.calls.ros_calls_callbacks import Callbacks, Called
 from rebsync.reverse.calls.ros_calls_filters import registered
 from rebsync.reverse.calls.ros_calls_options import Given, options_of
+from rebsync.reverse.calls.ros_calls_shapes import Asked, distinct, nodelets_of, truth_of
 from rebsync.reverse.calls.ros_calls_types import MessageTypes
 from rebsync.reverse.graph import (
     Access,
     Callback,
     ClientFact,
     Fact,
-    FromParameter,
     NodeFact,
-    OneOf,
     ParameterFact,
     PublisherFact,
     RateFact,
     Resolved,
     ServiceFact,
-    Site,
     SubscriptionFact,
     TimerFact,
     Under,
     Unresolved,
 )
-from rebsync.reverse.roscpp_vocabulary import ANONYMOUS, OPTIONS, TRANSPORTS, Ask, Kind
+from rebsync.reverse.roscpp_vocabulary import ANONYMOUS, OPTIONS, TRANSPORTS, Kind
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 from rebsync.reverse.values.cpp_values import Values
 from rebsync.reverse.values.cpp_values_names import name_under, one_of, resolved
@@ -44,6 +43,7 @@ from rebsync.reverse.values.cpp_values_plain import (
     Length,
     Made,
     Nothing,
+    Quality,
     Value,
     choice,
     ways,
@@ -51,17 +51,6 @@ from rebsync.reverse.values.cpp_values_plain import (
 
 # Ways into a function up to which all of its calls are looked at on each of them from the start.
 _FEW = 3
-
-
-@dataclass(frozen=True, eq=False)
-class Asked:
-    """A call that asks for something; `target` is the object whose method it is."""
-
-    ask: Ask
-    site: Site
-    arguments: tuple[Node, ...]
-    types: tuple[Node, ...] = ()
-    target: Node | None = None
 
 
 @dataclass(slots=True)
@@ -91,7 +80,9 @@ class Facts:
         self.values.fresh()
         site, ask = asked.site, asked.ask
         if ask.kind is Kind.NODELET:
-            return list(_nodelet(asked))
+            return list(nodelets_of(asked))
+        if (together := several(self.values, asked)) is not None:
+            return list(together)
         answers = self._answers(asked)
         merged: dict[str, Resolved | None] = {}
         for key in {k: None for a in answers for k in a.values}:
@@ -104,7 +95,7 @@ class Facts:
         if not called and "callback" not in ask.arguments and ask.kind is Kind.SUBSCRIPTION:
             called = registered(self.values, self.callbacks, site)
         searched = any(a.searched for a in answers)
-        return [self._fact(asked, merged, _distinct(called), called, searched)]
+        return [self._fact(asked, merged, distinct(called), called, searched)]
 
     def _answers(self, asked: Asked) -> list[_Answer]:
         """What the arguments are on each way into the function around a call."""
@@ -134,6 +125,8 @@ class Facts:
                         answer.values["fallback"] = fallback
                 case "default" | "value":
                     answer.values[role] = self._stands_in(asked, given)
+                case "depth":
+                    self._queue(given, asked.ask.flat, answer)
                 case "period":
                     answer.values["period"] = self._seconds(given)
                 case "hz":
@@ -152,6 +145,9 @@ class Facts:
             if found:
                 return found
         roles = ask.arguments
+        if ask.flat:
+            pairs = zip(roles, arguments, strict=False)
+            return {role: Given(node, frame) for role, node in pairs if role}
         if ask.kind is Kind.NODE and (len(arguments) == 2 or _text(arguments[1:2])):
             roles = roles[1:]
         if ask.kind is Kind.PARAMETER and len(arguments) == 2 and "default" in roles:
@@ -184,6 +180,8 @@ class Facts:
     def _namespace(self, asked: Asked, frame: Frame) -> Resolved:
         """The namespace of the node handle that a call goes through."""
         target = asked.target
+        if asked.ask.flat:
+            return ""
         if "handle" in asked.ask.arguments:
             index = asked.ask.arguments.index("handle")
             given = asked.arguments[index : index + 1]
@@ -191,11 +189,16 @@ class Facts:
             if asked.ask.kind is Kind.SINGLE and target is not None:
                 type_ = self.values.types.type_of(frame.cpp, target).rpartition("::")[2]
                 target = target if type_ == "NodeHandle" else None
-        if target is None:
+        if target is None or self._is_node(target, frame):
             return ""
         found = [h.namespace for h in self._handles(self.values.value(target, frame))]
         namespace = one_of(found)
         return namespace if namespace is not None else Under("")
+
+    def _is_node(self, target: Node, frame: Frame) -> bool:
+        """Whether an expression is a node of rclcpp, under which names are not looked up."""
+        class_ = self.values.types.class_of(frame.cpp, target)
+        return any(c.roots for c in self.values.texts.lineage(class_))
 
     def _handles(self, value: Value) -> Iterator[Handle]:
         for way in ways(value):
@@ -226,6 +229,16 @@ class Facts:
             return name
         place = self.values.unknown("", given.node, given.frame).place
         return Unresolved(f"the key that an upward search for {name} finds", place, f"*/{name}")
+
+    def _queue(self, given: Given, flat: bool, answer: _Answer) -> None:
+        """The depth of a queue, and what else a quality of service says."""
+        value = self.values.value(given.node, given.frame)
+        answer.values["depth"] = self._resolved(value, given)
+        qualities = [v for v in ways(value) if isinstance(v, Quality)]
+        if qualities:
+            answer.values["latched"] = one_of(q.latched for q in qualities)
+        elif flat and isinstance(value, Unresolved):
+            answer.values["latched"] = value
 
     # --- numbers --------------------------------------------------------------------------------
 
@@ -286,14 +299,14 @@ class Facts:
             case Kind.PUBLISHER:
                 depth = self._or_unknown(found.get("depth"), asked, "the depth is not known")
                 latched = found.get("latched")
-                type_ = self._type(asked, called)
+                type_ = self._type(asked, called, found)
                 kept = latched if latched is not None else False
-                return PublisherFact(site, name, type_, depth, _truth(kept), ask.transport)
+                return PublisherFact(site, name, type_, depth, truth_of(kept), ask.transport)
             case Kind.SUBSCRIPTION | Kind.SINGLE:
                 single = ask.kind is Kind.SINGLE
                 given = 1 if single else found.get("depth")
                 depth = self._or_unknown(given, asked, "the depth is not known")
-                type_ = self._type(asked, called)
+                type_ = self._type(asked, called, found)
                 if not callbacks and not single:
                     callbacks = (self._unknown(asked, "the callback is registered elsewhere"),)
                 return SubscriptionFact(site, name, type_, depth, callbacks, single, ask.transport)
@@ -303,9 +316,9 @@ class Facts:
                 hz = self._or_unknown(found.get("hz"), asked, "the frequency is not known")
                 return RateFact(site, hz, ask.wall)
             case Kind.SERVICE:
-                return ServiceFact(site, name, self._type(asked, called), callbacks)
+                return ServiceFact(site, name, self._type(asked, called, found), callbacks)
             case Kind.CLIENT:
-                return ClientFact(site, name, self._type(asked, called))
+                return ClientFact(site, name, self._type(asked, called, found))
             case _:
                 return self._parameter(asked, found, name, searched)
 
@@ -320,9 +333,9 @@ class Facts:
         return TimerFact(
             asked.site,
             period,
-            _truth(one_shot) if one_shot is not None else False,
+            truth_of(one_shot) if one_shot is not None else False,
             callbacks,
-            _truth(autostart) if autostart is not None else True,
+            truth_of(autostart) if autostart is not None else True,
             asked.ask.wall,
         )
 
@@ -340,17 +353,21 @@ class Facts:
             default = found.get("fallback")
         return ParameterFact(asked.site, name, access, default, found.get("value"), searched)
 
-    def _type(self, asked: Asked, called: list[Called]) -> Resolved:
+    def _type(
+        self, asked: Asked, called: list[Called], given: dict[str, Resolved | None]
+    ) -> Resolved:
         if asked.ask.type is not None:
             return asked.ask.type
         cpp = asked.site.cpp
         if asked.types:
             return self.types.of(cpp, asked.types[0])
+        if (written := given.get("interface")) is not None:
+            return interface_of(written)
         named_: list[tuple[Cpp, Node]] = [(c.cpp, c.type) for c in called if c.type is not None]
         if asked.ask.options is not None and len(asked.arguments) == 1:
             frame = Frame(cpp, asked.site.function)
-            given = options_of(self.values, asked.arguments[0], frame, OPTIONS[asked.ask.options])
-            named_ = [(g.frame.cpp, g.node) for r, g in given.items() if r == "type"] + named_
+            held = options_of(self.values, asked.arguments[0], frame, OPTIONS[asked.ask.options])
+            named_ = [(g.frame.cpp, g.node) for r, g in held.items() if r == "type"] + named_
         if "call" in asked.ask.arguments and len(asked.arguments) > 1:
             variable = self.values.types.variable(cpp, asked.arguments[1])
             if variable is not None and variable.type is not None:
@@ -363,36 +380,6 @@ class Facts:
 
     def _unknown(self, asked: Asked, why: str) -> Unresolved:
         return Unresolved(why, asked.site.place)
-
-
-def _nodelet(asked: Asked) -> Iterator[Fact]:
-    given = dict(zip(asked.ask.arguments, asked.arguments, strict=False))
-    base = text_of(given["base"]).rpartition("::")[2] if "base" in given else ""
-    if base == "Nodelet":
-        name = text_of(given["class"]).rpartition("::")[2]
-        yield NodeFact(asked.site, None, nodelet=name)
-
-
-def _distinct(called: list[Called]) -> tuple[Callback | Unresolved, ...]:
-    found: dict[tuple[str, int], Callback | Unresolved] = {}
-    for one in called:
-        callback = one.callback
-        label = callback.name if isinstance(callback, Callback) else callback.why
-        start = callback.place.span.start if isinstance(callback, Callback) and not label else 0
-        found.setdefault((label, start), callback)
-    return tuple(found.values())
-
-
-def _truth(value: Resolved) -> Resolved:
-    match value:
-        case int() if value in (0, 1):
-            return bool(value)
-        case OneOf(values):
-            return one_of(_truth(v) for v in values) or False
-        case FromParameter():
-            return value
-        case _:
-            return value
 
 
 def _text(nodes: tuple[Node, ...]) -> bool:

@@ -11,6 +11,8 @@ from rebsync.reverse.values.cpp_flow_types import unscoped_member
 from rebsync.reverse.values.cpp_values import Values
 from rebsync.reverse.values.cpp_values_plain import at
 
+_TESTS = FIXTURES | {"TEST"}
+
 
 def site_of(values: Values, cpp: Cpp, place: Node, call: Node) -> Site:
     """The site of a call whose function's name stands at a place."""
@@ -22,7 +24,7 @@ def owner_of(values: Values, cpp: Cpp, place: Node) -> str | None:
     """The class whose function a place is in; the name of a function outside of classes."""
     function = values.texts.function_around(cpp, place)
     owner = (function.owner or function.name) if function is not None else None
-    return None if owner in FIXTURES else owner  # there is no function of that name
+    return None if owner in _TESTS else owner  # there is no function of that name
 
 
 def kept(call: Node) -> str:

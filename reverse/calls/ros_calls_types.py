@@ -18,8 +18,19 @@ from rebsync.reverse.values.cpp_values_plain import at
 _INCLUDE = re.compile(rb'#[ \t]*include[ \t]*[<"](\w+)/(\w+)\.h[>"]')
 _SPACE = re.compile(rb"\bnamespace\s+(\w+)\s*=\s*([\w:]+)\s*;")
 _USED = re.compile(rb"\busing\s+namespace\s+(\w+_msgs|std_srvs)\s*;")
+# `using std_msgs::msg::String;`, and the headers of ROS 2, named in small letters.
+_USING = re.compile(rb"\busing\s+(\w+)::(?:msg|srv|action)::(\w+)\s*;")
+_HEADER = re.compile(rb'#[ \t]*include[ \t]*[<"](\w+)/(?:msg|srv|action)/(\w+)\.hpp[>"]')
+_KINDS = frozenset({"msg", "srv", "action"})
 _WRAPPERS = frozenset({"shared_ptr", "MessageEvent", "ServiceEvent", "unique_ptr"})
-_INNER = frozenset({"ConstPtr", "Ptr", "Request", "Response", "SharedPtr"})
+_INNER = frozenset(
+    {
+        *("ConstPtr", "Ptr", "Request", "Response", "SharedPtr", "ConstSharedPtr", "UniquePtr"),
+        *("ConstUniquePtr", "WeakPtr"),
+    }
+)
+# Templates that make one type of a message of two others, the message last.
+_ADAPTED = frozenset({"TypeAdapter"})
 _ENDINGS = ("ConstPtr", "Ptr", "Request", "Response")
 
 
@@ -39,6 +50,8 @@ class MessageTypes:
         parts, last = _parts(type_)
         if last.type in ("template_type", "template_function"):
             name, given = text_of(part(last, "name")), named(part(last, "arguments"))
+            if name in _ADAPTED and len(given) == 2:
+                return self.of(cpp, given[1], depth + 1)
             if name in _WRAPPERS and given:
                 return self.of(cpp, given[0], depth + 1)
             parts = [*parts[:-1], name.removesuffix("_")]
@@ -50,6 +63,8 @@ class MessageTypes:
 
     def _named(self, cpp: Cpp, type_: Node, parts: list[str], depth: int) -> str | Unresolved:
         name = parts[-1]
+        if len(parts) > 2 and parts[-2] in _KINDS:
+            return f"{self._space(cpp, parts[-3])}/{name}"
         aliases = self.values.code.aliases.get(name, [])
         others = [a for a in aliases if a.type.id != type_.id]
         if others and (len(parts) == 1 or not self._package(cpp, name)):
@@ -93,7 +108,9 @@ class MessageTypes:
 
     def _included(self, cpp: Cpp) -> dict[str, str]:
         if id(cpp) not in self._includes:
-            found = _INCLUDE.findall(self.values.texts.data(cpp))
+            data = self.values.texts.data(cpp)
+            found = [(p, _camel(n)) for p, n in _HEADER.findall(data)]
+            found += [*_INCLUDE.findall(data), *_USING.findall(data)]
             self._includes[id(cpp)] = {n.decode(): p.decode() for p, n in found}
         return self._includes[id(cpp)]
 
@@ -104,6 +121,11 @@ class MessageTypes:
                 return True
             around = climb(around, lambda n: n.type == "template_declaration")
         return False
+
+
+def _camel(name: bytes) -> bytes:
+    """The type whose header has a name: `PointCloud2` for `point_cloud2`."""
+    return b"".join(word[:1].upper() + word[1:] for word in name.split(b"_"))
 
 
 def _parts(type_: Node) -> tuple[list[str], Node]:

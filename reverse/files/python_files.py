@@ -10,6 +10,9 @@ from rebsync.source import Source
 SUFFIX = ".py"
 # Where none of these is, nothing is asked of ROS; `rebsync:` is in generated code.
 _WORDS = (b"rospy", b"rclpy", b"message_filters", b"rebsync:")
+# How the names of launch files end, and what they import.
+LAUNCHES = (".launch.py", "_launch.py", "-launch.py")
+_LAUNCH = b"launch_ros"
 _SCRIPT = re.compile(rb"#![^\n]*\bpython")
 _HEAD = 80  # bytes, in which the first line of a script says who runs it
 _IMPORT = re.compile(
@@ -40,6 +43,7 @@ def is_python(path: str, source: Source) -> bool:
 def relevant_python(code: Mapping[str, bytes], only: str | None = None) -> set[str]:
     """Those of some files of Python that can matter: those of ROS, and what they import."""
     kept = {name for name, data in code.items() if name == only or _of_ros(data)}
+    kept |= {n for n, data in code.items() if n.endswith(LAUNCHES) and _LAUNCH in data}
     if not kept or len(kept) == len(code):
         return kept
     by_name: dict[bytes, list[str]] = {}

@@ -30,7 +30,8 @@ from rebsync.source import Span
 
 _THREADS = re.compile(
     r"(AsyncSpinner|MultiThreadedSpinner|NodeletMultiThreaded|thread|jthread|async|pthread_create"
-    r"|getMT\w*NodeHandle|CallbackQueue|setCallbackQueue)\Z"
+    r"|getMT\w*NodeHandle|CallbackQueue|setCallbackQueue|MultiThreadedExecutor"
+    r"|EventsExecutor)\Z"
 )
 _ENTRIES = re.compile(
     r"(Simple)?Action(Server|Client)|SimpleActionServer|TimeSynchronizer|Synchronizer|MessageFilter"

@@ -17,7 +17,7 @@ from rebsync.reverse.syntax.cpp_tree import named, text_of
 
 _LOOPS = frozenset({"while_statement", "do_statement", "for_statement"})
 _HAS_LOOP = re.compile(rb"while|for|do")
-_SPINS = frozenset({"spinOnce", "callAvailable", "callOne"})
+_SPINS = frozenset({"spinOnce", "callAvailable", "callOne", "spin_some", "spin_once", "spin_all"})
 _AWAKE = frozenset({"ok", "isStarted"})
 
 

@@ -9,7 +9,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.package import Value
 from rebsync.records import dataclass
-from rebsync.reverse.graph import Access, ParameterFact
+from rebsync.reverse.graph import Access, Fact, ParameterFact, Resolved
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_tree import text_of
@@ -41,16 +41,26 @@ class Asked:
     found: bool | None
 
 
-def asked(fact: ParameterFact, instances: Sequence[Instance], type_of: TypeOf) -> Asked | None:
-    """What a call that reads a parameter asks; None where it is no such call."""
+def asked(
+    fact: ParameterFact,
+    instances: Sequence[Instance],
+    type_of: TypeOf,
+    facts: Sequence[Fact] = (),
+) -> Asked | None:
+    """What a call that reads a parameter asks; None where it is no such call.
+
+    `facts` may declare it with a default.
+    """
     call = call_of(fact.site.call)
-    if call is None or fact.access not in (Access.GET, Access.HAS):
+    if call is None or fact.access not in (Access.GET, Access.HAS, Access.DECLARE):
         return None
     target = _target(call) if fact.access is Access.GET else None
     here = [i.parameter(fact.name) for i in instances]
     there = {p is not None for p in here}
     found = None if len(there) > 1 else next(iter(there), False)
-    default = fact.default
+    if _declared(fact, facts) is not None:
+        found = True
+    default = fact.default if (declared := _declared(fact, facts)) is None else declared
     others = [None if default is None else i.value(default) for i in instances]
     if not instances and isinstance(default, bool | int | float):
         others = [default]
@@ -61,6 +71,14 @@ def asked(fact: ParameterFact, instances: Sequence[Instance], type_of: TypeOf) -
     type_ = type_of(target) if target is not None else _of_values(raw, call)
     values = tuple(_as(v, type_) if type_ is not None else None for v in raw)
     return Asked(call, target, type_, values, found)
+
+
+def _declared(fact: ParameterFact, facts: Sequence[Fact]) -> Resolved | None:
+    """The default that a parameter is declared with, which then is always there."""
+    if fact.access is Access.DECLARE:
+        return None
+    same = (f for f in facts if isinstance(f, ParameterFact) and f.name == fact.name)
+    return next((f.default for f in same if f.access is Access.DECLARE), None)
 
 
 def _target(call: CppCall) -> Node | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import field
 
@@ -10,6 +11,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.package import Value
 from rebsync.records import dataclass
+from rebsync.reverse.bodies.cpp_timers import SWITCHING
 from rebsync.reverse.bodies.cpp_types import carried
 from rebsync.reverse.bodies.scope import Outside, Stores, Switch, TimerOf, Variable
 from rebsync.reverse.findings import Findings, Unread
@@ -38,12 +40,17 @@ from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import inside, named, text_of
 
 Entry = tuple["m.Statement | Stores | Node", ...]
-_WAITS = frozenset({"spin", "waitForShutdown", "spinOnce", "shutdown", "start"})
-_AUDIENCE = frozenset({"getNumSubscribers", "getNumPublishers", "waitForService"})
+_WAITS = frozenset(
+    {"spin", "waitForShutdown", "spinOnce", "shutdown", "start", "spin_some", "add_node"}
+)
+_AUDIENCE = frozenset(
+    {"getNumSubscribers", "getNumPublishers", "waitForService", "get_subscription_count"}
+)
 _ENDS = frozenset({"spin", "waitForShutdown"})
 _PLAIN = (NodeFact, PublisherFact, SubscriptionFact, ServiceFact, ClientFact, RateFact)
 _AGAIN = "a timer that is made again stops the one before; in the model both go on"
 _ROUND = "messages wait for the next round of this loop; in the model they are served at once"
+_SPINS = re.compile(rb"spinOnce|spin_some")
 _NESTING = frozenset(
     {"if_statement", "while_statement", "for_statement", "switch_statement", "else_clause"}
 )
@@ -181,9 +188,7 @@ class Setup:
         if not kept.isidentifier() or any(f not in replaced(self.facts) for f in others):
             return False
         calls = (c for f in self.state.unit.functions for c in self.code.calls_of(f))
-        return any(
-            c.name in ("start", "stop") and c.on.removeprefix("this->") == kept for c in calls
-        )
+        return any(c.name in SWITCHING and c.on.removeprefix("this->") == kept for c in calls)
 
     def _running(self, server: str) -> tuple[m.Statement, ...]:
         """What says that a timer runs that is stopped at times."""
@@ -206,7 +211,7 @@ class Setup:
 
     def _parameter(self, fact: ParameterFact) -> None:
         statement = statement_of(fact.site.call)
-        found = asked(fact, self.instances, lambda n: self._type(n, fact))
+        found = asked(fact, self.instances, lambda n: self._type(n, fact), self.facts)
         if found is None or statement is None:
             if statement is not None and statement.type == "expression_statement":
                 self.instead[statement.id] = ()
@@ -237,7 +242,7 @@ class Setup:
         """The new parameter of the constructor, stored where it belongs."""
         if type_ is None or not isinstance(fact.name, str) or (None in values and self.instances):
             return ()
-        wish = fact.name.rpartition("/")[2].lstrip("~") or "value"
+        wish = fact.name.rpartition("/")[2].lstrip("~").replace(".", "_") or "value"
         free = [w for w in (wish, f"{wish}_given") if w not in self.state.taken]
         name = self.names.give(*free, f"{wish}_value")
         self.parameters.append(Given(name, type_, values))
@@ -274,7 +279,7 @@ class Setup:
     def _loop(self, function: CppFunction, loop: Loop) -> None:
         parts = (*loop.first, *loop.rest)
         self.instead[loop.node.id] = ()
-        if loop.rate is not None and self.servers and b"spinOnce" in (loop.node.text or b""):
+        if loop.rate is not None and self.servers and _SPINS.search(loop.node.text or b""):
             place = loop.rate.site.place
             self.findings.approximated(place.source, place.span, _ROUND, within=self.within)
         if parts:

@@ -19,6 +19,7 @@ from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.nodes.node_bodies import Bodies, Common
 from rebsync.reverse.nodes.node_bound import note_bound, note_helpers
 from rebsync.reverse.nodes.node_classes import NodeClass, too_deep
+from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_listing import Listing
 from rebsync.reverse.nodes.node_names import Names, class_word
 from rebsync.reverse.nodes.node_parameters import Given
@@ -44,6 +45,18 @@ class Nodes:
     classes: tuple[m.ReactiveClass, ...]
     rebecs: tuple[m.Rebec, ...]
     starts: bool
+
+    def beside(self, classes: tuple[m.ReactiveClass, ...], rebecs: tuple[m.Rebec, ...]) -> Nodes:
+        """These and the nodes of another language."""
+        starts = self.starts or bool(rebecs)
+        return Nodes((*self.classes, *classes), (*self.rebecs, *rebecs), starts)
+
+
+def unit_of_time(files: Mapping[str, Source]) -> Fraction:
+    """The seconds that a unit of the model's time takes, as the configuration says."""
+    if FILE_NAME not in files:
+        return Fraction(1)
+    return Fraction(repr(parse_config(files[FILE_NAME]).time_unit))
 
 
 @dataclass(slots=True)
@@ -82,7 +95,8 @@ class NodeSystem:
         served = {u.name: servers(u, types, self._states[u.name].names) for u in units}
         names = Names.beside(())
         classes = {u.name: names.give(_class(u)) for u in units}
-        rebecs = instances(starts, self.launch, self.package, names)
+        known_as = executables(self.files)
+        rebecs = instances(starts, self.launch, self.package, names, known_as)
         wiring = Wiring((*rebecs, *idle(units, starts, rebecs, names)), served)
         reader = _Reader(self, reading, types, common, wiring, classes, names, starts)
         read = tuple(c for u in units if self._is_wanted(u) for c in reader.classes_of(u))
@@ -126,12 +140,6 @@ class NodeSystem:
         """The variables of a unit."""
         return self._states[unit.name]
 
-    def unit_of_time(self) -> Fraction:
-        """The seconds that a unit of the model's time takes."""
-        if FILE_NAME not in self.files:
-            return Fraction(1)
-        return Fraction(repr(parse_config(self.files[FILE_NAME]).time_unit))
-
 
 @dataclass(slots=True)
 class _Reader:
@@ -156,7 +164,7 @@ class _Reader:
                 dict.fromkeys(self.wiring.kinds[i.name] for i in of_unit)
             ):
                 self.kinds[kind] = class_ if not number else self.names.give(class_)
-        self.times = Times.of(self.system.unit_of_time(), self.wiring.instances)
+        self.times = Times.of(unit_of_time(self.system.files), self.wiring.instances)
 
     def classes_of(self, unit: Unit) -> Iterator[m.ReactiveClass]:
         """The classes that a unit becomes: one, or more if its rebecs are wired differently."""

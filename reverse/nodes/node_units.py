@@ -22,7 +22,9 @@ from rebsync.reverse.graph import (
     SubscriptionFact,
     TimerFact,
 )
+from rebsync.reverse.nodes.node_components import components
 from rebsync.reverse.nodes.node_programs import Made, Objects, Program
+from rebsync.reverse.rclcpp_vocabulary import MARK
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 
@@ -55,6 +57,11 @@ class Unit:
         return [f for f in self.functions if f.owner == of.name == f.name]
 
     @property
+    def flat(self) -> bool:
+        """Whether it is for ROS 2, where parameters are the node's own."""
+        return any(MARK in f.cpp.data for f in self.functions) or any(c.roots for c in self.lineage)
+
+    @property
     def files(self) -> frozenset[str]:
         """The paths of the files that its functions stand in."""
         return frozenset({f.cpp.source.path for f in self.functions})
@@ -64,8 +71,8 @@ class Unit:
 class Start:
     """A rebec to be: a unit, the program that runs it and the object that it is.
 
-    A nodelet has no program, nor has a class that no program of the package makes. `entry` is the
-    function that starts the object: `main`, or that of the nodelet that has it.
+    A nodelet or component has no program, nor has a class that no program of the package makes.
+    `entry` is the function that starts the object: `main`, or that of the nodelet that has it.
     """
 
     unit: Unit
@@ -95,7 +102,9 @@ class Units:
         classes = self._classes()
         objects = Objects(self.code, classes)
         made = {p.main.node.id: objects.made_by(p) for p in self.programs}
-        nodelets = {n: self._entry(n) for n in sorted(self.nodelets())}
+        run = {m.owner for all_of in made.values() for m in all_of}
+        parts = {n for n in components(self.code) if n in classes and n not in run}
+        nodelets = {n: self._entry(n) for n in sorted(self.nodelets() | parts)}
         inner = {
             n: [m for m in objects.made_by_class(self.code.classes[n], entry) if m.owner != n]
             for n, entry in nodelets.items()

@@ -73,6 +73,8 @@ class Instance:
         text = self.value(name)
         if self.launched is None or not isinstance(text, str):
             return None
+        if self.start.unit.flat:
+            return self.launched.parameter(text.replace(".", "/"))
         absolute = self._resolved(text)
         own = self.launched.private_namespace
         if isinstance(absolute, Open) or isinstance(own, Open):

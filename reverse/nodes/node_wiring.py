@@ -8,13 +8,14 @@ from dataclasses import field, replace
 from rebsync.records import dataclass
 from rebsync.reverse.graph import (
     Access,
+    NodeFact,
     ParameterFact,
     PublisherFact,
     RateFact,
     SubscriptionFact,
     TimerFact,
 )
-from rebsync.reverse.launch.launched import Launch, LaunchedNode
+from rebsync.reverse.launch.launched import NOT_GIVEN, Launch, LaunchedNode
 from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_programs import Program
 from rebsync.reverse.nodes.node_servers import Server
@@ -28,15 +29,23 @@ Edge = tuple[int, int, str]
 
 
 def instances(
-    starts: Sequence[Start], launch: Launch | None, package: str, names: Names
+    starts: Sequence[Start],
+    launch: Launch | None,
+    package: str,
+    names: Names,
+    known_as: Mapping[str, frozenset[str]],
 ) -> tuple[Instance, ...]:
-    """The rebecs that a launch file starts, or one of each kind without it."""
+    """The rebecs that a launch file starts, or one of each kind without it.
+
+    `known_as` are the names by which launch files start components, by their classes.
+    """
     if launch is None:
         return tuple(_alone(starts, names))
     found = []
     for node in launch.nodes:
-        of_node = [s for s in starts if _runs(node, s, package)]
+        of_node = [s for s in starts if _runs(node, s, package, known_as)]
         for start in of_node:
+            node = _with_own_name(node, start)
             plain = node.name if isinstance(node.name, str) else "node"
             wish = plain if len(of_node) == 1 else f"{plain}_{_own(start)}"
             space = node.namespace if isinstance(node.namespace, str) else ""
@@ -61,9 +70,18 @@ def _alone(starts: Sequence[Start], names: Names) -> Iterator[Instance]:
         program = start.program
         others = [s for s in starts if s.process == start.process]
         named = program.node.name if program is not None and program.node is not None else None
+        own = _named_itself(start)
         node = named if isinstance(named, str) and named else _program(program) or start.unit.name
-        wish = node if len(others) == 1 else _own(start)
+        node = own or node
+        wish = node if own or len(others) == 1 else _own(start)
         yield Instance(start, names.give(wish[:1].lower() + wish[1:]), node.strip("/"))
+
+
+def _named_itself(start: Start) -> str:
+    """The name that a class gives the node that it is, as those of rclcpp do; or empty."""
+    facts = (f for f in start.unit.facts if isinstance(f, NodeFact) and f.nodelet is None)
+    names = [f.name for f in facts if f.site.owner in start.unit.names]
+    return names[0] if len(names) == 1 and isinstance(names[0], str) else ""
 
 
 def _program(program: Program | None) -> str:
@@ -81,8 +99,20 @@ def _class(start: Start) -> str:
     return start.unit.owner.name if start.unit.owner is not None else start.unit.name
 
 
-def _runs(node: LaunchedNode, start: Start, package: str) -> bool:
+def _with_own_name(node: LaunchedNode, start: Start) -> LaunchedNode:
+    """A node that a launch file gives no name, under the name that its code gives it."""
+    own = _named_itself(start)
+    unnamed = isinstance(node.name, Open) and node.name.why == NOT_GIVEN
+    return replace(node, name=own) if own and unnamed else node
+
+
+def _runs(
+    node: LaunchedNode, start: Start, package: str, known_as: Mapping[str, frozenset[str]]
+) -> bool:
     """Whether a tag of a launch file starts this."""
+    if start.program is None and node.nodelet is None:
+        of_package = not package or node.package in (package, "")
+        return of_package and node.type in known_as.get(start.nodelet or "", ())
     if node.nodelet is not None:
         name = node.nodelet.class_name
         plain = name.replace("::", "/").rpartition("/")[2] if name is not None else None

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-import re
-
 from tree_sitter import Node
 
+from rebsync.reverse.python.log_words import HARMLESS, LOGS
 from rebsync.reverse.python.py_tree import field, named, text_of
 
-LOGS = re.compile(
-    r"(?:rospy\.log\w+|(?:\w+\.)*get_logger\(\)\.\w+|logging\.\w+|_?log(?:ger)?\.\w+|print)\Z"
-)
-HARMLESS = frozenset({"str", "repr", "len", "format", "round"})
 _STORING = frozenset({"named_expression", "await", "yield", "lambda"})
 
 

@@ -18,7 +18,8 @@ WRAPPERS = frozenset(
 )
 TYPES = frozenset({"class_specifier", "struct_specifier", "enum_specifier"})
 _DECLARATORS = frozenset({"pointer_declarator", "reference_declarator", "array_declarator"})
-_ROOT = "rclcpp::Node"
+# What every node of rclcpp is.
+_ROOTS = frozenset({"rclcpp::Node", "rclcpp_lifecycle::LifecycleNode"})
 
 # One type, with its scope or, after `using`, without.
 _STD = re.compile(r"^(?:::)?std::(?=\w+\Z)")
@@ -106,7 +107,8 @@ class CppClass:
     """A class with a body; its functions are as declared in it, in their order.
 
     `fields` are its plain variables; `others` its pointers, references, arrays, and constants that
-    its constructors set. `outer` is the class it stands in, or empty.
+    its constructors set. `outer` is the class it stands in, or empty. `roots` are the classes of
+    rclcpp that it is derived from; `bases` all others.
     """
 
     name: str
@@ -118,6 +120,7 @@ class CppClass:
     node: Node
     others: tuple[CppField, ...] = ()
     outer: str = ""
+    roots: tuple[str, ...] = ()
 
 
 def function_of(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
@@ -257,7 +260,15 @@ def bases_of(node: Node) -> Iterator[str]:
     for clause in node.named_children:
         if clause.type == "base_class_clause":
             for base in clause.named_children:
-                if text_of(base) == _ROOT:
-                    continue  # what every node of rclcpp is
+                if text_of(base) in _ROOTS:
+                    continue
                 if base.type in ("type_identifier", "qualified_identifier", "template_type"):
                     yield unscoped(base)
+
+
+def roots_of(node: Node) -> Iterator[str]:
+    """The classes of rclcpp that a class is derived from itself: `Node` for `rclcpp::Node`."""
+    for clause in node.named_children:
+        if clause.type == "base_class_clause":
+            named_ = (base for base in clause.named_children if text_of(base) in _ROOTS)
+            yield from (unscoped(base) for base in named_)

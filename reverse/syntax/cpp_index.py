@@ -29,6 +29,7 @@ from rebsync.reverse.syntax.cpp_declarations import (
     only_braces,
     other_fields,
     plain_fields,
+    roots_of,
     unscoped,
     valued,
 )
@@ -245,6 +246,7 @@ class Code:
             node,
             tuple(others),
             outer,
+            tuple(roots_of(node)),
         )
         self.all_classes.setdefault(own, []).append(read)
         if not outer:

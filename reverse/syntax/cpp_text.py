@@ -24,6 +24,8 @@ _ATTRIBUTE = re.compile(
     r"(\n[ \t]*)[A-Z][A-Z0-9]*_[A-Z0-9_]+(?=[ \t]+(?:const|virtual|static|inline|explicit|void|bool"
     r"|int|unsigned|long|float|double|char|auto|std::\w+)\b)"
 )
+# The formats of <cinttypes>, between texts: `"%" PRId64`.
+_FORMAT = re.compile(r"\bPRI[diouxX](?:8|16|32|64|MAX|PTR)\b")
 _CONDITION = re.compile(r"#[ \t]*if")
 _GUARD = re.compile(r"ndef[ \t]+(\w+)\s*#[ \t]*define[ \t]+\1\b")
 _NO_LINE_END = re.compile(r"[^\r\n]")
@@ -55,6 +57,12 @@ _MENDS: tuple[tuple[str, re.Pattern[str], Callable[[re.Match[str]], str]], ...] 
     ("emit", re.compile(r"(\n[ \t]*)emit(?=[ \t]+\w+\s*\()"), _keep_first),
     ("SIGNAL", re.compile(r"(SIGNAL\s*\()[^()]*\([^()]*\)(?=\s*\))"), _keep_first),
     ("SLOT", re.compile(r"(SLOT\s*\()[^()]*\([^()]*\)(?=\s*\))"), _keep_first),
+    ("PRI", _FORMAT, _blank),
+    # What says who may see a member, before its declaration, on a line of its own or not.
+    *(
+        (ending, re.compile(rf"(\n[ \t]*)[A-Z][A-Z0-9_]*{ending}(?=\s+[~A-Za-z_])"), _keep_first)
+        for ending in ("_PUBLIC", "_EXPORT", "_LOCAL")
+    ),
     ("EIGEN_MAKE", re.compile(r"EIGEN_MAKE_ALIGNED_OPERATOR_NEW\b;?"), _blank),
 )
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.rclcpp_vocabulary import CHANGING
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.values.cpp_flow import Texts, declaration_of, is_pointer, made_of
 from rebsync.reverse.values.cpp_flow_types import Variable
@@ -19,9 +20,9 @@ class Definition:
     """A place that gives a variable a value.
 
     `how` is `value` (then `node` is it), `made` (of `arguments`), `declared` (with none), `added`
-    (`node` is appended), `element` (a loop takes it from
-    `node`), `given` (a call, `node`, gets it as the argument `index` and may change
-    it), `initialised` (by a constructor's list), `unknown` (why: `text`).
+    (`node` is appended), `adjusted` (by a method of its own, in `text`), `element` (a loop takes it
+    from `node`), `given` (a call, `node`, gets it as the argument `index` and may change it),
+    `initialised` (by a constructor's list), `unknown` (why: `text`).
     """
 
     how: str
@@ -145,6 +146,8 @@ def _by_method(place: Node, access: Node) -> Definition | None:
         return Definition("value", place, given[0])
     if method == "append" and len(given) == 1:
         return Definition("added", place, given[0])
+    if method in CHANGING:
+        return Definition("adjusted", place, call, text=method)
     if method in _CHANGES:
         return Definition("unknown", place, call, text=f"changed by {method}")
     return None

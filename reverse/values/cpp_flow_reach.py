@@ -175,7 +175,9 @@ def _if_unset(branch: Branch, definition: Definition) -> bool:
     name = re.escape(text_of(definition.place))
     if re.search(rf"\bisnan\s*\(\s*{name}\s*\)", text):
         return not negated
-    read = re.search(rf"\b(?:getParam\w*|get|getCached)\s*\([^&|]*\b{name}\s*\)", text)
+    read = re.search(
+        rf"\b(?:getParam\w*|get|getCached|get_parameter)\s*\([^&|]*\b{name}\s*\)", text
+    )
     return negated and read is not None
 
 

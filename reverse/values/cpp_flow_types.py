@@ -8,6 +8,7 @@ from dataclasses import field
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.rclcpp_vocabulary import MAKERS
 from rebsync.reverse.roscpp_vocabulary import HANDLE_TYPE, OWN_HANDLES
 from rebsync.reverse.syntax.cpp_declarations import unscoped
 from rebsync.reverse.syntax.cpp_index import CppClass, CppField, CppFunction
@@ -25,7 +26,12 @@ _MAPS = frozenset({"map", "unordered_map"})
 # Methods that give what a holder has, and those that give the type they are called with.
 _HELD = frozenset({"get", "front", "back", "at", "lock", "value"})
 _TYPED = frozenset({"as", "get", "cast", "param", "value"})
-_POINTERS = frozenset({"Ptr", "ConstPtr"})
+_POINTERS = frozenset(
+    {
+        *("Ptr", "ConstPtr", "SharedPtr", "ConstSharedPtr", "UniquePtr", "ConstUniquePtr"),
+        *("WeakPtr", "ConstWeakPtr"),
+    }
+)
 _MAKERS = frozenset({"make_shared", "make_unique", "static_pointer_cast", "allocate_shared"})
 
 
@@ -226,6 +232,8 @@ class Types:
         last = function
         while last.type == "qualified_identifier":
             last = part(last, "name")
+        if last is not function and text_of(last) in MAKERS:
+            return "".join(text_of(function).split()).rpartition("::")[0]
         if last.type in ("template_function", "template_type"):
             given = named(part(last, "arguments"))
             if text_of(part(last, "name")) in _MAKERS and given:

@@ -8,6 +8,7 @@ from dataclasses import field
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.rclcpp_vocabulary import NODE
 from rebsync.reverse.roscpp_vocabulary import FUNCTIONS, HANDLE, Kind
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
@@ -99,7 +100,7 @@ class Writes:
         name, scope = called_name(function)
         if role_of(name, scope, definition.index, len(named(part(definition.node, "arguments")))):
             return True
-        if name in HANDLE and function.type == "field_expression":
+        if (name in HANDLE and function.type == "field_expression") or name in NODE:
             return False
         if name in _READERS and function.type != "field_expression":
             return True
@@ -187,6 +188,8 @@ def called_name(function: Node) -> tuple[str, str]:
 def role_of(name: str, scope: str, index: int, count: int) -> str:
     """The role of an argument that a call fills: `format`, or for a parameter; or empty."""
     ask = HANDLE.get(name) if scope == "." else FUNCTIONS.get((scope, name))
+    if ask is None and scope in ("", "."):
+        ask = NODE.get(name)
     if name in FORMATS and scope in ("", "std") and index == 0:
         return "format"
     if ask is None or ask.kind is not Kind.PARAMETER or index >= len(ask.arguments):

@@ -37,6 +37,7 @@ from rebsync.reverse.values.cpp_values_plain import (
     each,
     ways,
 )
+from rebsync.reverse.values.cpp_values_ros2 import literal, profile
 from rebsync.reverse.values.cpp_values_variables import Variables
 
 T = TypeVar("T")
@@ -195,6 +196,8 @@ class Values:
                 return self._constructed(node, frame)
             case "lambda_expression":
                 return Function(node, frame)
+            case "user_defined_literal":
+                return literal(self, node, frame)
             case _:
                 return self._combined(node, frame)
 
@@ -274,6 +277,8 @@ class Values:
             return self._constant(*constant)
         if self.code.definitions.get(("", name)):
             return Function(node, frame)
+        if (quality := profile(name)) is not None:
+            return quality
         return self.unknown(f"{text} is not declared in the files", node, frame)
 
     def _constant(self, cpp: Cpp, node: Node) -> Value:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, Resolved, Unresolved
+from rebsync.reverse.rclcpp_vocabulary import HELD, READING
 from rebsync.reverse.roscpp_vocabulary import (
     HANDLE,
     HANDLE_TYPE,
@@ -39,6 +40,13 @@ from rebsync.reverse.values.cpp_values_plain import (
     choice,
     each,
     pairs,
+)
+from rebsync.reverse.values.cpp_values_ros2 import (
+    MADE,
+    changed,
+    is_quality_method,
+    parameter,
+    span,
 )
 from rebsync.reverse.values.cpp_values_texts import is_stream, streamed
 
@@ -123,6 +131,12 @@ def _of_function(
         return _LIMITS[scope[15:-1], name]
     if name in ("to_string", "lexical_cast", "max", "min", "abs", "fabs") and given:
         return _of_library(values, node, name, given, frame)
+    if (length := span(values, name, types, given, frame)) is not None:
+        return length
+    if name in READING and given and not values.calls.functions(frame.cpp, node):
+        return parameter(values, name, given, node, frame)
+    if name == "from_rmw" and given:
+        return values.value(given[0], frame)
     return _of_own(values, node, name, given, frame)
 
 
@@ -141,7 +155,7 @@ def _constructed_type(values: Values, node: Node, name: str, frame: Frame) -> st
     text = "".join(text_of(part(node, "function")).split()).partition("<")[0]
     if name in (HANDLE_TYPE, "string") or name in SPANS or name in RATES or name in NUMBERS:
         return text
-    if name in TRANSPORTS or name == "vector" or name.endswith("Options"):
+    if name in TRANSPORTS or name == "vector" or name.endswith("Options") or name in MADE:
         return text
     return text if values.texts.class_near(name, frame.cpp) is not None else ""
 
@@ -259,6 +273,22 @@ def _of_method(
     functions = values.calls.functions(frame.cpp, node)
     if functions:
         return returned(values, functions, node, given, frame)
+    return _of_ros2(values, node, name, target, given, frame)
+
+
+def _of_ros2(
+    values: Values, node: Node, name: str, target: Node, given: tuple[Node, ...], frame: Frame
+) -> Value:
+    """What a method of a node, of a parameter or of a quality of service gives."""
+    if name in READING and given:
+        return parameter(values, name, given, node, frame)
+    if name in HELD and not given:
+        held = values.value(target, frame)
+        return held if not isinstance(held, Nothing) else values.unknown("a value", node, frame)
+    if is_quality_method(name):
+        return each(
+            lambda v: changed(values, v, name, given, node, frame), values.value(target, frame)
+        )
     return values.unknown(f"what {name} gives", node, frame)
 
 

@@ -24,6 +24,7 @@ from rebsync.reverse.values.cpp_values_plain import (
     each,
     pairs,
 )
+from rebsync.reverse.values.cpp_values_ros2 import made, unset
 
 if TYPE_CHECKING:
     from rebsync.reverse.values.cpp_values import Values
@@ -37,6 +38,8 @@ def constructed(values: Values, type_: str, use: Use, frame: Frame) -> Value:
     given = use.arguments
     if name == HANDLE_TYPE:
         return _handle(values, given, frame)
+    if (of_ros2 := made(values, type_, use, frame)) is not None:
+        return of_ros2
     if name in SPANS:
         return _span(values, given, frame)
     if name in RATES:
@@ -85,6 +88,8 @@ def default_of(values: Values, type_: str, node: Node, frame: Frame) -> Value:
         return Handle("")
     if not type_ or type_ in NUMBERS or type_ in ("std::string", "string"):
         return Nothing()
+    if (quality := unset(type_)) is not None:
+        return quality
     name = type_.rpartition("::")[2]
     if values.texts.class_near(name, frame.cpp) is None and not name.endswith("Options"):
         return Nothing()

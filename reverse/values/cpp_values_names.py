@@ -14,6 +14,7 @@ from rebsync.reverse.values.cpp_values_plain import (
     Length,
     Made,
     Nothing,
+    Quality,
     Value,
     same,
     ways,
@@ -29,6 +30,8 @@ def resolved(value: Value, unknown: Unresolved) -> Resolved | None:
                 continue
             case Length(seconds):
                 found.append(seconds)
+            case Quality(depth):
+                found.append(depth)
             case str() if OWN_NAME in way:
                 found.append(_own(way, unknown))
             case Unresolved(why, place, partial) if partial is not None and OWN_NAME in partial:

@@ -97,6 +97,14 @@ class Length:
 
 
 @dataclass(frozen=True, slots=True)
+class Quality:
+    """A quality of service: how many messages wait at most, and whether the last is kept."""
+
+    depth: Resolved
+    latched: Resolved = False
+
+
+@dataclass(frozen=True, slots=True)
 class Found:
     """The full name of a parameter that a search upwards found."""
 
@@ -127,7 +135,9 @@ class Choice:
     values: tuple[Value, ...]
 
 
-Value: TypeAlias = "Resolved | Nothing | Handle | Length | Found | Made | Function | Choice"
+Value: TypeAlias = (
+    "Resolved | Nothing | Handle | Length | Quality | Found | Made | Function | Choice"
+)
 
 
 _HASHED = (bool, int, float, str)

@@ -10,6 +10,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.graph import Under
+from rebsync.reverse.rclcpp_vocabulary import READING
 from rebsync.reverse.roscpp_vocabulary import HANDLE_TYPE
 from rebsync.reverse.syntax.cpp_index import CppClass
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -44,6 +45,7 @@ from rebsync.reverse.values.cpp_values_plain import (
     pairs,
     ways,
 )
+from rebsync.reverse.values.cpp_values_ros2 import adjusted, declared
 from rebsync.reverse.values.cpp_values_texts import formatted
 
 if TYPE_CHECKING:
@@ -176,6 +178,9 @@ class Variables:
             case "added":
                 before = self._at(variable, path, definition.place, frame)
                 return pairs(added, before, self.values.value(definition.node, frame))
+            case "adjusted":
+                before = self._at(variable, path, definition.place, frame)
+                return adjusted(self.values, before, definition, frame)
             case "given":
                 return self._by_reference(definition, variable, path, frame)
             case "called":
@@ -248,7 +253,7 @@ class Variables:
             return formatted(self.values, call, frame)
         if role:
             handle: Value = Handle("")
-            if function.type == "field_expression":
+            if function.type == "field_expression" and name not in READING:
                 handle = self.values.value(part(function, "argument"), frame)
             key = self.values.value(given[0], frame)
             if role == "found":
@@ -256,7 +261,11 @@ class Variables:
             if len(given) > 2:
                 default = self._as(variable, path, self.values.value(given[2], frame))
             else:
-                default = self._at(variable, path, call, frame)
+                default = Nothing()
+                if name in READING:
+                    default = declared(self.values, given[0], frame)
+                if isinstance(default, Nothing):
+                    default = self._at(variable, path, call, frame)
             return each(lambda h: from_parameter(self.values, h, key, default, call, frame), handle)
         functions = self.values.calls.functions(frame.cpp, call)
         if not functions or frame.depth >= 6:

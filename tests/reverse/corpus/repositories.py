@@ -20,7 +20,7 @@ from rebsync.reverse.python.py_tree import parse as parse_python
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
 from tests.reverse.corpus.compare import Comparison, answers_of, compare
-from tests.reverse.corpus.packages import PACKAGES, PYTHON, facts_of
+from tests.reverse.corpus.packages import PACKAGES, PYTHON, ROS2, facts_of
 from tests.reverse.corpus.values import Json
 
 # What a reason says of one place only.
@@ -56,9 +56,12 @@ class Result:
 
 def results(folder: Path, bodies: bool = False) -> Iterator[Result]:
     """Each repository that has a checkout in a folder."""
-    for name in PACKAGES:
+    for name, within in PACKAGES.items():
         if (folder / name).is_dir():
-            yield result(name, folder / name, bodies)
+            yield result(name, folder / name, within, bodies)
+    for name, (checkout, within) in ROS2.items():
+        if (folder / checkout).is_dir():
+            yield result(name, folder / checkout, within, bodies)
     for name, (checkout, _) in PYTHON.items():
         if (folder / checkout).is_dir():
             yield python_result(name, folder / checkout)
@@ -80,10 +83,10 @@ def python_result(name: str, root: Path) -> Result:
     return Result(name, compare(facts_of(name), answers), len(every), size, seconds)
 
 
-def result(name: str, root: Path, bodies: bool = False) -> Result:
-    """A repository whose checkout is in a directory; with `bodies`, these as well."""
+def result(name: str, root: Path, within: Sequence[str], bodies: bool = False) -> Result:
+    """The C++ of packages in a checkout; with `bodies`, these as well."""
     start = time.perf_counter()
-    given = list(packages(str(root / package) for package in PACKAGES[name]))
+    given = list(packages(str(root / package) for package in within))
     answers = [answer for package in given for answer in _answers(package, root)]
     seconds = time.perf_counter() - start
     code = [s for package in given for p, s in package.files.items() if Path(p).suffix in CODE]

@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from tests.reverse.corpus.compare import KINDS, compare
-from tests.reverse.corpus.packages import PACKAGES, PYTHON, facts_of
+from tests.reverse.corpus.facts import TYPED
+from tests.reverse.corpus.packages import PACKAGES, PYTHON, ROS2, facts_of
 from tests.reverse.corpus.values import RIGHT, Json
 
 HERE = Path(__file__).parent
@@ -35,6 +36,8 @@ def answer_to(fact: Json) -> Json:
     for key in ("name", "period", "depth"):
         if said.get(key, "") is None and "nodelet" not in fact:
             said[key] = {"unknown": fact.get("why"), "partial": fact.get("partial")}
+    if fact["kind"] in TYPED and fact["type"] is None:
+        said["type"] = {"unknown": fact["why"]}
     called = fact.get("callback")
     if isinstance(called, dict):
         said["callback"] = {"one_of": [{"function": name} for name in called["one_of"]]}
@@ -64,7 +67,12 @@ def test_facts_stand_in_their_order_one_per_line(name: str) -> None:
 
 @pytest.mark.parametrize(
     ("title", "names"),
-    [*((name, [name]) for name in NAMES), ("C\\+\\+", [*PACKAGES]), ("all", NAMES)],
+    [
+        *((name, [name]) for name in NAMES),
+        ("C\\+\\+", [*PACKAGES]),
+        ("C\\+\\+ for ROS 2", [*ROS2]),
+        ("all", NAMES),
+    ],
 )
 def test_the_figures_of_the_page(title: str, names: list[str]) -> None:
     row = re.search(rf"^\| {title} ((?:\| *\d+ *)+)\|$", README, re.MULTILINE)
@@ -78,7 +86,7 @@ def test_the_figures_of_the_page(title: str, names: list[str]) -> None:
     assert shown == [*figures, len(facts), len(nameless) - nodelets, nodelets]
 
 
-@pytest.mark.parametrize("name", [*PACKAGES, *PYTHON])
+@pytest.mark.parametrize("name", [*PACKAGES, *ROS2, *PYTHON])
 def test_facts_agree_with_themselves(name: str) -> None:
     facts = facts_of(name)
     found = compare(facts, map(answer_to, facts))
@@ -86,8 +94,8 @@ def test_facts_agree_with_themselves(name: str) -> None:
     assert {v for counts in found.details().values() for v in counts} == {RIGHT}
 
 
-@pytest.mark.parametrize("name", PACKAGES)
+@pytest.mark.parametrize("name", [*PACKAGES, *ROS2])
 def test_facts_are_about_the_packages_that_are_read(name: str) -> None:
-    packages = set(PACKAGES[name])
+    packages = set(PACKAGES[name] if name in PACKAGES else ROS2[name][1])
     if packages != {"."}:
         assert {fact["file"].partition("/")[0] for fact in facts_of(name)} == packages

@@ -52,6 +52,7 @@ def checkout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "relays" / "relay" / "package.xml").write_text(manifest)
     monkeypatch.setattr(repositories, "PACKAGES", {"relays": ("relay",)})
     monkeypatch.setattr(repositories, "PYTHON", {})
+    monkeypatch.setattr(repositories, "ROS2", {})
     monkeypatch.setattr(repositories, "facts_of", lambda _: FACTS)
     return tmp_path
 

@@ -98,7 +98,11 @@ LISTED = {
         "rospy.loginfo('x')\n\n\nclass Robot:",
         "rospy.loginfo('x')",
     ),
-    "attribute of the class": ("    @property\n", "    speed = 3\n\n    @property\n", "speed = 3"),
+    "attribute of the class": (
+        "    @property\n",
+        "    speed = [3]\n\n    @property\n",
+        "speed = [3]",
+    ),
 }
 
 

@@ -14,7 +14,7 @@ class Node {
     d_ = nh_.createTimer(ros::Duration(slow_), boost::bind(&Node::tick, this, _1), false, false);  //= timer 0.5 autostart=false -> Node::tick
     e_ = nh_.createWallTimer(ros::WallDuration(1, 500000000), &Node::wall, this);  //= timer 1.5 wall -> Node::wall
     f_ = nh_.createTimer(ros::Duration(1 / whole), &Node::tick, this);  //= timer {"~whole" = 0.0 : 1/value} -> Node::tick
-    g_ = nh_.createTimer(ros::Duration(2) * 3, [this](const ros::TimerEvent& e) { tick(e); });  //= timer 6.0 -> lambda
+    g_ = nh_.createTimer(ros::Duration(2) * 3, [this](const ros::TimerEvent& e) { tick(e); });  //= timer 6.0 -> Node::tick
     ros::TimerOptions options;
     options.period = ros::Duration(9);
     options.callback = boost::bind(&Node::tick, this, _1);

@@ -1,0 +1,167 @@
+"""What a word of rclcpp's vocabulary asks for where it stands: of nodes, and nodes themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tree_sitter import Node
+
+from rebsync.reverse.calls.ros_calls_shapes import Asked, objects_of, types_of
+from rebsync.reverse.calls.ros_calls_sites import site_of
+from rebsync.reverse.rclcpp_vocabulary import (
+    FUNCTIONS,
+    MAKERS,
+    NAMED,
+    NODE,
+    NODE_CLASSES,
+    NODE_SCOPES,
+)
+from rebsync.reverse.roscpp_vocabulary import Ask, Kind
+from rebsync.reverse.syntax.cpp_index import CppClass
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+from rebsync.reverse.values.cpp_flow import climb
+from rebsync.reverse.values.cpp_flow_types import unscoped_member
+from rebsync.reverse.values.cpp_values import Values
+
+_CALLED = frozenset({"template_method", "template_function", "dependent_name"})
+# Methods whose names say enough where nothing tells what they are called on.
+_MAKING = frozenset({Kind.PUBLISHER, Kind.SUBSCRIPTION, Kind.TIMER, Kind.SERVICE, Kind.CLIENT})
+
+
+def asked_of_ros2(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
+    """What a word asks for, if anything."""
+    if name in NODE_CLASSES:
+        yield from _node(values, cpp, place, name)
+        return
+    node, above = place, place.parent
+    while above is not None and above.type in _CALLED:
+        node, above = above, above.parent
+    if above is None:
+        return
+    if above.type == "field_expression" and part(above, "field") == node:
+        call = above.parent
+        if call is not None and call.type == "call_expression" and part(call, "function") == above:
+            yield from _of_method(values, cpp, place, call, node, part(above, "argument"))
+    else:
+        yield from _of_function(values, cpp, place, node, above, name)
+
+
+# --- calls --------------------------------------------------------------------------------------
+
+
+def _of_method(
+    values: Values, cpp: Cpp, place: Node, call: Node, called: Node, target: Node
+) -> Iterator[Asked]:
+    """`node->create_publisher<T>("x", 10)`."""
+    name = unscoped_member(called)
+    ask = NODE.get(name)
+    if ask is None:
+        return
+    given = tuple(named(part(call, "arguments")))
+    type_ = values.types.type_of(cpp, target).rpartition("::")[2]
+    class_ = values.texts.class_near(type_, cpp) if type_ else None
+    if class_ is not None:
+        meant = _may_be_node(values, class_, name)
+    else:
+        meant = type_ in NODE_CLASSES or _says_enough(ask, given)
+    if meant:
+        yield Asked(ask, site_of(values, cpp, place, call), given, types_of(called), target)
+
+
+def _of_function(
+    values: Values, cpp: Cpp, place: Node, node: Node, above: Node, name: str
+) -> Iterator[Asked]:
+    """`create_publisher<T>("x", 10)` in a class of nodes, `rclcpp::create_timer(...)`."""
+    scope, last = "", node
+    while above.type == "qualified_identifier" and part(above, "name") == node:
+        if not scope:
+            written = above.child_by_field_name("scope")
+            scope = text_of(written) if written is not None else ""
+        if above.parent is None:
+            return
+        node, above = above, above.parent
+    if above.type != "call_expression" or part(above, "function") != node:
+        return
+    ask = FUNCTIONS.get((scope, name))
+    if ask is None and scope in ("", *NODE_CLASSES):
+        function = values.texts.function_around(cpp, place)
+        class_ = values.texts.class_of(function)
+        if class_ is not None and _may_be_node(values, class_, name):
+            ask = NODE.get(name)
+    if ask is not None:
+        given = tuple(named(part(above, "arguments")))
+        yield Asked(ask, site_of(values, cpp, place, above), given, types_of(last))
+
+
+def _may_be_node(values: Values, class_: CppClass, method: str) -> bool:
+    """Whether a class has a method of nodes from above: from rclcpp, or from outside of the files.
+
+    A class that declares a method of that name itself has its own.
+    """
+    lineage = values.texts.lineage(class_)
+    if any(f.name == method for c in lineage for f in c.functions):
+        return False
+    if any(c.roots for c in lineage):
+        return True
+    known = {c.name for c in lineage}
+    bases = [b for c in lineage for b in c.bases if b not in known]
+    return any("Node" in b for b in bases)
+
+
+def _says_enough(ask: Ask, given: tuple[Node, ...]) -> bool:
+    return ask.kind in _MAKING and len(given) >= ask.least
+
+
+# --- nodes --------------------------------------------------------------------------------------
+
+
+def _node(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
+    """`: Node("x")`, `rclcpp::Node::make_shared("x")`, `std::make_shared<rclcpp::Node>("x")`."""
+    if values.texts.code.all_classes.get(name):
+        return  # a class of that name of their own
+    scope, node, above = "", place, place.parent
+    while above is not None and above.type == "qualified_identifier":
+        written = above.child_by_field_name("scope")
+        if written is not None and part(above, "name") == node:
+            scope = text_of(written)
+        elif written == node and above.parent is not None:
+            yield from _by_own_maker(values, cpp, place, above)
+            return
+        node, above = above, above.parent
+    if above is None:
+        return
+    if above.type == "field_initializer":
+        class_ = values.texts.class_of(values.texts.function_around(cpp, place))
+        if class_ is not None and name in (*class_.roots, *class_.bases):
+            lists = [n for n in above.named_children if n.type.endswith("_list")]
+            given = tuple(named(lists[-1])) if lists else ()
+            yield Asked(NAMED, site_of(values, cpp, place, above), given)
+    elif scope.rpartition("::")[2] in NODE_SCOPES:
+        yield from _made(values, cpp, place, node, above)
+
+
+def _by_own_maker(values: Values, cpp: Cpp, place: Node, above: Node) -> Iterator[Asked]:
+    """`rclcpp::Node::make_shared("x")`; `above` is the name with the class before it."""
+    if unscoped_member(part(above, "name")) not in MAKERS:
+        return
+    call = climb(above, lambda n: n.type != "qualified_identifier")
+    if call is not None and call.type == "call_expression":
+        given = tuple(named(part(call, "arguments")))
+        yield Asked(NAMED, site_of(values, cpp, place, call), given)
+
+
+def _made(values: Values, cpp: Cpp, place: Node, node: Node, above: Node) -> Iterator[Asked]:
+    """An object that is declared, made by `new` or by a function of the standard library."""
+    if above.type == "type_descriptor" and above.parent is not None:
+        maker = above.parent.parent
+        if maker is None or maker.type != "template_function":
+            return
+        if text_of(part(maker, "name")) in MAKERS:
+            call = climb(maker, lambda n: n.type != "qualified_identifier")
+            if call is not None and call.type == "call_expression":
+                given = tuple(named(part(call, "arguments")))
+                yield Asked(NAMED, site_of(values, cpp, place, call), given)
+        return
+    for call, given in objects_of(node, above):
+        if given:
+            yield Asked(NAMED, site_of(values, cpp, place, call), given)

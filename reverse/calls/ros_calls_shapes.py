@@ -1,0 +1,98 @@
+"""Calls that ask for something, as they stand in the code, and small pieces of their facts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reverse.calls.ros_calls_callbacks import Called
+from rebsync.reverse.graph import (
+    Callback,
+    Fact,
+    FromParameter,
+    NodeFact,
+    OneOf,
+    Resolved,
+    Site,
+    Unresolved,
+)
+from rebsync.reverse.roscpp_vocabulary import Ask
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.values.cpp_flow import declaration_of, made_of
+from rebsync.reverse.values.cpp_values_names import one_of
+
+TEMPLATES = ("template_type", "template_function", "template_method")
+
+
+@dataclass(frozen=True, eq=False)
+class Asked:
+    """A call that asks for something; `target` is the object whose method it is."""
+
+    ask: Ask
+    site: Site
+    arguments: tuple[Node, ...]
+    types: tuple[Node, ...] = ()
+    target: Node | None = None
+
+
+def types_of(node: Node | None) -> tuple[Node, ...]:
+    """The arguments of the template that a name, or the last of several, is one of."""
+    while node is not None and node.type == "qualified_identifier":
+        node = part(node, "name")
+    if node is None or node.type not in TEMPLATES:
+        return ()
+    return tuple(named(part(node, "arguments")))
+
+
+def objects_of(node: Node, above: Node) -> Iterator[tuple[Node, tuple[Node, ...]]]:
+    """The objects that are made where a type is named, with their arguments."""
+    match above.type:
+        case "declaration":
+            for declarator in above.children_by_field_name("declarator"):
+                name = declarator
+                while name.type not in ("identifier", "field_identifier"):
+                    inner = name.child_by_field_name("declarator")
+                    if inner is None:
+                        break
+                    name = inner
+                if declaration_of(name) is not None and (given := made_of(name)):
+                    yield declarator, given
+        case "call_expression" if part(above, "function") == node:
+            yield above, tuple(named(part(above, "arguments")))
+        case "new_expression":
+            arguments = above.child_by_field_name("arguments")
+            yield above, tuple(named(arguments)) if arguments is not None else ()
+        case _:
+            return
+
+
+def nodelets_of(asked: Asked) -> Iterator[Fact]:
+    given = dict(zip(asked.ask.arguments, asked.arguments, strict=False))
+    base = text_of(given["base"]).rpartition("::")[2] if "base" in given else ""
+    if base == "Nodelet":
+        name = text_of(given["class"]).rpartition("::")[2]
+        yield NodeFact(asked.site, None, nodelet=name)
+
+
+def distinct(called: list[Called]) -> tuple[Callback | Unresolved, ...]:
+    found: dict[tuple[str, int], Callback | Unresolved] = {}
+    for one in called:
+        callback = one.callback
+        label = callback.name if isinstance(callback, Callback) else callback.why
+        start = callback.place.span.start if isinstance(callback, Callback) and not label else 0
+        found.setdefault((label, start), callback)
+    return tuple(found.values())
+
+
+def truth_of(value: Resolved) -> Resolved:
+    match value:
+        case int() if value in (0, 1):
+            return bool(value)
+        case OneOf(values):
+            return one_of(truth_of(v) for v in values) or False
+        case FromParameter():
+            return value
+        case _:
+            return value

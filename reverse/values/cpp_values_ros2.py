@@ -1,0 +1,243 @@
+"""Values that only code for ROS 2 has: spans of `std::chrono`, qualities of service, parameters."""
+
+from __future__ import annotations
+
+import re
+from functools import partial
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync.reverse.graph import FromParameter, Unresolved
+from rebsync.reverse.rclcpp_vocabulary import (
+    CHANGING,
+    FROM,
+    LEAVING,
+    MARK,
+    PROFILES,
+    QUALITIES,
+    RATIOS,
+    SUFFIXES,
+    UNITS,
+    VALUES,
+)
+from rebsync.reverse.syntax.cpp_calls import string_of
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.values.cpp_flow import climb
+from rebsync.reverse.values.cpp_flow_definitions import Definition
+from rebsync.reverse.values.cpp_values_names import resolved
+from rebsync.reverse.values.cpp_values_numbers import used
+from rebsync.reverse.values.cpp_values_plain import (
+    Frame,
+    Handle,
+    Length,
+    Nothing,
+    Quality,
+    Use,
+    Value,
+    choice,
+    each,
+)
+
+if TYPE_CHECKING:
+    from rebsync.reverse.values.cpp_values import Values
+
+_SPANS = frozenset({"Duration"})
+_KEPT = re.compile(r"(?:TransientLocal|TRANSIENT_LOCAL)\Z")
+_LOST = re.compile(r"(?:Volatile|VOLATILE)\Z")
+_DECLARE = "declare_parameter"
+# The classes of which this makes values.
+MADE = frozenset({*QUALITIES, *UNITS, *VALUES})
+
+
+def literal(values: Values, node: Node, frame: Frame) -> Value:
+    """`500ms`, `"topic"s`."""
+    children = named(node)
+    if len(children) == 2:
+        suffix = text_of(children[1])
+        inner = values.value(children[0], frame)
+        if children[0].type == "number_literal" and suffix in SUFFIXES:
+            return each(lambda v: _times(v, SUFFIXES[suffix]), inner)
+        if suffix == "s" and isinstance(inner, str):
+            return inner
+    return values.unknown("a literal of its own kind", node, frame)
+
+
+def made(values: Values, type_: str, use: Use, frame: Frame) -> Value | None:
+    """An object of a class of ROS 2 or `std::chrono`, made of arguments; None for other classes."""
+    name = type_.rpartition("::")[2]
+    given = use.arguments
+    if name in QUALITIES:
+        return _quality(values, name, use, frame)
+    if name in UNITS and given:
+        return each(lambda v: _times(v, UNITS[name]), values.value(given[0], frame))
+    if name in _SPANS and type_.startswith("rclcpp::") and len(given) == 1:
+        return each(lambda v: _times(v, UNITS["nanoseconds"]), values.value(given[0], frame))
+    if name in VALUES and len(given) == 1:
+        return values.value(given[0], frame)
+    return None
+
+
+def unset(type_: str) -> Quality | None:
+    """What a variable of a quality of service is that is declared without a value."""
+    depth = QUALITIES.get(type_.rpartition("::")[2])
+    return Quality(depth) if depth is not None else None
+
+
+# --- time ---------------------------------------------------------------------------------------
+
+
+def span(
+    values: Values, name: str, types: tuple[Node, ...], given: tuple[Node, ...], frame: Frame
+) -> Value | None:
+    """What `duration<double>(x)`, `duration_cast<T>(x)` or `Duration::from_seconds(x)` is."""
+    if len(given) != 1:
+        return None
+    if name == "duration_cast":
+        return values.value(given[0], frame)
+    unit = FROM.get(name)
+    if name == "duration" and types:
+        ratio = "".join(text_of(types[1]).split()) if len(types) > 1 else ""
+        unit = RATIOS.get(ratio) if ratio else 1.0
+    if unit is None:
+        return None
+    return each(lambda v: _times(v, unit), values.value(given[0], frame))
+
+
+def _times(value: Value, unit: float) -> Value:
+    """A number of units as a span of time; a span is one already."""
+    match value:
+        case bool() | int() | float():
+            return Length(value * unit if unit >= 1 else value / round(1 / unit))
+        case FromParameter():
+            if unit == 1:
+                return Length(value)
+            return Length(used(value, f"value/{round(1 / unit)}", lambda v: _divided(v, unit)))
+        case Unresolved():
+            return Length(value)
+        case Length():
+            return value
+        case _:
+            return Nothing()
+
+
+def _divided(value: Value, unit: float) -> Value:
+    return value * unit if isinstance(value, (int, float)) else Nothing()
+
+
+# --- quality of service -------------------------------------------------------------------------
+
+
+def _quality(values: Values, name: str, use: Use, frame: Frame) -> Value:
+    given = use.arguments
+    if name == "QoSInitialization" and len(given) > 1:
+        given = given[1:]
+    if not given:
+        depth = QUALITIES[name]
+        unknown = values.unknown("a quality without a depth", use.node, frame)
+        return Quality(depth if depth is not None else unknown)
+    return each(lambda v: _deep(values, v, use.node, frame), values.value(given[0], frame))
+
+
+def _deep(values: Values, value: Value, node: Node, frame: Frame) -> Value:
+    """A quality whose depth is a value, or that is copied from another."""
+    if isinstance(value, (Quality, Nothing)):
+        return value
+    unknown = values.unknown("a depth that is not known", node, frame)
+    depth = resolved(value, unknown)
+    return Quality(depth if depth is not None else unknown)
+
+
+def profile(name: str) -> Quality | None:
+    """The quality that rmw has a name for."""
+    name = name.rpartition("::")[2]
+    return Quality(PROFILES[name]) if name in PROFILES else None
+
+
+def changed(
+    values: Values, value: Value, name: str, given: tuple[Node, ...], node: Node, frame: Frame
+) -> Value:
+    """A quality of service after a method was called on it."""
+    if not isinstance(value, Quality) or name in LEAVING:
+        return value
+    match name:
+        case "keep_last" if given:
+            deep = [_deep(values, v, node, frame) for v in [values.value(given[0], frame)]]
+            depth = next((q.depth for q in deep if isinstance(q, Quality)), value.depth)
+            return Quality(depth, value.latched)
+        case "keep_all":
+            return Quality(0, value.latched)
+        case "transient_local":
+            return Quality(value.depth, True)
+        case "durability_volatile":
+            return Quality(value.depth)
+        case "durability" if given:
+            text = text_of(given[0])
+            if _KEPT.search(text) or _LOST.search(text):
+                return Quality(value.depth, _KEPT.search(text) is not None)
+            why = "a durability that is not known"
+            return Quality(value.depth, values.unknown(why, given[0], frame))
+        case "history":
+            why = "a depth that goes by the history"
+            return Quality(values.unknown(why, node, frame), value.latched)
+        case _:
+            return value
+
+
+def adjusted(values: Values, before: Value, definition: Definition, frame: Frame) -> Value:
+    """The same, for a call that stands by itself."""
+    call = definition.node
+    given = tuple(named(part(call, "arguments")))
+    return each(lambda v: changed(values, v, definition.text, given, call, frame), before)
+
+
+def is_quality_method(name: str) -> bool:
+    """Whether a method of this name gives the quality of service that it is called on."""
+    return name in CHANGING or name in LEAVING
+
+
+# --- parameters ---------------------------------------------------------------------------------
+
+
+def parameter(
+    values: Values, name: str, given: tuple[Node, ...], node: Node, frame: Frame
+) -> Value:
+    """What `declare_parameter` or `get_parameter` gives."""
+    from rebsync.reverse.values.cpp_values_calls import from_parameter
+
+    key = values.value(given[0], frame)
+    if name == _DECLARE and len(given) > 1:
+        default = values.value(given[1], frame)
+    else:
+        default = declared(values, given[0], frame)
+    found = from_parameter(values, Handle(""), key, default, node, frame)
+    if isinstance(default, Unresolved):  # there is one, though nobody can tell
+        return each(partial(_standing_in, default), found)
+    return found
+
+
+def _standing_in(default: Unresolved, value: Value) -> Value:
+    if not isinstance(value, FromParameter):
+        return value
+    return FromParameter(value.name, default, value.expression, value.search, value.within)
+
+
+def declared(values: Values, name: Node, frame: Frame) -> Value:
+    """The default that the same file, or another, declares a parameter with."""
+    text = string_of(name) if name.type == "string_literal" else values.value(name, frame)
+    found: list[Value] = []
+    for cpp, place in values.texts.everywhere(_DECLARE) if isinstance(text, str) else ():
+        call = climb(place, lambda n: n.type in ("call_expression", "compound_statement"))
+        given = named(part(call, "arguments")) if call is not None else []
+        if call is None or call.type != "call_expression" or len(given) < 2:
+            continue
+        if given[0].type == "string_literal" and string_of(given[0]) == text:
+            around = values.texts.function_around(cpp, call)
+            found.append(values.value(given[1], Frame(cpp, around, outside=True)))
+    known = choice(found)
+    return known if isinstance(known, (bool, int, float, str)) else Nothing()
+
+
+def uses_rclcpp(values: Values) -> bool:
+    """Whether some file of the code is for ROS 2."""
+    return any(MARK in values.texts.data(cpp) for cpp in values.code.files)
