@@ -373,11 +373,3 @@ def _only_breaks_lines(node: Node) -> bool:
     inner = named(node)[0]
     is_apart = inner.start_point.row > node.start_point.row
     return is_apart and inner.type != "named_expression"
-
-
-def _in_double_quotes(text: str) -> str:
-    """A text as the model writes it, whichever quotes a formatter prefers."""
-    if len(text) < 2 or text[0] != "'" or text.startswith("'''"):
-        return text
-    inner = text[1:-1].replace("\\'", "'").replace('"', '\\"')
-    return f'"{inner}"'
