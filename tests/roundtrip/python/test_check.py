@@ -25,6 +25,9 @@ FRESH = [
 ]
 
 
+_CASES = Path(__file__).parents[2] / "forward" / "cases"
+
+
 @pytest.fixture(autouse=True)
 def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("REBSYNC_CACHE", str(tmp_path / ".cache"))
@@ -36,6 +39,33 @@ def test_fresh_packages_are_in_step(name: str, target: str, tmp_path: Path) -> N
     assert checked(root).drift is None, "digests tell it"
     for path in python_of(root):
         path.write_text(path.read_text(encoding="utf-8") + "# a remark\n", encoding="utf-8")
+    found = checked(root)
+    assert told(found) == []
+    assert found.drift is not None
+    assert found.drift.verdict is Verdict.IN_STEP, found.drift.differences
+
+
+HARD = {"env": "ros2-py", "interfaces": "ros1-py", "moves": "ros2-py", "inheritance": "ros1-py"}
+
+
+@pytest.mark.parametrize("name", HARD)
+def test_fresh_packages_of_hard_cases_are_in_step(name: str, tmp_path: Path) -> None:
+    text = (_CASES / f"{name}.rebeca").read_text(encoding="utf-8")
+    root = made(name, HARD[name], tmp_path, text)
+    for path in python_of(root):
+        path.write_text(path.read_text(encoding="utf-8") + "# a remark\n", encoding="utf-8")
+    found = checked(root)
+    assert told(found) == []
+    assert found.drift is not None
+    assert found.drift.verdict is Verdict.IN_STEP, found.drift.differences
+
+
+def test_quotes_do_not_matter(tmp_path: Path) -> None:
+    root = made("warehouse", "ros1-py", tmp_path)
+    (path,) = (p for p in python_of(root) if p.name == "dispatcher.py")
+    text = path.read_text(encoding="utf-8")
+    assert '"a carrier leaves' in text
+    path.write_text(text.replace("'", "?").replace('"', "'"), encoding="utf-8")
     found = checked(root)
     assert told(found) == []
     assert found.drift is not None
