@@ -1,12 +1,14 @@
 """How long `rebsync check` takes, by the clock and by the processor.
 
-    python bench/check.py [--packages N] [--cold N] [--profile]
+    python bench/check.py [--packages N] [--cold N] [--robots N] [--profile]
 
 Packages are copies of the examples. `click` is `python -c 'import click'`, the floor for every
 command; `ratio` is the time against that. `in step` is answered from digests; `first edit` has
 nothing in the cache but the grammars; `next edit` has the package as it was before the edit in the
-cache; `as before` is the same package once more. `cold` are packages that were all edited, with an
-empty cache, on one processor and on all. Each time is the least of some runs, of whole processes.
+cache; `as before` is the same package once more. `robots` are the same for a package of that many
+classes, each in files of its own, of which one is edited. `cold` are packages that were all edited,
+with an empty cache, on one processor and on all. Each time is the least of some runs, of whole
+processes.
 """
 
 from __future__ import annotations
@@ -26,6 +28,8 @@ from contextlib import redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
+
+from fleet import fleet
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
 CHECK = (sys.executable, "-m", "rebsync", "check")
@@ -48,7 +52,11 @@ def main() -> None:
         os.environ["REBSYNC_CACHE"] = f"{folder}/cache"
         click = best(lambda: run(sys.executable, "-c", "import click"), 5)
         print(f"click              {click}")
-        one(Path(folder, "one"), click)
+        shutil.copytree(EXAMPLES / "warehouse", f"{folder}/one")
+        one(Path(folder, "one"), "warehouse/src/carrier.cpp", click)
+        print(f"{options.robots} robots, each of a class of its own")
+        robots(Path(folder, "robots"), options.robots)
+        one(Path(folder, "robots"), "fleet/src/robot1.cpp", click)
         many = made(Path(folder, "many"), options.packages)
         told(f"{options.packages} in step", best(lambda: run(*CHECK, str(many))), click)
         cold(made(Path(folder, "cold"), options.cold), options.cold, click)
@@ -60,14 +68,14 @@ def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     parser.add_argument("--packages", type=int, default=200, metavar="N")
     parser.add_argument("--cold", type=int, default=24, metavar="N")
+    parser.add_argument("--robots", type=int, default=20, metavar="N")
     parser.add_argument("--profile", action="store_true")
     return parser.parse_args()
 
 
-def one(folder: Path, click: Time) -> None:
-    """A package of some size, before and after edits."""
-    shutil.copytree(EXAMPLES / "warehouse", folder)
-    file = folder / "warehouse/src/carrier.cpp"
+def one(folder: Path, name: str, click: Time) -> None:
+    """A package of some size, before and after edits of one file."""
+    file = folder / name
     check = (*CHECK, str(folder))
     told("in step", best(lambda: run(*check), 5), click)
     edit(file)
@@ -76,6 +84,14 @@ def one(folder: Path, click: Time) -> None:
     told("first edit", run(*check), click)
     told("as before", best(lambda: run(*check)), click)
     told("next edit", best(lambda: run(*check), before=lambda: edit(file)), click)
+
+
+def robots(folder: Path, count: int) -> None:
+    """A package of a control and as many robots, each of a class of its own."""
+    folder.mkdir()
+    (folder / "fleet.rebeca").write_text(fleet(count), encoding="utf-8")
+    generate = (sys.executable, "-m", "rebsync", "generate", "fleet.rebeca")
+    subprocess.run(generate, cwd=folder, stdout=subprocess.DEVNULL, check=True)
 
 
 def cold(folder: Path, count: int, click: Time) -> None:

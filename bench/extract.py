@@ -3,10 +3,11 @@
     python bench/extract.py [DIRECTORY] [--size MB] [--packages N] [--profile]
 
 Without a directory, packages are made whose code has so many megabytes (default 2.3, the size of
-ros_comm) and is mixed as there. `bare` is tree-sitter's parse of all files of C++, without looking
-at the trees; `one process` is reading and extracting all packages in turn, `ratio` the one over the
-other; `all processors` is what a command does, by the clock; the others are seconds of the
-processor.
+ros_comm) and is mixed as there. `bare` is tree-sitter's parse of all files, without looking at the
+trees; `one process` is reading and extracting all packages in turn, `ratio` the one over the other;
+`all processors` is the same as a command does it, by the clock; the others are seconds of the
+processor. Files of C++ and of Python are measured apart from each other, both with what builds and
+launches them.
 `--packages` makes N small packages and prints the memory on the way. Peak memory is that of the
 largest process.
 """
@@ -22,17 +23,21 @@ import resource
 import sys
 import tempfile
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from time import perf_counter, process_time
 
 import tree_sitter_cpp
+import tree_sitter_python
 from ros_packages import write_packages
 from tree_sitter import Language, Parser
 
 from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.files.parallel import each
+from rebsync.reverse.files.python_files import SUFFIX, is_python
 from rebsync.reverse.files.reading import Chosen, all_listings, packages
 from rebsync.reverse.recovery import extract
+from rebsync.source import Source
 
 
 def main() -> None:
@@ -68,16 +73,28 @@ def _options() -> argparse.Namespace:
 def compare(root: str) -> None:
     """Prints times, speeds and their ratio."""
     found = (path for listing in all_listings([root]) for path in listing.files.values())
-    texts = [Path(path).read_bytes() for path in found if Path(path).suffix in CODE]
+    by_language: dict[str, list[bytes]] = {"C++": [], "Python": []}
+    for path in found:
+        suffix = Path(path).suffix
+        if suffix in CODE or suffix == SUFFIX:
+            by_language["C++" if suffix in CODE else "Python"].append(Path(path).read_bytes())
+    for language, texts in by_language.items():
+        if texts:
+            compare_language(root, language, texts)
+    print(f"peak memory {peak():.0f} MB")
+
+
+def compare_language(root: str, language: str, texts: list[bytes]) -> None:
+    """Prints the same of the files of one language."""
+    do = partial(work, language=language)
     size = sum(map(len, texts)) / 1e6
-    bare = best(lambda: parse_all(texts))
-    alone = best(lambda: [work(given) for given in packages([root])])
-    every = best(lambda: list(each([root], work)), perf_counter)
-    read = sum(_size(given) for given in packages([root])) / 1e6
-    print(f"{len(texts)} files, {size:.2f} MB, of which {read:.2f} MB can matter")
+    bare = best(lambda: parse_all(texts, language))
+    alone = best(lambda: [do(given) for given in packages([root])])
+    every = best(lambda: list(each([root], do)), perf_counter)
+    read = sum(_size(_of(given, language)) for given in packages([root])) / 1e6
+    print(f"{language}: {len(texts)} files, {size:.2f} MB, of which {read:.2f} MB can matter")
     for name, seconds in (("bare", bare), ("one process", alone), ("all processors", every)):
         print(f"{name:15}{seconds:8.3f} s{size / seconds:8.2f} MB/s  ratio {seconds / bare:.2f}")
-    print(f"peak memory {peak():.0f} MB")
 
 
 def best(
@@ -93,21 +110,34 @@ def best(
     return min(found)
 
 
-def parse_all(texts: list[bytes]) -> None:
+def parse_all(texts: list[bytes], language: str) -> None:
     """What tree-sitter alone does."""
-    parser = Parser(Language(tree_sitter_cpp.language()))
+    grammar = tree_sitter_cpp if language == "C++" else tree_sitter_python
+    parser = Parser(Language(grammar.language()))
     for text in texts:
         parser.parse(text)
 
 
-def work(given: Chosen) -> tuple[int, int, float]:
+def work(given: Chosen, language: str = "") -> tuple[int, int, float]:
     """What is done with a package: the process, its memory now and the classes found."""
-    found = extract(given.files, given.only)
+    found = extract(_of(given, language), given.only)
     return os.getpid(), len(found.model.classes), memory()
 
 
-def _size(given: Chosen) -> int:
-    return sum(len(s.text) for name, s in given.files.items() if Path(name).suffix in CODE)
+def _of(given: Chosen, language: str) -> dict[str, Source]:
+    """The files of a package without the code of other languages than this, if one is named."""
+
+    def is_kept(path: str, source: Source) -> bool:
+        if language == "C++":
+            return not is_python(path, source)
+        return language != "Python" or Path(path).suffix not in CODE
+
+    return {path: source for path, source in given.files.items() if is_kept(path, source)}
+
+
+def _size(files: dict[str, Source]) -> int:
+    code = {*CODE, SUFFIX}
+    return sum(len(s.text) for path, s in files.items() if Path(path).suffix in code)
 
 
 def profile(root: str) -> None:

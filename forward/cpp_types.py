@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rebsync.model import Type
 from rebsync.names import carry
-from rebsync.package import Value
+from rebsync.package import Draw, Value
 from rebsync.reserved import NO_CLASSES
 
 _PLAIN = {
@@ -66,3 +66,9 @@ def cpp_value(value: Value) -> str:
             return LOWEST
         case _:
             return repr(value)
+
+
+def cpp_choices(draw: Draw) -> str:
+    """What a sensor that is played draws from."""
+    values = ", ".join(map(cpp_value, draw.alternatives))
+    return f"std::initializer_list<{cpp_type(draw.type)}>{{{values}}}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from rebsync.forward.cpp_types import is_text
 from rebsync.model import Type
 from rebsync.names import carry
-from rebsync.package import Value
+from rebsync.package import Draw, Value
 from rebsync.reserved import NO_PYTHON_CLASSES
 
 _PLAIN = {
@@ -77,3 +77,8 @@ def py_value(value: Value) -> str:
             return f"Array([{', '.join(py_value(v) for v in value)}])"
         case _:
             return repr(value)
+
+
+def py_choices(draw: Draw) -> str:
+    """What a sensor that is played draws from."""
+    return ", ".join(map(py_value, draw.alternatives))

@@ -6,6 +6,7 @@ from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from typing import Protocol
 
+from rebsync.model import ReactiveClass
 from rebsync.records import dataclass
 from rebsync.source import Span
 
@@ -33,6 +34,17 @@ class Remarks:
             if comment.span.end > end:
                 break
             yield from (f"// {_harmless(line)}".rstrip() for line in comment_lines(comment.text))
+
+    def above(self, declaration: ReactiveClass | None) -> dict[int, tuple[str, ...]]:
+        """By the identity of each body of a class, the comments that stand before its member."""
+        found: dict[int, tuple[str, ...]] = {}
+        at = declaration.queue_span.end if declaration else 0
+        for member in declaration.members if declaration else ():
+            body = getattr(member, "body", None)
+            if body is not None:
+                found[id(body)] = tuple(self.between(at, member.span.start))
+            at = member.span.end
+        return found
 
 
 def _harmless(line: str) -> str:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from rebsync.forward import ros1_words
-from rebsync.forward.cpp_classes import classes, played_sensors
+from rebsync.forward.cpp_classes import classes
 from rebsync.forward.cpp_files import header, sensor_header, source
+from rebsync.forward.cpp_types import cpp_choices
 from rebsync.forward.message_files import message_files
 from rebsync.forward.readme import readme
 from rebsync.forward.remarks import Remarks
@@ -20,6 +21,7 @@ from rebsync.forward.ros1_package import (
     manifest,
     parameters,
 )
+from rebsync.forward.sensors import played_sensors
 from rebsync.forward.templating import fill
 from rebsync.forward.topics import Topics
 from rebsync.package import NodeClass, Package
@@ -70,7 +72,7 @@ def _runtime(package: Package) -> dict[str, str]:
 
 
 def _stand_in(package: Package, node: NodeClass) -> str:
-    sensors = played_sensors(node)
+    sensors = played_sensors(node, cpp_choices)
     return fill(
         "ros1_cpp/stand_in.cpp.j2",
         package=package.name,

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from rebsync.forward import ros2_words
 from rebsync.forward.cpp_class import CppClass
-from rebsync.forward.cpp_classes import classes, played_sensors
+from rebsync.forward.cpp_classes import classes
 from rebsync.forward.cpp_files import header, sensor_header, source
+from rebsync.forward.cpp_types import cpp_choices
 from rebsync.forward.message_files import message_files
 from rebsync.forward.readme import readme
 from rebsync.forward.remarks import Remarks
@@ -18,6 +19,7 @@ from rebsync.forward.ros2_constructors import (
     registration,
 )
 from rebsync.forward.ros2_package import cmake_lists, launch_file, manifest, parameters
+from rebsync.forward.sensors import played_sensors
 from rebsync.forward.templating import fill
 from rebsync.forward.topics import Topics
 from rebsync.package import NodeClass, Package
@@ -75,7 +77,7 @@ def _class_files(c: CppClass, model_name: str) -> dict[str, str]:
 
 
 def _stand_in(package: Package, node: NodeClass) -> str:
-    sensors = played_sensors(node)
+    sensors = played_sensors(node, cpp_choices)
     return fill(
         "ros2_cpp/stand_in.cpp.j2",
         package=package.name,

@@ -6,15 +6,16 @@ from dataclasses import replace
 
 from rebsync.forward.message_files import message_files, message_names
 from rebsync.forward.py_class import PyClass
-from rebsync.forward.py_classes import classes, played_sensors
+from rebsync.forward.py_classes import classes
 from rebsync.forward.py_imports import imports, words_of
 from rebsync.forward.py_layout import call_lines, indented
 from rebsync.forward.py_module import VALUES, class_module, sensors_module
-from rebsync.forward.py_types import from_message, plain_type, py_format, py_value
+from rebsync.forward.py_types import from_message, plain_type, py_choices, py_format, py_value
 from rebsync.forward.py_wiring import constructor_of
 from rebsync.forward.readme import readme
 from rebsync.forward.remarks import Remarks
 from rebsync.forward.ros2_package import launch_file, parameters
+from rebsync.forward.sensors import played_sensors
 from rebsync.forward.templating import fill
 from rebsync.forward.topics import Topics
 from rebsync.model import Type
@@ -178,7 +179,7 @@ def _argument(key: str, type_: Type) -> str:
 
 
 def _stand_in(package: Package, node: NodeClass) -> str:
-    sensors = played_sensors(node)
+    sensors = played_sensors(node, py_choices)
     types = sorted({s.type for s in sensors})
     messages = interfaces(package.name)
     return fill(

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
+from typing import Protocol
+
 from rebsync.config import Config
 from rebsync.model import (
     Assign,
@@ -16,7 +19,8 @@ from rebsync.model import (
     walk,
 )
 from rebsync.names import camel_case, field_names, snake_case, unique
-from rebsync.package import Draw, Sensor, Value
+from rebsync.package import Draw, NodeClass, Sensor, Value
+from rebsync.records import dataclass
 from rebsync.static import Analysis
 from rebsync.static.constants import constant
 from rebsync.static.symbols import EnvSymbol
@@ -45,6 +49,57 @@ def draws_of(server: MessageServer) -> tuple[Choice, ...]:
     if server.body is None:
         return ()
     return tuple(node for node in walk(server.body) if isinstance(node, Choice))
+
+
+class SensorNames(Protocol):
+    """By server: the member that has its sensor, and for each `?(...)` the function to ask."""
+
+    @property
+    def sensors(self) -> Mapping[str, str]: ...
+
+    @property
+    def seen(self) -> Mapping[str, Sequence[str]]: ...
+
+
+def samplers(
+    node: NodeClass,
+    declaration: ReactiveClass | None,
+    names: SensorNames,
+    sample: Callable[[str, str], str],
+) -> dict[int, str]:
+    """By the identity of each `?(...)` of a sensor server, the code that samples the sensor.
+
+    `sample` makes it of the member that has the sensor and of the function that tells what is seen.
+    """
+    if declaration is None:
+        return {}
+    servers = {m.name: m for m in declaration.members if isinstance(m, MessageServer)}
+    return {
+        id(choice): sample(names.sensors[sensor.server], function)
+        for sensor in node.sensors
+        for choice, function in zip(
+            draws_of(servers[sensor.server]), names.seen[sensor.server], strict=True
+        )
+    }
+
+
+@dataclass(frozen=True, slots=True)
+class PlayedSensor:
+    """A sensor that a stand-in plays: its topic, type, period in model time, and its draws."""
+
+    name: str
+    type: str
+    period: float
+    draws: tuple[tuple[str, str], ...]
+
+
+def played_sensors(node: NodeClass, choices: Callable[[Draw], str]) -> list[PlayedSensor]:
+    """The sensors of a class that are not bound; the draws are fields with their choices."""
+    return [
+        PlayedSensor(s.name, s.type, s.period, tuple((d.field, choices(d)) for d in s.draws))
+        for s in node.sensors
+        if s.stands_in
+    ]
 
 
 def _sensor(

@@ -142,7 +142,7 @@ GENERATION = {
     "RS706": "a global priority, which holds only within a rebec",
     "RS707": "a sensor binding without its sensor",
     "RS708": "a package that was made from another model",
-    "RS709": "a dialect that a command does not know yet, or that does not go with others",
+    "RS709": "a dialect that is not known, or that does not go with others",
     "RS750": "a part of a model that the official compiler or RMC does not take",
     "RS751": "a part of a model that RMC runs differently",
     "RS752": "an option that RMC must be given for this model",

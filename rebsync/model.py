@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import field, fields
+from functools import cache
 from typing import TypeAlias
 
 from rebsync.expressions import (
@@ -280,21 +281,26 @@ Node: TypeAlias = (
 )
 
 
-_CHILD_FIELDS: dict[type, tuple[str, ...]] = {}
+_PLAIN = frozenset(
+    {"str", "int", "bool", "str | None", "tuple[str, ...]", "tuple[int, ...]", "Span"}
+)
 
 
-def _child_fields(kind: type) -> tuple[str, ...]:
-    names = _CHILD_FIELDS.get(kind)
-    if names is None:
-        plain = ("str", "int", "bool", "str | None", "tuple[str, ...]", "tuple[int, ...]", "Span")
-        names = tuple(f.name for f in fields(kind) if f.compare and f.type not in plain)
-        _CHILD_FIELDS[kind] = names
-    return names
+@cache
+def child_fields(kind: type) -> tuple[str, ...]:
+    """The names of the fields of a kind of nodes that hold nodes."""
+    return tuple(f.name for f in fields(kind) if f.compare and f.type not in _PLAIN)
+
+
+@cache
+def _last_first(kind: type) -> tuple[str, ...]:
+    return child_fields(kind)[::-1]
 
 
 def children(node: Node) -> Iterator[Node]:
     """The direct sub-nodes of a node, in the order of its fields."""
-    for name in _child_fields(type(node)):
+    kind: type = type(node)
+    for name in child_fields(kind):
         value = getattr(node, name)
         if isinstance(value, tuple):
             yield from value
@@ -308,9 +314,10 @@ def walk(node: Node) -> Iterator[Node]:
     while stack:
         current = stack.pop()
         yield current
-        for name in reversed(_child_fields(type(current))):
+        kind: type = type(current)
+        for name in _last_first(kind):
             value = getattr(current, name)
             if isinstance(value, tuple):
-                stack.extend(reversed(value))
+                stack += value[::-1]
             elif value is not None:
                 stack.append(value)

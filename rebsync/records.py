@@ -11,6 +11,7 @@ import dataclasses
 from collections.abc import Callable
 from dataclasses import MISSING, Field, FrozenInstanceError
 from operator import attrgetter
+from types import MemberDescriptorType
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
@@ -58,8 +59,9 @@ def _init(cls: type, fields: tuple[Field[object], ...], frozen: bool) -> Callabl
         if field.init:
             (by_name if field.kw_only is True else by_place).append(parameter)
         if value:
-            store = f"_records_set(self, {field.name!r}, {value})"
-            body.append(store if frozen else f"self.{field.name} = {value}")
+            body.append(
+                _stored(cls, field.name, value, names) if frozen else f"self.{field.name} = {value}"
+            )
     if hasattr(cls, "__post_init__"):
         body.append("self.__post_init__()")
     parameters = ", ".join([*by_place, *["*"] * bool(by_name), *by_name])
@@ -68,6 +70,15 @@ def _init(cls: type, fields: tuple[Field[object], ...], frozen: bool) -> Callabl
     made = space["__init__"]
     made.__qualname__ = f"{cls.__qualname__}.__init__"
     return made
+
+
+def _stored(cls: type, name: str, value: str, names: dict[str, object]) -> str:
+    """The statement that stores a value in a frozen object; slots have a quicker way."""
+    slot = getattr(cls, name, None)
+    if not isinstance(slot, MemberDescriptorType):
+        return f"_records_set(self, {name!r}, {value})"
+    names[f"_records_slot_{name}"] = slot.__set__
+    return f"_records_slot_{name}(self, {value})"
 
 
 def _taken(field: Field[object], names: dict[str, object]) -> tuple[str, str]:

@@ -25,6 +25,7 @@ from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.files.python_files import is_python
 from rebsync.reverse.findings import Finding, Findings
 from rebsync.reverse.generated.ros1_classes import Classes
+from rebsync.reverse.generated.ros1_kept import Memory, read_with
 from rebsync.reverse.generated.ros1_messages import own_messages
 from rebsync.reverse.generated.ros1_names import variable_name
 from rebsync.reverse.generated.ros2_words import made_in
@@ -71,11 +72,14 @@ class Extracted:
         return Graph(self.asking.graph.facts + self.in_python.facts)
 
 
-def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
+def extract(
+    files: Mapping[str, Source], only: str | None = None, memory: Memory | None = None
+) -> Extracted:
     """The model that files say together; paths are relative to the package, with slashes.
 
     With `only` the classes that this file declares or defines, read with the help of the others;
-    or, if it is a launch file, the system that this one starts.
+    or, if it is a launch file, the system that this one starts. `memory` knows what generated
+    classes said before: of these only what an edit can have to do with is read again.
     """
     findings = Findings()
     trees = []
@@ -92,7 +96,8 @@ def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
     system = system_of(files, package, asked, started)
     launch = system.launch if system is not None else None
     classes = Classes(code, findings, own_messages(files), _unit_of_time(launch))
-    read = classes.read(_classes_in(code, files[only].path) if only is not None else None)
+    wanted = _classes_in(code, files[only].path) if only is not None else None
+    read = classes.read(wanted) if memory is None else read_with(memory, classes, wanted)
     nodes = Nodes((), (), False)
     generated = is_generated(code)
     if not generated or may_have_nodes(code, asking, started):
@@ -104,10 +109,12 @@ def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
         ).read()
     if system is not None and only is None and (read or nodes.classes):
         system.note(findings)
-    python = _python(files, findings, only)
+    python = _python(files, findings, only, package)
     if python is not None:
         read = (*read, *python.classes)
     made = _System(code, classes, read, launch if only is None else None, started, python)
+    if python is not None:
+        nodes = nodes.beside(python.nodes.classes, python.nodes.rebecs)
     main = _main(made, nodes, only is not None and len(files) > 1)
     model = m.Model(tuple(made.heads() if read else ()), (*read, *nodes.classes), main)
     statements = tuple(findings.statements.items())
@@ -115,7 +122,9 @@ def extract(files: Mapping[str, Source], only: str | None = None) -> Extracted:
     return Extracted(model, tuple(findings.all), statements, asking, in_python)
 
 
-def _python(files: Mapping[str, Source], findings: Findings, only: str | None) -> PythonPart | None:
+def _python(
+    files: Mapping[str, Source], findings: Findings, only: str | None, package: str
+) -> PythonPart | None:
     """What the files of Python say; what of them is not in the model is listed."""
     sources = {path: source for path, source in files.items() if is_python(path, source)}
     if not sources:
@@ -123,7 +132,7 @@ def _python(files: Mapping[str, Source], findings: Findings, only: str | None) -
     from rebsync.reverse.python.recovery import read_python
 
     messages = {t.rpartition("/")[2]: tuple(f) for t, f in own_messages(files).items()}
-    return read_python(sources, findings, only, messages)
+    return read_python(sources, findings, only, messages, files, package)
 
 
 def _main(generated: _System, nodes: Nodes, is_part: bool) -> m.Main | None:

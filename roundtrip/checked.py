@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import field, replace
 from typing import TYPE_CHECKING
 
@@ -18,9 +19,6 @@ from rebsync.source import NOWHERE, Source
 if TYPE_CHECKING:
     from rebsync.roundtrip.difference import Comparison, Difference
     from rebsync.roundtrip.verdict import Drift, Mover
-
-
-_READ = frozenset({"ros1-cpp", "ros2-cpp"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,25 +53,35 @@ def check(kept: Kept, depth: str = "equal") -> Checked:
     return begun if isinstance(begun, Checked) else finish(begun, depth)
 
 
-def begin(kept: Kept, depth: str = "equal") -> Checked | Begun:
+def check_merged(kept: Kept) -> Checked:
+    """The same of a package of which a merge may have left both manifests."""
+    from rebsync.roundtrip.recorded_merge import read_merged_record
+
+    begun = begin(kept, read=read_merged_record)
+    return begun if isinstance(begun, Checked) else finish(begun, "equal")
+
+
+def begin(
+    kept: Kept, depth: str = "equal", read: Callable[[str], Record] = read_record
+) -> Checked | Begun:
     """How a package stands, if digests tell. RebsyncError: it cannot be told."""
-    record = _record(kept)
+    record = _record(kept, read)
     if record is None:
         assert kept.model is not None
         return Begun(kept, kept.model, None, standing(kept, None))
     model = model_of(kept, record)
     now = standing(kept, record)
-    is_known = now.is_as_generated or _was_in_step(record, now, depth)
+    is_known = (now.is_as_generated and not record.is_merged) or _was_in_step(record, now, depth)
     if not (is_known and _is_unchanged(model, record)):
         return Begun(kept, model, record, now)
     findings = (*changed_settings(model, record), *_about_base(kept, record))
     return Checked(kept, model, record, now, findings=findings)
 
 
-def _record(kept: Kept) -> Record | None:
+def _record(kept: Kept, read: Callable[[str], Record]) -> Record | None:
     """What is recorded; nothing need be where it is known which model it is."""
     try:
-        return read_record(kept.root)
+        return read(kept.root)
     except RebsyncError as error:
         if kept.model is None or error.findings[0].diagnostics[0].code != "RS961":
             raise
@@ -106,13 +114,13 @@ def _about_base(kept: Kept, record: Record) -> tuple[Findings, ...]:
 
 
 def _refuse_dialect(kept: Kept, record: Record | None) -> None:
-    """Code that cannot be read back yet must not look as if it said nothing."""
-    target = record.options.get("target", "ros1-cpp") if record is not None else "ros1-cpp"
-    if record is not None and record.options.get("targets"):
-        target = "several languages"
-    if target not in _READ:
-        message = f"code in {target} cannot be read yet"
-        hint = "`rebsync generate` still takes changes of the model into it"
+    """Code that cannot be read must not look as if it said nothing."""
+    from rebsync.config import TARGETS
+
+    target = record.options.get("target", TARGETS[0]) if record is not None else TARGETS[0]
+    if target not in TARGETS:
+        message = f'code in "{target}" cannot be read'
+        hint = f"this rebsync knows {', '.join(TARGETS)}"
         raise RebsyncError.of(kept.root, "RS709", message, hint)
 
 

@@ -10,7 +10,7 @@ from rebsync.records import dataclass
 from rebsync.roundtrip.alignment import aligned
 from rebsync.roundtrip.difference import Depth, Place
 from rebsync.roundtrip.matching import matched
-from rebsync.roundtrip.sides import Given, Side, side
+from rebsync.roundtrip.sides import Given, Side, two_sides
 from rebsync.source import NOWHERE, Source, SourceSpan, Span
 
 _Body = m.Constructor | m.MessageServer | m.Method
@@ -63,7 +63,7 @@ def _span(node: m.Node) -> Span:
 
 def _partners(today: Given, code: Given) -> dict[tuple[str, int], Place]:
     """For places in the code those in the model that say the same."""
-    left, right = side(today, Depth.EQUAL), side(code, Depth.EQUAL)
+    left, right = two_sides(today, code, Depth.EQUAL)
     found: dict[tuple[str, int], Place] = {}
     for x, r in matched(left, right).pairs:
         _note(found, left, right, x.node, r.node)

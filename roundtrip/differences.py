@@ -25,7 +25,8 @@ from rebsync.roundtrip.difference import (
 )
 from rebsync.roundtrip.differences_bodies import callable_differences
 from rebsync.roundtrip.matching import Matching, Pair, matched, names_of
-from rebsync.roundtrip.sides import Given, Item, Side, Unread, side, too_deep
+from rebsync.roundtrip.sameness import are_same
+from rebsync.roundtrip.sides import Given, Item, Side, Unread, too_deep, two_sides
 from rebsync.roundtrip.tokens import Tokens
 from rebsync.source import SourceSpan
 
@@ -40,9 +41,16 @@ def compare(left: Given, right: Given, depth: Depth = Depth.EQUAL) -> Comparison
 
     RebsyncError: something in a model nests too deeply.
     """
-    sides = side(left, depth), side(right, depth)
+    if depth is Depth.EQUAL and are_same(left, right):
+        return Comparison(())
+    return compare_in_full(left, right, depth)
+
+
+def compare_in_full(left: Given, right: Given, depth: Depth = Depth.EQUAL) -> Comparison:
+    """The same, looked for even where both are plainly the same."""
+    both = two_sides(left, right, depth)
     try:
-        return Comparison(tuple(_Comparing.of(*sides).all()))
+        return Comparison(tuple(_Comparing.of(*both).all()))
     except RecursionError:
         raise too_deep(left) from None
 

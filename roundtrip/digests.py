@@ -8,10 +8,12 @@ from pathlib import Path
 
 from rebsync.files import BOM
 from rebsync.records import dataclass
-from rebsync.reverse.files.packages import Listing, is_read, listings
+from rebsync.reverse.files.packages import Listing, is_read
+from rebsync.reverse.files.python_files import may_be_script
 from rebsync.roundtrip.manifest import BASE_MODEL
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
+from rebsync.roundtrip.units import listing_of
 
 _PART = 1 << 16  # bytes that are read at once; much more is memory from the system for each file
 
@@ -44,10 +46,10 @@ class Standing:
 
 def standing(kept: Kept, record: Record | None) -> Standing:
     """How a package stands against what its manifest records; without one, all is changed."""
-    listing = next(listings(kept.root, kept.tree), Listing(kept.root, {}))
+    wanted = record.files if record is not None else {}
+    listing = listing_of(kept.root, kept.tree, wanted)
     if kept.root == ".":  # as servers name the files of a change
         listing.files = {name: path.removeprefix("./") for name, path in listing.files.items()}
-    wanted = record.files if record is not None else {}
     digests: dict[str, str] = {}
     changed = []
     for name, path in listing.files.items():
@@ -82,7 +84,8 @@ def _counts(name: str) -> bool:
     parts = name.split("/")
     if any(part.startswith(".") for part in parts):
         return False
-    return is_read(parts[-1], "".join(f"{part}/" for part in parts[:-1]))
+    inside = "".join(f"{part}/" for part in parts[:-1])
+    return is_read(parts[-1], inside) or (inside.endswith("scripts/") and may_be_script(parts[-1]))
 
 
 def is_base_whole(kept: Kept, record: Record) -> bool:

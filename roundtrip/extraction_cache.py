@@ -13,24 +13,27 @@ import os
 import pickle
 import secrets
 import sys
+from collections.abc import Mapping
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, TypeVar
 
 from rebsync import __version__
 from rebsync.cache import cache_directory, is_ours
-from rebsync.source import NOWHERE
+from rebsync.source import NOWHERE, Source
 
 T = TypeVar("T")
 
 _MOST = 1000  # entries; when there are more, the older half goes
 _DIGEST = hashlib.sha256().digest_size
+_NO_SOURCES: Mapping[str, Source] = MappingProxyType({})
 _BUILTINS = frozenset({"frozenset", "set", "dict", "list", "tuple"})
 # What an entry holds follows from the texts and from the code that reads these.
 _READERS = (
     *("", "grammars", "reverse", "roundtrip", "static"),
-    *("checker", "checker/lowering", "checker/temporal"),
+    "checker",
 )
 
 
@@ -43,14 +46,16 @@ def key_of(*parts: str) -> str:
 @cache
 def _readers() -> str:
     """Which state the reading code is in, told from the times and sizes of its files."""
-    here = Path(__file__).parent.parent
+    waiting = [str(Path(__file__).parent.parent / name) for name in _READERS]
     found = []
-    for name in _READERS:
-        with suppress(OSError), os.scandir(here / name) as entries:
+    for folder in waiting:  # which grows
+        with suppress(OSError), os.scandir(folder) as entries:
             for entry in entries:
                 if entry.name.endswith((".py", ".lark")):
                     status = entry.stat()
                     found.append(f"{entry.name} {status.st_mtime_ns} {status.st_size}")
+                elif folder != waiting[0] and entry.name[0].isalpha() and entry.is_dir():
+                    waiting.append(entry.path)
     return "\n".join(sorted(found))
 
 
@@ -69,8 +74,13 @@ def kept(key: str, kind: type[T]) -> T | None:
     body = data[_DIGEST:]
     if hashlib.sha256(body).digest() != data[:_DIGEST]:
         return None
+    return opened(body, kind)
+
+
+def opened(body: bytes, kind: type[T], sources: Mapping[str, Source] = _NO_SOURCES) -> T | None:
+    """The value that bytes are made from, if it is of the kind that is wanted."""
     try:
-        value = unpacked(body)
+        value = unpacked(body, sources)
     except (pickle.UnpicklingError, AttributeError, ImportError, EOFError, IndexError, TypeError):
         return None  # made by a rebsync of the same version that is not quite the same
     return value if isinstance(value, kind) else None
@@ -127,27 +137,53 @@ def _tidy(folder: Path) -> None:
 # --- values as bytes ----------------------------------------------------------------------------
 
 
-def packed(value: object) -> bytes:
-    """A value of rebsync as bytes. RecursionError: it is nested too deeply."""
+def packed(value: object, sources: Mapping[str, Source] = _NO_SOURCES) -> bytes:
+    """A value of rebsync as bytes, without the texts of `sources`, which go by their paths.
+
+    RecursionError: it is nested too deeply.
+    """
     file = io.BytesIO()
-    _Writer(file, protocol=5).dump(value)
+    _Writer(file, sources).dump(value)
     return file.getvalue()
 
 
-def unpacked(data: bytes) -> object:
+def unpacked(data: bytes, sources: Mapping[str, Source] = _NO_SOURCES) -> object:
     """The value that bytes are made from. pickle.UnpicklingError: not all of it is rebsync's."""
-    return _Reader(io.BytesIO(data)).load()
+    return _Reader(io.BytesIO(data), sources).load()
 
 
 class _Writer(pickle.Pickler):
-    """Writes the one span that is no place by its name: it is told from others by identity."""
+    """Writes the one span that is no place by its name: it is told from others by identity.
+
+    And texts that the reader is to have by their paths.
+    """
+
+    def __init__(self, file: io.BytesIO, sources: Mapping[str, Source]) -> None:
+        super().__init__(file, protocol=5)
+        self._sources = sources
 
     def reducer_override(self, value: object) -> Any:  # noqa: ANN401 - what pickle asks for
         return "NOWHERE" if value is NOWHERE else NotImplemented
 
+    def persistent_id(self, value: object) -> str | None:
+        """The path of a text that the reader has."""
+        if isinstance(value, Source) and self._sources.get(value.path) is value:
+            return value.path
+        return None
+
 
 class _Reader(pickle.Unpickler):
     """Makes values of rebsync's own classes only."""
+
+    def __init__(self, file: io.BytesIO, sources: Mapping[str, Source]) -> None:
+        super().__init__(file)
+        self._sources = sources
+
+    def persistent_load(self, path: object) -> Source:
+        """The text of a path. pickle.UnpicklingError: there is none."""
+        if isinstance(path, str) and path in self._sources:
+            return self._sources[path]
+        raise pickle.UnpicklingError(f"no text of {path}")
 
     def find_class(self, module: str, name: str) -> object:
         if (module, name) == (NOWHERE.__module__, "NOWHERE"):

@@ -10,6 +10,7 @@ from rebsync.roundtrip.difference import Comparison, Element, Place, explain
 from rebsync.roundtrip.merge_models import whole
 from rebsync.roundtrip.models import Code
 from rebsync.roundtrip.sides import Given, Unread
+from rebsync.roundtrip.units import as_one, folders_of, name_as_one
 from rebsync.source import NOWHERE, Source, Span
 
 
@@ -19,16 +20,20 @@ def read_with(listing: Listing, texts: Mapping[str, str | None]) -> Code:
     from rebsync.reverse.findings import Grade
     from rebsync.reverse.recovery import extract
     from rebsync.reverse.report import diagnostics
+    from rebsync.roundtrip.class_memory import ClassMemory
 
-    chosen = read(listing)
+    chosen, folders = read(as_one(listing)), folders_of(listing.files)
     files = dict(chosen.files)
-    for path, text in texts.items():
+    for whole_path, text in texts.items():
+        path = name_as_one(whole_path, folders)
+        if path is None:
+            continue
         folder, _, name = path.rpartition("/")
         if text is None:
             files.pop(path, None)
         elif is_read(name, f"{folder}/" if folder else ""):
-            files[path] = Source(f"{listing.root}/{path}", text)
-    extracted = extract(files)
+            files[path] = Source(f"{listing.root}/{whole_path}", text)
+    extracted = extract(files, memory=ClassMemory())
     unread = tuple(
         Unread(Place(f.source, f.span), f.why, f.within)
         for f in (*chosen.findings, *extracted.findings)

@@ -14,7 +14,7 @@ from rebsync.roundtrip.differences import compare
 from rebsync.roundtrip.matching import matched
 from rebsync.roundtrip.models import parsed
 from rebsync.roundtrip.patching import patched
-from rebsync.roundtrip.sides import Given, Item, side
+from rebsync.roundtrip.sides import Given, Item, side, two_sides
 from rebsync.roundtrip.verdict import Drift, Mover, judge
 from rebsync.source import NOWHERE, Source, Span
 
@@ -125,7 +125,7 @@ def _with_code(
         return found | parameters.get(element.path, set()) if item.kind in _CALLABLE else found
 
     sides: dict[tuple[str, str, tuple[str, ...]], Mover] = {}
-    left, right = side(today, Depth.EQUAL), side(code, Depth.EQUAL)
+    left, right = two_sides(today, code, Depth.EQUAL)
     pairs = matched(left, right)
     classes = {r.name: x.name for x, r in pairs.pairs if not r.owner}
     for x, r in pairs.pairs:
@@ -223,7 +223,7 @@ def parsed_again(source: Source) -> m.Model:
         return parsed(source)
     except RebsyncError as error:
         found = error.findings[0].diagnostics[0]
-        line = source.position(found.span.start).line
+        line = source.line(source.position(found.span.start).line).strip()
         message = "the changes of model and code cannot be put together"
-        hint = f"it would say, in line {line}: {source.line(line).strip()}; {found.message}"
+        hint = f"it would say `{line}`: {found.message}"
         raise RebsyncError.of(source.path, "RS967", message, hint) from None

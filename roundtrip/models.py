@@ -15,6 +15,7 @@ from rebsync.roundtrip.extraction_cache import keep, kept, key_of
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import conflict_in
 from rebsync.roundtrip.sides import Given, Unread
+from rebsync.roundtrip.units import as_one
 from rebsync.source import Source
 
 
@@ -70,11 +71,12 @@ def _extracted(standing: Standing) -> Code:
     from rebsync.reverse.findings import Grade
     from rebsync.reverse.recovery import extract
     from rebsync.reverse.report import diagnostics
+    from rebsync.roundtrip.class_memory import ClassMemory
 
-    chosen = read(standing.listing)
+    chosen = read(as_one(standing.listing))
     if conflicts := [c for s in chosen.files.values() if (c := conflict_in(s)) is not None]:
         raise RebsyncError(conflicts)
-    extracted = extract(chosen.files)
+    extracted = extract(chosen.files, memory=ClassMemory())
     findings = (*chosen.findings, *extracted.findings)
     unread = tuple(
         Unread(Place(f.source, f.span), f.why, f.within)

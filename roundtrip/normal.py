@@ -9,12 +9,13 @@ Models with one normal form have one meaning. Folded are
 * spellings of one number: `1_0.f` and `10.0f`, a negative literal and a minus before it,
 * in `@Move`, parentheses and `X + 0`.
 
-Comments and places take no part in the equality of models anyway.
+Comments and places take no part in the equality of models anyway. What only Python does not show is
+folded apart from that (`as_in_python`), as C++ does show it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import fields, replace
 from typing import TypeVar, cast
 
@@ -30,13 +31,18 @@ _Node = TypeVar("_Node")
 
 def normal(model: m.Model) -> m.Model:
     """The normal form; in a model with errors, constants stay as they are written."""
-    analysis = analyse(model, fragment=True)
-    classes = sorted((_class(c) for c in model.classes), key=lambda c: c.name)
-    if analysis.errors:
-        return m.Model(model.heads, tuple(classes), model.main)
-    heads = tuple(_heads(model, analysis))
-    main = _main(model, analysis) if model.main is not None else None
+    classes = sorted((normal_class(c) for c in model.classes), key=lambda c: c.name)
+    heads, main = normal_frame(model)
     return m.Model(heads, tuple(classes), main)
+
+
+def normal_frame(model: m.Model) -> tuple[tuple[m.Head, ...], m.Main | None]:
+    """What is around the classes: `env` variables and `main`."""
+    analysis = analyse(model, fragment=True)
+    if analysis.errors:
+        return model.heads, model.main
+    main = _main(model, analysis) if model.main is not None else None
+    return tuple(_heads(model, analysis)), main
 
 
 def rewrite(node: _Node, rule: Callable[[object], object]) -> _Node:
@@ -53,6 +59,15 @@ def rewrite(node: _Node, rule: Callable[[object], object]) -> _Node:
         elif hasattr(value, "__dataclass_fields__"):
             changed[each.name] = rewrite(value, rule)
     return cast("_Node", rule(replace(node, **changed)))  # type: ignore[type-var]
+
+
+def as_in_python(node: _Node) -> _Node:
+    """A class, or a model, without what Python does not show of it.
+
+    `x += 1` and `++x`, `1.5f` and `1.5`, and whether the start of a `for` stands in its head or
+    directly before it. What compares as one anyway is left: parentheses, `x++` as a statement.
+    """
+    return rewrite(rewrite(node, _unwritten), _started)
 
 
 # --- constants ----------------------------------------------------------------------------------
@@ -99,7 +114,8 @@ def _rebec(rebec: m.Rebec, analysis: Analysis) -> m.Rebec:
 # --- classes ------------------------------------------------------------------------------------
 
 
-def _class(declaration: m.ReactiveClass | m.Interface) -> m.ReactiveClass | m.Interface:
+def normal_class(declaration: m.ReactiveClass | m.Interface) -> m.ReactiveClass | m.Interface:
+    """The normal form of a class, which follows from this class alone."""
     plain = rewrite(declaration, _rule)
     if isinstance(plain, m.Interface):
         return plain
@@ -166,3 +182,80 @@ def _cell(argument: m.Expression) -> m.Expression:
             return m.Binary(operator, _cell(left), _cell(right))
         case _:
             return argument
+
+
+# --- what Python does not show ------------------------------------------------------------------
+
+
+def _unwritten(node: object) -> object:
+    match node:
+        case m.Assign("+=" | "-=" as operator, target, m.IntLiteral(1)):
+            return m.Unary(operator[0] * 2, target, node.span)
+        case m.FloatLiteral(text) if text[-1] in "fF":
+            return replace(node, text=text[:-1])
+        case _:
+            return node
+
+
+def _started(node: object) -> object:
+    """Takes the start of a loop out of it, to before it."""
+    match node:
+        case m.Block(statements) | m.Case(statements=statements):
+            return replace(node, statements=tuple(_spread(statements)))
+        case _:
+            return node
+
+
+def _spread(statements: Iterable[m.Statement]) -> Iterator[m.Statement]:
+    for statement in statements:
+        if isinstance(statement, m.For) and statement.initial:
+            yield from _starts(statement.initial)
+            statement = replace(statement, initial=())
+        yield statement
+
+
+def with_starts(node: _Node) -> _Node:
+    """What was read from Python as it is written: what gives a loop its variable in its head."""
+    return rewrite(node, _headed)
+
+
+def _headed(node: object) -> object:
+    match node:
+        case m.Block(statements) | m.Case(statements=statements):
+            return replace(node, statements=joined_starts(statements))
+        case _:
+            return node
+
+
+def joined_starts(statements: Iterable[m.Statement]) -> tuple[m.Statement, ...]:
+    """Statements of which those that start a loop are in its head."""
+    found: list[m.Statement] = []
+    for statement in statements:
+        if isinstance(statement, m.For) and not statement.initial and found:
+            initial = _initial_of(found[-1], statement)
+            if initial:
+                found.pop()
+                statement = replace(statement, initial=initial)
+        found.append(statement)
+    return tuple(found)
+
+
+def _initial_of(start: m.Statement, loop: m.For) -> m.Declaration | tuple[m.Expression, ...]:
+    """What a statement gives to a variable that the head of a loop uses; nothing if it does not."""
+    parts = (*([loop.condition] if loop.condition is not None else []), *loop.updates)
+    used = {n.name for part in parts for n in m.walk(part) if isinstance(n, m.Name)}
+    match start:
+        case m.Local(declaration, annotations=()) if len(declaration.declarators) == 1:
+            return declaration if declaration.declarators[0].name in used else ()
+        case m.ExpressionStatement(m.Assign("=", m.Name(name)) as first, annotations=()):
+            return (first,) if name in used else ()
+        case _:
+            return ()
+
+
+def _starts(initial: m.Declaration | tuple[m.Expression, ...]) -> Iterator[m.Statement]:
+    if not isinstance(initial, m.Declaration):
+        yield from (m.ExpressionStatement(e, span=e.span) for e in initial)
+        return
+    for each in initial.declarators:
+        yield m.Local(replace(initial, declarators=(each,)), span=initial.span)

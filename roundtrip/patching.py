@@ -14,7 +14,7 @@ from rebsync.roundtrip.difference import Depth
 from rebsync.roundtrip.matching import Pair
 from rebsync.roundtrip.patching_added import Additions
 from rebsync.roundtrip.patching_two import Declared, Two
-from rebsync.roundtrip.sides import Given, Item, side
+from rebsync.roundtrip.sides import Given, Item, two_sides
 from rebsync.source import NOWHERE, Span
 
 _CLASSES = ("reactiveclass", "interface")
@@ -27,7 +27,7 @@ def patched(today: Given, code: Given, wanted: Callable[[Item | None, Item | Non
     `wanted` is asked of each element, as it is in the model and in the code; None where one of the
     two does not have it.
     """
-    left, right = side(today, Depth.EQUAL), side(code, Depth.EQUAL)
+    left, right = two_sides(today, code, Depth.EQUAL)
     return _Patch(Two.of(left, right)).result(wanted)
 
 
@@ -72,13 +72,14 @@ class _Patch:
                 self._callable(a, b)
 
     def _callable(self, x: _Callable, r: _Callable) -> None:
-        printed = self.two.bodies.printed
-        made = replace(printed.of(r), name=x.name if isinstance(x, m.Constructor) else r.name)
+        made = self.two.written(r)
+        made = replace(made, name=x.name if isinstance(x, m.Constructor) else r.name)
         whole = print_member(made)
         if x.body is None or r.body is None:
             if (x.body is None) != (r.body is None) or not self._is_head_same(x, r):
                 self.two.out.replace(x.span, whole)
             return
+        mark = len(self.two.out.edits)
         if not self._is_head_same(x, r):
             same = self.two.bodies.same(x.annotations, r.annotations)
             start = _past(self.two.out.text, x.annotations, x.span.start) if same else x.span.start
@@ -86,6 +87,7 @@ class _Patch:
             head = print_member(shown).removesuffix("\n").removesuffix(";")
             self.two.out.replace(Span(start, x.body.span.start), f"{head} ")
         if not self.two.bodies.body(x.body, r.body):
+            self.two.out.take_back(mark)
             self.two.out.replace(x.span, whole)
 
     def _is_head_same(self, x: _Callable, r: _Callable) -> bool:

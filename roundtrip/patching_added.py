@@ -41,17 +41,17 @@ class Additions:
                 self.two.out.after(at, "\n".join(texts), indent)
 
     def _new(self, item: Item) -> str:
-        printed = self.two.bodies.printed
+        printed, written = self.two.bodies.printed, self.two.written
         match item.node:
             case m.ReactiveClass() | m.Interface() as node:
-                return print_class(self._renamed(printed.of(node))).removesuffix("\n")
+                return print_class(self._renamed(written(node))).removesuffix("\n")
             case m.Rebec() as node:
                 return print_line(printed.of(node))
             case m.Constructor() as node:
-                made = replace(printed.of(node), name=printed.class_name(item.owner))
+                made = replace(written(node), name=printed.class_name(item.owner))
                 return print_member(made).removesuffix("\n")
             case m.MessageServer() | m.Method() as node:
-                return print_member(printed.of(node)).removesuffix("\n")
+                return print_member(written(node)).removesuffix("\n")
             case _:
                 return self.two.line(item)
 

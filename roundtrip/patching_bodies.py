@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields
 
 from rebsync import model as m
@@ -12,6 +12,7 @@ from rebsync.precedence import LOWEST, binding
 from rebsync.printing import print_expression, print_statement
 from rebsync.records import dataclass
 from rebsync.roundtrip.alignment import aligned, overlap
+from rebsync.roundtrip.normal import joined_starts, with_starts
 from rebsync.roundtrip.patching_text import TextPatch, dedented
 from rebsync.roundtrip.tokens import Tokens
 from rebsync.source import NOWHERE, Span
@@ -54,7 +55,15 @@ class BodyPatch:
             return False
         if x.span != NOWHERE:
             return self._lists(x.statements, r.statements, x.span)
-        (only,) = x.statements  # braces that are not in the text
+        *starts, only = x.statements  # braces that are not in the text
+        if starts:
+            mark = len(self.out.edits)
+            if len(x.statements) == len(r.statements) and all(
+                map(self._in_place, x.statements, r.statements)
+            ):
+                return True
+            self.out.take_back(mark)
+            return self._whole(only, r)
         if len(r.statements) == 1 and self.statement(only, r.statements[0]):
             return True
         return self._whole(only, r)
@@ -63,11 +72,17 @@ class BodyPatch:
         """A statement; False where its text has no place of its own."""
         if self.same(x, r):
             return True
+        return self._in_place(x, r) or self._whole(x, r)
+
+    def _in_place(self, x: m.Statement, r: m.Statement) -> bool:
+        """Changes parts of a statement; False, and nothing changed, where that is not enough."""
         mark = len(self.out.edits)
+        if self.same(x, r):
+            return True
         if type(x) is type(r) and self.same(x.annotations, r.annotations) and self._inside(x, r):
             return True
         self.out.take_back(mark)
-        return self._whole(x, r)
+        return False
 
     def _whole(self, x: m.Statement, r: m.Statement) -> bool:
         if x.span == NOWHERE:
@@ -126,6 +141,7 @@ class BodyPatch:
         lefts, rights = [self.left.of(s) for s in xs], [self.right.of(s) for s in rs]
         if any(s.span == NOWHERE for s in xs) or (block is None and not xs and rs):
             return False
+        heads = Heads.of(xs)
         pairs = [
             (
                 self.left.written(x) if x is not None else None,
@@ -138,12 +154,17 @@ class BodyPatch:
         for run in _runs(pairs):
             old, new = run[0]
             if old is not None and new is not None:
-                if not self.statement(old, new):
+                if not (self._in_place(old, new) if old in heads else self.statement(old, new)):
                     return False
                 last = old
                 continue
             olds = [x for x, _ in run if x is not None]
             news = [r for _, r in run if r is not None]
+            if not heads.go_whole(olds) or (last in heads and len(news) > len(olds)):
+                return False
+            olds = [x for x in olds if x not in heads]
+            if self.printed.side.in_python:
+                news = list(joined_starts(news))
             last = self._run(olds, news, last, block, gone)
         return True
 
@@ -181,7 +202,8 @@ class BodyPatch:
         return self._text(r)
 
     def _text(self, r: m.Statement) -> str:
-        return print_statement(self.printed.of(r))
+        made = self.printed.of(r)
+        return print_statement(with_starts(made) if self.printed.side.in_python else made)
 
     # --- expressions ----------------------------------------------------------------------------
 
@@ -232,9 +254,35 @@ class BodyPatch:
         return self.same(x, r)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Heads:
+    """The statements that are in the heads of loops as written, each with its loop, by `id`."""
+
+    loops: Mapping[int, int]
+
+    @classmethod
+    def of(cls, statements: Sequence[m.Statement]) -> Heads:
+        """Those among some statements one after the other."""
+        loops = [s for s in statements if isinstance(s, m.For)]
+        inside = ((s, f) for s in statements for f in loops if s is not f and _is_in(s, f))
+        return cls({id(s): id(f) for s, f in inside})
+
+    def __contains__(self, statement: object) -> bool:
+        return id(statement) in self.loops
+
+    def go_whole(self, gone: Sequence[m.Statement]) -> bool:
+        """Whether with each loop its start goes, and with each start its loop."""
+        found = {id(s) for s in gone}
+        return all((s in found) == (f in found) for s, f in self.loops.items())
+
+
+def _is_in(statement: m.Statement, loop: m.For) -> bool:
+    return loop.span.start <= statement.span.start and statement.span.end <= loop.span.end
+
+
 def _only(block: m.Statement) -> m.Statement:
     """The statement that braces were put around."""
-    return block.statements[0] if isinstance(block, m.Block) else block
+    return block.statements[-1] if isinstance(block, m.Block) else block
 
 
 def _bare(expression: m.Expression) -> m.Expression:

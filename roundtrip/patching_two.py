@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import field, replace
+from typing import TypeVar
 
 from rebsync import model as m
 from rebsync.printing import print_line
 from rebsync.records import dataclass
 from rebsync.roundtrip.difference import Depth
 from rebsync.roundtrip.matching import Matching, matched, names_of
+from rebsync.roundtrip.normal import with_starts
 from rebsync.roundtrip.patching_bodies import BodyPatch
 from rebsync.roundtrip.patching_text import TextPatch
 from rebsync.roundtrip.sides import Item, Side
 from rebsync.roundtrip.tokens import Tokens
 from rebsync.source import Span
 
+_Node = TypeVar("_Node")
 SECTIONS = {"statevar": m.StateVars, "knownrebec": m.KnownRebecs}
 
 
@@ -52,6 +55,11 @@ class Two:
         printed = Tokens(replace(right, depth=Depth.IDENTICAL), second)
         bodies = BodyPatch(Tokens(left, first), Tokens(right, second), printed, out)
         return cls(left, right, matching, bodies, out, {id(r): x for x, r in matching.pairs})
+
+    def written(self, node: _Node) -> _Node:
+        """A node of the right one as it is to be written into the left one."""
+        made = self.bodies.printed.of(node)
+        return with_starts(made) if self.right.in_python else made
 
     def declared(self, item: Item) -> Declared | None:
         """A variable of the model as it is in the text."""

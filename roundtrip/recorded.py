@@ -28,6 +28,7 @@ class Record:
     that were generated. `accepted` is how nodes are joined otherwise than generated, as a change
     of the code that is in the model since. `in_step` is the digest of edited code and this model
     when all of it was last looked at and both said the same, empty where that was not so.
+    `is_merged`: it is put together from what a merge left, and is to be written anew.
     """
 
     model: str
@@ -37,6 +38,7 @@ class Record:
     files: dict[str, str]
     accepted: frozenset[str] = frozenset()
     in_step: str = ""
+    is_merged: bool = False
 
 
 def read_record(root: str) -> Record:
@@ -56,30 +58,34 @@ def read_record(root: str) -> Record:
         raise _damaged(source, place, f"it is no JSON: {error.msg}") from None
     except RecursionError:
         raise _damaged(source, NOWHERE, "it is nested too deeply") from None
-    return _record(source, data)
+    return record_in(source, data)
 
 
 def _damaged(source: Source, span: Span, why: str) -> RebsyncError:
-    if (found := conflict_in(source)) is not None:
+    hint = "`rebsync sync` puts both sides together, once model and code have no conflicts"
+    if (found := conflict_in(source, hint)) is not None:
         return RebsyncError([found])
     message = f"the manifest is damaged: {why}"
     return RebsyncError([Findings(source, (Diagnostic("RS962", span, message, _AGAIN),))])
 
 
-def conflict_in(source: Source) -> Findings | None:
+_DECIDE = "decide which side is right, and take the markers out"
+
+
+def conflict_in(source: Source, hint: str = _DECIDE) -> Findings | None:
     """What a merge left in a text that people are to decide, if anything."""
     text = source.text
     at = 0 if text.startswith(_MARK) else text.find(f"\n{_MARK}") + 1
     if not text.startswith(_MARK, at) or f"\n{'>' * 7}" not in text[at:]:
         return None
     message = "a merge left a conflict here"
-    hint = "decide which side is right, and take the markers out"
     end = text.find("\n", at)
     span = Span(at, end if end >= 0 else len(text))
     return Findings(source, (Diagnostic("RS966", span, message, hint),))
 
 
-def _record(source: Source, data: object) -> Record:
+def record_in(source: Source, data: object) -> Record:
+    """What the data of a manifest say. RebsyncError: they are damaged, or of a newer format."""
     match data:
         case {"format": int(version), "rebsync": by_version} if version > FORMAT:
             message = (

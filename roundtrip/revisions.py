@@ -89,13 +89,15 @@ def _code(path: str, shown: str, root: tuple[str, str] | None) -> Code:
 
 def _chosen(path: str, shown: str, root: tuple[str, str]) -> Chosen:
     """The files of the one package that a path stands for, under the names to be told."""
-    from rebsync.reverse.files.reading import packages
+    from rebsync.reverse.files.reading import packages, read
+    from rebsync.roundtrip.units import both_at
 
     def named(source: Source) -> Source:
         inside = source.path.removeprefix(root[0]).lstrip("/")
         return Source(_below(root[1], inside) if inside else root[1], source.text)
 
-    found = list(islice(packages([path]), 2))
+    both = both_at(path)
+    found = [read(both)] if both is not None else list(islice(packages([path]), 2))
     if not found:
         raise RebsyncError.of(shown, "RS943", "no class of a model was found here")
     if len(found) > 1:

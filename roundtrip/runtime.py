@@ -20,10 +20,11 @@ from rebsync.roundtrip.manifest import BASE
 from rebsync.roundtrip.markers import TOKEN
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
+from rebsync.roundtrip.runtime_python import MODULE, PYTHON, first_difference, is_python_runtime
+from rebsync.roundtrip.units import manifest_of
 from rebsync.roundtrip.wiring_facts import MAIN, package_name
 from rebsync.source import NOWHERE, Source, Span
 
-_MANIFEST = "package.xml"
 _HEADER = re.compile(rf"include/[^/]+/(?:{'|'.join(RUNTIME_HEADERS)})\.h(?:pp)?\Z")
 _STAND_IN = re.compile(r"src/\w+_stand_in\.cpp\Z")
 _PROGRAM = re.compile(r"src/\w+_node\.cpp\Z")
@@ -49,21 +50,26 @@ def edited(kept: Kept, record: Record | None, now: Standing) -> tuple[Findings, 
     """The places that are not as they were generated."""
     if record is None:
         return ()
-    paths = (f"{kept.root}/{BASE}{_MANIFEST}", now.listing.files.get(_MANIFEST, ""))
+    paths = (
+        f"{kept.root}/{BASE}{manifest_of(record.files)}",
+        now.listing.files.get(manifest_of(now.listing.files), ""),
+    )
     own = frozenset(filter(None, map(package_name, paths)))
     names = sorted({*now.changed, *now.missing} & record.files.keys())
-    return tuple(f for name in names if _is_runtime(name) for f in _edited(kept, now, name, own))
+    return tuple(f for name in names if _may_be(name) for f in _edited(kept, now, name, own))
 
 
-def _is_runtime(name: str) -> bool:
-    return bool(_HEADER.match(name) or _STAND_IN.match(name) or _PROGRAM.match(name))
+def _may_be(name: str) -> bool:
+    """Whether a generated file may be of the run-time part, or a program."""
+    patterns = (_HEADER, _STAND_IN, _PROGRAM, PYTHON)
+    return any(pattern.match(name) for pattern in patterns)
 
 
 def _edited(kept: Kept, now: Standing, name: str, own: frozenset[str]) -> Iterator[Findings]:
     """The place where a file is not as it was generated; `own` are the names of the package."""
     path = now.listing.files.get(name) or _moved(now, name)
     if path is None:
-        if _HEADER.match(name):
+        if _HEADER.match(name) or MODULE.match(name) or _is_python_program(kept, name):
             message = "generated code that the rest needs is gone"
             yield _finding(Source(f"{kept.root}/{name}", ""), NOWHERE, message)
         return
@@ -75,12 +81,31 @@ def _edited(kept: Kept, now: Standing, name: str, own: frozenset[str]) -> Iterat
         message += f": {found.diagnostics[0].message}"
         yield _finding(Source(path, ""), NOWHERE, message)
         return
-    if not _HEADER.match(name) and not MAIN.search(base.text):
-        return  # a class with such a name
-    cut = partial(_statements if _PROGRAM.match(name) else _tokens, own=own)
-    span = _first_difference(base, source, cut)
+    span = _difference(name, base, source, own)
     if span is not None:
         yield _finding(source, span, "this is not as it was generated, and no model describes it")
+
+
+def _is_python_program(kept: Kept, name: str) -> bool:
+    """Whether a file that is gone was a program, or played sensors."""
+    if not PYTHON.match(name):
+        return False
+    try:
+        base = read_source(f"{kept.root}/{BASE}{name}")
+    except RebsyncError:
+        return False
+    return is_python_runtime(name, base.text)
+
+
+def _difference(name: str, base: Source, source: Source, own: frozenset[str]) -> Span | None:
+    """Where a file is not as it was generated, if no model describes it."""
+    if PYTHON.match(name):
+        is_described = not is_python_runtime(name, base.text)
+        return None if is_described else first_difference(base, source, own)
+    if not _HEADER.match(name) and not MAIN.search(base.text):
+        return None  # a class with such a name
+    cut = partial(_statements if _PROGRAM.match(name) else _tokens, own=own)
+    return _first_difference(base, source, cut)
 
 
 def _finding(source: Source, span: Span, message: str) -> Findings:

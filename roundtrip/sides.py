@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import field
+from dataclasses import field, replace
 from typing import TypeAlias
 
 from rebsync import model as m
 from rebsync.diagnostics import RebsyncError
 from rebsync.records import dataclass
 from rebsync.roundtrip.difference import Depth, Element, Place, place
-from rebsync.roundtrip.normal import normal, rewrite
+from rebsync.roundtrip.normal import as_in_python, normal, rewrite
 from rebsync.source import NOWHERE, Source, SourceSpan, Span
 from rebsync.static import Analysis, analyse
 
@@ -19,6 +19,7 @@ Callable: TypeAlias = m.Constructor | m.MessageServer | m.Method
 Declared: TypeAlias = m.Declarator | Callable | m.ReactiveClass | m.Interface | m.Rebec
 
 UNREADABLE = "Unreadable"
+_PYTHON = ".py"
 _MARKER = re.compile(r"rebsync:\s*([\w-]+\s+\S+?)\s*(?:-->|\*/)?\s*$")
 _COMMENT = ("//", "/*", "*", "#", "<!--")
 
@@ -78,6 +79,7 @@ class Side:
     given: Given
     depth: Depth
     items: tuple[Item, ...] = field(repr=False)
+    in_python: bool = False
 
     def place(self, *spans: Span) -> Place | None:
         """The first of the spans that is a place."""
@@ -96,18 +98,50 @@ class Side:
         return self.place(getattr(item.node, "name_span", NOWHERE), item.node.span)
 
 
-def side(given: Given, depth: Depth) -> Side:
-    """A model made ready for a comparison.
+def side(given: Given, depth: Depth, others: frozenset[str] | None = None) -> Side:
+    """A model made ready for a comparison; in one with Python, `others` are the classes in C++.
 
     RebsyncError: something in it nests too deeply.
     """
     try:
         model = normal(given.model) if depth is Depth.EQUAL else given.model
+        if others is not None and depth is Depth.EQUAL:
+            classes = (c if c.name in others else as_in_python(c) for c in model.classes)
+            model = replace(model, classes=tuple(classes))
         model = rewrite(model, lambda node: node)  # each node once: symbols go by identity
     except RecursionError:
         raise too_deep(given) from None
     analysis = analyse(model, fragment=True, incomplete=True)
-    return Side(model, analysis, given, depth, tuple(_items(model)))
+    items = tuple(_items(model))
+    return Side(model, analysis, given, depth, items, others is not None)
+
+
+def two_sides(left: Given, right: Given, depth: Depth) -> tuple[Side, Side]:
+    """Two models made ready for a comparison, alike where one of them was read from Python.
+
+    RebsyncError: something in one nests too deeply.
+    """
+    if not (in_python(left) or in_python(right)):
+        return side(left, depth), side(right, depth)
+    others = _others(left) | _others(right)
+    return side(left, depth, others), side(right, depth, others)
+
+
+def in_python(given: Given) -> bool:
+    """Whether classes of a model were read from Python."""
+    return any(_language(c) == _PYTHON for c in given.model.classes)
+
+
+def _others(given: Given) -> frozenset[str]:
+    """The classes that were read from C++."""
+    found = (c.name for c in given.model.classes if _language(c) not in ("", _PYTHON))
+    return frozenset(found)
+
+
+def _language(declaration: m.ReactiveClass | m.Interface) -> str:
+    """How the file ends that a class was read from; empty for a model's own."""
+    span = declaration.span
+    return f".{span.source.path.rpartition('.')[2]}" if isinstance(span, SourceSpan) else ""
 
 
 def too_deep(given: Given) -> RebsyncError:

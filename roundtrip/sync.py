@@ -113,7 +113,22 @@ class _Syncing:
         if text == base.source.text:
             return base
         source = Source(base.source.path, text)
-        return Given(_parsed(source), source)
+        try:
+            return Given(_parsed(source), source)
+        except RebsyncError as error:
+            raise self._no_model(error, code) from None
+
+    def _no_model(self, error: RebsyncError, code: Given) -> RebsyncError:
+        """The same, at what of the code cannot be read, for the code alone makes no model."""
+        place = (
+            code.unread[0].place if code.unread else Place(Source(self.checked.model, ""), NOWHERE)
+        )
+        found = error.findings[0].diagnostics[0]
+        if found.code != "RS967":
+            return error
+        message = "the changes of the code make no model"
+        told = replace(found, span=place.span, message=message)
+        return RebsyncError([Findings(place.source, (told,))])
 
     def _unread(self, apart: Comparison, code: Given) -> Iterator[Findings]:
         """Elements that the code has changed, and of which not all could be read."""

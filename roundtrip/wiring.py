@@ -7,7 +7,7 @@ there they follow the change. A topic may have another name where it still joins
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.records import dataclass
@@ -25,6 +25,7 @@ from rebsync.roundtrip.digests import Standing
 from rebsync.roundtrip.manifest import BASE
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
+from rebsync.roundtrip.units import manifest_of
 from rebsync.roundtrip.wiring_facts import (
     NOT_GIVEN,
     PLAYED,
@@ -40,7 +41,7 @@ from rebsync.roundtrip.wiring_names import TOPICS, Joined, is_about, joined, rep
 from rebsync.source import NOWHERE, Source
 
 _WIRED = (
-    *(".cpp", ".h", ".hpp", ".launch", ".launch.py", ".msg"),
+    *(".cpp", ".h", ".hpp", ".launch", ".py", ".msg"),
     *("CMakeLists.txt", "config/params.yaml"),
 )
 _JOINING = frozenset(
@@ -50,10 +51,15 @@ _JOINING = frozenset(
     }
 )
 # Without these extraction lists what they were for; and somebody may call them otherwise.
-_MISSED = frozenset({"subscription", "publisher", "sensor", "priority", "sending", "sender"})
+_MISSED = frozenset(
+    {
+        *("subscription", "publisher", "sensor", "priority", "sending", "sender"),
+        "type of the parameter",
+    }
+)
 # What was not there when the code was generated makes a difference too.
 _UNWANTED = frozenset({"setting", "compiler option"})
-_MANIFEST = "package.xml"
+_SAYING = frozenset({"receiving", "sending", "set-up"})
 _HELPING = frozenset({PROGRAM, PLAYED, TYPE, SPACE})
 _HINT = "take the edit back: no model tells this"
 # Run-time parameters that are settings of the model.
@@ -92,8 +98,8 @@ def odd_facts(kept: Kept, record: Record, now: Standing, of_code: Comparison) ->
         return ()
     listed = now.listing.files
     old_paths = {n: f"{kept.root}/{BASE}{n}" for n in record.files if _is_wiring(n)}
-    old = package_name(f"{kept.root}/{BASE}{_MANIFEST}")
-    own = package_name(listed.get(_MANIFEST, ""))
+    old = package_name(f"{kept.root}/{BASE}{manifest_of(record.files)}")
+    own = package_name(listed.get(manifest_of(listed), ""))
     before = facts_of({n: old_paths[n] for n in touched}, old)
     after = facts_of({n: listed[n] for n in [*touched, *new] if n in listed}, own)
     if _values(before) == _values(after):
@@ -119,25 +125,47 @@ def _values(facts: Facts) -> dict[tuple[str, str, str], set[str]]:
 
 
 def _is_wiring(name: str) -> bool:
-    return name.endswith(_WIRED)
+    return name.endswith(_WIRED) or name.rpartition("/")[0].endswith("scripts")
 
 
 def _odd(kept: Kept, before: list[Fact], now: list[Fact]) -> Odd | None:
     """What of the facts of one key is not as it was."""
     old, new = {f.value for f in before}, {f.value for f in now}
     first = (before or now)[0]
-    if old == new or (not new and first.kind in _MISSED):
+    if old == new or (not new and _is_missed(first)):
         return None
     what = " ".join(filter(None, ("the", first.kind, first.name)))
     what += f" of {first.owner}" if first.owner else ""
-    is_now = " and ".join(sorted(new)) or "gone"
-    message = f"{what} is {is_now}; generated was {' and '.join(sorted(old)) or 'none'}"
+    message = f"{what} {_change(first.kind, old, new)}"
     place = next((f for f in now if f.value not in old), now[0] if now else None)
     source = place.source if place else Source(f"{kept.root}/{_inside(kept, first)}", "")
     span = place.span if place else NOWHERE
     hint = _SETTINGS.get(first.name, _HINT) if first.kind == "parameter" else _hint(first)
     finding = Findings(source, (Diagnostic("RS956", span, message, hint),))
     return Odd(tuple(before), tuple(now), finding)
+
+
+def _is_missed(fact: Fact) -> bool:
+    """Whether extraction tells that something is gone.
+
+    In Python it knows a server by the function that receives, whatever this one listens to.
+    """
+    is_heard = fact.kind in ("subscription", "sensor") and not fact.source.path.endswith(".cpp")
+    return fact.kind in _MISSED and not is_heard
+
+
+def _change(kind: str, old: set[str], new: set[str]) -> str:
+    """What is another now; of functions only the statements that are."""
+    if kind not in _SAYING:
+        return f"is {_shown(new) or 'gone'}; generated was {_shown(old) or 'none'}"
+    before, now = ([s for text in each for s in text.split("; ")] for each in (old, new))
+    said = _shown(s for s in now if s not in before)
+    was = _shown(s for s in before if s not in now)
+    return f"says {said or 'less' if new else 'nothing'}; generated was {was or 'less'}"
+
+
+def _shown(values: Iterable[str]) -> str:
+    return " and ".join(sorted(values))
 
 
 def _hint(fact: Fact) -> str:
@@ -220,13 +248,16 @@ class _Excuses:
 
     def _has_moved(self, fact: Fact) -> bool:
         """Whether a fact is about a file that is somewhere else, or called otherwise."""
-        about = {"source of a program": fact.name, "field": f"{fact.owner}.msg"}.get(fact.kind)
-        return about is not None and about not in self.files
+        message = f"{fact.owner or fact.name}.msg"
+        about = {"source of a program": fact.name, "field": message, "message": message}
+        return about.get(fact.kind, fact.name) not in self.files and fact.kind in about
 
     def _follows(self, fact: Fact) -> bool:
         """Whether it is about what the code has changed on the whole."""
         if fact.kind in _UNWANTED:
             return False
+        if fact.kind == "default":
+            return fact.owner in self.groups or "env" in self.groups
         if fact.kind in ("remap", "node", "parameter") or fact.kind.endswith(" program"):
             return bool(self.groups - {"env"})
         if fact.kind == "field":

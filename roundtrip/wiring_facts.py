@@ -15,7 +15,9 @@ from typing import TypeAlias
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import read_source
 from rebsync.records import dataclass
-from rebsync.reverse.launch.launch_python import read_python_launch
+from rebsync.reverse.files.python_files import is_python
+from rebsync.reverse.launch.launch_files_ros2 import read_ros2_launch
+from rebsync.roundtrip import wiring_ros2
 from rebsync.source import Source, Span
 
 PROGRAM, PLAYED, TYPE, SPACE = "program", "played sensor", "type of a node", "space of parameters"
@@ -47,6 +49,8 @@ _BEARING = {
     "drive": ("cell_size", "kind", "heading", "move_time"),
 }
 _PROGRAM = re.compile(r"\b(add_executable|set_target_properties)\s*\(\s*(\S+)\s+([^)]*)\)")
+_SCRIPT = re.compile(r"^[ \t]*scripts/(\w+)[ \t]*$", re.MULTILINE)
+_MODULES = re.compile(r"\bcatkin_python_setup\s*\(\s*\)")
 _COMPILED = re.compile(
     r"\b(?:add|target)_(?:compile_\w+|definitions)\s*\(([^)]*)\)|_FLAGS\s+([^)]*)\)"
 )
@@ -106,15 +110,20 @@ def _of_file(name: str, source: Source, package: str) -> Iterable[Fact]:
     if name.endswith(".yaml"):
         return _settings(source)
     if name.endswith(".txt"):
-        return _programs(source)
-    if name.endswith(".py"):
+        return chain(_programs(source), (Fact(*told) for told in wiring_ros2.of_build(source)))
+    if name.endswith(".launch.py"):
         return _declared(source, package)
+    if is_python(name, source):
+        from rebsync.roundtrip.wiring_python import facts_in_python
+
+        return facts_in_python(name, source, package)
     is_launch = name.endswith(".launch")
     text = (_REMARK if is_launch else _COMMENT).sub(lambda m: " " * len(m[0]), source.text)
     if is_launch:
         return _launched(source, text, package)
     program = Path(name).stem
-    return chain(_joints(source, text), _sendings(source, text), _made(program, source, text))
+    more = (Fact(*told) for told in wiring_ros2.of_code(source, text))
+    return chain(_joints(source, text), _sendings(source, text), _made(program, source, text), more)
 
 
 def _joints(source: Source, text: str) -> Iterator[Fact]:
@@ -126,8 +135,9 @@ def _joints(source: Source, text: str) -> Iterator[Fact]:
     for m in _SERVER.finditer(text):
         priority = _squeezed(m[3])
         yield Fact("priority", owner[1], m[2].strip('"'), priority, source, Span(*m.span()))
-    for m in _STARTED.finditer(text):
-        yield Fact("start of serving", owner[1], "", "there", source, Span(*m.span()))
+    for number, m in enumerate(_STARTED.finditer(text)):
+        told = "there again" if number else "there"
+        yield Fact("start of serving", owner[1], "", told, source, Span(*m.span()))
     for m in _BEST.finditer(text):
         yield Fact("best priority", owner[1], "", m[1] or "none", source, Span(*m.span()))
     for m in _SENT_BY.finditer(text):
@@ -226,7 +236,7 @@ def _launched(source: Source, text: str, package: str) -> Iterator[Fact]:
 
 def _declared(source: Source, package: str) -> Iterator[Fact]:
     """The same of a launch file in Python, but for what a node is made of."""
-    for node in read_python_launch(source, lambda _: None).nodes:
+    for node in read_ros2_launch(source, lambda _: None).nodes:
         name = str(node.name)
         of = OWN if node.package == package else str(node.package)
         facts = {"pkg": of, "ns": str(node.namespace), "if": " ".join(node.only_if)}
@@ -235,8 +245,10 @@ def _declared(source: Source, package: str) -> Iterator[Fact]:
         for remap in node.remaps:
             yield Fact("remap", name, remap.private, str(remap.target), source, remap.span)
         for given in node.parameters:
+            kind = "setting" if _has_bearing(given.name) else "parameter"
             if given.name.partition("/")[0] in _BEARING:
-                yield Fact("parameter", name, given.name, repr(given.value), source, given.span)
+                yield Fact(kind, name, given.name, repr(given.value), source, given.span)
+    yield from (Fact(*told) for told in wiring_ros2.of_launch(source))
 
 
 def _fields(source: Source, package: str) -> Iterator[Fact]:
@@ -268,6 +280,10 @@ def _programs(source: Source) -> Iterator[Fact]:
     for m in _COMPILED.finditer(_HASH.sub(lambda m: " " * len(m[0]), source.text)):
         for option in _OPTION.findall(m[1] or m[2] or ""):
             yield Fact("compiler option", "", _squeezed(option), "given", source, Span(*m.span()))
+    for m in _SCRIPT.finditer(source.text):
+        yield Fact("installed program", "", m[1], "there", source, Span(*m.span()))
+    for m in _MODULES.finditer(_HASH.sub(lambda m: " " * len(m[0]), source.text)):
+        yield Fact("Python package", "", "", "built", source, Span(*m.span()))
     for m in _PROGRAM.finditer(source.text):
         command, target, rest = m.groups()
         span = Span(*m.span(2))

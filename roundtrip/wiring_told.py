@@ -24,6 +24,9 @@ _TOLD: Mapping[str, tuple[str, Aspect, bool]] = {
     "field": ("msgsrv", Aspect.TYPE, True),
     "best priority": ("reactiveclass", Aspect.PRIORITY, False),
     "sending": ("reactiveclass", Aspect.SETTING, True),
+    "receiving": ("msgsrv", Aspect.SETTING, False),
+    "set-up": ("reactiveclass", Aspect.SETTING, True),
+    "default": ("reactiveclass", Aspect.SETTING, True),
 }
 
 

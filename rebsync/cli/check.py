@@ -84,6 +84,10 @@ def _outcome(kept: Kept, checked: Result, given: dict[str, Any]) -> Outcome:
     except RecursionError:
         why = "something in it nests deeper than rebsync reads"
         return Outcome(kept.root, None, RebsyncError.of(kept.root, "RS111", why))
+    if checked.drift is not None and checked.findings:
+        from rebsync.roundtrip.unparsed_code import as_far_as_parsed
+
+        checked = as_far_as_parsed(checked)
     return Outcome(kept.root, checked, proof=proof)
 
 

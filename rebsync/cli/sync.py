@@ -14,7 +14,7 @@ from rebsync.cli.status import Status, status_of, worst
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.files import read_source
 from rebsync.report import print_report
-from rebsync.roundtrip.checked import check
+from rebsync.roundtrip.checked import check_merged
 from rebsync.roundtrip.packages import Kept, find
 from rebsync.source import NOWHERE, Source
 from rebsync.writing import alone_in
@@ -69,10 +69,10 @@ def _one(kept: Kept, conflict: str, dry_run: bool) -> Status:
 def _models_of(kept: Kept) -> tuple[str, ...]:
     """The model, which is to be written as well, if it is found."""
     from rebsync.roundtrip.model_file import model_of
-    from rebsync.roundtrip.recorded import read_record
+    from rebsync.roundtrip.recorded_merge import read_merged_record
 
     try:
-        return (kept.model or model_of(kept, read_record(kept.root)),)
+        return (kept.model or model_of(kept, read_merged_record(kept.root)),)
     except RebsyncError:
         return ()  # what is wrong is told when it is worked out
 
@@ -81,7 +81,7 @@ def _worked_out(kept: Kept, conflict: str) -> Sync:
     from rebsync.roundtrip.merge_models import Favour
     from rebsync.roundtrip.sync import synced
 
-    return synced(check(kept), Favour(conflict))
+    return synced(check_merged(kept), Favour(conflict))
 
 
 def _done(sync: Sync) -> Status:

@@ -8,6 +8,7 @@ from dataclasses import field, replace
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.bodies.cpp_kinds import LEAVES, LOOKED_AT, PLAIN, REPEATED
 from rebsync.reverse.bodies.cpp_misread import first_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this
 from rebsync.reverse.bodies.cpp_roots import identifiers_in, is_element, is_modelled, path_in, root
@@ -33,27 +34,14 @@ from rebsync.reverse.syntax.cpp_declarations import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
 from rebsync.reverse.syntax.macros import hides
 
-_COROUTINES = ("co_await_expression", "co_yield_statement", "co_return_statement")
-_LEAVES = {
-    "return_statement": "this leaves the function",
-    "throw_statement": "an exception leaves the function",
-    "goto_statement": "the model has no goto",
-    **dict.fromkeys(_COROUTINES, "the model has no coroutines"),
-}
-_LOOPS = frozenset({"for_statement", "while_statement", "do_statement", "for_range_loop"})
-_REPEATED = _LOOPS | {"switch_statement"}
-# What touches nothing, whatever it is: not looked into, as most of all nodes are of these.
-_PLAIN = frozenset(
-    {
-        *("identifier", "field_identifier", "type_identifier", "namespace_identifier", "this"),
-        *("number_literal", "string_literal", "char_literal", "true", "false", "null", "comment"),
-        *("primitive_type", "sized_type_specifier"),
-    }
-)
-
 
 class Touches(Unread):
-    """What a piece of code does to the model."""
+    """What a piece of code does to the model.
+
+    `at` are the bytes that do it, if they do whatever stands for the names of other locals.
+    """
+
+    at: tuple[int, int] | None = None
 
 
 @dataclass(slots=True)
@@ -76,7 +64,9 @@ class Effects:
     def check(self, node: Node) -> None:
         """Raises `Touches` where a piece of code may touch what the model has."""
         type_ = node.type
-        if type_ in _PLAIN:
+        if type_ not in LOOKED_AT:
+            if type_ not in PLAIN:
+                self._inside(node)
             return
         match type_:
             case "assignment_expression":
@@ -102,12 +92,12 @@ class Effects:
                 raise self._touches(node, "this leaves the loop")
             case "return_statement" if self.returning:
                 self._inside(node)
-            case kind if kind in _LEAVES:
-                raise self._touches(node, _LEAVES[kind])
+            case kind if kind in LEAVES:
+                raise self._touches(node, LEAVES[kind])
             case "new_expression" | "argument_list" | "initializer_list":
                 self._arguments(named(node))
-            case kind if kind in _REPEATED or kind == "compound_statement":
-                looping = kind in _REPEATED
+            case kind if kind in REPEATED or kind == "compound_statement":
+                looping = kind in REPEATED
                 before = set(self._inner)
                 self._loops += looping
                 self._inside(node)
@@ -118,11 +108,14 @@ class Effects:
 
     def _inside(self, node: Node) -> None:
         for child in node.named_children:
-            if child.type not in _PLAIN:
+            if child.type not in PLAIN:
                 self.check(child)
 
     def _touches(self, node: Node, why: str, hint: str = "") -> Touches:
-        return Touches(self.cpp.span(node), why, hint)
+        touches = Touches(self.cpp.span(node), why, hint)
+        if not self._inner:
+            touches.at = node.start_byte, node.end_byte
+        return touches
 
     # --- what names stand for -------------------------------------------------------------------
 
@@ -393,8 +386,13 @@ class Effects:
 
 def is_outside(cpp: Cpp, scope: Scope, node: Node) -> bool:
     """Whether a piece of code provably touches nothing that the model has."""
+    return touching(cpp, scope, node) is None
+
+
+def touching(cpp: Cpp, scope: Scope, node: Node) -> Touches | None:
+    """What in a piece of code may touch what the model has, the first; None for nothing."""
     try:
         Effects(cpp, scope).check(node)
-    except Touches:
-        return False
-    return True
+    except Touches as touches:
+        return touches
+    return None

@@ -370,4 +370,17 @@ def _inner(statement: m.Statement | None) -> tuple[m.Statement, ...]:
 
 
 def _leaves(statement: m.Statement) -> bool:
-    return any(isinstance(n, m.Return) for n in m.walk(statement))
+    waiting = [statement]
+    while waiting:
+        match waiting.pop():
+            case m.Return():
+                return True
+            case m.Block(statements):
+                waiting += statements
+            case m.If(_, then, otherwise):
+                waiting += [then] if otherwise is None else [then, otherwise]
+            case m.While(body=body) | m.For(body=body):
+                waiting.append(body)
+            case m.Switch(_, cases):
+                waiting += [s for c in cases for s in c.statements]
+    return False

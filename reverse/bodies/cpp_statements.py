@@ -20,8 +20,9 @@ from rebsync.reverse.bodies import (
     cpp_users,
 )
 from rebsync.reverse.bodies.building import bare, cell, is_calm, is_effect
-from rebsync.reverse.bodies.cpp_effects import Effects, Touches, is_outside
+from rebsync.reverse.bodies.cpp_effects import Effects, Touches, touching
 from rebsync.reverse.bodies.cpp_expressions import MOVE, CppExpressions
+from rebsync.reverse.bodies.cpp_kinds import NOTHING
 from rebsync.reverse.bodies.cpp_unknowns import Demote
 from rebsync.reverse.bodies.made_locals import tidied
 from rebsync.reverse.bodies.scope import Inline, Lambda, Meaning, Scope, Stores, Variable
@@ -30,10 +31,6 @@ from rebsync.reverse.bodies.wide_locals import broken_locals
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.syntax.cpp_tree import Cpp, markers_in, named, part, text_of
-
-_NOTHING = frozenset(
-    {"using_declaration", "alias_declaration", "type_definition", "static_assert_declaration"}
-)
 
 
 @dataclass(slots=True)
@@ -56,6 +53,8 @@ class CppStatements:
     returns: Meaning | None = None
     _depth: int = 0
     _root: Node | None = None
+    # The bytes in the statements around that are known to touch what the model has.
+    _touching: tuple[int, int] | None = None
 
     def block(self, node: Node) -> m.Block:
         """A body in braces; its locals end with it."""
@@ -80,15 +79,13 @@ class CppStatements:
         scope, listed = self.scope, len(self.findings.all)
         counted = self.findings.statements[self.within]
         while True:
-            try:
-                read = tuple(self.statements(nodes))
+            read = tuple(self.statements(nodes))
+            if not self.shared.again:
                 broken = broken_locals(read, self.shared.wide, self.scope) - scope.overflowing
                 if not broken:
                     self.scope.wide.update(self.shared.wide)
                     return tidied(read, self.shared.made)
                 scope = replace(scope, overflowing=scope.overflowing | broken)
-            except Demote as demote:
-                self.shared.demoted |= demote.names
             self.scope, self.before = scope, []
             self.own.clear()
             self.shared.clear()
@@ -141,19 +138,28 @@ class CppStatements:
         self, node: Node, annotations: tuple[m.Annotation, ...], local: bool
     ) -> Iterator[m.Statement]:
         """What stands for a statement that is not outside, if it can be read at all."""
+        around = self._touching
         try:
             if node.id in self.scope.instead or not self._is_outside(node):
                 yield from self._one(node, annotations, local)
+        except Demote as demote:
+            self.shared.demote(demote.names)
         except RecursionError:
             unread = self.unread(node, "this leads deeper than it can be read")
             self.findings.unreadable(self.cpp.source, unread, self.within)
             yield m.Empty((m.Annotation("Unreadable"),), self.cpp.span(node))
+        finally:
+            self._touching = around
 
     def _is_outside(self, node: Node) -> bool:
         """Whether a statement that people wrote touches nothing of the model."""
         if not self.scope.open or node.type == "declaration":
-            return node.type in _NOTHING
-        return is_outside(self.cpp, self.scope, node)
+            return node.type in NOTHING
+        if (at := self._touching) and node.start_byte <= at[0] and at[1] <= node.end_byte:
+            return False
+        touches = touching(self.cpp, self.scope, node)
+        self._touching = touches.at if touches is not None else None
+        return touches is None
 
     def _one(
         self, node: Node, annotations: tuple[m.Annotation, ...], local: bool
@@ -190,7 +196,8 @@ class CppStatements:
                 if (counts := cpp_counts.counted(self, node)) is not None:
                     yield from counts
                     return
-                self.findings.open_members |= cpp_special.opened(self, node, unread)
+                if not self.shared.again:
+                    self.findings.open_members |= cpp_special.opened(self, node, unread)
                 unread = touches if cpp_special.says_more(node, unread) else unread
             except Unread:
                 pass
@@ -315,8 +322,7 @@ class CppStatements:
         if not children:
             yield m.Empty(annotations, span)
             return
-        expression = children[0]
-        if cpp_users.is_log(self, node, expression):
+        if cpp_users.is_log(self, node, expression := children[0]):
             return
         if declared := cpp_plain_locals.late(self, expression):
             yield m.Local(declared, annotations, span)
@@ -369,7 +375,7 @@ class CppStatements:
 
     def loop_condition(self, node: Node) -> m.Expression:
         """The condition of a loop, which the model must know."""
-        value = part(node, "value") if node.type == "condition_clause" else node
+        value = node if node.type != "condition_clause" else part(node, "value")
         while self.scope.open and value.type == "parenthesized_expression":
             value = self.expressions.only(value)
         if value.type == "declaration":
@@ -381,18 +387,18 @@ class CppStatements:
         """The body of a branch or loop, in braces or not."""
         if node.type == "compound_statement":
             return self.inner(node)
-        outside = self.scope
-        statements = tuple(self.statements([node]))
-        self.scope = outside
-        return m.Block(statements, span=self.cpp.span(node))
+        return self._nested(node, [node])
 
     def inner(self, node: Node) -> m.Block:
+        return self._nested(node, node.named_children)
+
+    def _nested(self, node: Node, statements: Sequence[Node]) -> m.Block:
         outside = self.scope
-        statements = tuple(self.statements(node.named_children))
+        read = tuple(self.statements(statements))
         self.scope = outside
-        return m.Block(statements, span=self.cpp.span(node))
+        return m.Block(read, span=self.cpp.span(node))
 
     def _is_hoisting(self, node: Node) -> bool:
         """Whether a block only holds locals of a switch, and the switch."""
-        comments = [text_of(c) for c in node.named_children if c.type == "comment"]
+        comments = (text_of(c) for c in node.named_children if c.type == "comment")
         return any(t.startswith("local ") for t in markers_in(comments))

@@ -8,7 +8,7 @@ from rebsync.reverse.syntax.cpp_calls import CppCall
 
 LOGGING = (
     *("ROS_DEBUG", "ROS_INFO", "ROS_WARN", "ROS_ERROR", "ROS_FATAL", "NODELET_", "ROS_LOG"),
-    *("RCLCPP_DEBUG", "RCLCPP_INFO", "RCLCPP_WARN", "RCLCPP_ERROR", "RCLCPP_FATAL"),
+    *("RCLCPP_DEBUG", "RCLCPP_INFO", "RCLCPP_WARN", "RCLCPP_ERROR", "RCLCPP_FATAL", "RCLCPP_LOG"),
 )
 CONSOLE = frozenset({"printf", "std::printf", "puts", "std::puts"})
 STREAMS = frozenset(

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections import Counter
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
 from rebsync import model as m
@@ -17,7 +18,8 @@ def tidied(statements: tuple[m.Statement, ...], made: Collection[str]) -> tuple[
     if not made:
         return statements
     inner = [_inside(s, made) for s in statements]
-    return tuple(_used(list(_declared_late(inner, made)), made))
+    names = _Names()
+    return tuple(_used(list(_declared_late(inner, made, names)), made, names))
 
 
 def _inside(statement: m.Statement, made: Collection[str]) -> m.Statement:
@@ -36,8 +38,25 @@ def _inside(statement: m.Statement, made: Collection[str]) -> m.Statement:
             return statement
 
 
-def _mentions(node: m.Node, name: str) -> int:
-    return sum(isinstance(n, m.Name) and n.name == name for n in m.walk(node))
+class _Names:
+    """How often statements name variables: each is looked through once."""
+
+    def __init__(self) -> None:
+        self._known: dict[int, tuple[m.Node, Counter[str]]] = {}
+
+    def mentions(self, node: m.Node, name: str) -> int:
+        """How often a statement or expression names a variable."""
+        if id(node) not in self._known:
+            names = [n.name for n in m.walk(node) if isinstance(n, m.Name)]
+            self._known[id(node)] = node, Counter(names)  # with the node the id stays its own
+        return self._known[id(node)][1][name]
+
+    def next(self, statements: Sequence[m.Statement], index: int, name: str) -> int:
+        """The next statement that names a variable; 0 if there is none."""
+        for later in range(index + 1, len(statements)):
+            if self.mentions(statements[later], name):
+                return later
+        return 0
 
 
 def _local(statement: m.Statement, made: Collection[str]) -> m.Declarator | None:
@@ -51,7 +70,9 @@ def _local(statement: m.Statement, made: Collection[str]) -> m.Declarator | None
 # --- where a local is declared ------------------------------------------------------------------
 
 
-def _declared_late(statements: list[m.Statement], made: Collection[str]) -> Iterator[m.Statement]:
+def _declared_late(
+    statements: list[m.Statement], made: Collection[str], names: _Names
+) -> Iterator[m.Statement]:
     """Declares a local where it gets its first value, if that is in the same block."""
     changed: dict[int, m.Statement | None] = {}
     for index, statement in enumerate(statements):
@@ -60,8 +81,8 @@ def _declared_late(statements: list[m.Statement], made: Collection[str]) -> Iter
             continue
         if not _is_calm_initial(declarator.initial):
             continue
-        later = _next_mention(statements, index, declarator.name)
-        value = _first_value(statements[later], declarator.name) if later else None
+        later = names.next(statements, index, declarator.name)
+        value = _first_value(statements[later], declarator.name, names) if later else None
         if value is not None:
             known = replace(declarator, initial=value)
             declaration = replace(statement.declaration, declarators=(known,))
@@ -76,18 +97,10 @@ def _is_calm_initial(initial: m.Initializer | None) -> bool:
     return initial is None or (not isinstance(initial, m.ArrayInitializer) and is_calm(initial))
 
 
-def _next_mention(statements: list[m.Statement], index: int, name: str) -> int:
-    """The next statement that names a variable; 0 if there is none."""
-    for later in range(index + 1, len(statements)):
-        if _mentions(statements[later], name):
-            return later
-    return 0
-
-
-def _first_value(statement: m.Statement, name: str) -> m.Expression | None:
+def _first_value(statement: m.Statement, name: str, names: _Names) -> m.Expression | None:
     match statement:
         case m.ExpressionStatement(m.Assign("=", m.Name(written), value), ()):
-            return value if written == name and not _mentions(value, name) else None
+            return value if written == name and not names.mentions(value, name) else None
         case _:
             return None
 
@@ -95,7 +108,9 @@ def _first_value(statement: m.Statement, name: str) -> m.Expression | None:
 # --- where its value is used --------------------------------------------------------------------
 
 
-def _used(statements: list[m.Statement], made: Collection[str]) -> Iterator[m.Statement]:
+def _used(
+    statements: list[m.Statement], made: Collection[str], names: _Names
+) -> Iterator[m.Statement]:
     """Puts the value of a local where it is used: once, with nothing done in between."""
     for index, statement in enumerate(statements):
         declarator = _local(statement, made)
@@ -103,10 +118,10 @@ def _used(statements: list[m.Statement], made: Collection[str]) -> Iterator[m.St
             yield statement
             continue
         name, initial = declarator.name, declarator.initial
-        uses = sum(_mentions(s, name) for s in statements[index + 1 :])
+        uses = sum(names.mentions(s, name) for s in statements[index + 1 :])
         if uses == 0 and _is_calm_initial(initial):
             continue
-        later = _next_mention(statements, index, name)
+        later = names.next(statements, index, name)
         between = statements[index + 1 : later]
         replaced = None
         if uses == 1 and later and all(_is_calm_local(s, made) for s in between):

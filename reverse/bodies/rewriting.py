@@ -2,23 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import fields, is_dataclass, replace
-from functools import cache
-from typing import TypeVar
+from collections.abc import Callable, Collection
+from dataclasses import replace
+from operator import is_
+from typing import TypeVar, get_args
 
 from rebsync import model as m
 
 _Node = TypeVar("_Node")
+_NODES = frozenset(get_args(m.Node))
+# Statements, and what holds them.
+STATEMENTS = frozenset({*get_args(m.Statement), m.Case, m.MessageServer, m.Method, m.Constructor})
 
 
-def rewritten(node: _Node, change: Callable[[object], object]) -> _Node:
-    """The node with each part below it, then itself, replaced by what `change` makes of it."""
+def rewritten(
+    node: _Node, change: Callable[[object], object], kinds: Collection[type] = _NODES
+) -> _Node:
+    """The node with each part below it, then itself, replaced by what `change` makes of it.
+
+    Parts of other `kinds` stay as they are, with all that is in them.
+    """
     changed: dict[str, object] = {}
     kind: type = type(node)
-    for name in _parts(kind):
+    for name in m.child_fields(kind):
         before = getattr(node, name)
-        after = _rewritten(before, change)
+        after = _rewritten(before, change, kinds)
         if after is not before:
             changed[name] = after
     whole = replace(node, **changed) if changed else node  # type: ignore[type-var]
@@ -27,23 +35,14 @@ def rewritten(node: _Node, change: Callable[[object], object]) -> _Node:
     return result  # type: ignore[return-value]
 
 
-def _rewritten(value: object, change: Callable[[object], object]) -> object:
+def _rewritten(
+    value: object, change: Callable[[object], object], kinds: Collection[type]
+) -> object:
     if isinstance(value, tuple):
-        parts = tuple(_rewritten(v, change) for v in value)
-        same = all(a is b for a, b in zip(parts, value, strict=True))
+        parts = tuple([_rewritten(v, change, kinds) for v in value])
+        same = all(map(is_, parts, value))
         return value if same else parts
-    kind: type = type(value)
-    return rewritten(value, change) if _is_node(kind) else value
-
-
-@cache
-def _parts(kind: type) -> tuple[str, ...]:
-    return tuple(f.name for f in fields(kind) if f.compare)
-
-
-@cache
-def _is_node(kind: type) -> bool:
-    return is_dataclass(kind)
+    return rewritten(value, change, kinds) if type(value) in kinds else value
 
 
 def renamed(node: m.Statement, old: str, new: str) -> m.Statement:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import field
 
 from rebsync.records import dataclass
@@ -16,6 +17,8 @@ class Shared:
     `names` are the names of the model that all locals got, `kept` those that no other may have,
     `made` those of locals that the code does not have; `running` are the functions that are read,
     each at the place of its call, which is so many levels of code deep: `depth`.
+    `again` says that locals were demoted since the body began: what is read counts for nothing,
+    but shows which others are.
     `wide` are the bits of locals that hold more than an `int`, by their names in the model.
     """
 
@@ -26,6 +29,12 @@ class Shared:
     wide: dict[str, int] = field(default_factory=dict)
     running: list[tuple[int, str]] = field(default_factory=list)
     depth: int = 0
+    again: bool = False
+
+    def demote(self, names: Iterable[str]) -> None:
+        """Has the body read again without these locals."""
+        self.demoted.update(names)
+        self.again = True
 
     def add(self, variable: Variable) -> None:
         """Keeps in mind what a local can hold; of two of a name the one without a sign."""
@@ -37,3 +46,4 @@ class Shared:
         """Forgets the locals: the body is read again."""
         for names in (self.names, self.kept, self.made, self.wide):
             names.clear()
+        self.again = False

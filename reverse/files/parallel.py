@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from functools import partial
-from itertools import chain
+from itertools import chain, islice
 from multiprocessing import get_context
 from operator import attrgetter
 from typing import TypeVar
@@ -21,6 +21,7 @@ from rebsync.diagnostics import RebsyncError
 from rebsync.reverse.files.packages import Listing
 from rebsync.reverse.files.reading import Chosen, all_listings, read
 
+_SIZE = attrgetter("size")
 T = TypeVar("T")
 G = TypeVar("G")
 
@@ -28,6 +29,7 @@ ENOUGH = 100_000  # bytes of code, from which on starting processes is paid back
 _WASTE = 300_000  # bytes of code, after which what they left in memory is cleared away
 _since = 0  # bytes read since the last time, in this process
 _AHEAD = 4  # packages for each process that are handed out before their turn
+_TOGETHER = 64  # of so many the largest are handed out first, as otherwise they are waited for
 
 
 def each(paths: Iterable[str], work: Callable[[Chosen], T]) -> Iterator[T]:
@@ -44,7 +46,7 @@ def each(paths: Iterable[str], work: Callable[[Chosen], T]) -> Iterator[T]:
     elif sum(listing.size for listing in first) < ENOUGH or processors() < 2:
         yield from (_done(work, listing) for listing in every)
     else:
-        yield from in_processes(every, partial(_done, work), attrgetter("root"))
+        yield from in_processes(every, partial(_done, work), attrgetter("root"), _SIZE)
 
 
 def _first(listings: Iterator[Listing]) -> list[Listing]:
@@ -83,26 +85,34 @@ def _clear(size: int) -> None:
 
 
 def in_processes(
-    every: Iterator[G], task: Callable[[G], T], root_of: Callable[[G], str]
+    every: Iterator[G],
+    task: Callable[[G], T],
+    root_of: Callable[[G], str],
+    size_of: Callable[[G], int] = lambda _: 0,
 ) -> Iterator[T]:
-    """What `task` makes of each, in their order, on all processors.
+    """What `task` makes of each, in their order, on all processors, the largest early.
 
     RebsyncError: one of them has ended the process that it was in; it tells the root of that.
     """
     processes = processors()
     waiting: deque[tuple[G, Future[T]]] = deque()
+    more: list[G] = []
     pool = _pool(processes)
     try:
-        for one in every:
-            waiting.append((one, pool.submit(task, one)))
-            if len(waiting) >= processes * _AHEAD:
-                yield waiting[0][1].result()
-                waiting.popleft()
-        while waiting:
+        while True:
+            if len(waiting) < processes * _AHEAD:
+                more = list(islice(every, _TOGETHER))
+                begun: dict[int, Future[T]] = {}
+                for number in sorted(range(len(more)), key=lambda n: -size_of(more[n])):
+                    begun[number] = pool.submit(task, more[number])
+                waiting += ((one, begun[number]) for number, one in enumerate(more))
+                more = []
+            if not waiting:
+                break
             yield waiting[0][1].result()
             waiting.popleft()
     except BrokenProcessPool:
-        lost = [one for one, _ in waiting]
+        lost = [*(one for one, _ in waiting), *more]
         yield from (_alone(one, task, root_of) for one in chain(lost, every))
     finally:
         pool.shutdown(wait=False, cancel_futures=True)

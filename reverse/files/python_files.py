@@ -11,7 +11,7 @@ SUFFIX = ".py"
 # Where none of these is, nothing is asked of ROS; `rebsync:` is in generated code.
 _WORDS = (b"rospy", b"rclpy", b"message_filters", b"rebsync:")
 # How the names of launch files end, and what they import.
-LAUNCHES = (".launch.py", "_launch.py")
+LAUNCHES = (".launch.py", "_launch.py", "-launch.py")
 _LAUNCH = b"launch_ros"
 _SCRIPT = re.compile(rb"#![^\n]*\bpython")
 _HEAD = 80  # bytes, in which the first line of a script says who runs it

@@ -90,12 +90,18 @@ class Classes:
 
     def read(self, wanted: set[str] | None = None) -> tuple[m.ReactiveClass | m.Interface, ...]:
         """All of them, or those that are wanted, in the order of the code."""
-        return tuple(
-            self._reactive(c) if self._has_mailbox(c) else self._interface(c)
-            for c in self.code.classes.values()
-            if (self._has_mailbox(c) or is_interface(c, alone=not self.timers))
-            and (wanted is None or c.name in wanted)
-        )
+        return tuple(map(self.read_one, self.chosen(wanted)))
+
+    def chosen(self, wanted: set[str] | None = None) -> Iterator[CppClass]:
+        """The classes of the model among those of the code, or those of them that are wanted."""
+        for owner in self.code.classes.values():
+            of_model = self._has_mailbox(owner) or is_interface(owner, alone=not self.timers)
+            if of_model and (wanted is None or owner.name in wanted):
+                yield owner
+
+    def read_one(self, owner: CppClass) -> m.ReactiveClass | m.Interface:
+        """One of them; what cannot be read is listed."""
+        return self._reactive(owner) if self._has_mailbox(owner) else self._interface(owner)
 
     def _has_mailbox(self, owner: CppClass) -> bool:
         return any(

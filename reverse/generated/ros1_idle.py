@@ -12,6 +12,7 @@ from rebsync.reverse.bodies.known_functions import (
     STREAMS,
     takes_values,
 )
+from rebsync.reverse.generated.ros2_words import ASKS
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
 
@@ -21,7 +22,7 @@ _CHANGES = (
     *("lambda_expression", "co_await_expression", "ERROR"),
 )
 # Functions of ROS that only tell of the node and the clock.
-_ASKS = frozenset({"now", "getName", "getNamespace", "ok"})
+_ASKS = frozenset({"now", "getName", "getNamespace", "ok"}) | ASKS
 
 
 def working(body: Node | None) -> list[Node]:

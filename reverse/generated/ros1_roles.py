@@ -200,9 +200,9 @@ def _member(roles: Roles, member: str, call: CppCall) -> None:
             roles.known[member] = original(first.partition("/")[2])
         case "param", "global" if len(call.arguments) == 2:
             roles.globals[member] = first, call.arguments[1]
-        case "declare_parameter", "" if (known := known_rebec(first)) is not None:
+        case "declare_parameter", "" | "this" if (known := known_rebec(first)) is not None:
             roles.known[member] = original(known)
-        case "declare_parameter", "" if (env := constant_of_model(first)) is not None:
+        case "declare_parameter", "" | "this" if (env := constant_of_model(first)) is not None:
             roles.globals[member] = env, call.arguments[1]
         case "subscribe", on if on in _OWN_HANDLES and len(call.arguments) in (3, 4):
             if _is_deep(call.arguments[1]):

@@ -13,6 +13,8 @@ from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 DECLARES = "declare_parameter"
 SETS_UP = frozenset({"create_publisher", DECLARES, "declareArray", "start"})
+# Functions that only tell of the node and its clock.
+ASKS = frozenset({"get_logger", "get_clock", "get_name", "get_namespace"})
 _POINTERS = ("::ConstSharedPtr", "::SharedPtr", "::ConstPtr", "ConstPtr", "::Ptr")
 _ROS = frozenset(
     {

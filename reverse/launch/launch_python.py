@@ -1,64 +1,268 @@
-"""Launch files of ROS 2 in Python: the nodes that `generate_launch_description` lists.
+"""Launch files of ROS 2 in Python: what `generate_launch_description` declares.
 
-Only what is declared is read: literals, names bound once to them, and the actions of launch_ros.
-Whatever is computed is open, with its place; no file is run.
+Only what is declared is read: literals, names bound once to them, and the actions and
+substitutions of launch and launch_ros. Whatever is computed is open, with its place; no file is
+run.
 """
 
 from __future__ import annotations
 
 import ast
-import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import replace
 
-from rebsync.reverse.launch.launched import Launch, LaunchedNode, LaunchedRemap
-from rebsync.reverse.launch.parameters import (
-    Parameter,
-    ParameterValue,
-    read_parameters,
+from rebsync.reverse.launch.launch_python_values import PythonValues, called, keywords
+from rebsync.reverse.launch.ros2_actions import (
+    Action,
+    Condition,
+    Declare,
+    ForAll,
+    FromFile,
+    Group,
+    Include,
+    Let,
+    Only,
+    Push,
+    Start,
+    Unlisted,
 )
-from rebsync.reverse.unknowns import Open, Text, Unknown
+from rebsync.reverse.unknowns import Unknown
 from rebsync.source import Source, Span
 
-SUFFIX = ".launch.py"
-_MARKER = re.compile(r"\s*#\s*rebsync:\s*(.*?)\s*\Z")
-_YAML = (".yaml", ".yml")
-_WILDCARD = "/**/ros__parameters/"
-_JOINS = frozenset({"PathJoinSubstitution", "join"})
-NOT_GIVEN = "it is not given here"
 _NODES = frozenset({"ComposableNode", "LifecycleNode", "Node"})
+_CONTAINERS = frozenset({"ComposableNodeContainer", "LoadComposableNodes"})
+# Actions that start no node and set nothing that a node can tell.
+_SILENT = frozenset(
+    {
+        *("ExecuteProcess", "ExecuteLocal", "LogInfo", "EmitEvent", "Shutdown", "ReadyToTest"),
+        *("SetEnvironmentVariable", "UnsetEnvironmentVariable", "AppendEnvironmentVariable"),
+        *("UnregisterEventHandler", "ResetEnvironment", "UnsetLaunchConfiguration"),
+    }
+)
 
-Load = Callable[[str], Source | None]
 
-
-def read_python_launch(source: Source, load: Load) -> Launch:
-    """What the file declares; `load` gives the text of a path below the package's folder."""
+def actions_of(source: Source) -> tuple[Action, ...] | Unknown:
+    """The actions of a launch file in Python, or why there are none."""
     try:
         tree = ast.parse(source.text)
-    except (SyntaxError, ValueError) as error:
+    except (SyntaxError, ValueError, RecursionError) as error:
         why = f"this is no Python that can be read: {error}"
-        return Launch((), (), (Unknown("the launch file", why, source, Span(0, 0)),), (source,))
-    reader = _Reader(source, load, _bound(tree))
-    for call in _calls(tree):
-        reader.file_of(call)
-    nodes = tuple(reader.node(call) for call in _calls(tree) if _called(call) in _NODES)
-    return Launch(
-        nodes,
-        tuple(reader.common.values()),
-        tuple(reader.unknowns),
-        (source, *reader.files.values()),
-    )
+        return Unknown("the launch file", why, source, Span(0, 0))
+    return tuple(_File(tree, PythonValues(source, _bound(tree))).actions())
 
 
 def _bound(tree: ast.Module) -> Mapping[str, ast.expr]:
     """The values of names that are bound once."""
     found: dict[str, ast.expr | None] = {}
     for node in ast.walk(tree):
-        if isinstance(node, ast.Assign) and len(node.targets) == 1:
-            target = node.targets[0]
-            if isinstance(target, ast.Name):
-                found[target.id] = None if target.id in found else node.value
+        match node:
+            case ast.Assign(targets=[ast.Name(id=name)], value=value):
+                found[name] = None if name in found else value
+            case ast.Name(id=name, ctx=ast.Store()):
+                # what a loop, a `with` or an unpacking sets is no value that stands here
+                found.setdefault(name, None)
+            case ast.AugAssign(target=ast.Name(id=name)):
+                found[name] = None
     return {name: value for name, value in found.items() if value is not None}
+
+
+class _File:
+    """Makes actions of calls; each call for a node is taken once."""
+
+    def __init__(self, tree: ast.Module, values: PythonValues) -> None:
+        self._tree = tree
+        self._values = values
+        self._seen: set[ast.expr] = set()
+
+    def actions(self) -> Iterator[Action]:
+        for listed in self._described():
+            yield from self._listed(listed)
+        for statement, conditions in _added(self._tree):
+            for argument in statement.args:
+                for action in self._action(argument):
+                    yield self._perhaps(action, conditions)
+        for call in _calls(self._tree):
+            if called(call) in _NODES and call not in self._seen:
+                yield from self._elsewhere(call)
+
+    def _described(self) -> Iterator[ast.expr]:
+        """The lists of actions that descriptions are made of."""
+        for call in _calls(self._tree):
+            if called(call) == "LaunchDescription":
+                given = keywords(call)
+                listed = call.args[0] if call.args else given.get("initial_entities")
+                if listed is not None:
+                    yield listed
+
+    def _elsewhere(self, call: ast.Call) -> Iterator[Action]:
+        """A node that no description has: it is made where the file runs it."""
+        if called(call) in _NODES:
+            text = "the file's code decides"
+            condition = Condition(self._values.computed(call), True, text)
+            yield from (Only(condition, action) for action in self._action(call))
+
+    def _perhaps(self, action: Action, conditions: tuple[ast.expr, ...]) -> Action:
+        for condition in conditions:
+            words = self._values.computed(condition)
+            action = Only(Condition(words, True, self._values.shown(condition)), action)
+        return action
+
+    # --- actions --------------------------------------------------------------------------------
+
+    def _listed(self, value: ast.expr) -> Iterator[Action]:
+        """The actions of a list, which may be a name or two lists added."""
+        found = self._values.resolved(value)
+        match found:
+            case ast.List(elts=items) | ast.Tuple(elts=items) | ast.Set(elts=items):
+                for item in items:
+                    inner = item.value if isinstance(item, ast.Starred) else None
+                    yield from self._listed(inner) if inner is not None else self._action(item)
+            case ast.BinOp(left=left, op=ast.Add(), right=right):
+                yield from self._listed(left)
+                yield from self._listed(right)
+            case ast.Constant(value=None):
+                return
+            case _:
+                yield Unlisted("what the launch file starts", self._values.span(value))
+
+    def _action(self, value: ast.expr) -> Iterator[Action]:
+        found = self._values.resolved(value)
+        if not isinstance(found, ast.Call):
+            yield Unlisted("an action", self._values.span(value))
+            return
+        if found in self._seen:
+            return
+        self._seen.add(found)
+        given = keywords(found)
+        made = self._made(found, given)
+        if "condition" in given and not isinstance(given["condition"], ast.Constant):
+            condition = self._condition(given["condition"])
+            made = [Only(condition, action) for action in made]
+        yield from made
+
+    def _made(self, call: ast.Call, given: dict[str, ast.expr]) -> list[Action]:
+        name, args = called(call), call.args
+        make = _MAKERS.get(name)
+        if name in _NODES:
+            return [self._start(call, given)]
+        if name in _CONTAINERS:
+            components = given.get("composable_node_descriptions")
+            return list(self._listed(components)) if components is not None else []
+        if name == "GroupAction":
+            listed = args[0] if args else given.get("actions")
+            inner = tuple(self._listed(listed)) if listed is not None else ()
+            scoped = given.get("scoped")
+            return [Group(inner, not (isinstance(scoped, ast.Constant) and scoped.value is False))]
+        if name == "TimerAction":
+            listed = given.get("actions", args[1] if len(args) > 1 else None)
+            return list(self._listed(listed)) if listed is not None else []
+        if make is not None:
+            return make(self, call, given)
+        if name in _SILENT:
+            return []
+        if name == "RegisterEventHandler" and not self._has_nodes(call):
+            return []
+        why = "it is computed when the file runs"
+        return [Unlisted(f"the action `{name}`" if name else "an action", self._span(call), why)]
+
+    def _has_nodes(self, call: ast.Call) -> bool:
+        """Whether an action holds one that starts a node that nothing else has."""
+        inner = (n for n in ast.walk(call) if isinstance(n, ast.Call))
+        return any(called(n) in _NODES for n in inner)
+
+    def _start(self, call: ast.Call, given: dict[str, ast.expr]) -> Start:
+        values = self._values
+        return Start(
+            name=values.words_of(given.get("name")),
+            namespace=values.words_of(given.get("namespace")),
+            package=values.words_of(given.get("package")),
+            type=values.words_of(given.get("executable", given.get("plugin"))),
+            parameters=tuple(values.parameters(given.get("parameters"))),
+            remaps=tuple(values.remaps(given.get("remappings"))),
+            markers=tuple(values.markers(call.lineno)),
+            span=self._span(call),
+        )
+
+    def _condition(self, value: ast.expr) -> Condition:
+        found = self._values.resolved(value)
+        text = self._values.shown(found)
+        if isinstance(found, ast.Call) and found.args:
+            kind, first = called(found), found.args[0]
+            if kind in ("IfCondition", "UnlessCondition"):
+                return Condition(self._values.words(first), kind == "IfCondition", text)
+        return Condition(self._values.computed(value), True, text)
+
+    def _span(self, call: ast.expr) -> Span:
+        return self._values.span(call)
+
+    # --- actions that set something -------------------------------------------------------------
+
+    def declare(self, call: ast.Call, given: dict[str, ast.expr]) -> list[Action]:
+        name = call.args[0] if call.args else given.get("name")
+        default = given.get("default_value", call.args[1] if len(call.args) > 1 else None)
+        is_none = isinstance(default, ast.Constant) and default.value is None
+        words = None if is_none else self._values.words_of(default)
+        return [Declare(self._values.words(name), words)] if name is not None else []
+
+    def let(self, call: ast.Call, given: dict[str, ast.expr]) -> list[Action]:
+        pair = _two(call, given, "name", "value")
+        return [Let(*map(self._values.words, pair))] if pair is not None else []
+
+    def push(self, call: ast.Call, given: dict[str, ast.expr]) -> list[Action]:
+        value = call.args[0] if call.args else given.get("namespace")
+        return [Push(self._values.words(value))] if value is not None else []
+
+    def set_remap(self, call: ast.Call, given: dict[str, ast.expr]) -> list[Action]:
+        pair = _two(call, given, "src", "dst")
+        if pair is None:
+            return []
+        return [ForAll(remaps=(self._values.remap(*pair, call),))]
+
+    def set_parameter(self, call: ast.Call, given: dict[str, ast.expr]) -> list[Action]:
+        pair = _two(call, given, "name", "value")
+        if pair is None:
+            return []
+        name = self._values.words(pair[0])
+        return [ForAll(parameters=(self._values.given(name, pair[1]),))]
+
+    def parameters_from(self, call: ast.Call, given: dict[str, ast.expr]) -> list[Action]:
+        value = call.args[0] if call.args else given.get("filename")
+        return [ForAll(parameters=(FromFile(self._values.words(value)),))] if value else []
+
+    def include(self, call: ast.Call, given: dict[str, ast.expr]) -> list[Action]:
+        source = call.args[0] if call.args else given.get("launch_description_source")
+        found = self._values.resolved(source) if source is not None else None
+        if isinstance(found, ast.Call) and called(found).endswith("LaunchDescriptionSource"):
+            found = found.args[0] if found.args else None
+        if found is None:
+            return [Unlisted("an included launch file", self._span(call))]
+        listed = self._values.arguments(given.get("launch_arguments"))
+        if listed is None:
+            odd = Unlisted("arguments of a launch file", self._span(given["launch_arguments"]))
+            return [odd, Include(self._values.words(found), (), self._span(call))]
+        return [Include(self._values.words(found), listed, self._span(call))]
+
+
+_Maker = Callable[[_File, ast.Call, "dict[str, ast.expr]"], "list[Action]"]
+_MAKERS: dict[str, _Maker] = {
+    "DeclareLaunchArgument": _File.declare,
+    "SetLaunchConfiguration": _File.let,
+    "PushRosNamespace": _File.push,
+    "PushROSNamespace": _File.push,
+    "SetRemap": _File.set_remap,
+    "SetParameter": _File.set_parameter,
+    "SetParametersFromFile": _File.parameters_from,
+    "IncludeLaunchDescription": _File.include,
+}
+
+
+def _two(
+    call: ast.Call, given: dict[str, ast.expr], first: str, second: str
+) -> tuple[ast.expr, ast.expr] | None:
+    """The two arguments of a call, however they are given."""
+    by_name = dict(zip((first, second), call.args, strict=False)) | given
+    if first in by_name and second in by_name:
+        return by_name[first], by_name[second]
+    return None
 
 
 def _calls(tree: ast.Module) -> Iterator[ast.Call]:
@@ -67,188 +271,21 @@ def _calls(tree: ast.Module) -> Iterator[ast.Call]:
     yield from sorted(calls, key=lambda c: (c.lineno, c.col_offset))
 
 
-def _called(call: ast.Call) -> str:
-    match call.func:
-        case ast.Name(id=name) | ast.Attribute(attr=name):
-            return name
-        case _:
-            return ""
+def _added(tree: ast.AST) -> Iterator[tuple[ast.Call, tuple[ast.expr, ...]]]:
+    """The calls `add_action(...)` of statements, with the conditions they stand under."""
+    yield from _added_in(tree, ())
 
 
-class _Reader:
-    """Reads the actions of one file; `common` are the parameters that its files give all nodes."""
-
-    def __init__(self, source: Source, load: Load, names: Mapping[str, ast.expr]) -> None:
-        self.common: dict[str, Parameter] = {}
-        self.files: dict[str, Source] = {}
-        self.unknowns: list[Unknown] = []
-        self._source = source
-        self._load = load
-        self._names = names
-        self._lines = source.text.split("\n")
-
-    def node(self, call: ast.Call) -> LaunchedNode:
-        """The node that an action starts."""
-        given = {k.arg: k.value for k in call.keywords if k.arg is not None}
-        return LaunchedNode(
-            name=self._text(given.get("name"), "the name of a node"),
-            namespace=self._namespace(given.get("namespace")),
-            package=self._text(given.get("package"), "the package of a node"),
-            type=self._text(given.get("executable", given.get("plugin")), "the program of a node"),
-            parameters=tuple(self._parameters(given.get("parameters"))),
-            remaps=tuple(self._remaps(given.get("remappings"))),
-            arguments=(),
-            nodelet=None,
-            machine=None,
-            required=False,
-            test=False,
-            anonymous=False,
-            only_if=("condition",) if "condition" in given else (),
-            markers=tuple(self._markers(call.lineno)),
-            source=self._source,
-            span=self._span(call),
-        )
-
-    # --- values ---------------------------------------------------------------------------------
-
-    def _resolved(self, value: ast.expr) -> ast.expr:
-        """What a name that is bound once stands for."""
-        for _ in self._names:
-            if not isinstance(value, ast.Name) or value.id not in self._names:
-                break
-            value = self._names[value.id]
-        return value
-
-    def _open(self, value: ast.expr, what: str) -> Open:
-        found = Open("it is computed when the file runs")
-        self.unknowns.append(Unknown(what, found.why, self._source, self._span(value)))
-        return found
-
-    def _text(self, value: ast.expr | None, what: str) -> Text:
-        if value is None:
-            return Open(NOT_GIVEN)
-        found = _literal(self._resolved(value))
-        return found if isinstance(found, str) else self._open(value, what)
-
-    def _namespace(self, value: ast.expr | None) -> Text:
-        if value is None:
-            return "/"
-        found = self._text(value, "the namespace of a node")
-        return found if isinstance(found, Open) else f"/{found.strip('/')}/".replace("//", "/")
-
-    # --- parameters and remappings --------------------------------------------------------------
-
-    def _parameters(self, value: ast.expr | None) -> Iterator[Parameter]:
-        """The node's own; those of files for all nodes go to `common`."""
-        if value is None:
-            return
-        listed = self._resolved(value)
-        for item in listed.elts if isinstance(listed, ast.List | ast.Tuple) else [listed]:
-            source = self._resolved(item)
-            if isinstance(source, ast.Dict):
-                yield from self._table(source, "")
-            elif not self.file_of(source):
-                self._open(item, "parameters of a node")
-
-    def _table(self, table: ast.Dict, prefix: str) -> Iterator[Parameter]:
-        for key, item in zip(table.keys, table.values, strict=True):
-            name = _literal(self._resolved(key)) if key is not None else None
-            if not isinstance(name, str):
-                self._open(key or item, "the name of a parameter")
-                continue
-            path, value = prefix + name.replace(".", "/"), self._resolved(item)
-            if isinstance(value, ast.Dict):
-                yield from self._table(value, f"{path}/")
-                continue
-            found = _literal(value)
-            if found is None:
-                yield self._parameter(path, self._open(item, f"the parameter `{path}`"), item)
-            else:
-                yield self._parameter(path, found, item)
-
-    def _parameter(self, name: str, value: ParameterValue | Open, place: ast.expr) -> Parameter:
-        return Parameter(name, value, self._source, self._span(place))
-
-    def file_of(self, value: ast.expr) -> bool:
-        """Whether a value is the path of a parameter file that is at hand, which then is read."""
-        path = _below_share(value)
-        file = self._load(path) if path is not None and path.endswith(_YAML) else None
-        if path is None or file is None:
-            return False
-        if path not in self.files:
-            self._file(path, file)
-        return True
-
-    def _file(self, path: str, file: Source) -> None:
-        self.files[path] = file
-        read = read_parameters(file)
-        self.unknowns += read.unknowns
-        for entry in read.entries:
-            if entry.name.startswith(_WILDCARD):
-                name = f"/{entry.name.removeprefix(_WILDCARD).replace('.', '/')}"
-                self.common[name] = replace(entry, name=name)
-
-    def _remaps(self, value: ast.expr | None) -> Iterator[LaunchedRemap]:
-        if value is None:
-            return
-        listed = self._resolved(value)
-        if not isinstance(listed, ast.List | ast.Tuple):
-            self._open(value, "the remappings of a node")
-            return
-        for item in map(self._resolved, listed.elts):
-            if isinstance(item, ast.Tuple) and len(item.elts) == 2:
-                private = self._text(item.elts[0], "a remapping")
-                target = self._text(item.elts[1], "a remapping")
-                if isinstance(private, str):
-                    yield LaunchedRemap(private, target, self._source, self._span(item))
-            else:
-                self._open(item, "a remapping")
-
-    # --- places ---------------------------------------------------------------------------------
-
-    def _markers(self, line: int) -> list[str]:
-        """The comments `rebsync: ...` right above a line, which is counted from 1."""
-        found: list[str] = []
-        for text in reversed(self._lines[: line - 1]):
-            match = _MARKER.match(text)
-            if match is None:
-                break
-            found.insert(0, match[1])
-        return found
-
-    def _span(self, node: ast.expr) -> Span:
-        end_line, end_column = node.end_lineno or node.lineno, node.end_col_offset or 0
-        return Span(self._at(node.lineno, node.col_offset), self._at(end_line, end_column))
-
-    def _at(self, line: int, column: int) -> int:
-        """The offset of a place whose column counts bytes."""
-        before = self._lines[line - 1].encode()[:column].decode(errors="ignore")
-        return self._source.start_of(line) + len(before)
-
-
-def _literal(node: ast.expr) -> ParameterValue | None:
-    """A constant; None where there is none, or one that no parameter holds."""
-    match node:
-        case ast.Constant(value=bool() | int() | float() | str() as value):
-            return value
-        case ast.UnaryOp(op=ast.USub(), operand=ast.Constant(value=int() | float() as value)):
-            return -value
-        case ast.List(elts=items) | ast.Tuple(elts=items):
-            inner = [_literal(item) for item in items]
-            return None if None in inner else tuple(v for v in inner if v is not None)
-        case ast.Call(args=[value, *_]) if _called(node) == "ParameterValue":
-            return _literal(value)
-        case _:
-            return None
-
-
-def _below_share(node: ast.expr) -> str | None:
-    """The path below a package's folder that `PathJoinSubstitution([...])` stands for."""
-    if not isinstance(node, ast.Call) or _called(node) not in _JOINS:
-        return None
-    listed = node.args[0] if len(node.args) == 1 else ast.List(elts=list(node.args))
-    parts = listed.elts if isinstance(listed, ast.List) else []
-    if not parts or not isinstance(parts[0], ast.Call):
-        return None
-    words = [_literal(part) for part in parts[1:]]
-    return "/".join(w for w in words if isinstance(w, str)) if None not in words else None
+def _added_in(
+    node: ast.AST, conditions: tuple[ast.expr, ...]
+) -> Iterator[tuple[ast.Call, tuple[ast.expr, ...]]]:
+    for child in ast.iter_child_nodes(node):
+        match child:
+            case ast.Expr(value=ast.Call(func=ast.Attribute(attr="add_action")) as call):
+                yield call, conditions
+            case ast.If(test=test) | ast.While(test=test):
+                yield from _added_in(child, (*conditions, test))
+            case ast.For(iter=test):
+                yield from _added_in(child, (*conditions, test))
+            case _:
+                yield from _added_in(child, conditions)

@@ -8,6 +8,9 @@ from rebsync.reverse.launch.parameters import Parameter
 from rebsync.reverse.unknowns import Open, Text, Unknown
 from rebsync.source import Source, Span
 
+# Why the name of a node is open that has that of its program.
+NOT_GIVEN = "it is not given here"
+
 
 @dataclass(frozen=True, slots=True)
 class LaunchedRemap:

@@ -12,7 +12,7 @@ from rebsync.reverse.bodies.cpp_conversions import converted_to
 from rebsync.reverse.bodies.cpp_effects import is_outside
 from rebsync.reverse.bodies.cpp_timers import without_stale
 from rebsync.reverse.bodies.cpp_unknowns import choice
-from rebsync.reverse.bodies.rewriting import rewritten
+from rebsync.reverse.bodies.rewriting import STATEMENTS, rewritten
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import SubscriptionFact, TimerFact
 from rebsync.reverse.nodes.node_bodies import Bodies, repeated, takes_time
@@ -215,8 +215,8 @@ def _without_idle(
 
     if not idle:
         return servers, constructor
-    others = [rewritten(s, change) for s in servers if s.name not in idle]
-    return others, rewritten(constructor, change)
+    others = [rewritten(s, change, STATEMENTS) for s in servers if s.name not in idle]
+    return others, rewritten(constructor, change, STATEMENTS)
 
 
 def _sends_only(body: m.Block, server: str) -> bool:

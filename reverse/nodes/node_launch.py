@@ -5,17 +5,15 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 
 from rebsync.records import dataclass
-from rebsync.reverse.files.python_files import LAUNCHES
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.launch.launch_files import read_launch
-from rebsync.reverse.launch.launch_python import read_python_launch
+from rebsync.reverse.launch.launch_files_ros2 import is_of_ros_2, read_ros2_launch, speaks_ros_2
 from rebsync.reverse.launch.launch_values import Surroundings
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_programs import Program
 from rebsync.source import Source
 
-_SUFFIXES = (".launch", *LAUNCHES)
 _ELSEWHERE = (
     "no launch file starts a program of these files: the model has one rebec for each object"
 )
@@ -47,8 +45,8 @@ class System:
 
 
 def is_launch(path: str) -> bool:
-    """Whether a file is a launch file."""
-    return path.endswith(_SUFFIXES)
+    """Whether a file may be a launch file by its name."""
+    return path.endswith(".launch") or is_of_ros_2(path)
 
 
 def system_of(
@@ -66,8 +64,8 @@ def system_of(
         return files.get(path.removeprefix("/"))
 
     surroundings = Surroundings(load, lambda _: "")
-    paths = [only] if only is not None else sorted(p for p in files if is_launch(p))
-    read = [(files[p], _read(files[p], surroundings)) for p in paths]
+    paths = [only] if only is not None else sorted(p for p in files if _is_system(p, files[p]))
+    read = [(files[p], _read(files[p], surroundings, package)) for p in paths]
     if not read:
         return None
     names = {name for p in programs for name in (p.name, p.stem)}
@@ -85,10 +83,18 @@ def _known(launch: Launch, names: Collection[str]) -> int:
     return sum(not n.test and (n.type in names or n.nodelet is not None) for n in launch.nodes)
 
 
-def _read(source: Source, surroundings: Surroundings) -> Launch:
-    if not source.path.endswith(LAUNCHES):
-        return read_launch(source, surroundings)
-    return read_python_launch(source, surroundings.load)
+def _is_system(path: str, source: Source) -> bool:
+    """Whether a file is a launch file that is started by itself.
+
+    In ROS 1 `x.launch.xml` is the name of those that others include.
+    """
+    return path.endswith(".launch") or (is_of_ros_2(path) and speaks_ros_2(source))
+
+
+def _read(source: Source, surroundings: Surroundings, package: str) -> Launch:
+    if speaks_ros_2(source):
+        return read_ros2_launch(source, surroundings.load, package)
+    return read_launch(source, surroundings)
 
 
 def _size(launch: Launch, package: str) -> int:

@@ -46,6 +46,18 @@ class Nodes:
     rebecs: tuple[m.Rebec, ...]
     starts: bool
 
+    def beside(self, classes: tuple[m.ReactiveClass, ...], rebecs: tuple[m.Rebec, ...]) -> Nodes:
+        """These and the nodes of another language."""
+        starts = self.starts or bool(rebecs)
+        return Nodes((*self.classes, *classes), (*self.rebecs, *rebecs), starts)
+
+
+def unit_of_time(files: Mapping[str, Source]) -> Fraction:
+    """The seconds that a unit of the model's time takes, as the configuration says."""
+    if FILE_NAME not in files:
+        return Fraction(1)
+    return Fraction(repr(parse_config(files[FILE_NAME]).time_unit))
+
 
 @dataclass(slots=True)
 class NodeSystem:
@@ -128,12 +140,6 @@ class NodeSystem:
         """The variables of a unit."""
         return self._states[unit.name]
 
-    def unit_of_time(self) -> Fraction:
-        """The seconds that a unit of the model's time takes."""
-        if FILE_NAME not in self.files:
-            return Fraction(1)
-        return Fraction(repr(parse_config(self.files[FILE_NAME]).time_unit))
-
 
 @dataclass(slots=True)
 class _Reader:
@@ -158,7 +164,7 @@ class _Reader:
                 dict.fromkeys(self.wiring.kinds[i.name] for i in of_unit)
             ):
                 self.kinds[kind] = class_ if not number else self.names.give(class_)
-        self.times = Times.of(self.system.unit_of_time(), self.wiring.instances)
+        self.times = Times.of(unit_of_time(self.system.files), self.wiring.instances)
 
     def classes_of(self, unit: Unit) -> Iterator[m.ReactiveClass]:
         """The classes that a unit becomes: one, or more if its rebecs are wired differently."""

@@ -9,10 +9,11 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Sequence
 from dataclasses import replace
+from operator import is_
 
 from rebsync import model as m
 from rebsync.reverse.bodies.building import bare, is_calm
-from rebsync.reverse.bodies.rewriting import rewritten
+from rebsync.reverse.bodies.rewriting import STATEMENTS, rewritten
 
 _MOST_ROUNDS = 6
 
@@ -31,14 +32,14 @@ def tidy(body: m.Block, variables: Collection[str] = ()) -> m.Block:
 
         def change(node: object, unread: set[str] = unread) -> object:
             match node:
-                case m.Block(statements):
-                    return replace(node, statements=_tidied(statements, unread))
-                case m.Case(_, statements):
-                    return replace(node, statements=_tidied(statements, unread))
+                case m.Block(statements) | m.Case(_, statements):
+                    kept = _tidied(statements, unread)
+                    same = len(kept) == len(statements) and all(map(is_, kept, statements))
+                    return node if same else replace(node, statements=kept)
                 case _:
                     return node
 
-        after = rewritten(body, change)
+        after = rewritten(body, change, STATEMENTS)
         if after == body:
             break
         body = after
@@ -112,7 +113,7 @@ def without_values(body: m.Block) -> m.Block:
             case _:
                 return node
 
-    return rewritten(body, change)
+    return rewritten(body, change, STATEMENTS)
 
 
 def _expression(initial: m.Initializer) -> m.Expression:

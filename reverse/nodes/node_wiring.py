@@ -15,8 +15,7 @@ from rebsync.reverse.graph import (
     SubscriptionFact,
     TimerFact,
 )
-from rebsync.reverse.launch.launch_python import NOT_GIVEN
-from rebsync.reverse.launch.launched import Launch, LaunchedNode
+from rebsync.reverse.launch.launched import NOT_GIVEN, Launch, LaunchedNode
 from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_programs import Program
 from rebsync.reverse.nodes.node_servers import Server

@@ -13,6 +13,7 @@ from rebsync.names import original
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.python.model_constants import constants_of
 from rebsync.reverse.python.model_expressions import Expressions, Names
 from rebsync.reverse.python.model_plumbing import Plumbing, odd_at_top
 from rebsync.reverse.python.model_roles import EnvUse, Roles, Sends, plain_name, roles_of
@@ -264,16 +265,21 @@ class Classes:
         variables: dict[str, str] = {}
         sends: dict[str, Sends] = {}
         functions: dict[str, str] = {}
+        servers: set[str] = set()
+        constants = constants_of(owner.module)
         for above in reversed(self.line(owner)):
             roles = self._of(above)
             variables |= {a: v[0] for a, v in (roles.state | roles.known).items()}
             variables |= {a: e.name for a, e in roles.env.items()}
             sends |= {f: self._resolved(s) for f, s in roles.sends.items()}
+            own = {n: v for n, v in constants_of(above).items() if n not in above.attributes}
+            constants |= {f"self.{name}": value for name, value in own.items()}
             for name, function in roles.functions.items():
                 if not roles.is_plumbing(name) and not _is_constructor(name):
                     served = self._served(above, function)
                     functions[name] = served or plain_name(function)
-        return Names(variables, sends, functions)
+                    servers |= {name} if served is not None else set()
+        return Names(variables, sends, functions, frozenset(servers), constants)
 
     def _resolved(self, sends: Sends) -> Sends:
         """A send by the name that the server has in the model, which its message type tells."""

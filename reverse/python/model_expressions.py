@@ -62,11 +62,17 @@ _TEMPORARY = re.compile(r"op\d+_\Z")
 
 @dataclass(frozen=True, slots=True)
 class Names:
-    """What the names of a class stand for: attributes, sends and functions, ancestors included."""
+    """What the names of a class stand for: attributes, sends and functions, ancestors included.
+
+    `servers` are those of the functions that serve messages; `constants` what names of the module,
+    and those of the class behind `self.`, are bound to.
+    """
 
     variables: Mapping[str, str]
     sends: Mapping[str, Sends]
     functions: Mapping[str, str]
+    servers: frozenset[str] = frozenset()
+    constants: Mapping[str, Node] = with_default(default_factory=dict)
 
 
 @dataclass(eq=False, slots=True)
@@ -89,7 +95,7 @@ class Expressions:
             case "true" | "false":
                 return m.BoolLiteral(node.type == "true", span)
             case "string":
-                return m.StringLiteral(text_of(node), span)
+                return m.StringLiteral(_in_double_quotes(text_of(node)), span)
             case "identifier":
                 return self._name(node)
             case "attribute":
@@ -175,6 +181,8 @@ class Expressions:
             return m.NullLiteral(span)
         if text in self.kept:
             return self.read(self.kept[text])
+        if text not in self.locals and text in self.names.constants:
+            return self.read(self.names.constants[text])
         if text not in self.locals:
             raise self.unread(node, f'the model has no variable "{text}"')
         return m.Name(self.locals[text], span)
@@ -182,6 +190,8 @@ class Expressions:
     def _attribute(self, node: Node) -> m.Expression:
         span, name = self.py.span(node), text_of(field(node, "attribute"))
         variable = self.names.variables.get(name)
+        if text_of(node) in self.names.constants:
+            return self.read(self.names.constants[text_of(node)])
         if text_of(field(node, "object")) != "self" or variable is None:
             raise self.unread(node, f'the model has no variable "{text_of(node)}"')
         if variable in self.locals.values():
@@ -298,6 +308,8 @@ class Expressions:
         function = self.names.functions.get(name)
         if function is None:
             raise self.unread(node, f'the model has no function "{called}"')
+        if holder == "self" and name in self.names.servers:
+            raise self.unread(node, "this serves a message at once; the model only sends them")
         target = m.Super(span) if holder == "super()" else None
         return m.Call(target, function, tuple(map(self.read, arguments)), span=span)
 
@@ -344,7 +356,16 @@ class Expressions:
         given = named(field(node, "arguments")) if called == "When" else []
         if called != "When" or any(g.type != "keyword_argument" for g in given):
             raise self.unread(node, "this is no time of a send")
-        return {text_of(field(g, "name")): self.read(field(g, "value")) for g in given}
+        times = {text_of(field(g, "name")): field(g, "value") for g in given}
+        is_without = text_of(times["deadline"]) == "None" if "deadline" in times else False
+        return {k: self.read(v) for k, v in times.items() if k != "deadline" or not is_without}
+
+
+def _in_double_quotes(text: str) -> str:
+    """A string as the model writes it."""
+    plain = text[1:-1]
+    is_single = text.startswith("'") and not text.startswith("'''")
+    return f'"{plain}"' if is_single and not set(plain) & {'"', "\\"} else text
 
 
 def _only_breaks_lines(node: Node) -> bool:

@@ -12,8 +12,10 @@ from tree_sitter import Node
 from rebsync.names import graph_name
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.python.model_constants import is_quiet
+from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_roles import Roles
-from rebsync.reverse.python.model_types import call_parts
+from rebsync.reverse.python.model_types import call_parts, type_made, type_of
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_tree import Py, field, named, text_of
@@ -52,15 +54,25 @@ class Plumbing:
             for node in self._odd(function):
                 self._list(owner.py, node, _WHY, function.name)
         for statement in named(field(owner.node, "body")):
-            if statement.type not in _IN_CLASS and not _is_text(statement):
-                self._list(owner.py, statement, _WHY, "")
+            if statement.type in _IN_CLASS or _is_text(statement) or self._is_constant(statement):
+                continue
+            self._list(owner.py, statement, _WHY, "")
+
+    def _is_constant(self, statement: Node) -> bool:
+        """Whether it names a constant that no instance has another value for."""
+        inner = _inner(statement)
+        name = (
+            text_of(field(inner, "left")) if inner is not None and len(inner.children) > 1 else ""
+        )
+        return is_quiet(self.roles.owner, statement) and name not in self.roles.owner.attributes
 
     def _list(self, py: Py, node: Node, why: str, function: str) -> None:
         within = ".".join(filter(None, (self.roles.owner.name, function)))
         self.findings.unreadable(py.source, Unread(py.span(node), why, _HINT), within)
 
     def _odd(self, function: Scope) -> Iterator[Node]:
-        name, body = function.name, body_of(function)
+        name = function.name
+        body = [s for s in body_of(function) if not only_logs(s)]
         if name in ("__init__", "_wire"):
             yield from (s for s in body if not self._sets_up(function, s))
         elif name in self.roles.shims:
@@ -85,7 +97,7 @@ class Plumbing:
         member = text_of(field(inner, "left")).removeprefix("self.")
         roles = self.roles
         if member in roles.state or member in roles.known or member in roles.env:
-            return True
+            return member not in roles.state or _is_of_type(inner)
         called, arguments = call_parts(inner.child_by_field_name("right")) or ("", [])
         method = called.removeprefix("self._mailbox.")
         if method != called:
@@ -120,13 +132,14 @@ class Plumbing:
             return False
         parameter = field(function.node, "parameters").named_children[-1]
         type_ = parameter.child_by_field_name("type")
-        if type_ is None or text_of(arguments[1]) != "msg.timing":
+        message = function.parameters[-1].name
+        if type_ is None or text_of(arguments[1]) != f"{message}.timing":
             return False
         served = arguments[4]
         _, values = (
             call_parts(field(served, "body")) or ("", []) if served.type == "lambda" else ("", [])
         )
-        given = [_field_read(v) for v in values]
+        given = [_field_read(v, message) for v in values]
         wanted = self.fields.get(text_of(type_))
         if wanted is not None:
             return given == list(wanted)
@@ -138,20 +151,20 @@ class Plumbing:
         """The statements of a function that do more than fill a message and send it."""
         passed = [p.name for p in function.parameters[1:] if p.name != "when"]
         filled: dict[str, str] = {}
-        type_ = ""
+        type_, message = "", "msg"
         for statement in body:
             inner = _inner(statement)
             called, arguments = call_parts(inner) or ("", [])
             if inner is not None and inner.type == "assignment":
                 left, value = text_of(field(inner, "left")), field(inner, "right")
-                if left == "msg":
-                    type_ = (call_parts(value) or ("", []))[0]
-                elif left == "msg.sender":
+                if left.isidentifier() and not filled:
+                    message, type_ = left, (call_parts(value) or ("", []))[0]
+                elif left == f"{message}.sender":
                     continue
                 else:
                     inside = call_parts(value)
                     plain = inside[1][0] if inside is not None and inside[1] else value
-                    filled[left.removeprefix("msg.")] = text_of(plain)
+                    filled[left.removeprefix(f"{message}.")] = text_of(plain)
             elif called == "self._mailbox.publish":
                 to_any = self.roles.sends[function.name].known is None
                 fields = self.fields.get(type_, tuple(filled))
@@ -173,11 +186,20 @@ def odd_at_top(module: Scope) -> Iterator[Node]:
         definition = statement.child_by_field_name("definition")
         if statement.type in _AT_TOP or called == "Server" or _is_text(statement):
             continue
+        if is_quiet(module, statement):
+            continue
         if definition is not None and definition.type == "class_definition":
             continue
         if statement.type == "if_statement" and "TYPE_CHECKING" in text_of(statement):
             continue
         yield statement
+
+
+def _is_of_type(statement: Node) -> bool:
+    """Whether a state variable is made as long as its type says."""
+    said = type_of(statement.child_by_field_name("type"))
+    made = type_made(field(statement, "right"))
+    return said is None or made is None or said.dimensions == made.dimensions
 
 
 def _posts(arguments: list[Node], passed: list[str]) -> bool:
@@ -189,11 +211,11 @@ def _posts(arguments: list[Node], passed: list[str]) -> bool:
     return [text_of(v) for v in values] == passed
 
 
-def _field_read(node: Node) -> str:
+def _field_read(node: Node, message: str) -> str:
     """The field of a message that a value is: as it is, as a rebec's name, or as an array."""
     inside = call_parts(node)
     plain = inside[1][0] if inside is not None and inside[1] else node
-    return text_of(plain).removeprefix("msg.")
+    return text_of(plain).removeprefix(f"{message}.")
 
 
 def _is_of_state(statement: Node) -> bool:

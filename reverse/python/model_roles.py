@@ -22,6 +22,7 @@ from rebsync.reverse.python.model_types import (
     markers_above,
     markers_beside,
     string_value,
+    type_made,
     type_of,
     without_parentheses,
 )
@@ -169,7 +170,8 @@ def _called(roles: Roles, call: Node) -> None:
 
 def _member(roles: Roles, function: Scope, name: str, statement: Node, value: Node) -> None:
     called, arguments = call_parts(value) or ("", [])
-    type_ = type_of(statement.child_by_field_name("type"))
+    said = statement.child_by_field_name("type")
+    type_ = type_of(said) if said is not None else type_made(value)
     if called == "Mailbox":
         roles.has_mailbox = True
         lengths = [int(text_of(a)) for a in arguments if text_of(a).isdecimal()]

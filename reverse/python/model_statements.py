@@ -16,7 +16,14 @@ from rebsync.reserved import PYTHON_RESERVED
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python.model_expressions import Expressions
-from rebsync.reverse.python.model_types import call_parts, is_unset, markers_above, type_of
+from rebsync.reverse.python.model_logs import only_logs
+from rebsync.reverse.python.model_types import (
+    call_parts,
+    is_unset,
+    markers_above,
+    type_of,
+    without_parentheses,
+)
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 _AGAIN = re.compile(r"(.+?)__\d+\Z")
@@ -51,6 +58,8 @@ class Statements:
         waiting = list(nodes)
         while waiting:
             node = waiting.pop(0)
+            if only_logs(node):
+                continue
             try:
                 if self._goes_on(node, waiting):
                     found.append(m.Continue(span=self.expressions.py.span(node)))
@@ -122,7 +131,7 @@ class Statements:
 
     def _return(self, node: Node) -> list[m.Statement]:
         values = named(node)
-        if values and is_unset(values[0]):
+        if values and is_unset(without_parentheses(values[0])):
             return []  # only Python wants one here
         value = self.expressions.read(values[0]) if values else None
         return [m.Return(value, span=self.expressions.py.span(node))]
@@ -231,7 +240,7 @@ class Statements:
             updates = tuple(s.expression for s in steps if isinstance(s, m.ExpressionStatement))
         if nodes and nodes[0].type == "if_statement" and _ends(nodes[0]):
             asked = field(nodes.pop(0), "condition")
-            inner = field(asked, "argument")
+            inner = field(without_parentheses(asked), "argument")
             read = self.expressions.read(inner)
             condition = read.inner if isinstance(read, m.Paren) else read
         outer, self.cases = self.cases, []
@@ -256,14 +265,14 @@ class Statements:
 
 
 def _asks(node: Node) -> str:
-    return text_of(field(node, "condition"))
+    return text_of(without_parentheses(field(node, "condition")))
 
 
 def _ends(node: Node) -> bool:
     """`if not condition: break`."""
     body = named(field(node, "consequence"))
     is_break = len(body) == 1 and body[0].type == "break_statement"
-    return is_break and field(node, "condition").type == "not_operator"
+    return is_break and without_parentheses(field(node, "condition")).type == "not_operator"
 
 
 def _taken(

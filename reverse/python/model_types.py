@@ -59,6 +59,18 @@ def _generic(head: str, parameters: list[Node]) -> m.Type | None:
     return m.Type(inner.name, (int(length[0]), *inner.dimensions))
 
 
+def type_made(value: Node) -> m.Type | None:
+    """The type that `int()` or `array(bool, 4)` makes; None for what is made otherwise."""
+    called, arguments = call_parts(value) or ("", [])
+    if called != "array":
+        plain = _PLAIN.get(called)
+        return m.Type(plain) if plain is not None and not arguments else None
+    name, *lengths = [text_of(a) for a in arguments] or [""]
+    if not all(map(str.isdecimal, lengths)):
+        return None
+    return m.Type(_PLAIN.get(name, class_name(name)), tuple(map(int, lengths)))
+
+
 def is_unset(node: Node) -> bool:
     """Whether a value is that of a variable that nothing has been stored in."""
     return node.type == "call" and _UNSET.match(text_of(node)) is not None

@@ -112,6 +112,8 @@ def _builtin(
 ) -> Iterable[Value]:
     if name in _SAME and len(plain) == 1:
         return [_cast(name, v) for v in values.ways(plain[0], scope)]
+    if name == "type" and len(plain) == 1:
+        return [_class_of(values, v, call, scope) for v in values.ways(plain[0], scope)]
     if name == "super":
         owner = scope.owner
         return [values.unknown("super", call, scope)] if owner is None else _above(values, owner)
@@ -133,6 +135,19 @@ def _builtin(
         _, keywords = arguments_of(call)
         return [Table(tuple(((k,), values.ways(v, scope)) for k, v in keywords.items()))]
     return [_what(values, name, call, scope)]
+
+
+def _class_of(values: Values, value: Value, call: Node, scope: Scope) -> Value:
+    """What `type(...)` gives of an object."""
+    match value:
+        case Instance(owner):
+            return Class(owner)
+        case Made(name) if name.rpartition(".")[2][:1].isupper():
+            return External(name)
+        case Unresolved():
+            return value
+        case _:
+            return _what(values, "type", call, scope)
 
 
 def _above(values: Values, owner: Scope) -> list[Value]:

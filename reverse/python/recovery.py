@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.package import Value
 from rebsync.records import dataclass
+from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import (
     Callback,
@@ -19,15 +20,18 @@ from rebsync.reverse.graph import (
     SubscriptionFact,
     TimerFact,
 )
+from rebsync.reverse.nodes.node_system import unit_of_time
+from rebsync.reverse.python.body_system import PyNodes, PySystem
 from rebsync.reverse.python.model_classes import Classes, is_runtime_file
 from rebsync.reverse.python.model_roles import parameter_read
 from rebsync.reverse.python.model_types import call_parts, class_name
-from rebsync.reverse.python.py_calls import graph_of
+from rebsync.reverse.python.py_calls import graph_of, owner_of
+from rebsync.reverse.python.py_hooks import hooks_in
 from rebsync.reverse.python.py_index import PyCode
 from rebsync.reverse.python.py_tree import field, named, number_of, parse, text_of, unparsed
 from rebsync.source import Source
 
-_WHY = "the statements of hand-written Python are not read, only what the node asks of ROS"
+_WHY = "what this belongs to is no node of the model: only what it asks of ROS is read"
 _HINT = "--format json tells what it asks of ROS"
 _STAND_IN = "_stand_in"
 
@@ -43,6 +47,7 @@ class PythonPart:
     classes: tuple[m.ReactiveClass | m.Interface, ...] = ()
     used: tuple[Used, ...] = ()
     code: PyCode | None = None
+    nodes: PyNodes = PyNodes()
 
     def started(self, program: str) -> tuple[str, list[str]] | None:
         """The class that a program makes a rebec of, and its private parameters."""
@@ -62,11 +67,13 @@ def read_python(
     findings: Findings,
     only: str | None = None,
     messages: Mapping[str, Sequence[str]] | None = None,
+    files: Mapping[str, Source] | None = None,
+    package: str = "",
 ) -> PythonPart:
     """What some files say; each callback whose body is not in the model is listed.
 
     With `only` the classes of that file; `messages` are the fields of the
-    package's message types.
+    package's message types, and `files` all that it has.
     """
     trees = [parse(source) for _, source in sorted(sources.items())]
     findings.all += [f for py in trees for f in unparsed(py)]
@@ -76,9 +83,14 @@ def read_python(
     path = asked.path if asked is not None else None
     classes = Classes(code, findings, messages or {})
     read = classes.read(path) if asked is not None or only is None else ()
-    _list_callbacks(graph, classes, findings, path)
+    known, unit = MessageTypes.of(files or {}, package), unit_of_time(files or {})
+    own = {(o.name, o.py.source.path) for o in classes.owners}
+    system = PySystem(code, graph, known, unit, findings, lambda f: _is_people(f, own), path)
+    nodes = system.read()
+    _list_callbacks(graph, own, findings, path, nodes)
+    _list_hooks(code, own, findings, path)
     used = tuple((e.key, (e.type, e.name, constant(e.default))) for e in classes.env())
-    return PythonPart(graph, read, used, code)
+    return PythonPart(graph, read, used, code, nodes)
 
 
 def constant(node: Node | None) -> Value | None:
@@ -104,9 +116,20 @@ def constant(node: Node | None) -> Value | None:
 # --- what is not read ---------------------------------------------------------------------------
 
 
-def _list_callbacks(graph: Graph, classes: Classes, findings: Findings, path: str | None) -> None:
-    listed = set()
-    for callback in _of_people(graph, classes):
+def _list_callbacks(
+    graph: Graph,
+    own: Collection[tuple[str, str]],
+    findings: Findings,
+    path: str | None,
+    nodes: PyNodes,
+) -> None:
+    listed = {
+        (s.callback.place.source.path, s.callback.place.span.start)
+        for servers in nodes.servers.values()
+        for s in servers.values()
+    }
+    people = (f for f in graph.facts if _is_people(f, own))
+    for callback in (c for f in people for c in _callbacks(f) if isinstance(c, Callback)):
         place = callback.place
         key = place.source.path, place.span.start
         if key not in listed and path in (None, place.source.path):
@@ -115,15 +138,26 @@ def _list_callbacks(graph: Graph, classes: Classes, findings: Findings, path: st
             findings.unreadable(place.source, unread, callback.name or "lambda")
 
 
-def _of_people(graph: Graph, classes: Classes) -> Iterator[Callback]:
-    """The callbacks that stand in no generated code."""
-    own = {(o.name, o.py.source.path) for o in classes.owners}
-    for fact in graph.facts:
-        path = fact.site.place.source.path
-        is_made = (fact.site.owner or "", path) in own or is_runtime_file(fact.site.place.source)
-        if is_made or path.removesuffix(".py").endswith(_STAND_IN):
-            continue
-        yield from (c for c in _callbacks(fact) if isinstance(c, Callback))
+def _list_hooks(
+    code: PyCode, own: Collection[tuple[str, str]], findings: Findings, path: str | None
+) -> None:
+    for hook in hooks_in(code):
+        source = hook.place.source
+        if path in (None, source.path) and not _is_made(owner_of(hook.within), source, own):
+            why = f'"{hook.name}" calls functions of the node in ways that the model does not have'
+            within = hook.functions or owner_of(hook.within) or ""
+            findings.unreadable(source, Unread(hook.place.span, why, ""), within)
+
+
+def _is_people(fact: Fact, own: Collection[tuple[str, str]]) -> bool:
+    """Whether a call stands in no generated code."""
+    return not _is_made(fact.site.owner, fact.site.place.source, own)
+
+
+def _is_made(owner: str | None, source: Source, own: Collection[tuple[str, str]]) -> bool:
+    """Whether code is generated: that of a class of the model, of what runs it, of a stand-in."""
+    is_stand_in = source.path.removesuffix(".py").endswith(_STAND_IN)
+    return (owner or "", source.path) in own or is_runtime_file(source) or is_stand_in
 
 
 def _callbacks(fact: Fact) -> Callbacks:

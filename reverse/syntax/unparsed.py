@@ -18,6 +18,7 @@ from rebsync.reverse.syntax.cpp_text import has_alternatives, is_split, read_bra
 from rebsync.reverse.syntax.cpp_tree import Cpp
 from rebsync.source import Span
 
+NO_CPP = "this is no C++ that can be read"
 _LONGEST = 120
 _DIRECTIVES = re.compile(r"^[ \t]*#(?:[^\n\\]|\\\r?\n|\\.)*", re.MULTILINE)
 _ROS = re.compile(
@@ -74,9 +75,9 @@ def _harmless(cpp: Cpp, node: Node) -> bool:
 
 
 def _error(cpp: Cpp, node: Node) -> Finding:
-    why = "this is no C++ that can be read: a macro may hide it"
+    why = f"{NO_CPP}: a macro may hide it, or a `;` before it is missing"
     if node.is_missing:
-        why = f"this is no C++ that can be read: `{node.type}` is missing"
+        why = f"{NO_CPP}: `{node.type}` is missing"
     return Finding(Grade.UNREADABLE, cpp.source, _first_line(cpp, cpp.span(node)), why)
 
 

@@ -259,3 +259,24 @@ def test_links_that_lead_out_are_not_followed(sync: Run, tmp_path: Path) -> None
     before = snapshot(tmp_path)
     assert sync()[0] != 0
     assert snapshot(tmp_path) == before
+
+
+def test_what_makes_no_model_is_told_where_it_is(sync: Run) -> None:
+    before = snapshot(Path())
+    replace(HEADER, "int32_t x_", "uint64_t x_")
+    status, shown = sync()
+    assert status == 1
+    assert f"{HEADER}:43:3: RS967 the changes of the code make no model" in shown
+    assert 'hint: it would say `x = x0;`: unknown variable "x"' in shown
+    replace(HEADER, "uint64_t x_", "int32_t x_")
+    assert snapshot(Path()) == before
+
+
+def test_what_makes_no_model_together_is_told_of_the_model(sync: Run) -> None:
+    replace("patrol.rebeca", "    on = n > 3;\n", "")
+    replace("patrol.rebeca", "    boolean on;\n", "")
+    replace(SOURCE, "  sendSelfLook(after(e_));", "  on_ = true;\n  sendSelfLook(after(e_));")
+    status, shown = sync()
+    assert status == 1
+    assert "patrol.rebeca: RS967 the changes of model and code cannot be put together" in shown
+    assert 'hint: it would say `on = true;`: unknown variable "on"' in shown

@@ -50,7 +50,7 @@ def build_workspace(tmp_path_factory: pytest.TempPathFactory) -> Build:
     if reason is not None:
         pytest.fail(reason)
     kept = os.environ.get("REBSYNC_ROS_WORKSPACE")
-    root = Path(kept) if kept else _shared(tmp_path_factory) / "ros1"
+    root = Path(kept) if kept else shared(tmp_path_factory) / "ros1"
     return lambda name, packages: build(packages, root / name)
 
 
@@ -100,7 +100,7 @@ def rendered(name: str, package: str) -> str:
     return environment.get_template(f"{name}.j2").render(package=package)
 
 
-def _shared(factory: pytest.TempPathFactory) -> Path:
+def shared(factory: pytest.TempPathFactory) -> Path:
     """A directory that is the same for every worker of pytest-xdist."""
     base = factory.getbasetemp()
     return base.parent if os.environ.get("PYTEST_XDIST_WORKER") else base

@@ -8,7 +8,7 @@ import signal
 import socket
 import subprocess
 import uuid
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -41,7 +41,7 @@ USUAL = Clock()
 
 
 class RunError(Exception):
-    """The run did not come to its end; the text is what roslaunch and the recorder said."""
+    """The run did not come to its end; the text is what the launcher and the recorder said."""
 
 
 def run(
@@ -69,8 +69,9 @@ def run(
         capture_output=True,
         text=True,
     ).stdout.split()
-    with _launched(wrapper, port, directory, environment) as stop:
-        return _record(nodes, clock, directory, environment, stop)
+    command = ["roslaunch", "--skip-log-check", "-p", str(port), str(wrapper)]
+    with launched(command, directory, environment) as stop:
+        return record(_RECORDER, {"nodes": nodes}, clock, directory, environment, stop)
 
 
 def _followed(clock: Clock, workspace: Workspace) -> Clock:
@@ -100,15 +101,15 @@ def _wrapper(launch: Path, clock: Clock, parameters: Mapping[str, Any]) -> str:
 
 
 @contextmanager
-def _launched(
-    wrapper: Path, port: int, directory: Path, environment: Mapping[str, str]
+def launched(
+    command: Sequence[str], directory: Path, environment: Mapping[str, str]
 ) -> Iterator[Callable[[], None]]:
-    """roslaunch while the block runs; gives the function that stops it, as Ctrl-C does."""
+    """A launcher while the block runs; gives the function that stops it, as Ctrl-C does."""
     output = directory / "output"
     mark = f"REBSYNC_TEST_RUN={uuid.uuid4()}"
     with output.open("w") as file:
         process = subprocess.Popen(
-            ["roslaunch", "--skip-log-check", "-p", str(port), str(wrapper)],
+            command,
             env={**environment, **dict([mark.split("=")])},
             stdout=file,
             stderr=subprocess.STDOUT,
@@ -123,7 +124,7 @@ def _launched(
             with suppress(ProcessLookupError):
                 os.kill(number, signal.SIGKILL)
         if left:
-            raise RunError(f"processes {left} outlived roslaunch:\n{output.read_text()}")
+            raise RunError(f"processes {left} outlived {command[0]}:\n{output.read_text()}")
 
     try:
         yield stop
@@ -152,17 +153,19 @@ def _read(environment: Path) -> list[str]:
         return []
 
 
-def _record(
-    nodes: list[str],
+def record(
+    recorder: Path,
+    facts: Mapping[str, Any],
     clock: Clock,
     directory: Path,
     environment: Mapping[str, str],
     stop: Callable[[], None],
 ) -> Recording:
+    """What a recorder, told these facts, hears until the end of `clock` and while nodes stop."""
     out, config = directory / "recording.jsonl", directory / "recorder.json"
-    config.write_text(json.dumps({**asdict(clock), "nodes": nodes, "out": str(out)}))
-    recorder = subprocess.Popen(
-        [SYSTEM_PYTHON, str(_RECORDER), str(config)],
+    config.write_text(json.dumps({**asdict(clock), **facts, "out": str(out)}))
+    process = subprocess.Popen(
+        [SYSTEM_PYTHON, str(recorder), str(config)],
         env=environment,
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
@@ -170,14 +173,14 @@ def _record(
         text=True,
         start_new_session=True,
     )
-    assert recorder.stdout is not None
+    assert process.stdout is not None
     try:
-        done = recorder.stdout.readline()
+        done = process.stdout.readline()
         stop()
-        _, errors = recorder.communicate(timeout=_STOP)
+        _, errors = process.communicate(timeout=_STOP)
     finally:
-        recorder.kill()
-        recorder.wait()
+        process.kill()
+        process.wait()
     output = (directory / "output").read_text()
     if done != "done\n":
         raise RunError(f"{errors}\n{output}")

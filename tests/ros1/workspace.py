@@ -7,7 +7,7 @@ import hashlib
 import os
 import shutil
 import subprocess
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -76,6 +76,12 @@ def missing_ros() -> str | None:
 
 def build(packages: Sequence[Path], root: Path) -> Workspace:
     """Build package directories in the workspace at `root`; does nothing when nothing changed."""
+    build_once(packages, root, _make)
+    return Workspace(root)
+
+
+def build_once(packages: Sequence[Path], root: Path, make: Callable[[Path], None]) -> None:
+    """Put package directories below `root/src` and make them, unless nothing changed."""
     files = {
         str(Path(package.name, path.relative_to(package))): path
         for package in packages
@@ -89,9 +95,8 @@ def build(packages: Sequence[Path], root: Path) -> Workspace:
         if not stamp.exists() or stamp.read_text() != digest:
             stamp.unlink(missing_ok=True)
             _synchronise(files, root / "src")
-            _make(root)
+            make(root)
             stamp.write_text(digest)
-    return Workspace(root)
 
 
 def _digest(files: Mapping[str, Path]) -> str:

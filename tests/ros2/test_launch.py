@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rebsync.reverse.launch.launch_python import read_python_launch
+from rebsync.reverse.launch.launch_files_ros2 import read_ros2_launch
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.unknowns import Open
 from rebsync.source import Source
@@ -27,7 +27,7 @@ _PARAMS = """
 def _read(body: str) -> Launch:
     indented = "".join(f"    {line}\n" for line in body.strip().split("\n"))
     files = {"config/params.yaml": Source("config/params.yaml", _PARAMS)}
-    return read_python_launch(Source("launch/a.launch.py", _HEAD + indented), files.get)
+    return read_ros2_launch(Source("launch/a.launch.py", _HEAD + indented), files.get)
 
 
 def test_names_bound_once_stand_for_their_values() -> None:
@@ -88,6 +88,6 @@ return LaunchDescription([Node(package="p", executable="n", name=name)])"""
 
 
 def test_a_file_that_is_no_python_is_listed() -> None:
-    launch = read_python_launch(Source("a.launch.py", "def ("), lambda _: None)
+    launch = read_ros2_launch(Source("a.launch.py", "def ("), lambda _: None)
     assert launch.nodes == ()
     assert "no Python" in launch.unknowns[0].why

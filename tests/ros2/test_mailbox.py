@@ -12,7 +12,7 @@ from tests.ros1.recording import Recording
 from tests.ros2.building import build_driver, make_messages
 from tests.ros2.running import run
 
-_MODEL = """
+MODEL = """
 env int[2][2] grid = {{1, 2}, {3, 4}};
 env byte small = 7;
 reactiveclass Server(3) {
@@ -50,7 +50,7 @@ main { Server s(c):(4, true); Client c(s):(); }
 @pytest.fixture(scope="module")
 def recording(headers: Path, tmp_path_factory: pytest.TempPathFactory) -> Recording:
     directory, config = tmp_path_factory.mktemp("mailbox"), Config(target="ros2-cpp")
-    package = written(generated(_MODEL, "office", config), directory, "office", config)
+    package = written(generated(MODEL, "office", config), directory, "office", config)
     make_messages([package], headers)
     return run(package, build_driver(package, headers, directory / "build"), directory, 90)
 

@@ -42,13 +42,23 @@ class _InProcess:
     ) -> Recording:
         """Run rebecs of which each knows all the names, until the clock's end."""
         world = World()
-        common = {"mailbox.rebecs": list(names), "mailbox.instances.Script": list(rebecs)}
-        common |= {key.replace("/", "."): value for key, value in parameters.items()}
+        nodes = probe_nodes(rebecs, parameters, names)
         with installed(world, self.folder, self.folder / "probe_interfaces"):
             main = import_module("probe.script").main
-            mains = [(_launched(n, r, names, common), main) for n, r in rebecs.items()]
+            mains = [(node, main) for node in nodes]
             world.run(mains, clock.until, clock.quiet)
         return recorded(world)
+
+
+def probe_nodes(
+    rebecs: Mapping[str, Rebec], parameters: Mapping[str, Any], names: Sequence[str]
+) -> list[Launched]:
+    """The nodes of rebecs that run scripts; an empty list of texts has one empty text in it."""
+    common: dict[str, Any] = {"mailbox.rebecs": list(names)}
+    common["mailbox.instances.Script"] = list(rebecs)
+    for key, value in parameters.items():
+        common[key.replace("/", ".")] = [""] if value == [] else value
+    return [_launched(name, rebec, names, common) for name, rebec in rebecs.items()]
 
 
 def _launched(
@@ -70,15 +80,19 @@ def _launched(
 def probe(tmp_path_factory: pytest.TempPathFactory) -> Player:
     """The package whose rebecs run scripts, with the run-time part as it is now."""
     folder = tmp_path_factory.mktemp("probe")
-    package = folder / "probe"
-    package.mkdir()
+    write_probe(folder / "probe", folder / "probe_interfaces")
+    return _InProcess(folder)
+
+
+def write_probe(package: Path, interfaces: Path) -> None:
+    """The modules and the messages of the package whose rebecs run scripts."""
+    package.mkdir(parents=True, exist_ok=True)
     (package / "__init__.py").touch()
     shutil.copy(_HERE / "script" / "script.py", package)
     for name, path in _MODULES.items():
         (package / f"{name}.py").write_text(rendered(path, "probe"))
-    messages = folder / "probe_interfaces" / "msg"
-    messages.mkdir(parents=True)
+    messages = interfaces / "msg"
+    messages.mkdir(parents=True, exist_ok=True)
     for file in _MESSAGES.glob("*.msg"):
         text = file.read_text().replace("Timing timing", "probe_interfaces/Timing timing")
         (messages / file.name).write_text(text)
-    return _InProcess(folder)

@@ -93,6 +93,7 @@ class Node:
         self.queue: queue.Queue[Callable[[], None] | None] = queue.Queue()
         self.parameters: dict[str, object] = {}
         self.timers: list[Timer] = []
+        self.spinning: int | None = None  # the thread that calls what is ready
 
     def get_name(self) -> str:
         return self.launched.name
@@ -123,6 +124,9 @@ class Node:
         return timer
 
     def destroy_timer(self, timer: Timer) -> None:
+        # The executor of a real node dies of it when it is about to call the timer.
+        if self.spinning not in (None, threading.get_ident()):
+            self.world.failures.append(RuntimeError("a timer is destroyed by another thread"))
         with self.world.lock:
             timer.alive = False
             if timer in self.timers:
@@ -156,7 +160,12 @@ class Node:
 
     def get_subscriptions_info_by_topic(self, topic: str) -> list[SimpleNamespace]:
         found = self.world.subscribers(topic)
-        return [SimpleNamespace(node_name=s.node.get_name()) for s in found]
+        return [
+            SimpleNamespace(
+                node_name=s.node.get_name(), qos_profile=SimpleNamespace(durability=s.kept)
+            )
+            for s in found
+        ]
 
 
 @dataclass(frozen=True)
@@ -240,6 +249,7 @@ class World:
             self.log.append((node, level, (self.time - _FIRST) / NANOSECONDS, text))
 
     def spin(self, node: Node) -> None:
+        node.spinning = threading.get_ident()
         while (callback := node.queue.get()) is not None:
             callback()
             self.happened += 1

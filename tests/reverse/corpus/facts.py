@@ -104,7 +104,9 @@ def _last(name: str) -> str:
 
 def _partial_of(answer: Json) -> Json:
     name = answer["name"]
-    return name.get("partial", name.get("relative")) if isinstance(name, dict) else None
+    every = name.get("one_of", [name]) if isinstance(name, dict) else []
+    found = [n.get("partial", n.get("relative")) for n in every if isinstance(n, dict)]
+    return next((f for f in found if f is not None), None)
 
 
 def _default(fact: Json, given: Json) -> Verdict:

@@ -47,6 +47,8 @@ ROS2 = {
     "usb_cam-ros2": ("usb_cam-ros2", (".",)),
 }
 
+_TELEOP_TOOLS = ("joy_teleop", "key_teleop", "mouse_teleop")
+
 # Those whose nodes in Python the facts cover: the folder of the checkout, and the packages in it.
 PYTHON = {
     "autorally-python": ("autorally", ("autorally_core", "autorally_control", "autorally_gazebo")),
@@ -61,6 +63,15 @@ PYTHON = {
             "action_tutorials/action_tutorials_py",
         ),
     ),
+    "turtlebot3-ros1-python": ("turtlebot3-ros1", ("turtlebot3_teleop", "turtlebot3_example")),
+    "twist_mux-ros1-python": ("twist_mux-ros1", (".",)),
+    "twist_mux-ros2-python": ("twist_mux-ros2", (".",)),
+    "cmd_vel_mux-python": ("cmd_vel_mux", (".",)),
+    "teleop_twist_keyboard-ros2-python": ("teleop_twist_keyboard-ros2", (".",)),
+    "usb_cam-ros2-python": ("usb_cam-ros2", (".",)),
+    "teleop_twist_joy-ros2-python": ("teleop_twist_joy-ros2", (".",)),
+    "teleop_tools-ros1-python": ("teleop_tools-ros1", _TELEOP_TOOLS),
+    "teleop_tools-ros2-python": ("teleop_tools-ros2", _TELEOP_TOOLS),
 }
 
 

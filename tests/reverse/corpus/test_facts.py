@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from tests.reverse.corpus.compare import KINDS, compare
+from tests.reverse.corpus.facts import TYPED
 from tests.reverse.corpus.packages import PACKAGES, PYTHON, ROS2, facts_of
 from tests.reverse.corpus.values import RIGHT, Json
 
@@ -35,6 +36,8 @@ def answer_to(fact: Json) -> Json:
     for key in ("name", "period", "depth"):
         if said.get(key, "") is None and "nodelet" not in fact:
             said[key] = {"unknown": fact.get("why"), "partial": fact.get("partial")}
+    if fact["kind"] in TYPED and fact["type"] is None:
+        said["type"] = {"unknown": fact["why"]}
     called = fact.get("callback")
     if isinstance(called, dict):
         said["callback"] = {"one_of": [{"function": name} for name in called["one_of"]]}

@@ -8,7 +8,7 @@ from dataclasses import replace
 from rebsync import model as m
 from rebsync.config import Config
 from rebsync.forward.generate import generate
-from rebsync.roundtrip.normal import normal, rewrite
+from rebsync.roundtrip.normal import as_in_python, normal, rewrite
 from rebsync.static import analyse
 from tests.reverse.laws import assert_same, extracted
 
@@ -30,13 +30,13 @@ def assert_says(files: Mapping[str, str], model: m.Model) -> None:
 
 
 def python_normal(model: m.Model) -> m.Model:
-    """A normal form without what Python does not show.
+    """A normal form without what Python does not show, nor what compares as one anyway.
 
-    `self.x` against `x` where nothing hides it, `x += 1` and `++x` against `x++` as statements,
-    `m()` against `self.m()`, `1.5f` against `1.5`, where the start of a `for` stands, and
-    parentheses around a whole condition or around a conditional expression in another.
+    The latter is `self.x` against `x` where nothing hides it, `++x` against `x++` as statements,
+    `m()` against `self.m()`, and parentheses around a whole condition or around a conditional
+    expression in another.
     """
-    return rewrite(rewrite(model, _rule), _starts)
+    return rewrite(as_in_python(model), _rule)
 
 
 def _rule(node: object) -> object:
@@ -52,12 +52,8 @@ def _rule(node: object) -> object:
         case m.For(updates=updates, condition=condition):
             bare = condition.inner if isinstance(condition, m.Paren) else condition
             return replace(node, updates=tuple(_step(_bare(u)) for u in updates), condition=bare)
-        case m.Assign("+=" | "-=" as operator, target, m.IntLiteral(1)):
-            return m.Unary(operator[0] * 2, target)
         case m.If() | m.While():
             return replace(node, condition=_bare(node.condition))
-        case m.FloatLiteral(text) if text[-1] in "fF":
-            return m.FloatLiteral(text[:-1])
         case m.Conditional(condition, then, otherwise):
             return m.Conditional(_inner(condition), _inner(then), _inner(otherwise))
         case _:
@@ -79,30 +75,3 @@ def _bare(expression: m.Expression) -> m.Expression:
 def _inner(expression: m.Expression) -> m.Expression:
     is_inner = isinstance(expression, m.Paren) and isinstance(expression.inner, m.Conditional)
     return expression.inner if isinstance(expression, m.Paren) and is_inner else expression
-
-
-def _starts(node: object) -> object:
-    """Takes the start of a loop out of it."""
-    match node:
-        case m.Block(statements):
-            return replace(node, statements=_spread(statements))
-        case m.Case(statements=statements):
-            return replace(node, statements=_spread(statements))
-        case _:
-            return node
-
-
-def _spread(statements: tuple[m.Statement, ...]) -> tuple[m.Statement, ...]:
-    found: list[m.Statement] = []
-    for statement in statements:
-        if isinstance(statement, m.For) and statement.initial:
-            found += _first(statement.initial)
-            statement = replace(statement, initial=())
-        found.append(statement)
-    return tuple(found)
-
-
-def _first(initial: m.Declaration | tuple[m.Expression, ...]) -> list[m.Statement]:
-    if not isinstance(initial, m.Declaration):
-        return [m.ExpressionStatement(_step(_bare(e))) for e in initial]
-    return [m.Local(replace(initial, declarators=(d,))) for d in initial.declarators]

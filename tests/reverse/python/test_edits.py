@@ -69,7 +69,7 @@ SHOWN = {
 }
 # What is put in where, and the place that is listed.
 LISTED = {
-    "library call in a body": (BODY, BODY + "        print(by)\n", "print(by)"),
+    "library call in a body": (BODY, BODY + "        time.sleep(by)\n", "time.sleep(by)"),
     "second publisher": (
         "self._mailbox.on_served(",
         "self.p = rospy.Publisher('x', T)\n        self._mailbox.on_served(",
@@ -98,7 +98,11 @@ LISTED = {
         "rospy.loginfo('x')\n\n\nclass Robot:",
         "rospy.loginfo('x')",
     ),
-    "attribute of the class": ("    @property\n", "    speed = 3\n\n    @property\n", "speed = 3"),
+    "attribute of the class": (
+        "    @property\n",
+        "    speed = [3]\n\n    @property\n",
+        "speed = [3]",
+    ),
 }
 
 

@@ -24,7 +24,7 @@ Files = dict[str, str]
 _LABELS = ("a", "b")
 _SLOW = "clang-format"
 _MOST = 40  # places of a kind that are drawn from
-_QUIET = [kind for kind in NEUTRAL if not kind.name.startswith(_SLOW)]
+_QUIET = [kind for kind in NEUTRAL["ros1-cpp"] if not kind.name.startswith(_SLOW)]
 
 
 def edited_code(rng: Random, name: str, files: Files, text: str) -> tuple[str, Files]:
@@ -40,7 +40,7 @@ def edited_code(rng: Random, name: str, files: Files, text: str) -> tuple[str, F
         case "neutral":
             return _mutated(rng, name, files, _QUIET)
         case _:
-            return _mutated(rng, name, files, BEHAVIOUR)
+            return _mutated(rng, name, files, BEHAVIOUR["ros1-cpp"])
 
 
 def as_generated(name: str, files: Files, old: str, new: str) -> Files | None:

@@ -1,4 +1,4 @@
-"""python -m tests.roundtrip.mutations [--most N] [--seed N] [--only WORD] [EXAMPLE...]"""
+"""python -m tests.roundtrip.mutations [--dialect D] [--most N] [--seed N] [--only WORD] [NAME]"""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 from tests.roundtrip.mutations.harness import Result, Said, Task, results
 from tests.roundtrip.mutations.kinds import BEHAVIOUR, NEUTRAL
-from tests.roundtrip.mutations.package import BY_NAME, Kind
+from tests.roundtrip.mutations.package import BY_NAME, DIALECTS, Kind
 
 _FINE = {True: (Said.AT_ELEMENT, Said.AT_FILE), False: (Said.IN_STEP,)}
 
@@ -19,19 +19,25 @@ def main(arguments: Sequence[str]) -> int:
     """0 where all that changes behaviour is reported and nothing else is."""
     parser = argparse.ArgumentParser(prog="python -m tests.roundtrip.mutations")
     parser.add_argument("examples", nargs="*", default=sorted(BY_NAME), metavar="EXAMPLE")
+    parser.add_argument("--dialect", choices=DIALECTS, default="ros1-cpp")
     parser.add_argument("--most", type=int, default=10**6, help="of a kind in an example")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2, help="processes")
     parser.add_argument("--only", default="", help="kinds with this in their name")
     given = parser.parse_args(arguments)
-    kinds = [k for k in (*BEHAVIOUR, *NEUTRAL) if given.only in k.name]
+    changing, quiet = BEHAVIOUR[given.dialect], NEUTRAL[given.dialect]
+    kinds = [k for k in (*changing, *quiet) if given.only in k.name]
     names = [k.name for k in kinds]
     parts = [tuple(names[i : i + 20]) for i in range(0, len(names), 20)]
-    tasks = [Task(e, part, given.most, given.seed) for e in given.examples for part in parts]
+    tasks = [
+        Task(example, part, given.most, given.seed, given.dialect)
+        for example in given.examples
+        for part in parts
+    ]
     start = time.monotonic()
     found = list(results(tasks, given.jobs))
-    wrong = _table("what changes behaviour", [k for k in kinds if k in BEHAVIOUR], found, True)
-    wrong += _table("what changes nothing", [k for k in kinds if k in NEUTRAL], found, False)
+    wrong = _table("what changes behaviour", [k for k in kinds if k in changing], found, True)
+    wrong += _table("what changes nothing", [k for k in kinds if k in quiet], found, False)
     for result in wrong:
         print(result)
     print(f"{len(found)} mutants in {time.monotonic() - start:.0f} s")

@@ -18,8 +18,8 @@ from rebsync.diagnostics import RebsyncError
 from rebsync.roundtrip.checked import Checked, check
 from rebsync.roundtrip.packages import find
 from rebsync.roundtrip.verdict import Verdict
-from tests.roundtrip.mutations.kinds import BY_NAME
-from tests.roundtrip.mutations.package import Kind, Mutant, Package
+from tests.roundtrip.mutations.kinds import named
+from tests.roundtrip.mutations.package import Kind, Mutant, Package, generated
 
 
 class Said(Enum):
@@ -63,6 +63,7 @@ class Task:
     kinds: tuple[str, ...]
     most: int
     seed: int
+    dialect: str = "ros1-cpp"
 
 
 def drawn(kind: Kind, package: Package, most: int, seed: int) -> list[Mutant]:
@@ -85,15 +86,28 @@ def results(tasks: Sequence[Task], jobs: int) -> Iterator[Result]:
 
 
 def _done(task: Task) -> list[Result]:
-    package = Package(task.example)
+    package = Package(task.example, task.dialect)
+    kinds = named(task.dialect)
     with tempfile.TemporaryDirectory() as folder, _cache(f"{folder}/cache"):
         root = Path(folder, task.example)
-        shutil.copytree(package.example, root)
+        written(package, root)
         return [
             told(package, name, mutant, root)
             for name in task.kinds
-            for mutant in drawn(BY_NAME[name], package, task.most, task.seed)
+            for mutant in drawn(kinds[name], package, task.most, task.seed)
         ]
+
+
+def written(package: Package, root: Path) -> None:
+    """Writes a copy of an example with the package in its dialect."""
+    if package.dialect == "ros1-cpp":
+        shutil.copytree(package.example, root)
+        return
+    shutil.copytree(package.example, root, ignore=shutil.ignore_patterns(package.name))
+    for path, text in generated(package.name, package.dialect).items():
+        target = root / package.name / path
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_bytes(text.encode("utf-8"))
 
 
 @contextmanager

@@ -18,6 +18,7 @@ from tests.roundtrip.mutations.package import (
     in_files,
     within,
 )
+from tests.roundtrip.mutations.surroundings import constants
 
 _STATE = r"// rebsync: statevar (\S+)$"
 
@@ -76,12 +77,11 @@ def _other_of(pattern: str, name: str) -> Texts:
 
 def _other_parameter(package: Package) -> Iterator[Mutant]:
     """A parameter of the model that has another value, in place of each that is read."""
-    values: dict[str, str] = {}
-    for path in package.paths("params.yaml"):
-        values |= dict(re.findall(r"^(\w+): (\d+)$", package.files[path], re.MULTILINE))
+    values = {found[2]: found[3] for _, found in constants(package)}
+    read = re.compile(r'(?<=global\.param\(")\w+|(?<=declare_parameter<int>\("env\.)\w+')
     for part in (p for p in package.parts if p.kind == "setup"):
         text = package.files[part.path]
-        for m in re.compile(r'(?<=global\.param\(")\w+').finditer(text, part.start, part.end):
+        for m in read.finditer(text, part.start, part.end):
             other = next((n for n in values if values[n] != values.get(m[0])), None)
             if other is not None:
                 made = package.mutant(Edit(part.path, *m.span(), other))
@@ -127,13 +127,15 @@ def _one_more(step: int) -> Texts:
 
 _S = "setup"
 _AFTER = r"^(namespace \{\n)(?=\nconstexpr Server)"
-_CLASS = r"^(class \w+ (?:: public \w+ )?\{\n)(?= public:\n  \w+\(const ros::NodeHandle)"
+_CLASS = (
+    r"^(class \w+ (?:: public [\w:]+ )?\{\n)(?= public:\n  \w*[ ]?\w+\(const (?:ros|rclcpp)::Node)"
+)
 _PAIR = r"((?:\w|->)+, (?:\w|->)+(?:, (?:\w|->)+)*)"
 
 KINDS = (
-    Kind("queue one longer", within(r"(mailbox_\(node, )(\d+)", _one_more(1), _S)),
-    Kind("queue one shorter", within(r"(mailbox_\(node, )(\d+)", _one_more(-1), _S)),
-    Kind("best priority left out", within(r"(mailbox_\(node, \d+), \d+\)", r"\1)", _S)),
+    Kind("queue one longer", within(r"(mailbox_\((?:node|\*this), )(\d+)", _one_more(1), _S)),
+    Kind("queue one shorter", within(r"(mailbox_\((?:node|\*this), )(\d+)", _one_more(-1), _S)),
+    Kind("best priority left out", within(r"(mailbox_\((?:node|\*this), \d+), \d+\)", r"\1)", _S)),
     Kind(
         "initial value of a member",
         _in_header(
@@ -167,27 +169,18 @@ KINDS = (
     Kind("another handler", within(r"&(\w+)::(receive\w+)", _other_handler, _S)),
     Kind(
         "topic of a publisher",
-        within(r'(mailbox_\.advertise<\w+>\(")', r"\1other/", _S, strings=True),
+        within(r'(mailbox_\.advertise<[\w:]+>\(")', r"\1other/", _S, strings=True),
     ),
     Kind("publisher removed", within(r"^ *\w+_pubs?_ = mailbox_[^\n]*\n", "", _S)),
     Kind(
         "publishers of another class",
-        within(r'(advertiseAll<\w+>\(")\w+"', r'\1Other"', _S, strings=True),
-    ),
-    Kind(
-        "second publisher",
-        within(
-            r"^( *)\w+ = mailbox_\.advertise<(\w+)>\((.*)\);\n",
-            r"\g<0>\1ros::NodeHandle(node).advertise<\2>(\3, 1).publish(\2());\n",
-            _S,
-            strings=True,
-        ),
+        within(r'(advertiseAll<[\w:]+>\(")\w+"', r'\1Other"', _S, strings=True),
     ),
     Kind(
         "another known rebec",
         within(
-            r'param<std::string>\("knownrebecs/(?P<k>\w+)"',
-            _other_of(r'"knownrebecs/(\w+)"', "k"),
+            r'param(?:eter)?<std::string>\("knownrebecs[/.](?P<k>\w+)"',
+            _other_of(r'"knownrebecs[/.](\w+)"', "k"),
             _S,
             strings=True,
         ),
@@ -196,7 +189,10 @@ KINDS = (
         "another parameter read",
         _other_parameter,
     ),
-    Kind("parameter not read", within(r"^ *\w+ = (?:global|node)\.param[^\n]*\n", "", _S)),
+    Kind(
+        "parameter not read",
+        within(r"^ *\w+_ = (?:global\.param|node\.param|declare_parameter)[^;]*;\n", "", _S),
+    ),
     Kind(
         "arguments of construct swapped", within(rf"(\bconstruct\(){_PAIR}(\))", _swapped_pair, _S)
     ),

@@ -1,9 +1,59 @@
-"""All kinds of changes: those that change what a system does, and those that do not."""
+"""All kinds of changes, by dialect: those that change what a system does, and those that do not."""
 
 from __future__ import annotations
 
-from tests.roundtrip.mutations import bodies, joints, neutral, sending, spelling, surroundings
+from collections.abc import Mapping
+from functools import cache
 
-BEHAVIOUR = (*bodies.KINDS, *sending.KINDS, *joints.KINDS, *surroundings.KINDS)
-NEUTRAL = (*neutral.KINDS, *spelling.KINDS)
-BY_NAME = {kind.name: kind for kind in (*BEHAVIOUR, *NEUTRAL)}
+from tests.roundtrip.mutations import (
+    bodies,
+    building,
+    joints,
+    launch_py,
+    launch_xml,
+    layout,
+    neutral,
+    py_bodies,
+    py_joints,
+    py_neutral,
+    py_sending,
+    py_surroundings,
+    rclcpp,
+    roscpp,
+    sending,
+    spelling,
+    surroundings,
+)
+from tests.roundtrip.mutations.package import Kind
+
+_CPP = (*bodies.KINDS, *sending.KINDS, *joints.KINDS, *building.KINDS)
+_CPP_NEUTRAL = (
+    *neutral.KINDS,
+    *spelling.KINDS,
+    *surroundings.NEUTRAL,
+    *building.NEUTRAL,
+    *layout.KINDS,
+)
+
+_PY = (*py_bodies.KINDS, *py_sending.KINDS, *py_joints.KINDS, *py_surroundings.KINDS)
+_PY_NEUTRAL = (*py_neutral.KINDS, *surroundings.NEUTRAL, *layout.KINDS)
+_ALL = surroundings.KINDS
+
+BEHAVIOUR: Mapping[str, tuple[Kind, ...]] = {
+    "ros1-cpp": (*_CPP, *_ALL, *roscpp.KINDS, *launch_xml.KINDS),
+    "ros2-cpp": (*_CPP, *_ALL, *rclcpp.KINDS, *launch_py.KINDS),
+    "ros1-py": (*_PY, *_ALL, *py_surroundings.ROSPY, *launch_xml.KINDS),
+    "ros2-py": (*_PY, *_ALL, *py_surroundings.RCLPY, *launch_py.KINDS),
+}
+NEUTRAL: Mapping[str, tuple[Kind, ...]] = {
+    "ros1-cpp": (*_CPP_NEUTRAL, *roscpp.NEUTRAL, *launch_xml.NEUTRAL),
+    "ros2-cpp": (*_CPP_NEUTRAL, *rclcpp.NEUTRAL, *launch_py.NEUTRAL),
+    "ros1-py": (*_PY_NEUTRAL, *py_neutral.ROSPY, *launch_xml.NEUTRAL),
+    "ros2-py": (*_PY_NEUTRAL, *py_neutral.RCLPY, *launch_py.NEUTRAL),
+}
+
+
+@cache
+def named(dialect: str) -> Mapping[str, Kind]:
+    """The kinds of a dialect by their names."""
+    return {kind.name: kind for kind in (*BEHAVIOUR[dialect], *NEUTRAL[dialect])}

@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
+from tests.roundtrip.mutations.layout import SOURCES, rewritten, swapped_lines
 from tests.roundtrip.mutations.package import (
     BODIES,
     Edit,
@@ -15,7 +16,6 @@ from tests.roundtrip.mutations.package import (
     Mutant,
     Package,
     Part,
-    at_end,
     at_start,
     in_files,
     within,
@@ -29,23 +29,10 @@ _STYLES = {
     "WebKit": "{BasedOnStyle: WebKit, BreakBeforeBraces: Allman}",
 }
 
-_MARKER = re.compile(r"[ \t]*(?://|#|<!--)\s*rebsync: (?!annotation|env|user|end)[^\n]*")
-
 
 def _classes(package: Package) -> list[str]:
     """The sources of classes."""
     return sorted({part.path for part in package.parts})
-
-
-def _rewritten(suffixes: tuple[str, ...], rewrite: Callable[[str], str]) -> Maker:
-    """Whole files written anew, one after the other."""
-
-    def make(package: Package) -> Iterator[Mutant]:
-        for path, text in sorted(package.files.items()):
-            if path.endswith(suffixes):
-                yield Mutant({path: rewrite(text)}, path)
-
-    return make
 
 
 def _formatted(style: str) -> Maker:
@@ -55,7 +42,7 @@ def _formatted(style: str) -> Maker:
         if shutil.which("clang-format") is None:
             return
         for path, text in sorted(package.files.items()):
-            if path.endswith((".h", ".cpp")):
+            if path.endswith((".h", ".hpp", ".cpp")):
                 done = subprocess.run(
                     ["clang-format", f"--style={style}", f"--assume-filename={path}"],
                     input=text,
@@ -149,7 +136,9 @@ def _in_header(package: Package) -> Iterator[Mutant]:
         text = package.files[part.path]
         span = next((s for s in _functions(text) if s[0] <= part.start <= s[1]), None)
         header = next(
-            h for h in package.paths(".h") if f"class {part.owner} {{" in package.files[h]
+            h
+            for h in package.paths(".h")
+            if re.search(rf"class {part.owner} (?:: public [\w:]+ )?\{{", package.files[h])
         )
         head = text[: part.start].rstrip().rpartition("\n")[2].replace(f"{part.owner}::", "")
         declared = f"  {head.rstrip(' {')};\n"
@@ -163,48 +152,10 @@ def _in_header(package: Package) -> Iterator[Mutant]:
         yield Mutant(files, package.place(part.path, part.start))
 
 
-def _swapped_lines(pattern: str, suffix: str) -> Maker:
-    """Two lines that match, one after the other, in the other order."""
-    lines = re.compile(rf"^({pattern}\n)({pattern}\n)", re.MULTILINE)
-
-    def make(package: Package) -> Iterator[Edit]:
-        for path in package.paths(suffix):
-            for found in lines.finditer(package.files[path]):
-                yield Edit(path, *found.span(), found[2] + found[1])
-
-    return make
-
-
 def _without_braces(package: Package, part: Part, found: re.Match[str]) -> str | None:
     return f"{found[1]}{found[2]}\n{found[3]}"
 
 
-def _markers(package: Package) -> Iterator[Mutant]:
-    """No marker at all, all over the package."""
-    files: dict[str, str | None] = {
-        path: _MARKER.sub("", text)
-        for path, text in package.files.items()
-        if path.endswith((".h", ".cpp", ".launch"))
-    }
-    yield Mutant(files, "everywhere")
-
-
-def _one_marker(package: Package) -> Iterator[Edit]:
-    for path in (*package.paths(".cpp"), *package.paths(".h")):
-        for found in _MARKER.finditer(package.files[path]):
-            yield Edit(path, *found.span(), "")
-
-
-def _all_files(rewrite: Callable[[str], str]) -> Maker:
-    """All texts of the package written anew at once."""
-
-    def make(package: Package) -> Iterator[Mutant]:
-        yield Mutant({path: rewrite(text) for path, text in package.files.items()}, "everywhere")
-
-    return make
-
-
-_SOURCES = (".h", ".cpp")
 _STATEMENT = r"^( +)((?:this->)?\w[^\n{}]*;)$"
 
 KINDS = (
@@ -215,59 +166,27 @@ KINDS = (
     Kind(
         "comment that mentions markers", within(_STATEMENT, r"\1// see rebsync in the docs\n\1\2")
     ),
-    Kind("blank lines", _rewritten(_SOURCES, lambda t: re.sub(r";\n", ";\n\n", t))),
+    Kind("blank lines", rewritten(SOURCES, lambda t: re.sub(r";\n", ";\n\n", t))),
     Kind(
         "tabs",
-        _rewritten(
-            _SOURCES, lambda t: re.sub(r"^ +", lambda m: "\t" * len(m[0]), t, flags=re.MULTILINE)
+        rewritten(
+            SOURCES, lambda t: re.sub(r"^ +", lambda m: "\t" * len(m[0]), t, flags=re.MULTILINE)
         ),
     ),
-    Kind(
-        "spaces at ends of lines",
-        _rewritten(
-            (".cpp", ".h", ".launch", ".yaml", ".txt", ".msg"), lambda t: t.replace("\n", "  \n")
-        ),
-    ),
-    Kind("CRLF", _all_files(lambda t: t.replace("\n", "\r\n"))),
-    Kind(
-        "CRLF in one file",
-        _rewritten(
-            (".cpp", ".h", ".launch", ".yaml", ".txt", ".msg"), lambda t: t.replace("\n", "\r\n")
-        ),
-    ),
-    Kind("byte order mark", _rewritten(_SOURCES, lambda t: f"\ufeff{t}")),
-    Kind(
-        "no newline at the end",
-        _rewritten((".cpp", ".h", ".launch", ".yaml", ".txt", ".msg"), lambda t: t.rstrip("\n")),
-    ),
+    Kind("byte order mark", rewritten(SOURCES, lambda t: f"\ufeff{t}")),
     Kind("local renamed", _renamed_local),
     Kind("constant extracted", _constant),
-    Kind("includes reordered", _swapped_lines(r"#include [<\"][^\n]*", ".h")),
+    Kind("includes reordered", swapped_lines(r"#include [<\"][^\n]*", ".h")),
     Kind("another include", in_files(".cpp", r"\A(#include .*\n)", r"\1#include <vector>\n")),
-    Kind("pragma once", _rewritten((".h",), lambda t: f"#pragma once\n{t}")),
+    Kind("pragma once", rewritten((".h",), lambda t: f"#pragma once\n{t}")),
     Kind("functions reordered", _reordered_functions),
     Kind(
         "members reordered",
-        _swapped_lines(r"  [\w:<>, ]+ \w+\{\};[ ]*// rebsync: statevar [^\n]*", ".h"),
+        swapped_lines(r"  [\w:<>, ]+ \w+\{\};[ ]*// rebsync: statevar [^\n]*", ".h"),
     ),
-    Kind("declarations reordered", _swapped_lines(r"  (?:void|bool|int32_t) \w+\([^\n]*\);", ".h")),
-    Kind("subscriptions reordered", _swapped_lines(r"  \w+_sub_ = [^\n]*;", ".cpp")),
-    Kind(
-        "parameters read in another order", _swapped_lines(r"  \w+_ = global\.param[^\n]*;", ".cpp")
-    ),
-    Kind("ROS_INFO", at_start('  ROS_INFO("here: %d", 1);\n', *BODIES)),
-    Kind("ROS_DEBUG_STREAM", at_start('  ROS_DEBUG_STREAM("at " << 1);\n', *BODIES)),
-    Kind(
-        "ROS_WARN in the end", at_end('  ROS_WARN_THROTTLE(1.0, "end");\n', "constructor", "msgsrv")
-    ),
+    Kind("declarations reordered", swapped_lines(r"  (?:void|bool|int32_t) \w+\([^\n]*\);", ".h")),
+    Kind("subscriptions reordered", swapped_lines(r"  \w+_sub_ = [^\n]*;", ".cpp")),
     Kind("std::cout", at_start('  std::cout << "here" << std::endl;\n', *BODIES)),
-    Kind("logged where received", at_start('  ROS_INFO("received");\n', "receive")),
-    Kind("logged where sent", at_start('  ROS_INFO("sent");\n', "send")),
-    Kind("logged in set-up", at_end('  ROS_INFO("ready");\n', "setup")),
-    Kind(
-        "logged in the program",
-        in_files("_node.cpp", r"^(  ros::AsyncSpinner)", r'  ROS_INFO("up");\n\1'),
-    ),
     Kind(
         "without braces",
         within(
@@ -282,7 +201,7 @@ KINDS = (
     ),
     Kind(
         "namespace reopened",
-        in_files(".cpp", r"^(// rebsync: msgsrv )", r"}\n\nnamespace NAME {\n\n\1"),
+        in_files(".cpp", r"^(// rebsync: msgsrv )", r"}\n\nnamespace NAME {\n\n\1", comments=True),
     ),
     Kind(
         "unused helper",
@@ -308,8 +227,6 @@ KINDS = (
             r'\1static_assert(sizeof(int) >= 4, "");\n\n',
         ),
     ),
-    Kind("markers removed", _markers),
-    Kind("one marker removed", _one_marker),
     Kind("split file", _split_file),
     Kind("file in another folder", _moved_file),
     Kind("method in the header", _in_header),
@@ -321,6 +238,7 @@ KINDS = (
             "_sensors.h",
             r"^(// rebsync: user .*\n)",
             r"\1// mine\ninline int helper() { return 2; }\n",
+            comments=True,
         ),
     ),
     Kind(
@@ -329,48 +247,5 @@ KINDS = (
             "  // rebsync: user Own\n  std::vector<int> seen;\n  // rebsync: end\n",
             "msgsrv",
         ),
-    ),
-    Kind(
-        "comment in the launch file", in_files(".launch", r"^(  <node )", r"  <!-- a node -->\n\1")
-    ),
-    Kind(
-        "attributes reordered",
-        in_files(".launch", r'(<node) (name="\w+") (pkg="\w+")', r"\1 \3 \2"),
-    ),
-    Kind("log instead of the screen", in_files(".launch", r'output="screen"', 'output="log"')),
-    Kind("single quotes", _rewritten((".launch",), lambda t: t.replace('"', "'"))),
-    Kind("remaps reordered", _swapped_lines(r"    <remap [^\n]*", ".launch")),
-    Kind("arguments reordered", _swapped_lines(r"    <param [^\n]*", ".launch")),
-    Kind(
-        "argument by an arg",
-        in_files(
-            ".launch",
-            r'(<launch>\n)((?:.*\n)*?.*value=")(\d+)" type="int"',
-            r'\1  <arg name="own" default="\3"/>\n\2$(arg own)" type="int"',
-        ),
-    ),
-    Kind("comment in the parameters", in_files("params.yaml", r"^(\w+: \d+)$", r"\1  # so it is")),
-    Kind("parameters reordered", _swapped_lines(r"\w+: \d+", "params.yaml")),
-    Kind("slack", in_files("params.yaml", r"^(  slack: ).*$", r"\g<1>0.9")),
-    Kind("seed", in_files("params.yaml", r"^(  seed: ).*$", r"\g<1>7")),
-    Kind(
-        "comment in the build", in_files("CMakeLists.txt", r"^(add_executable)", r"# a program\n\1")
-    ),
-    Kind("sources reordered", _swapped_lines(r"  src/\w+\.cpp", "CMakeLists.txt")),
-    Kind("messages reordered", _swapped_lines(r"  \w+\.msg", "CMakeLists.txt")),
-    Kind("another warning", in_files("CMakeLists.txt", r"-Wpedantic", "-Wpedantic -Wshadow")),
-    Kind("comment in a message", in_files(".msg", r"\A", "# what is told\n")),
-    Kind(
-        "version of the package",
-        in_files("package.xml", r"<version>.*</version>", "<version>9.9.9</version>"),
-    ),
-    Kind("README", in_files("README.md", r"\A", "Mine.\n")),
-    Kind(
-        "comment in the run-time part",
-        in_files("mailbox.h", r"^(class Mailbox)", r"// the queue\n\1"),
-    ),
-    Kind(
-        "new file",
-        lambda package: iter([Mutant({"scripts/plot.py": "print(1)\n"}, "scripts/plot.py")]),
     ),
 )

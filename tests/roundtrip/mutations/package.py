@@ -4,53 +4,61 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
-from functools import cached_property
+from dataclasses import dataclass, field, replace
+from functools import cache, cached_property
 from pathlib import Path
 from typing import TypeAlias
 
+from rebsync.cli.generate import package_files
+from rebsync.config import parse_config
+from rebsync.files import read_source
 from tests.reverse.test_laws import EXAMPLES, package_of
+from tests.roundtrip.mutations.parts import (
+    BODIES,
+    Member,
+    Part,
+    class_in,
+    members_in,
+    parts_in,
+    sends_in,
+)
 
+__all__ = [
+    "BODIES",
+    "BY_NAME",
+    "DIALECTS",
+    "Edit",
+    "Kind",
+    "Made",
+    "Maker",
+    "Member",
+    "Mutant",
+    "Package",
+    "Part",
+    "Texts",
+    "anywhere",
+    "at_end",
+    "at_start",
+    "generated",
+    "in_files",
+    "within",
+]
+
+DIALECTS = ("ros1-cpp", "ros2-cpp", "ros1-py", "ros2-py")
 BY_NAME = {example.name: example for example in EXAMPLES}
-BODIES = ("constructor", "msgsrv", "method")
 
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/|<!--.*?-->", re.DOTALL)
+_PY_COMMENT = re.compile(r'#[^\n]*|""".*?"""', re.DOTALL)
 _STRING = re.compile(r'"[^"\n]*"')
-_MARKED = re.compile(
-    r"^// rebsync: (constructor|msgsrv|method|send) (\S+)\n(?://[^\n]*\n)*[^\n;]*\{\n", re.MULTILINE
-)
-_SETUP = re.compile(r"^(\w+)::\1\([^{;]*\{", re.MULTILINE)
-_RECEIVE = re.compile(r"^void (\w+)::(receive\w+)\([^{;]*\{\n", re.MULTILINE)
-_MEMBER = re.compile(
-    r"^  ([\w:<>, ]+?) (\w+)(?:\{\})?;\s*// rebsync: statevar (\S+)$", re.MULTILINE
-)
-_CLASS = re.compile(r"^// rebsync: reactiveclass (\S+)$", re.MULTILINE)
-_SEND = re.compile(r"^void (\w+)::(send\w+)\(([^)]*)\) \{$", re.MULTILINE)
 
 
-@dataclass(frozen=True)
-class Part:
-    """A function of a file: its kind, the element that it is or belongs to, and its extent."""
-
-    kind: str
-    element: str
-    path: str
-    start: int
-    end: int
-
-    @property
-    def owner(self) -> str:
-        """The class."""
-        return self.element.partition(".")[0]
-
-
-@dataclass(frozen=True)
-class Member:
-    """A state variable."""
-
-    type: str
-    name: str
-    element: str
+@cache
+def generated(example: str, dialect: str) -> Mapping[str, str]:
+    """All files of the package of an example in a dialect, what is in `.rebsync` included."""
+    folder = BY_NAME[example]
+    config = replace(parse_config(read_source(str(folder / "rebsync.toml"))), target=dialect)
+    source = read_source(str(folder / f"{example}.rebeca"))
+    return package_files(source, config, str(folder))[1]
 
 
 @dataclass(frozen=True)
@@ -94,42 +102,52 @@ class Kind:
 
 @dataclass
 class Package:
-    """The package of an example."""
+    """The package of an example in a dialect."""
 
     name: str
+    dialect: str = "ros1-cpp"
     files: dict[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self.files = package_of(BY_NAME[self.name])
+        if self.dialect == "ros1-cpp":
+            self.files = package_of(BY_NAME[self.name])
+        else:
+            files = generated(self.name, self.dialect)
+            self.files = {p: t for p, t in files.items() if not p.startswith(".rebsync/")}
 
     @property
     def example(self) -> Path:
         """The folder of the model."""
         return BY_NAME[self.name]
 
+    @property
+    def is_python(self) -> bool:
+        """Whether the nodes are in Python."""
+        return self.dialect.endswith("py")
+
+    def suffix(self, of_ros1: str) -> str:
+        """How names of files end here that end so in C++ for ROS 1."""
+        return f"{of_ros1}pp" if of_ros1.endswith(".h") and self.dialect == "ros2-cpp" else of_ros1
+
     def paths(self, suffix: str) -> list[str]:
-        """The files with an end of their names."""
-        return sorted(path for path in self.files if path.endswith(suffix))
+        """The files with an end of their names, as in C++ for ROS 1."""
+        return sorted(path for path in self.files if path.endswith(self.suffix(suffix)))
+
+    @cached_property
+    def sources(self) -> list[str]:
+        """The files that functions of classes are in."""
+        return self.paths(".py" if self.is_python else ".cpp")
 
     @cached_property
     def parts(self) -> list[Part]:
         """All functions that generated classes consist of."""
-        return [part for path in self.paths(".cpp") for part in self._parts(path)]
-
-    def _parts(self, path: str) -> Iterator[Part]:
-        text = self.files[path]
-        for m in _MARKED.finditer(text):
-            yield Part(m[1], m[2], path, m.end(), _end(text, m.end()))
-        for m in _SETUP.finditer(text):
-            yield Part("setup", m[1], path, m.start(), _end(text, m.end()))
-        for m in _RECEIVE.finditer(text):
-            yield Part("receive", f"{m[1]}.{m[2]}", path, m.end(), _end(text, m.end()))
+        return [part for path in self.sources for part in parts_in(path, self.files[path])]
 
     @cached_property
     def members(self) -> list[Member]:
-        """All state variables, as the headers declare them."""
-        texts = (self.files[path] for path in self.paths(".h"))
-        return [Member(m[1], m[2], m[3]) for text in texts for m in _MEMBER.finditer(text)]
+        """All state variables, as they are declared."""
+        paths = self.sources if self.is_python else self.paths(".h")
+        return [member for path in paths for member in members_in(path, self.files[path])]
 
     def members_of(self, owner: str) -> list[Member]:
         """Those of a class."""
@@ -138,12 +156,7 @@ class Package:
     @cached_property
     def sends(self) -> dict[tuple[str, str], tuple[str, ...]]:
         """The types of the parameters of each sending function, by its class and name."""
-        texts = (self.files[path] for path in self.paths(".cpp"))
-        return {
-            (m[1], m[2]): tuple(p.strip().rpartition(" ")[0] for p in m[3].split(",")[:-1])
-            for text in texts
-            for m in _SEND.finditer(text)
-        }
+        return {key: types for p in self.sources for key, types in sends_in(p, self.files[p])}
 
     @cached_property
     def classes(self) -> list[str]:
@@ -154,10 +167,10 @@ class Package:
     def owners(self) -> dict[str, str]:
         """The reactive classes by their sources and headers, and servers by their messages."""
         found = {part.path: part.owner for part in self.parts}
-        for path in self.paths(".h"):
-            declared = _CLASS.search(self.files[path])
+        for path in (*self.paths(".h"), *self.sources):
+            declared = class_in(path, self.files[path])
             if declared is not None:
-                found[path] = declared[1]
+                found[path] = declared
         servers = {p.element for p in self.parts if p.kind == "msgsrv"}
         plain = {re.sub(r"\W|_", "", s).lower(): s for s in servers}
         for path in self.paths(".msg"):
@@ -166,9 +179,14 @@ class Package:
                 found[path] = plain[name]
         return found
 
+    def is_script(self, path: str) -> bool:
+        """Whether a file is in Python, whatever its name ends with."""
+        return path.endswith(".py") or (self.is_python and "scripts/" in path)
+
     def code(self, path: str, *, strings: bool = True) -> str:
         """A text with its comments, and if wanted what strings say, made blank."""
-        text = _COMMENT.sub(_blank, self.files[path])
+        comment = _PY_COMMENT if self.is_script(path) else _COMMENT
+        text = comment.sub(_blank, self.files[path])
         return text if strings else _STRING.sub(_blank, text)
 
     def mutant(self, made: Edit | Sequence[Edit]) -> Mutant:
@@ -189,11 +207,6 @@ class Package:
 
 def _blank(found: re.Match[str]) -> str:
     return re.sub(r"[^\n]", " ", found[0])
-
-
-def _end(text: str, start: int) -> int:
-    """The end of a function's last statement."""
-    return text.index("\n}\n", start) + 1
 
 
 # --- makers -------------------------------------------------------------------------------------
@@ -266,3 +279,13 @@ def at_end(text: str, *kinds: str) -> Maker:
                 yield Edit(part.path, part.end, part.end, text, part.element)
 
     return make
+
+
+def anywhere(make: Maker) -> Maker:
+    """Edits whose change may be told at any element, as where a rebec gets another argument."""
+
+    def made(package: Package) -> Iterator[Made]:
+        for each in make(package):
+            yield replace(each, element="") if isinstance(each, Edit) else each
+
+    return made

@@ -18,6 +18,8 @@ from tests.roundtrip.mutations.package import (
     within,
 )
 
+_TYPE = r"(?:int32_t|bool|Rebec<\w+>)"
+_DECLARED = rf"^( +{_TYPE} \w+) = ([^;\n{{}}]*);"
 _LOCAL = r"^( +)(?:int32_t|bool|Rebec<\w+>) (\w+) = (\w+\()"
 _HEAD = r"^(?P<head>(?P<type>[\w:<>, ]+) (?P<owner>\w+)::(?P<name>\w+)\((?P<args>[^;{]*)\)) \{$"
 
@@ -43,7 +45,7 @@ def _in_headers(pattern: str, text: str) -> Maker:
     return make
 
 
-def _in_sources(pattern: str, text: str) -> Maker:
+def in_sources(pattern: str, text: str) -> Maker:
     """In the sources of classes; `NAME` is the package."""
 
     def make(package: Package) -> Iterator[Edit]:
@@ -152,15 +154,6 @@ def _stored_in_another_order(package: Package, part: Part, found: re.Match[str])
     return found[2] + found[1]
 
 
-def _logged(package: Package) -> Iterator[Edit]:
-    """What a body does, told with the state."""
-    for part in (p for p in package.parts if p.kind in BODIES):
-        for member in package.members_of(part.owner)[:1]:
-            if member.type in ("int32_t", "bool"):
-                text = f'  ROS_INFO_STREAM("now " << {member.name} << " of " << 1);\n'
-                yield Edit(part.path, part.start, part.start, text)
-
-
 _FIELD = r"((?:^ *(?:msg_\.\w+ = \w+|flatten\(\w+, msg_\.\w+\));\n))"
 
 KINDS = (
@@ -196,12 +189,14 @@ KINDS = (
     Kind(
         "value instead of {}", in_files(".h", r"(?<![\w:])int32_t (\w+_)\{\};", r"int32_t \1{0};")
     ),
-    Kind("attribute of a local", within(r"^( +)(int32_t \w+ = )", r"\1[[gnu::unused]] \2")),
+    Kind(
+        "attribute of a local",
+        within(rf"^( +)({_TYPE} \w+ = )", r"\1[[gnu::unused]] \2"),
+    ),
     Kind(
         "attribute of a function", _in_headers(r"^(  )(void \w+\([^)]*\);)$", r"\1[[gnu::hot]] \2")
     ),
-    Kind("macro of one's own", _in_sources(r"^(namespace \{\n)", r"#define OWN 3\n\1")),
-    Kind("macro that logs", _in_sources(r"^(namespace \{\n)", r"#define OWN(x) ROS_INFO(x)\n\1")),
+    Kind("macro of one's own", in_sources(r"^(namespace \{\n)", r"#define OWN 3\n\1")),
     Kind(
         "unused said of a parameter",
         _parameters(r"int32_t \w+", r"[[gnu::unused]] \g<0>", "msgsrv"),
@@ -232,14 +227,17 @@ KINDS = (
     Kind("east const message", _parameters(r"const ([\w:]+)& ", r"\1 const& ", "receive")),
     Kind("std:: in a parameter", _parameters(r"(?<![\w:])int32_t ", "std::int32_t ", *BODIES)),
     Kind("std:: in a body", within(r"(?<![\w:])int32_t ", "std::int32_t ")),
-    Kind("brackets of a local", within(r"^( +(?:int32_t|bool) \w+) = ([^;\n{}]*);", r"\1{\2};")),
-    Kind("parentheses of a local", within(r"^( +(?:int32_t|bool) \w+) = ([^;\n{}]*);", r"\1(\2);")),
-    Kind("const int local", within(r"^( +)(int32_t \w+ = )", r"\1const \2")),
+    Kind(
+        "brackets of a local",
+        within(_DECLARED, r"\1{\2};"),
+    ),
+    Kind(
+        "parentheses of a local",
+        within(_DECLARED, r"\1(\2);"),
+    ),
     Kind(
         "using declaration",
-        _in_sources(
-            r"^(namespace NAME \{\n)".replace("NAME", r"\w+"), r"\1\nusing std::int32_t;\n"
-        ),
+        in_sources(r"^(namespace NAME \{\n)".replace("NAME", r"\w+"), r"\1\nusing std::int32_t;\n"),
     ),
     Kind("using in a body", at_start("  using std::int32_t;\n", *BODIES)),
     Kind("alias in a body", at_start("  using Own = int;\n", *BODIES)),
@@ -247,7 +245,7 @@ KINDS = (
     Kind("alias of a type", _alias),
     Kind(
         "another include of a source",
-        _in_sources(r'\A(#include ".*\n)', r"\1\n#include <iostream>\n"),
+        in_sources(r'\A(#include ".*\n)', r"\1\n#include <iostream>\n"),
     ),
     Kind("guard made a pragma", _no_guard),
     Kind("classes declared apart", _declared_later),
@@ -257,14 +255,14 @@ KINDS = (
     ),
     Kind(
         "comment before a class",
-        _in_headers(r"^(class \w+ (?:final )?\{)$", r"\1\n  // What it is.\n"),
+        _in_headers(r"^(class \w+ (?:final )?(?:: public [\w:]+ )?\{)$", r"\1\n  // What it is.\n"),
     ),
-    Kind("final class", _in_headers(r"^(class \w+) (?=\{$)", r"\1 final ")),
+    Kind("final class", _in_headers(r"^(class \w+) (?=(?:: public [\w:]+ )?\{$)", r"\1 final ")),
     Kind("friend", _in_headers(r"^( private:\n)", r"\1  friend class Test;\n")),
     Kind(
         "copies deleted",
         _in_headers(
-            r"^( public:\n)(  (\w+)\()",
+            r"^( public:\n)(  (?:explicit )?(\w+)\()",
             r"\1  \3(const \3&) = delete;\n\3& operator=(const \3&) = delete;\n\2",
         ),
     ),
@@ -285,11 +283,11 @@ KINDS = (
     Kind("this-> before a publisher", within(r"publish\((?=\w+_pub_)", "publish(this->", "send")),
     Kind(
         "this-> where set up",
-        within(r"^  (?=\w+_ = (?:global|node|mailbox_))", "  this->", "setup"),
+        within(r"^  (?=\w+_ = (?:global|node|mailbox_|declare_|create_))", "  this->", "setup"),
     ),
     Kind("captures by name", within(r"\[this(?:, msg)?\] \{", "[=] {", "receive")),
     Kind("lambda with parameters", within(r"\[this(, msg)?\] \{", r"[this\1]() {", "receive")),
-    Kind("message in braces", within(r"^( *\w+ msg_);", r"\1{};", "send")),
+    Kind("message in braces", within(r"^( *[\w:]+ msg_);", r"\1{};", "send")),
     Kind("fields in another order", within(_FIELD + _FIELD, _stored_in_another_order, "send")),
     Kind("parameter of plumbing renamed", _renamed_parameter),
     Kind(
@@ -297,15 +295,6 @@ KINDS = (
         within(r"mailbox_\.receive\((\w+), ", r"mailbox_.receive(\n      \1,\n      ", "receive"),
     ),
     Kind("nothing said of the message", at_start("  static_cast<void>(msg);\n", "receive")),
-    Kind(
-        "logged where the state is told",
-        _in_sources(r"^(  state_pub_\.publish)", r'  ROS_DEBUG("told");\n\1'),
-    ),
-    Kind(
-        "logged with what is served",
-        at_start('  ROS_INFO("at %ld", static_cast<long>(mailbox_.now()));\n', *BODIES),
-    ),
-    Kind("log of a state variable", _logged),
     Kind("std::cerr", at_start('  std::cerr << "here" << 1 << std::endl;\n', *BODIES)),
     Kind("printf", at_start('  printf("here\\n");\n', *BODIES)),
 )

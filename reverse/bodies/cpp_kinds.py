@@ -1,0 +1,34 @@
+"""Kinds of nodes of C++ by what they may do to a model."""
+
+from __future__ import annotations
+
+_COROUTINES = ("co_await_expression", "co_yield_statement", "co_return_statement")
+LEAVES = {
+    "return_statement": "this leaves the function",
+    "throw_statement": "an exception leaves the function",
+    "goto_statement": "the model has no goto",
+    **dict.fromkeys(_COROUTINES, "the model has no coroutines"),
+}
+_LOOPS = frozenset({"for_statement", "while_statement", "do_statement", "for_range_loop"})
+REPEATED = _LOOPS | {"switch_statement"}
+# What touches nothing, whatever it is: not looked into, as most of all nodes are of these.
+PLAIN = frozenset(
+    {
+        *("identifier", "field_identifier", "type_identifier", "namespace_identifier", "this"),
+        *("number_literal", "string_literal", "char_literal", "true", "false", "null", "comment"),
+        *("primitive_type", "sized_type_specifier"),
+    }
+)
+# What may touch something by itself, not only by what is in it.
+LOOKED_AT = frozenset(
+    {
+        *("assignment_expression", "update_expression", "call_expression", "binary_expression"),
+        *("cast_expression", "ERROR", "pointer_expression", "declaration", "break_statement"),
+        *("continue_statement", "new_expression", "argument_list", "initializer_list"),
+        *("compound_statement", *LEAVES, *REPEATED),
+    }
+)
+# Declarations that do nothing when they are run.
+NOTHING = frozenset(
+    {"using_declaration", "alias_declaration", "type_definition", "static_assert_declaration"}
+)

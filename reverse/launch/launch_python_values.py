@@ -1,0 +1,285 @@
+"""Values in launch files in Python: texts, parameters and remappings, as far as they are written.
+
+A name that is bound once stands for what it is bound to.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator, Mapping
+
+from rebsync.reverse.launch.parameters import ParameterValue
+from rebsync.reverse.launch.ros2_actions import (
+    FromFile,
+    Given,
+    ParameterSource,
+    Remapping,
+    Unlisted,
+)
+from rebsync.reverse.launch.ros2_words import (
+    Computed,
+    Environment,
+    Here,
+    Path,
+    Share,
+    Variable,
+    Word,
+    Words,
+)
+from rebsync.source import Source, Span
+
+COMPUTED = Computed("it is computed when the file runs")
+_MARKER = re.compile(r"\s*#\s*rebsync:\s*(.*?)\s*\Z")
+_FOLDERS = frozenset({"FindPackageShare", "get_package_share_directory", "get_package_share_path"})
+_DEEPEST = 40
+
+
+def called(call: ast.Call) -> str:
+    """The last part of the name of what is called."""
+    match call.func:
+        case ast.Name(id=name) | ast.Attribute(attr=name):
+            return name
+        case _:
+            return ""
+
+
+def keywords(call: ast.Call) -> dict[str, ast.expr]:
+    """The arguments that are given by name."""
+    return {k.arg: k.value for k in call.keywords if k.arg is not None}
+
+
+class PythonValues:
+    """What expressions of one file stand for."""
+
+    def __init__(self, source: Source, names: Mapping[str, ast.expr]) -> None:
+        self._source = source
+        self._names = names
+        self._lines = source.text.split("\n")
+
+    def resolved(self, value: ast.expr) -> ast.expr:
+        """What a name that is bound once stands for."""
+        for _ in self._names:
+            if not isinstance(value, ast.Name) or value.id not in self._names:
+                break
+            value = self._names[value.id]
+        return value
+
+    # --- texts ----------------------------------------------------------------------------------
+
+    def words_of(self, value: ast.expr | None) -> Words | None:
+        """A text that may be missing."""
+        return None if value is None else self.words(value)
+
+    def words(self, value: ast.expr) -> Words:
+        """A text; what is not understood of it is computed."""
+        return Words(tuple(self._parts(value, 0)), self.span(value))
+
+    def computed(self, value: ast.expr) -> Words:
+        """A text of which nothing is known."""
+        return Words((COMPUTED,), self.span(value))
+
+    def _parts(self, given: ast.expr, depth: int) -> list[Word]:
+        value = self.resolved(given)
+        if depth > _DEEPEST:
+            return [COMPUTED]
+        match value:
+            case ast.Constant(value=str() as text):
+                return [text]
+            case ast.List(elts=items) | ast.Tuple(elts=items):
+                return [p for item in items for p in self._parts(item, depth + 1)]
+            case ast.BinOp(left=left, op=ast.Add(), right=right):
+                return [*self._parts(left, depth + 1), *self._parts(right, depth + 1)]
+            case ast.BinOp(left=left, op=ast.Div(), right=right):
+                return [self._joined([left, right], depth)]
+            case ast.JoinedStr(values=pieces):
+                return [p for piece in pieces for p in self._parts(piece, depth + 1)]
+            case ast.FormattedValue(value=inner, conversion=-1, format_spec=None):
+                return self._parts(inner, depth + 1)
+            case ast.Call():
+                return [self._substituted(value, depth)]
+            case _:
+                return [COMPUTED]
+
+    def _substituted(self, call: ast.Call, depth: int) -> Word:
+        name, args, given = called(call), call.args, keywords(call)
+        first = args[0] if args else None
+
+        def inner(value: ast.expr | None) -> Words | None:
+            if value is None or (isinstance(value, ast.Constant) and value.value is None):
+                return None
+            return Words(tuple(self._parts(value, depth + 1)), self.span(value))
+
+        match name:
+            case "LaunchConfiguration":
+                key = inner(first or given.get("variable_name"))
+                return Variable(key, inner(given.get("default"))) if key else COMPUTED
+            case "EnvironmentVariable":
+                key = inner(first or given.get("name"))
+                default = given.get("default_value", args[1] if len(args) > 1 else None)
+                return Environment(key, inner(default)) if key else COMPUTED
+            case "TextSubstitution":
+                return self._single(inner(given.get("text", first)))
+            case "ThisLaunchFileDir" | "ThisLaunchFile":
+                return Here(name.endswith("Dir"))
+            case "PathJoinSubstitution" if first is not None:
+                listed = self.resolved(first)
+                return self._joined(getattr(listed, "elts", [listed]), depth)
+            case "join" if args:
+                return self._joined(args, depth)
+            case "str" if not args:
+                return ""
+            case "str" if isinstance(first, ast.Constant) and isinstance(first.value, int | float):
+                return str(first.value)
+            case "Path" | "str" if len(args) == 1:
+                return self._single(inner(first))
+            case _ if name in _FOLDERS:
+                package = inner(first or given.get("package") or given.get("package_name"))
+                return Share(package) if package else COMPUTED
+            case _:
+                return COMPUTED
+
+    def _single(self, words: Words | None) -> Word:
+        """A text as one of its parts."""
+        return Path((words,)) if words is not None else COMPUTED
+
+    def _joined(self, items: list[ast.expr], depth: int) -> Word:
+        return Path(tuple(Words(tuple(self._parts(i, depth + 1)), self.span(i)) for i in items))
+
+    # --- parameters and remappings --------------------------------------------------------------
+
+    def parameters(self, value: ast.expr | None) -> Iterator[ParameterSource]:
+        """What the parameters of a node come from."""
+        if value is None:
+            return
+        listed = self.resolved(value)
+        for item in listed.elts if isinstance(listed, ast.List | ast.Tuple) else [listed]:
+            found = self._unwrapped(self.resolved(item))
+            if isinstance(found, ast.Dict):
+                yield from self._table(found, "")
+            elif self._is_path(found):
+                yield FromFile(Words(tuple(self._parts(found, 0)), self.span(item)))
+            else:
+                yield Unlisted("parameters of a node", self.span(item))
+
+    def _unwrapped(self, value: ast.expr) -> ast.expr:
+        """What is in `ParameterFile(...)`."""
+        if isinstance(value, ast.Call) and called(value) == "ParameterFile":
+            file = value.args[0] if value.args else keywords(value).get("param_file", value)
+            return self.resolved(file)
+        return value
+
+    def _is_path(self, value: ast.expr) -> bool:
+        match value:
+            case ast.Call():
+                return self._substituted(value, 0) != COMPUTED
+            case ast.Constant(value=str()) | ast.BinOp() | ast.List() | ast.JoinedStr():
+                return True
+            case _:
+                return False
+
+    def _table(self, table: ast.Dict, prefix: str) -> Iterator[ParameterSource]:
+        for key, item in zip(table.keys, table.values, strict=True):
+            name = literal(self.resolved(key)) if key is not None else None
+            if not isinstance(name, str):
+                yield Unlisted("the name of a parameter", self.span(key or item))
+                continue
+            path, value = prefix + name.replace(".", "/"), self.resolved(item)
+            if isinstance(value, ast.Dict):
+                yield from self._table(value, f"{path}/")
+            else:
+                yield self.given(Words((path,), self.span(key or item)), item)
+
+    def given(self, name: Words, item: ast.expr) -> Given:
+        """A parameter with the value that an expression gives it."""
+        value, span = self.resolved(item), self.span(item)
+        found = literal(value)
+        if found is not None:
+            return Given(name, found, span)
+        typed = False
+        if isinstance(value, ast.Call) and called(value) == "ParameterValue" and value.args:
+            kind = keywords(value).get("value_type")
+            typed = isinstance(kind, ast.Name) and kind.id == "str"
+            value = self.resolved(value.args[0])
+        parts = tuple(self._parts(value, 0))
+        known = parts != (COMPUTED,) and not isinstance(value, ast.Constant)
+        return Given(name, Words(parts, span) if known else None, span, typed)
+
+    def remaps(self, value: ast.expr | None) -> Iterator[Remapping | Unlisted]:
+        """The remappings of a node."""
+        if value is None:
+            return
+        listed = self.resolved(value)
+        if not isinstance(listed, ast.List | ast.Tuple | ast.Set):
+            yield Unlisted("the remappings of a node", self.span(value))
+            return
+        for given in listed.elts:
+            item = self.resolved(given)
+            if isinstance(item, ast.Tuple | ast.List) and len(item.elts) == 2:
+                yield self.remap(item.elts[0], item.elts[1], item)
+            else:
+                yield Unlisted("a remapping", self.span(given))
+
+    def remap(self, private: ast.expr, target: ast.expr, place: ast.expr) -> Remapping:
+        """One remapping."""
+        return Remapping(self.words(private), self.words(target), self.span(place))
+
+    def arguments(self, value: ast.expr | None) -> tuple[tuple[Words, Words], ...] | None:
+        """The arguments for an included file; None where they are computed."""
+        if value is None:
+            return ()
+        found = self.resolved(value)
+        if isinstance(found, ast.Call) and called(found) == "items":
+            holder = found.func.value if isinstance(found.func, ast.Attribute) else found
+            found = self.resolved(holder)
+        if isinstance(found, ast.Dict):
+            pairs = zip(found.keys, found.values, strict=True)
+            return tuple((self.words(k), self.words(v)) for k, v in pairs if k is not None)
+        if isinstance(found, ast.List | ast.Tuple):
+            items = [self.resolved(i) for i in found.elts]
+            two = [i.elts for i in items if isinstance(i, ast.Tuple) and len(i.elts) == 2]
+            if len(two) == len(items):
+                return tuple((self.words(k), self.words(v)) for k, v in two)
+        return None
+
+    # --- places ---------------------------------------------------------------------------------
+
+    def markers(self, line: int) -> list[str]:
+        """The comments `rebsync: ...` right above a line, which is counted from 1."""
+        found: list[str] = []
+        for text in reversed(self._lines[: line - 1]):
+            match = _MARKER.match(text)
+            if match is None:
+                break
+            found.insert(0, match[1])
+        return found
+
+    def shown(self, node: ast.expr) -> str:
+        """An expression as the file writes it, on one line."""
+        return " ".join(self._source.slice(self.span(node)).split())
+
+    def span(self, node: ast.expr) -> Span:
+        """The place of an expression."""
+        end_line, end_column = node.end_lineno or node.lineno, node.end_col_offset or 0
+        return Span(self._at(node.lineno, node.col_offset), self._at(end_line, end_column))
+
+    def _at(self, line: int, column: int) -> int:
+        """The offset of a place whose column counts bytes."""
+        before = self._lines[line - 1].encode()[:column].decode(errors="ignore")
+        return self._source.start_of(line) + len(before)
+
+
+def literal(node: ast.expr) -> ParameterValue | None:
+    """A constant; None where there is none, or one that no parameter holds."""
+    match node:
+        case ast.Constant(value=bool() | int() | float() | str() as value):
+            return value
+        case ast.UnaryOp(op=ast.USub(), operand=ast.Constant(value=int() | float() as value)):
+            return -value
+        case ast.List(elts=items) | ast.Tuple(elts=items):
+            inner = [literal(item) for item in items]
+            return None if None in inner else tuple(v for v in inner if v is not None)
+        case ast.Call(args=[value, *_]) if called(node) == "ParameterValue":
+            return literal(value)
+        case _:
+            return None

@@ -1,0 +1,176 @@
+"""Calls whose values the model has: of functions of the node, of Python, and of the clock."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync import precedence
+from rebsync.literals import literal_of
+from rebsync.reverse.bodies.building import bare, binary, chosen, is_calm, tight
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.python.body_scope import REAL, TRUTH, WHOLE, Value, unknown
+from rebsync.reverse.python.py_index import arguments_of, last_name
+from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.unknowns import Open
+
+if TYPE_CHECKING:
+    from rebsync.reverse.python.body_expressions import PyExpressions
+
+_CLOCKS = frozenset({"rospy.get_time", "time.time", "time.monotonic", "time.perf_counter"})
+_MOST = 64
+_PARAMETERS = frozenset(
+    {"get_param", "get_param_cached", "get_parameter", "get_parameter_or", "declare_parameter"}
+)
+
+
+def called(reader: PyExpressions, node: Node) -> Value:
+    """What a call gives."""
+    from rebsync.reverse.python.body_methods import value_of_method
+
+    function = field(node, "function")
+    own = reader.reading.function(function, reader.frame)
+    if own is not None:
+        return value_of_method(reader, own, node)
+    name = reader.reading.external(function, reader.frame)
+    plain, keywords = arguments_of(node)
+    if name.startswith("builtins.") and not keywords:
+        found = _builtin(reader, name.removeprefix("builtins."), plain, node)
+        if found is not None:
+            return found
+    if name in _CLOCKS and not plain and reader.reading.second == 1:
+        return Value(m.Name("now", reader.frame.span(node)), REAL, True)
+    if name in ("rospy.is_shutdown", "rospy.core.is_shutdown"):
+        return Value(m.BoolLiteral(False), TRUTH)
+    if name == "rclpy.ok":
+        return Value(m.BoolLiteral(True), TRUTH)
+    if name.startswith("random."):
+        found = _random(reader, name.removeprefix("random."), plain, node)
+        if found is not None:
+            return found
+    return parameter(reader, node)
+
+
+def parameter(reader: PyExpressions, node: Node) -> Value:
+    """The value of a parameter, as the node starts with it."""
+    reading = reader.reading
+    if last_name(field(node, "function")) not in _PARAMETERS and "get_parameter" not in text_of(
+        node
+    ):
+        raise unknown(reader.frame, node, f'what "{text_of(field(node, "function"))}" gives')
+    value = reading.instance.value(reading.values.value(node, reader.frame.scope))
+    if isinstance(value, Open):
+        raise unknown(reader.frame, node, f"the value of a parameter: {value.why}")
+    found = reading.constant((value,))
+    if found is None:
+        raise unknown(reader.frame, node, "a parameter that is no number")
+    return found
+
+
+# --- Python's own -------------------------------------------------------------------------------
+
+
+def _builtin(reader: PyExpressions, name: str, arguments: list[Node], node: Node) -> Value | None:
+    match name, arguments:
+        case "bool", [only]:
+            return Value(reader.condition(only), TRUTH)
+        case "int", [only]:
+            value = reader.read(only)
+            if value.kind == WHOLE:
+                return value
+            if value.kind == TRUTH:
+                return _as_number(value)
+            raise unknown(reader.frame, node, "whether its int holds this number")
+        case "float", [only]:
+            value = reader.read(only)
+            if value.kind == TRUTH:
+                value = _as_number(value)
+            return Value(reader.real(value, node), REAL)
+        case "abs", [only]:
+            value = reader.read(only)
+            if value.kind == TRUTH or not is_calm(value.expression):
+                return None
+            zero = literal_of(0 if value.kind == WHOLE else 0.0)
+            if value.kind == WHOLE:
+                reader.need(value, node, "abs")
+            less = binary("<", value.expression, zero)
+            minus = m.Unary("-", tight(value.expression, precedence.PREFIX))
+            return Value(chosen(less, minus, value.expression), value.kind, value.single)
+        case (("min" | "max"), [first, *others]) if others:
+            best = reader.read(first)
+            for other in others:
+                best = _better(reader, name, best, reader.read(other), node)
+            return best
+        case _:
+            return None
+
+
+def _as_number(value: Value) -> Value:
+    return Value(chosen(value.expression, m.IntLiteral(1), m.IntLiteral(0)), WHOLE)
+
+
+def _better(reader: PyExpressions, name: str, best: Value, other: Value, node: Node) -> Value:
+    """Of two numbers the lesser or greater; of equal ones Python takes the first."""
+    calm = is_calm(best.expression) and is_calm(other.expression)
+    if not calm or TRUTH in (best.kind, other.kind):
+        raise Unread(reader.frame.span(node), f'"{name}" of these is not read')
+    kind = best.kind if best.kind == other.kind else REAL
+    if kind == REAL:
+        one, two = reader.real(best, node), reader.real(other, node)
+    else:
+        one, two = reader.need(best, node, "one"), reader.need(other, node, "other")
+    sign = "<" if name == "min" else ">"
+    return Value(chosen(binary(sign, two, one), two, one), kind)
+
+
+def _random(reader: PyExpressions, name: str, arguments: list[Node], node: Node) -> Value | None:
+    """A number drawn from some that are known."""
+    span = reader.frame.span(node)
+    match name, arguments:
+        case "randint", [low, high]:
+            bounds = [bare(reader.read(n).expression) for n in (low, high)]
+            first, last = (_literal(b) for b in bounds)
+            if first is None or last is None or not first <= last < first + _MOST:
+                return None
+            options = tuple(literal_of(n) for n in range(first, last + 1))
+            return Value(m.Choice(options, span) if len(options) > 1 else options[0], WHOLE)
+        case "choice", [listed] if listed.type in ("list", "tuple"):
+            values = [reader.read(n) for n in named(listed)]
+            kinds = {v.kind for v in values}
+            if len(kinds) != 1:
+                return None
+            return Value(m.Choice(tuple(v.expression for v in values), span), kinds.pop())
+        case _:
+            return None
+
+
+def _literal(expression: m.Expression) -> int | None:
+    match expression:
+        case m.IntLiteral(value):
+            return value
+        case m.Unary("-", m.IntLiteral(value)):
+            return -value
+        case _:
+            return None
+
+
+# --- time ---------------------------------------------------------------------------------------
+
+
+def units(reader: PyExpressions, node: Node) -> m.Expression:
+    """A time in seconds as a whole number of the model's units."""
+    reading = reader.reading
+    value = reading.instance.seconds(reading.values.value(node, reader.frame.scope))
+    if isinstance(value, Open):
+        read = reader.read(node)
+        if read.kind == WHOLE and reading.second == 1:
+            return reader.need(read, node, "time", 0, (1 << 31) - 1)
+        raise Unread(reader.frame.span(node), f"how long it takes is not known: {value.why}")
+    found = value / Fraction(reading.second)
+    if found.denominator != 1:
+        why = f"{float(value):g} s is no multiple of the model's unit of time"
+        raise Unread(reader.frame.span(node), why, "set time_unit in rebsync.toml")
+    return m.IntLiteral(int(found))

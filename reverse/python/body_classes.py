@@ -1,0 +1,251 @@
+"""One unit of Python as a reactive class: its constructor, servers, and state variables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import field as with_default
+from dataclasses import replace
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.bodies.made_locals import tidied
+from rebsync.reverse.bodies.proving import Interval
+from rebsync.reverse.graph import SubscriptionFact, TimerFact
+from rebsync.reverse.nodes.node_bodies import takes_time, without_end
+from rebsync.reverse.nodes.node_names import Names
+from rebsync.reverse.nodes.node_servers import Carried, Server
+from rebsync.reverse.nodes.node_starts import started_late
+from rebsync.reverse.nodes.node_tidying import tidy
+from rebsync.reverse.python.body_loops import Loop
+from rebsync.reverse.python.body_methods import without_returns
+from rebsync.reverse.python.body_proof import Bodies, Proved, proved
+from rebsync.reverse.python.body_reading import Reading
+from rebsync.reverse.python.body_scope import (
+    TYPES,
+    WHOLE,
+    Frame,
+    Message,
+    Nobody,
+    bounds,
+    field_kind,
+)
+from rebsync.reverse.python.body_starts import constructor, declared
+from rebsync.reverse.python.body_statements import PyStatements
+from rebsync.reverse.python.py_callbacks import body_of
+from rebsync.reverse.python.py_index import LAMBDA, Scope
+from rebsync.reverse.python.py_tree import field, named
+
+_BEAT = (
+    "a timer that goes off while the node is busy keeps its beat;"
+    " the model's goes on from when it is served"
+)
+
+
+@dataclass(slots=True)
+class Served:
+    """A message server that was read: `ranges` are what its parameters can be."""
+
+    name: str
+    statements: tuple[m.Statement, ...]
+    parameters: tuple[Carried, ...] = ()
+    ranges: Mapping[str, Interval] = with_default(default_factory=dict)
+    node: Node | None = None
+
+
+@dataclass(eq=False, slots=True)
+class PyClass:
+    """Reads all bodies of a unit once."""
+
+    reading: Reading
+    constructor: tuple[m.Statement, ...] = ()
+    served: list[Served] = with_default(default_factory=list)
+    loops: list[Loop] = with_default(default_factory=list)
+
+    def read(self) -> Proved:
+        """All bodies; what following them shows."""
+        reading = self.reading
+        self.constructor = constructor(reading, self.loops)
+        done: set[str] = set()
+        for number, server in reading.servers.items():
+            if server.name not in done:
+                done.add(server.name)
+                self.served.append(self._server(server, number))
+        for loop in self.loops:
+            self.served.append(self._loop(loop))
+        self.constructor = (*declared(reading), *self.constructor)
+        return proved(self._bodies())
+
+    def _within(self, name: str) -> str:
+        return f"{self.reading.unit.name}.{name}"
+
+    def _bodies(self) -> Bodies:
+        reading = self.reading
+        types = {n: t for n, t in self._types().items() if n not in reading.wide}
+        for served in self.served:
+            types |= {c.name: c.type for c in served.parameters}
+        return Bodies(
+            self.constructor,
+            [(s.statements, s.ranges) for s in self.served],
+            frozenset(reading.state),
+            frozenset(reading.wide),
+            types,
+            reading.needs,
+        )
+
+    def _types(self) -> dict[str, m.Type]:
+        """The state variables with their types."""
+        found = {}
+        for name, key in self.reading.state.items():
+            kind = self.reading.learnt.kinds.get(key, "")
+            if kind in TYPES:
+                found[name] = TYPES[kind]
+        return found
+
+    # --- servers --------------------------------------------------------------------------------
+
+    def _server(self, server: Server, number: int) -> Served:
+        reading = self.reading
+        scope = reading.code.scopes[server.cpp.source.path, server.body.id]
+        frame = Frame(scope, server=server.name)
+        parameters = scope.parameters[1:] if scope.self_name is not None else scope.parameters
+        frame.bound |= {p.name: Nobody() for p in parameters}
+        if server.message and server.type is not None:
+            key = "server", scope.node.id, server.message
+            frame.bound[server.message] = Message(key, "", server.type, False, server.name)
+        reader = PyStatements(
+            reading, frame, self._within(server.name), scope.node, (scope.node.id,)
+        )
+        statements = without_end(self._body(reader, scope))
+        carried = tuple(self._carried(server))
+        ranges = dict(self._ranges(server, carried))
+        period = reading.periods.get(number)
+        fact = server.timers[0] if server.timers else None
+        if fact is not None and fact.one_shot is not True and period is not None:
+            again = _send(server.name, period)
+            early = takes_time(m.Block(statements)) or without_returns(statements) != statements
+            statements = (again, *statements) if early else (*statements, again)
+        return Served(server.name, statements, carried, ranges, scope.node)
+
+    def _body(self, reader: PyStatements, scope: Scope) -> tuple[m.Statement, ...]:
+        if scope.kind == LAMBDA:
+            return tuple(reader.lambda_(field(scope.node, "body")))
+        return reader.body(body_of(scope))
+
+    def _carried(self, server: Server) -> Iterator[Carried]:
+        """The fields that the body reads, in the order of the message."""
+        used = self.reading.learnt.used.get((self.reading.unit.name, server.name), set())
+        for path, type_ in (self.reading.types.fields(server.type or "") or {}).items():
+            is_open = (self.reading.unit.name, server.name, path) in self.reading.learnt.open
+            if path in used and type_ is not None and not is_open:
+                yield Carried(path, self.reading.parameter(path), type_)
+
+    def _ranges(self, server: Server, carried: Sequence[Carried]) -> Iterator[tuple[str, Interval]]:
+        types = self.reading.types
+        fields = types.fields(server.type or "") or {}
+        for each in carried:
+            if field_kind(each.type) == WHOLE:
+                yield each.name, bounds(fields, types.widths.get(server.type or "", {}), each.path)
+
+    def _loop(self, loop: Loop) -> Served:
+        """The server of a loop, which sends to itself after what it waits at its end."""
+        frame = Frame(loop.frame.scope, bound=dict(loop.frame.bound), kept=loop.frame.kept)
+        reader = PyStatements(
+            self.reading, frame, self._within(loop.name), loop.node, loop.running, only=loop.only
+        )
+        statements = reader.body(named(field(loop.node, "body")))
+        pause: m.Expression | None = None
+        match statements[-1:]:
+            case (m.ExpressionStatement(m.Call(None, "delay", (time,))),):
+                statements, pause = statements[:-1], time
+        again = m.ExpressionStatement(m.Call(m.Self(), loop.name, (), pause))
+        return Served(loop.name, _left(statements, again), node=loop.node)
+
+    # --- the class ------------------------------------------------------------------------------
+
+    def reactive(self, name: str, known: Sequence[tuple[str, str]]) -> m.ReactiveClass:
+        """The class of the model, of known rebecs by their names and classes."""
+        variables = self._types()
+        names = Names(set(variables) | {s.name for s in self.served} | {n for n, _ in known})
+        begun = m.Block(tidied(self.constructor, self.reading.made))
+        body, late, more = started_late(tidy(begun, variables), (), names)
+        variables |= more
+        servers = [*late, *(self._as_server(s, variables) for s in self.served)]
+        state = _mentioned(variables, [*servers, body])
+        members: list[m.ClassMember] = []
+        if known:
+            members.append(m.KnownRebecs(tuple(_declared(m.Type(t), n) for n, t in known)))
+        if state:
+            members.append(m.StateVars(tuple(_declared(t, n) for n, t in state.items())))
+        members.append(m.Constructor(name, (), body))
+        unit = self.reading.unit
+        first = unit.lineage[0] if unit.lineage else unit.module
+        return m.ReactiveClass(
+            name, self._queue(), (*members, *servers), span=first.py.span(first.node)
+        )
+
+    def _as_server(self, served: Served, variables: Mapping[str, m.Type]) -> m.MessageServer:
+        body = tidy(m.Block(tidied(served.statements, self.reading.made)), variables)
+        parameters = tuple(m.Parameter(c.type, c.name) for c in served.parameters)
+        py = self.reading.unit.module.py
+        if served.node is None:
+            return m.MessageServer(served.name, parameters, body)
+        return m.MessageServer(served.name, parameters, body, span=py.span(served.node))
+
+    def _queue(self) -> int:
+        """The largest depth of the subscriptions, and enough for its own timers and loops."""
+        facts = self.reading.unit.unit.facts
+        depths = [f.depth for f in facts if isinstance(f, SubscriptionFact)]
+        known = [d for d in depths if isinstance(d, int) and not isinstance(d, bool)]
+        own = sum(isinstance(f, TimerFact) for f in facts) + len(self.loops) + 1
+        return max([*known, own + (1 if depths else 0)])
+
+    def note(self) -> None:
+        """Lists what the model does otherwise than the node, as a whole."""
+        if not any(takes_time(m.Block(s.statements)) for s in self.served):
+            return
+        for fact in self.reading.unit.unit.facts:
+            if isinstance(fact, TimerFact) and fact.one_shot is not True:
+                place = fact.site.place
+                self.reading.findings.approximated(
+                    place.source, place.span, _BEAT, within=self.reading.unit.name
+                )
+
+
+def _left(statements: tuple[m.Statement, ...], again: m.Statement) -> tuple[m.Statement, ...]:
+    """The body of a loop as one of a server: `continue` starts the next round, `break` ends it."""
+    found: list[m.Statement] = []
+    for statement in statements:
+        found.append(_leaving(statement, again))
+    return (*found, again)
+
+
+def _leaving(statement: m.Statement, again: m.Statement) -> m.Statement:
+    match statement:
+        case m.Continue():
+            return m.Block((again, m.Return(None)))
+        case m.Break():
+            return m.Return(None)
+        case m.Block(inner):
+            return replace(statement, statements=tuple(_leaving(s, again) for s in inner))
+        case m.If(_, then, otherwise):
+            other = _leaving(otherwise, again) if otherwise is not None else None
+            return replace(statement, then=_leaving(then, again), otherwise=other)
+        case _:
+            return statement
+
+
+def _send(server: str, period: int) -> m.Statement:
+    after = m.IntLiteral(period) if period else None
+    return m.ExpressionStatement(m.Call(m.Self(), server, (), after))
+
+
+def _declared(type_: m.Type, name: str) -> m.Declaration:
+    return m.Declaration(type_, (m.Declarator(name),))
+
+
+def _mentioned(variables: Mapping[str, m.Type], nodes: Sequence[m.Node]) -> dict[str, m.Type]:
+    """The variables that some body names."""
+    names = {n.name for node in nodes for n in m.walk(node) if isinstance(n, m.Name)}
+    return {n: t for n, t in variables.items() if n in names}

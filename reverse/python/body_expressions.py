@@ -1,0 +1,383 @@
+"""Expressions of Python as expressions of the model.
+
+Whole numbers of Python have no bounds: each place where the model must have the same number is
+noted as a need, which following all bodies shows to hold or not.
+"""
+
+from __future__ import annotations
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync import precedence
+from rebsync.literals import literal_of
+from rebsync.records import dataclass
+from rebsync.reverse.bodies.building import bare, binary, cast, chosen, is_calm, negated, tight
+from rebsync.reverse.bodies.cpp_unknowns import Unknown
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.python import body_calls
+from rebsync.reverse.python.body_effects import is_harmless
+from rebsync.reverse.python.body_reading import Reading
+from rebsync.reverse.python.body_scope import (
+    REAL,
+    TRUTH,
+    WHOLE,
+    Frame,
+    Meaning,
+    Message,
+    Need,
+    Nobody,
+    Own,
+    Pending,
+    Value,
+    Var,
+    unknown,
+)
+from rebsync.reverse.python.py_tree import field, named, number_of, text_of
+from rebsync.source import Span
+from rebsync.static.types import DOUBLE, INT_MAX, INT_MIN
+
+_COMPARES = frozenset({"<", ">", "<=", ">=", "==", "!=", "<>"})
+_RING = frozenset({"+", "-", "*"})
+_BITS = frozenset({"&", "|", "^"})
+
+
+@dataclass(eq=False, slots=True)
+class PyExpressions:
+    """Reads the expressions of one run of a function."""
+
+    reading: Reading
+    frame: Frame
+    within: str
+    running: tuple[int, ...] = ()
+
+    def read(self, node: Node) -> Value:
+        """An expression; `Unknown` is raised where nobody knows its value."""
+        match node.type:
+            case "integer" | "float":
+                return self._number(node)
+            case "true" | "false":
+                return Value(m.BoolLiteral(node.type == "true", self._span(node)), TRUTH)
+            case "parenthesized_expression" if len(named(node)) == 1:
+                inner = self.read(named(node)[0])
+                plain = isinstance(inner.expression, (m.Name, m.Paren, m.Call))
+                shown = inner.expression if plain else m.Paren(inner.expression)
+                return Value(shown, inner.kind, inner.single, inner.mixed)
+            case "identifier" | "attribute":
+                return self._place(node)
+            case "unary_operator" | "not_operator":
+                return self._unary(node)
+            case "binary_operator":
+                return self.operation(
+                    text_of(field(node, "operator")),
+                    self.read(field(node, "left")),
+                    self.read(field(node, "right")),
+                    node,
+                )
+            case "comparison_operator" | "boolean_operator":
+                return self._logic(node)
+            case "conditional_expression" if len(named(node)) == 3:
+                return self._conditional(node)
+            case "call":
+                return body_calls.called(self, node)
+            case _:
+                raise unknown(self.frame, node, f'"{short(node)}"')
+
+    def condition(self, node: Node) -> m.Expression:
+        """A condition; one that nobody knows may be true or false, and is listed."""
+        try:
+            return self.truth(self.read(node), node)
+        except Unknown as open_:
+            if not is_harmless(self.reading, node, self.frame):
+                raise Unread(open_.span, open_.why, open_.hint) from open_
+            self.note(node, open_.why)
+            return m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)), self._span(node))
+
+    def note(self, node: Node, why: str) -> None:
+        """Lists a place of which the model allows more than the code."""
+        source = self.frame.py.source
+        self.reading.findings.approximated(source, self._span(node), why, "", self.within)
+
+    def truth(self, value: Value, node: Node) -> m.Expression:
+        """What Python takes for true."""
+        if value.kind == TRUTH:
+            return bare(value.expression)
+        zero = literal_of(0 if value.kind == WHOLE else 0.0)
+        if value.kind == WHOLE:
+            self.need(value, node)
+        return binary("!=", value.expression, zero, self._span(node))
+
+    # --- names ----------------------------------------------------------------------------------
+
+    def meaning(self, node: Node) -> tuple[Meaning, str]:
+        """What a name or attribute stands for, and the path of fields behind it."""
+        if node.type == "identifier":
+            return self.reading.name(text_of(node), node, self.frame), ""
+        if node.type != "attribute":
+            return Nobody(), ""
+        holder, name = field(node, "object"), text_of(field(node, "attribute"))
+        meaning, path = self.meaning(holder)
+        if isinstance(meaning, Own) and not path:
+            return self.reading.attribute(name, node, self.frame), ""
+        if isinstance(meaning, Message):
+            return meaning, f"{path}.{name}" if path else name
+        found = self.reading.constant(self.reading.values.ways(node, self.frame.scope))
+        return (found, "") if found is not None and isinstance(meaning, Nobody) else (Nobody(), "")
+
+    def _place(self, node: Node) -> Value:
+        meaning, path = self.meaning(node)
+        match meaning:
+            case Value():
+                return meaning
+            case Message() if path:
+                return self.reading.read_field(meaning, path, node, self.frame)
+            case Var():
+                return self._variable(meaning, node)
+            case _:
+                if "_parameter(" in text_of(node):
+                    return body_calls.parameter(self, node)
+                raise unknown(self.frame, node, f'"{short(node)}"')
+
+    def _variable(self, variable: Var, node: Node) -> Value:
+        kind = self.reading.learnt.kinds.get(variable.key)
+        if kind is None:
+            self.reading.learnt.pending.add(variable.key)
+            raise Pending(self._span(node), f'nothing that is read gives "{short(node)}" a value')
+        if not variable.is_state and text_of(node) not in self.frame.assigned:
+            raise Unread(self._span(node), f'"{short(node)}" may have no value yet')
+        mixed = variable.key in self.reading.learnt.mixed
+        return Value(m.Name(variable.name, self._span(node)), kind, mixed=mixed)
+
+    # --- operators ------------------------------------------------------------------------------
+
+    def _number(self, node: Node) -> Value:
+        number = number_of(node)
+        if isinstance(number, int) and number > INT_MAX:
+            raise unknown(self.frame, node, "a number beyond its int")
+        if number is None or abs(number) > 1e300:
+            raise Unread(self._span(node), "this number is none of the model")
+        return Value(literal_of(number), REAL if isinstance(number, float) else WHOLE)
+
+    def _unary(self, node: Node) -> Value:
+        inner = field(node, "argument")
+        if node.type == "not_operator":
+            return Value(negated(self.condition(inner)), TRUTH)
+        value, operator = self.read(inner), text_of(field(node, "operator"))
+        if value.kind == TRUTH or (operator == "~" and value.kind != WHOLE):
+            raise Unread(self._span(node), f'"{operator}" of such a value is not read')
+        if operator == "+":
+            return value
+        operand = tight(value.expression, precedence.PREFIX)
+        found = m.Unary(operator, operand, self._span(node))
+        return Value(found, value.kind, value.single, value.mixed)
+
+    def operation(self, operator: str, left: Value, right: Value, node: Node) -> Value:
+        """An operation on two numbers."""
+        if TRUTH in (left.kind, right.kind):
+            raise Unread(self._span(node), "arithmetic with truth values is not read")
+        if left.kind == right.kind == WHOLE:
+            return self._whole(operator, left, right, node)
+        if operator in ("*", "+", "-", "/"):
+            if operator == "/":
+                self._is_not_zero(right, node)
+                self._is_real(left, right, node)
+            span = self._span(node)
+            found = binary(operator, self.real(left, node), self.real(right, node), span)
+            return Value(found, REAL)
+        raise Unread(self._span(node), f'"{operator}" of floats has no like in the model')
+
+    def _whole(self, operator: str, left: Value, right: Value, node: Node) -> Value:
+        if operator in _RING:
+            return Value(
+                binary(operator, left.expression, right.expression, self._span(node)), WHOLE
+            )
+        if operator == "/" and self.reading.unit.version != 2:
+            self._is_real(left, right, node)
+            self._is_not_zero(right, node)
+            one = cast(DOUBLE, self.need(left, node, "left"))
+            return Value(binary("/", one, self.real(right, node), self._span(node)), REAL)
+        if operator in ("/", "//", "%"):
+            return self._divided("%" if operator == "%" else "/", left, right, node)
+        if operator in _BITS or operator == ">>":
+            self.need(left, node, "left")
+            self.need(right, node, "right", *((0, 31) if operator == ">>" else ()))
+            found = binary(operator, left.expression, right.expression, self._span(node))
+            return Value(found, WHOLE)
+        match right.expression:
+            case m.IntLiteral(places) if operator == "<<" and places < 31:
+                by = m.IntLiteral(1 << places)
+                return Value(binary("*", left.expression, by, self._span(node)), WHOLE)
+        raise Unread(self._span(node), f'"{operator}" is not read')
+
+    def _divided(self, operator: str, left: Value, right: Value, node: Node) -> Value:
+        """Python rounds down, the model towards 0: the same where nothing is negative."""
+        by = bare(right.expression)
+        self.need(right, node, "by", 1, INT_MAX, strict=True)
+        span = self._span(node)
+        if not self._is_refused(node, "dividend"):
+            self._noted(left.expression, node, "dividend", 0, INT_MAX)
+            return Value(binary(operator, left.expression, right.expression, span), WHOLE)
+        if not isinstance(by, m.IntLiteral) or not 0 < by.value < 1 << 30:
+            raise Unread(span, "it rounds down where the model's rounds towards 0")
+        self.need(left, node, "left")
+        rest = binary("%", binary("+", binary("%", left.expression, by), by), by, span)
+        if operator == "%":
+            return Value(rest, WHOLE)
+        if not is_calm(left.expression):
+            raise Unread(span, "it rounds down where the model's rounds towards 0")
+        above = Value(binary("-", left.expression, rest), WHOLE)
+        return Value(binary("/", self.need(above, node, "above"), by, span), WHOLE)
+
+    def _is_not_zero(self, value: Value, node: Node) -> None:
+        match bare(value.expression):
+            case m.IntLiteral(number) if number:
+                return
+            case m.FloatLiteral() | m.Unary("-", m.FloatLiteral() | m.IntLiteral()):
+                if not any(
+                    isinstance(n, (m.FloatLiteral, m.IntLiteral)) and _is_zero(n)
+                    for n in m.walk(value.expression)
+                ):
+                    return
+        if value.kind == WHOLE:
+            self.need(value, node, "by", 1, INT_MAX, strict=True)
+            return
+        raise Unread(self._span(node), "it may divide by 0, which ends the callback in Python")
+
+    def _is_real(self, left: Value, right: Value, node: Node) -> None:
+        if self.reading.unit.version != 3 and not (_is_float(left) or _is_float(right)):
+            raise Unread(
+                self._span(node),
+                "Python 2 and 3 divide whole numbers differently, and the file may be of either",
+                "say which in its first line: #!/usr/bin/env python3",
+            )
+
+    def real(self, value: Value, node: Node) -> m.Expression:
+        """A number where the model is to compute with 64 bits."""
+        if value.kind == WHOLE:
+            self.need(value, node, "real")
+            inner = bare(value.expression)
+            if isinstance(inner, m.IntLiteral):
+                return literal_of(float(inner.value))
+            return cast(DOUBLE, value.expression)
+        return cast(DOUBLE, value.expression) if value.single else value.expression
+
+    # --- conditions -----------------------------------------------------------------------------
+
+    def _logic(self, node: Node) -> Value:
+        if node.type == "comparison_operator":
+            return Value(self._compared(node), TRUTH)
+        sign = "&&" if text_of(field(node, "operator")) == "and" else "||"
+        one = self._side(field(node, "left"), node)
+        other = self._side(field(node, "right"), node)
+        return Value(binary(sign, one, other, self._span(node)), TRUTH)
+
+    def _side(self, side: Node, node: Node) -> m.Expression:
+        """One side of `and` or `or`, of which the value is the last that was looked at."""
+        if is_asked(node):
+            return self.condition(side)
+        value = self.read(side)
+        if value.kind != TRUTH:
+            raise Unread(self._span(node), '"and" and "or" of other than truth values')
+        return bare(value.expression)
+
+    def _compared(self, node: Node) -> m.Expression:
+        operands = named(node)
+        signs = [text_of(c) for c in node.children_by_field_name("operators")]
+        if len(signs) != len(operands) - 1 or not set(signs) <= _COMPARES:
+            raise unknown(self.frame, node, f'"{short(node)}"')
+        values = [self.read(o) for o in operands]
+        found: m.Expression | None = None
+        if len(values) > 2 and not all(is_calm(v.expression) for v in values[1:-1]):
+            raise Unread(self._span(node), "what stands in the middle would run twice")
+        for number, sign in enumerate(signs):
+            pair = self._pair(values[number], values[number + 1], node, number)
+            one = binary("!=" if sign == "<>" else sign, *pair, self._span(node))
+            found = one if found is None else binary("&&", found, one, self._span(node))
+        assert found is not None
+        return found
+
+    def _pair(
+        self, left: Value, right: Value, node: Node, number: int
+    ) -> tuple[m.Expression, m.Expression]:
+        if (left.kind == TRUTH) != (right.kind == TRUTH):
+            raise Unread(self._span(node), "a truth value is compared with a number")
+        for side, value in (("left", left), ("right", right)):
+            if value.kind == WHOLE:
+                self.need(value, node, f"{side} {number}")
+        if left.kind == right.kind:
+            return left.expression, right.expression
+        return self.real(left, node), self.real(right, node)
+
+    def _conditional(self, node: Node) -> Value:
+        then, condition, otherwise = named(node)
+        asked = self.condition(condition)
+        one, other = self.read(then), self.read(otherwise)
+        if TRUTH in (one.kind, other.kind) and one.kind != other.kind:
+            raise Unread(self._span(node), "its values are of two kinds")
+        if one.kind == other.kind == WHOLE or one.kind == TRUTH:
+            return Value(chosen(asked, one.expression, other.expression), one.kind)
+        return Value(chosen(asked, self.real(one, then), self.real(other, otherwise)), REAL)
+
+    # --- needs ----------------------------------------------------------------------------------
+
+    def need(
+        self,
+        value: Value,
+        node: Node,
+        what: str = "",
+        low: int = INT_MIN,
+        high: int = INT_MAX,
+        strict: bool = False,
+    ) -> m.Expression:
+        """The value, of which the model must have the same number."""
+        if self._is_refused(node, what):
+            if strict:
+                raise Unread(self._span(node), "a divisor that may be 0 or negative")
+            raise unknown(self.frame, node, "a number that may be beyond its int")
+        self._noted(value.expression, node, what, low, high)
+        return value.expression
+
+    def _noted(self, expression: m.Expression, node: Node, what: str, low: int, high: int) -> None:
+        mark = (self.frame.py.source.path, node.start_byte, node.end_byte, what)
+        plain = bare(expression)
+        self.reading.needs.setdefault(id(plain), []).append(Need(plain, low, high, mark))
+
+    def _is_refused(self, node: Node, what: str) -> bool:
+        mark = (self.frame.py.source.path, node.start_byte, node.end_byte, what)
+        return mark in self.reading.learnt.refused
+
+    def _span(self, node: Node) -> Span:
+        return self.frame.span(node)
+
+
+def _is_float(value: Value) -> bool:
+    return value.kind == REAL and not value.mixed
+
+
+def _is_zero(literal: m.FloatLiteral | m.IntLiteral) -> bool:
+    return (
+        not literal.value
+        if isinstance(literal, m.IntLiteral)
+        else not float(literal.text.rstrip("fFdD"))
+    )
+
+
+def is_asked(node: Node) -> bool:
+    """Whether only its truth counts: it is a condition, or part of one."""
+    at, above = node, node.parent
+    while above is not None and above.type in (
+        "parenthesized_expression",
+        "boolean_operator",
+        "not_operator",
+    ):
+        at, above = above, above.parent
+    if above is None:
+        return False
+    if above.type == "conditional_expression":
+        return named(above)[1] == at
+    return above.child_by_field_name("condition") == at
+
+
+def short(node: Node) -> str:
+    text = " ".join(text_of(node).split())
+    return text if len(text) <= 40 else f"{text[:37]}..."

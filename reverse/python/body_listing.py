@@ -1,0 +1,83 @@
+"""What of hand-written Python the model does not show as it is: listed, each place once."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.graph import (
+    ClientFact,
+    Fact,
+    PublisherFact,
+    ServiceFact,
+    SubscriptionFact,
+    TimerFact,
+)
+from rebsync.reverse.nodes.node_servers import Server
+from rebsync.reverse.nodes.node_wiring import Wiring, unfed, unheard
+from rebsync.reverse.python.body_scope import PyUnit
+from rebsync.reverse.unknowns import Open
+
+_OPEN = "add the package that has the receivers, if they matter"
+_CLOSE = "add the package that publishes it, or a class to the model that sends what may come"
+_CALLS = "add a class to the model that calls it, or message servers that send to it"
+_THREADS = (
+    "rospy runs the callbacks of topics and timers, and loops, in threads of their own;"
+    " in the model one runs after the other"
+)
+
+
+def list_unit(unit: PyUnit, servers: Mapping[int, Server], loops: int, findings: Findings) -> None:
+    """What a unit asks of ROS that the model has not, or not so."""
+    for number, fact in enumerate(unit.unit.facts):
+        _fact(unit, fact, number in servers, findings)
+    served = [f for n, f in enumerate(unit.unit.facts) if n in servers]
+    if not unit.is_rclpy and len(served) + loops > 1 and served:
+        place = served[-1].site.place
+        findings.approximated(place.source, place.span, _THREADS, within=unit.name)
+
+
+def _fact(unit: PyUnit, fact: Fact, served: bool, findings: Findings) -> None:
+    place = fact.site.place
+    match fact:
+        case SubscriptionFact(single=True) | TimerFact():
+            return
+        case SubscriptionFact() if not served:
+            why = "it is not known which function of the node gets these messages"
+            findings.unreadable(place.source, Unread(place.span, why), unit.name)
+        case PublisherFact(site) if not site.kept:
+            why = "it is not known what is published here: the publisher is in no variable"
+            findings.unreadable(place.source, Unread(place.span, why), unit.name)
+        case ServiceFact() if served:
+            why = "a service is a message server to which nobody in the model sends"
+            findings.approximated(place.source, place.span, why, _CALLS, unit.name)
+        case ServiceFact():
+            why = "it is not known which function this service calls"
+            findings.unreadable(place.source, Unread(place.span, why), unit.name)
+        case ClientFact():
+            why = "the model has no services: what this one answers is open"
+            findings.approximated(place.source, place.span, why, "", unit.name)
+        case _:
+            return
+
+
+def list_wiring(wiring: Wiring, wanted: Collection[str], findings: Findings) -> None:
+    """Topics that are not known, and those with nobody at their other end."""
+    for instance in wiring.instances:
+        name = instance.start.unit.name
+        for fact in instance.start.unit.facts if name in wanted else ():
+            if isinstance(fact, PublisherFact | SubscriptionFact):
+                topic, place = instance.topic(fact.topic), fact.site.place
+                if isinstance(topic, Open):
+                    why = f"the topic is not known: {topic.why}"
+                    findings.unreadable(place.source, Unread(place.span, why), name)
+    for instance, fact in unheard(wiring):
+        topic, place = instance.topic(fact.topic), fact.site.place
+        if isinstance(topic, str) and instance.start.unit.name in wanted:
+            why = f'nobody in these files subscribes to "{topic}": it is not sent in the model'
+            findings.approximated(place.source, place.span, why, _OPEN, instance.start.unit.name)
+    for instance, heard in unfed(wiring):
+        topic, place = instance.topic(heard.topic), heard.site.place
+        if isinstance(topic, str) and instance.start.unit.name in wanted:
+            why = f'nobody in these files publishes "{topic}": the model gets no such message'
+            findings.approximated(place.source, place.span, why, _CLOSE, instance.start.unit.name)

@@ -1,0 +1,180 @@
+"""Loops of Python: over numbers, by conditions, and those that keep a node running."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.bodies.building import bare, binary
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.python.body_scope import WHOLE, Frame, Key, Value
+from rebsync.reverse.python.py_index import arguments_of
+from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.static.types import INT
+
+if TYPE_CHECKING:
+    from rebsync.reverse.python.body_statements import PyStatements
+
+_AWAKE = re.compile(r"is_shutdown\(\)|\bok\(\)|^\(?(True|1)\)?$")
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Loop:
+    """A loop that keeps a node running, as the server that it becomes."""
+
+    name: str
+    node: Node
+    frame: Frame
+    running: tuple[int, ...]
+    only: tuple[str, ...]
+
+
+def forever(node: Node) -> bool:
+    """Whether a loop goes on for as long as the node runs."""
+    if node.type != "while_statement":
+        return False
+    return _AWAKE.search(text_of(field(node, "condition"))) is not None
+
+
+def while_(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
+    """`while c:` as it is; of a node that starts, one that goes on for ever as a server."""
+    span = reader.frame.span(node)
+    if node.child_by_field_name("alternative") is not None:
+        raise Unread(span, "a loop with an else branch is not read")
+    if reader.frame.is_start and forever(node):
+        if reader.frame.depth:
+            raise Unread(span, "it depends on a condition whether this loop keeps the node running")
+        yield from _started(reader, node)
+        return
+    condition = reader.expressions.condition(field(node, "condition"))
+    before = set(reader.frame.assigned)
+    body = reader.block(field(node, "body"))
+    reader.frame.assigned = before
+    yield m.While(condition, body, (), span)
+
+
+def _started(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
+    wish = reader.frame.scope.name
+    name = reader.reading.server_name(node, wish if wish not in ("", "main") else "loop")
+    reader.loops.append(Loop(name, node, reader.frame, reader.running, reader.only))
+    reader.is_over = True
+    yield m.ExpressionStatement(m.Call(m.Self(), name), (), reader.frame.span(node))
+
+
+def for_(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
+    """`for i in range(...)` as a loop of the model that counts."""
+    span = reader.frame.span(node)
+    target, over = field(node, "left"), field(node, "right")
+    name = (
+        reader.reading.external(field(over, "function"), reader.frame)
+        if over.type == "call"
+        else ""
+    )
+    if node.child_by_field_name("alternative") is not None:
+        raise Unread(span, "a loop with an else branch is not read")
+    if name not in ("builtins.range", "builtins.xrange") or target.type != "identifier":
+        raise Unread(span, "what this loop goes through is not in the model")
+    variable = text_of(target)
+    if not _only_here(reader, node, variable):
+        raise Unread(span, f'"{variable}" is used outside of this loop, or changed in it')
+    plain, _ = arguments_of(over)
+    if not 1 <= len(plain) <= 3:
+        raise Unread(span, "what this loop goes through is not in the model")
+    values = [_whole(reader, argument) for argument in plain]
+    low = values[0] if len(values) > 1 else m.IntLiteral(0)
+    high = values[1] if len(values) > 1 else values[0]
+    step = _step(reader, values[2] if len(values) > 2 else m.IntLiteral(1), node)
+    if not isinstance(bare(high), m.IntLiteral):
+        end = reader.reading.fresh(f"{variable}_end")
+        yield m.Local(m.Declaration(INT, (m.Declarator(end, high),)), (), span)
+        high = m.Name(end)
+    yield _counted(reader, node, variable, low, high, step)
+
+
+def _whole(reader: PyStatements, node: Node) -> m.Expression:
+    value = reader.expressions.read(node)
+    if value.kind != WHOLE:
+        raise Unread(reader.frame.span(node), "a loop over other than whole numbers is not read")
+    return reader.expressions.need(value, node, "range")
+
+
+def _step(reader: PyStatements, step: m.Expression, node: Node) -> int:
+    match step:
+        case m.IntLiteral(value) if 0 < value < 1 << 16:
+            return value
+        case m.Unary("-", m.IntLiteral(value)) if 0 < value < 1 << 16:
+            return -value
+        case _:
+            raise Unread(reader.frame.span(node), "the step of this loop is not known")
+
+
+def _counted(
+    reader: PyStatements,
+    node: Node,
+    variable: str,
+    low: m.Expression,
+    high: m.Expression,
+    step: int,
+) -> m.Statement:
+    """A loop of the model. Its last step may leave the `int` only where that is near its end."""
+    frame, span = reader.frame, reader.frame.span(node)
+    key: Key = "local", node.id, variable
+    name = reader.reading.fresh(variable, key)
+    reader.reading.learnt.join(key, WHOLE)
+    reader.reading.wide.add(name)
+    outer = frame.bound.get(variable)
+    frame.bound[variable] = Value(m.Name(name), WHOLE)
+    before = set(frame.assigned)
+    body = reader.block(field(node, "body"))
+    frame.assigned = before
+    del frame.bound[variable]
+    if outer is not None:
+        frame.bound[variable] = outer
+    by = m.IntLiteral(abs(step))
+    counts: m.Expression = m.Assign("+=" if step > 0 else "-=", m.Name(name), by)
+    if abs(step) == 1:
+        counts = m.Postfix("++" if step > 0 else "--", m.Name(name))
+    condition = binary("<" if step > 0 else ">", m.Name(name), high)
+    declared = m.Declaration(INT, (m.Declarator(name, low),))
+    return m.For(declared, condition, (counts,), body, (), span)
+
+
+def _only_here(reader: PyStatements, node: Node, variable: str) -> bool:
+    """Whether a loop's variable is only read, and only in such loops over it."""
+    scope = reader.frame.scope
+    bindings = scope.names.get(variable, [])
+    if variable in scope.outer or scope.kind not in ("function", "lambda"):
+        return False
+    if any(b.how != "loop" for b in bindings):
+        return False
+    loops = [b.node for b in bindings]
+    inner = [n for n in loops if n != node and _holds(node, n)]
+    if inner:
+        return False
+    waiting = [scope.node]
+    while waiting:
+        current = waiting.pop()
+        if current in loops:
+            continue
+        if current.type == "identifier" and text_of(current) == variable and not _is_field(current):
+            return False
+        waiting += current.named_children
+    return True
+
+
+def _is_field(node: Node) -> bool:
+    above = node.parent
+    if above is None:
+        return False
+    if above.type == "attribute":
+        return above.child_by_field_name("attribute") == node
+    return above.type == "keyword_argument" and above.child_by_field_name("name") == node
+
+
+def _holds(outer: Node, inner: Node) -> bool:
+    return outer.start_byte <= inner.start_byte and inner.end_byte <= outer.end_byte

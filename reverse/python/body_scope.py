@@ -1,0 +1,231 @@
+"""What reading the bodies of a package's Python learns, and what names in them stand for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import field as with_default
+from typing import TypeAlias
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.bodies.cpp_unknowns import Unknown
+from rebsync.reverse.bodies.scope import Target
+from rebsync.reverse.build.message_types import Fields
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.nodes.node_units import Unit
+from rebsync.reverse.python.py_index import Scope
+from rebsync.reverse.python.py_tree import Py
+from rebsync.source import Span
+from rebsync.static.types import BOOLEAN, DOUBLE, INT
+
+# What a variable holds in all of a program: a kind of value, a message by its type, or anything.
+Kind: TypeAlias = str
+TRUTH, WHOLE, REAL, OTHER = "boolean", "int", "double", "other"
+TYPES = {TRUTH: BOOLEAN, WHOLE: INT, REAL: DOUBLE}
+# A variable: the class, module or function that it is in, and its name, with that of a field.
+Key: TypeAlias = tuple[str, int, str]
+# An expression whose value must be such that the model has the same.
+Mark: TypeAlias = tuple[str, int, int, str]
+
+
+class Pending(Unread):
+    """Something stands on a variable of which nothing is known yet."""
+
+
+@dataclass(frozen=True, slots=True)
+class Value:
+    """An expression of the model, and what kind of value it is in Python.
+
+    `single` says that the model has 32 bits of a float; `mixed` that it may be a whole number.
+    """
+
+    expression: m.Expression
+    kind: Kind
+    single: bool = False
+    mixed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Need:
+    """An expression that must be within bounds; `mark` is where and what for."""
+
+    expression: m.Expression
+    low: int
+    high: int
+    mark: Mark
+
+
+@dataclass(slots=True)
+class Learnt:
+    """What is known of all bodies of a package so far: each round of reading adds to it.
+
+    `kinds` are those of variables; `mixed` those of floats that also get whole numbers; `used` are
+    the fields that servers read, `open` those whose values nobody knows; `refused` are expressions
+    that may leave the model's `int`; on `pending` variables something stood in the last round.
+    """
+
+    kinds: dict[Key, Kind] = with_default(default_factory=dict)
+    mixed: set[Key] = with_default(default_factory=set)
+    used: dict[tuple[str, str], set[str]] = with_default(default_factory=dict)
+    open: set[tuple[str, str, str]] = with_default(default_factory=set)
+    refused: set[Mark] = with_default(default_factory=set)
+    pending: set[Key] = with_default(default_factory=set)
+    changes: int = 0
+
+    def join(self, key: Key, kind: Kind) -> None:
+        """A variable gets a value of a kind."""
+        known = self.kinds.get(key)
+        both = {known, kind}
+        if known is None or known == kind:
+            found = kind
+        elif both == {WHOLE, REAL}:
+            found = REAL
+            if key not in self.mixed:
+                self.mixed.add(key)
+                self.changes += 1
+        else:
+            found = OTHER
+        if found != known:
+            self.kinds[key] = found
+            self.changes += 1
+
+    def use(self, unit: str, server: str, path: str) -> None:
+        """A server reads a field of its message."""
+        fields = self.used.setdefault((unit, server), set())
+        if path not in fields:
+            fields.add(path)
+            self.changes += 1
+
+    def leave_open(self, unit: str, server: str, path: str) -> None:
+        """A server gets a field of which nobody knows the value."""
+        if (unit, server, path) not in self.open:
+            self.open.add((unit, server, path))
+            self.changes += 1
+
+    def refuse(self, mark: Mark) -> None:
+        """An expression may leave the numbers of the model."""
+        if mark not in self.refused:
+            self.refused.add(mark)
+            self.changes += 1
+
+
+# --- meanings -----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Var:
+    """A variable that holds a value of the model: `name` is its own there."""
+
+    key: Key
+    name: str
+    is_state: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """A message in a variable: each of its fields is a variable; or that of a server."""
+
+    key: Key
+    name: str
+    type: str
+    is_state: bool
+    server: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Own:
+    """The object whose class is read."""
+
+
+@dataclass(frozen=True, slots=True)
+class Nobody:
+    """What the model does not have."""
+
+
+Meaning: TypeAlias = Var | Message | Own | Nobody | Value
+
+
+@dataclass(frozen=True, slots=True)
+class PyTarget:
+    """A receiver: the unit and server that get a message, under the name that the sender has."""
+
+    unit: str
+    target: Target
+    types: Mapping[str, m.Type]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PyUnit:
+    """What of Python becomes a reactive class: a class with those above it, or a module.
+
+    `lineage` is empty for a module; `calls` are the numbers of its facts by the ids of their calls.
+    `version` is that of the language, 0 where it may be 2 or 3.
+    """
+
+    unit: Unit
+    lineage: tuple[Scope, ...]
+    module: Scope
+    node: str
+    calls: Mapping[tuple[str, int], int]
+    version: int
+    is_rclpy: bool
+
+    @property
+    def name(self) -> str:
+        return self.unit.name
+
+
+@dataclass(eq=False, slots=True)
+class Frame:
+    """One run of a function: what its names stand for while its body is read.
+
+    `assigned` are the locals that have a value for sure; `hoisted` those that are declared before
+    all else; `depth` counts the statements around; `kept` says that its locals are state.
+    """
+
+    scope: Scope
+    names: dict[str, str] = with_default(default_factory=dict)
+    bound: dict[str, Meaning] = with_default(default_factory=dict)
+    assigned: set[str] = with_default(default_factory=set)
+    declared: set[str] = with_default(default_factory=set)
+    hoisted: dict[str, m.Type] = with_default(default_factory=dict)
+    depth: int = 0
+    kept: frozenset[str] = frozenset()
+    is_start: bool = False
+    server: str = ""
+
+    @property
+    def py(self) -> Py:
+        return self.scope.py
+
+    def span(self, node: Node) -> Span:
+        return self.scope.py.span(node)
+
+
+def unknown(frame: Frame, node: Node, what: str) -> Unknown:
+    """The model has no such value."""
+    return Unknown(frame.span(node), f"the model cannot know {what}", "")
+
+
+def field_kind(type_: m.Type) -> Kind:
+    """What a field of a message is in Python."""
+    if type_.name == "boolean":
+        return TRUTH
+    return REAL if type_.name in ("float", "double") else WHOLE
+
+
+_WIDTHS = {"byte": 7, "short": 15, "int": 31}
+
+
+def bounds(fields: Fields, widths: Mapping[str, int], path: str) -> tuple[int, int]:
+    """What a whole number in a field of a message can be, as far as an `int` holds it."""
+    type_ = fields.get(path)
+    bits = widths.get(path)
+    if bits in (8, 16):
+        return 0, (1 << bits) - 1
+    if bits in (32, 64):
+        return 0, (1 << 31) - 1
+    own = _WIDTHS.get(type_.name if type_ is not None else "int", 31)
+    return -(1 << own), (1 << own) - 1

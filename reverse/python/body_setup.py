@@ -1,0 +1,114 @@
+"""What sets a node up, waits, or ends it: calls of the client libraries, as statements."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.graph import ParameterFact, RateFact, SubscriptionFact, TimerFact
+from rebsync.reverse.python import body_calls, body_methods
+from rebsync.reverse.python.py_index import CLASS, arguments_of, last_name
+from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.reverse.python.py_worth import Class
+
+if TYPE_CHECKING:
+    from rebsync.reverse.python.body_statements import PyStatements
+
+_SLEEPS = frozenset({"rospy.sleep", "time.sleep", "rospy.rostime.sleep"})
+_SPINS = frozenset({"rospy.spin", "rclpy.spin", "rclpy.spin_until_future_complete"})
+_STARTS = frozenset({"rclpy.init", "rclpy.shutdown", "rospy.on_shutdown", "rospy.signal_shutdown"})
+_ENDS = frozenset({"destroy_node", "spin", "add_node", "shutdown"})
+
+
+def asked(reader: PyStatements, call: Node) -> Iterator[m.Statement] | None:
+    """The statements of a call to the client library; None for any other call."""
+    found = reader.reading.fact(call, reader.frame)
+    if found is not None:
+        return _fact(reader, call, *found) if not isinstance(found[1], ParameterFact) else None
+    function = field(call, "function")
+    name = reader.reading.external(function, reader.frame)
+    plain, _ = arguments_of(call)
+    if name in _SLEEPS and len(plain) == 1:
+        return iter((delay(body_calls.units(reader.expressions, plain[0]), reader, call),))
+    if last_name(function) == "sleep" and function.type == "attribute":
+        made = reader.reading.made_by(field(function, "object"), reader.frame)
+        if made is not None and isinstance(made[1], RateFact):
+            period = reader.reading.periods.get(made[0])
+            if period is None:
+                raise Unread(reader.frame.span(call), "how long this waits is not known")
+            return iter((delay(m.IntLiteral(period), reader, call),))
+    return _started(reader, call, name) if reader.frame.is_start else None
+
+
+def delay(time: m.Expression, reader: PyStatements, node: Node) -> m.Statement:
+    """`delay(t);`"""
+    span = reader.frame.span(node)
+    return m.ExpressionStatement(m.Call(None, "delay", (time,), span=span), (), span)
+
+
+def send(server: str, period: int, node: Node, reader: PyStatements) -> m.Statement:
+    """`self.server() after(period);`"""
+    after = m.IntLiteral(period) if period else None
+    span = reader.frame.span(node)
+    return m.ExpressionStatement(m.Call(m.Self(), server, (), after, span=span), (), span)
+
+
+def _fact(reader: PyStatements, call: Node, number: int, fact: object) -> Iterator[m.Statement]:
+    span = reader.frame.span(call)
+    match fact:
+        case TimerFact():
+            server, period = reader.reading.servers.get(number), reader.reading.periods.get(number)
+            if server is None or period is None:
+                raise Unread(span, "the callback or the period of this timer is not known")
+            if fact.autostart is not True:
+                raise Unread(span, "a timer that is started later is not read")
+            if reader.frame.depth:
+                raise Unread(span, "whether there is this timer depends on a condition")
+            yield send(server.name, period, call, reader)
+        case SubscriptionFact(single=True):
+            raise Unread(span, "it waits here for one message")
+        case SubscriptionFact() if not reader.frame.is_start:
+            raise Unread(span, "it subscribes while it runs: in the model it always has")
+        case _:
+            return
+
+
+def _started(reader: PyStatements, call: Node, name: str) -> Iterator[m.Statement] | None:
+    """What only starts the node, or lets it run."""
+    function = field(call, "function")
+    last = last_name(function)
+    if name in _SPINS or (last == "spin" and not name):
+        reader.is_over = True
+        plain, _ = arguments_of(call)
+        made = [a for a in plain if a.type == "call"]
+        return asked(reader, made[0]) if made else iter(())
+    if name in _STARTS or (last in _ENDS and not name):
+        return iter(())
+    lineage = reader.reading.unit.lineage
+    if last == "__init__":
+        above = reader.reading.method("__init__", 1)
+        running = above is not None and above.node.id not in reader.running
+        return body_methods.inlined(reader, above, call) if above and running else iter(())
+    ways = reader.reading.values.ways(function, reader.frame.scope)
+    if lineage and any(isinstance(w, Class) and w.scope is lineage[0] for w in ways):
+        own = reader.reading.method("__init__", 0)
+        _bind_object(reader, call)
+        return body_methods.inlined(reader, own, call) if own is not None else iter(())
+    if any(isinstance(w, Class) and w.scope.kind == CLASS for w in ways):
+        return iter(())
+    return None
+
+
+def _bind_object(reader: PyStatements, call: Node) -> None:
+    """The variable that the object is put into stands for it."""
+    from rebsync.reverse.python.body_scope import Own
+
+    above = call.parent
+    if above is not None and above.type == "assignment":
+        target = field(above, "left")
+        if target.type == "identifier":
+            reader.frame.bound[text_of(target)] = Own()

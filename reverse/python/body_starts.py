@@ -1,0 +1,118 @@
+"""What runs before a node serves messages, as the statements of a constructor."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.literals import literal_of
+from rebsync.reverse.python.body_loops import Loop
+from rebsync.reverse.python.body_methods import kept_names
+from rebsync.reverse.python.body_reading import Reading
+from rebsync.reverse.python.body_scope import (
+    OTHER,
+    REAL,
+    TYPES,
+    WHOLE,
+    Frame,
+    Nobody,
+    Value,
+)
+from rebsync.reverse.python.body_statements import PyStatements
+from rebsync.reverse.python.body_units import scope_around
+from rebsync.reverse.python.py_bindings import Binding
+from rebsync.reverse.python.py_callbacks import body_of
+from rebsync.reverse.python.py_index import MODULE, Scope
+from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_worth import Class
+
+
+def constructor(reading: Reading, loops: list[Loop]) -> tuple[m.Statement, ...]:
+    """All that starts a node; the loops that keep it running are put into `loops`."""
+    unit = reading.unit
+    if not unit.lineage:
+        return _read(reading, unit.module, named(unit.module.node), loops)
+    made = list(_made(reading))
+    if len(made) == 1:
+        call, scope = made[0]
+        nodes = named(scope.node) if scope.kind == MODULE else body_of(scope)
+        words = (f"{unit.lineage[0].name}(", "sleep", *_variable(call))
+        return _read(reading, scope, nodes, loops, words)
+    own = reading.method("__init__", 0)
+    return _read(reading, own, body_of(own), loops) if own is not None else ()
+
+
+def _read(
+    reading: Reading,
+    scope: Scope,
+    nodes: list[Node],
+    loops: list[Loop],
+    only: tuple[str, ...] = (),
+) -> tuple[m.Statement, ...]:
+    kept = kept_names(scope) if scope.kind != MODULE else frozenset()
+    frame = Frame(scope, is_start=True, kept=kept)
+    for number, parameter in enumerate(scope.parameters if scope.kind != MODULE else ()):
+        if number or scope.self_name is None:
+            frame.bound[parameter.name] = _given(reading, scope, number)
+    within = f"{reading.unit.name}.{scope.name or 'start'}"
+    running = (scope.node.id,)
+    reader = PyStatements(reading, frame, within, scope.node, running, loops, only)
+    return reader.body(nodes)
+
+
+def _given(reading: Reading, scope: Scope, number: int) -> Value | Nobody:
+    """What a parameter of the function that starts a node is."""
+    from rebsync.reverse.python.py_callers import argument
+
+    return reading.constant(argument(reading.values, scope, number)) or Nobody()
+
+
+def _made(reading: Reading) -> Iterator[tuple[Node, Scope]]:
+    """Where objects of the class are made."""
+    owner = reading.unit.lineage[0]
+    for call, scope in reading.code.by_callee.get(owner.name, []):
+        ways = reading.values.ways(field(call, "function"), scope)
+        if any(isinstance(w, Class) and w.scope is owner for w in ways):
+            yield call, scope_around(reading.code, call, scope.py.source.path)
+
+
+def _variable(call: Node) -> tuple[str, ...]:
+    """The variable that an object is put into."""
+    above = call.parent
+    if above is not None and above.type == "assignment":
+        target = field(above, "left")
+        return (text_of(target),) if target.type == "identifier" else ()
+    return ()
+
+
+def declared(reading: Reading) -> Iterator[m.Statement]:
+    """What variables of the module and of the class hold at first."""
+    unit = reading.unit
+    for name, (where, _, text) in list(reading.state.items()):
+        if where not in ("module", "self") or (where == "module" and not unit.lineage):
+            continue
+        scopes = unit.lineage if where == "self" else (unit.module,)
+        bindings = [(b, s) for s in scopes for b in s.names.get(text, []) if _is_at(reading, b, s)]
+        if not bindings:
+            continue
+        binding, scope = bindings[0]
+        value = reading.constant(reading.values.ways(binding.value, scope))
+        kind = value.kind if value is not None and len(bindings) == 1 else OTHER
+        reading.learnt.join(reading.state[name], kind)
+        found = reading.learnt.kinds[reading.state[name]]
+        if value is None or found not in TYPES:
+            continue
+        if found == WHOLE:
+            reading.wide.add(name)
+        stored = value.expression
+        if found == REAL and isinstance(stored, m.IntLiteral):
+            stored = literal_of(float(stored.value))
+        yield m.ExpressionStatement(m.Assign("=", m.Name(name), stored))
+
+
+def _is_at(reading: Reading, binding: Binding, scope: Scope) -> bool:
+    """Whether a name is bound in a scope itself, not by a function in it."""
+    path = scope.py.source.path
+    return binding.how == "value" and scope_around(reading.code, binding.node, path) is scope

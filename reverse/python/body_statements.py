@@ -1,0 +1,271 @@
+"""Statements of Python as statements of the model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import field as with_default
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.python import body_loops, body_messages, body_methods, body_setup, body_stores
+from rebsync.reverse.python.body_effects import is_harmless, is_log
+from rebsync.reverse.python.body_expressions import PyExpressions, short
+from rebsync.reverse.python.body_reading import Reading
+from rebsync.reverse.python.body_scope import (
+    Frame,
+    Pending,
+)
+from rebsync.reverse.python.py_tree import field, named, text_of
+
+_NOTHING = frozenset(
+    {"comment", "pass_statement", "global_statement", "import_statement", "class_definition"}
+    | {"import_from_statement", "function_definition", "decorated_definition", "print_statement"}
+    | {"future_import_statement", "nonlocal_statement"}
+)
+LACKING = m.Empty((m.Annotation("Unreadable"),))
+
+
+@dataclass(eq=False, slots=True)
+class PyStatements:
+    """Reads the body of one function, and what stands in it in the place of calls.
+
+    `running` are the functions around; `loops` are the loops that keep the node running. With
+    `only` what mentions none of these words has nothing to do with the node.
+    """
+
+    reading: Reading
+    frame: Frame
+    within: str
+    root: Node
+    running: tuple[int, ...] = ()
+    loops: list[body_loops.Loop] = with_default(default_factory=list)
+    only: tuple[str, ...] = ()
+    is_over: bool = False
+
+    @property
+    def expressions(self) -> PyExpressions:
+        return PyExpressions(self.reading, self.frame, self.within, self.running)
+
+    def body(self, nodes: Sequence[Node]) -> tuple[m.Statement, ...]:
+        """All of a body, behind the locals that it must declare first."""
+        found = self.statements(nodes)
+        first = [
+            body_stores.declared(name, type_, None) for name, type_ in self.frame.hoisted.items()
+        ]
+        self.frame.hoisted.clear()
+        return (*first, *found)
+
+    def statements(self, nodes: Sequence[Node]) -> tuple[m.Statement, ...]:
+        """Statements that follow each other; each that has no meaning is listed."""
+        found: list[m.Statement] = []
+        for node in nodes:
+            if self.is_over:
+                break
+            found += self._listed(node)
+        return tuple(found)
+
+    def lambda_(self, node: Node) -> list[m.Statement]:
+        """The one expression of a lambda, as a statement."""
+        self.reading.findings.statements[self.within] += 1
+        try:
+            return list(self.expression(node))
+        except Unread as unread:
+            self.reading.findings.unreadable(self.frame.py.source, unread, self.within)
+        return [LACKING]
+
+    def _listed(self, node: Node) -> list[m.Statement]:
+        if node.type in _NOTHING:
+            return []
+        if self.only and not any(word in text_of(node) for word in self.only):
+            return []
+        findings = self.reading.findings
+        findings.statements[self.within] += 1
+        try:
+            return list(self.statement(node))
+        except Pending as pending:
+            findings.unreadable(self.frame.py.source, pending, self.within)
+        except Unread as unread:
+            self._lose(node)
+            findings.unreadable(self.frame.py.source, unread, self.within)
+        except RecursionError:
+            deep = Unread(self.frame.span(node), "this leads deeper than it can be read")
+            findings.unreadable(self.frame.py.source, deep, self.within)
+        return [LACKING]
+
+    def _lose(self, node: Node) -> None:
+        """Of what a statement sets that is not read nothing is known."""
+        for inner in _inside(node):
+            if inner.type in ("assignment", "augmented_assignment"):
+                body_stores.forget(self, field(inner, "left"))
+
+    # --- kinds of statements --------------------------------------------------------------------
+
+    def statement(self, node: Node) -> Iterator[m.Statement]:
+        span = self.frame.span(node)
+        match node.type:
+            case "expression_statement":
+                for inner in named(node):
+                    yield from self.expression(inner)
+            case "if_statement":
+                yield from self._if(node)
+            case "while_statement":
+                yield from body_loops.while_(self, node)
+            case "for_statement":
+                yield from body_loops.for_(self, node)
+            case "return_statement":
+                yield from self._return(node)
+            case "break_statement":
+                yield m.Break((), span)
+            case "continue_statement":
+                yield m.Continue((), span)
+            case "try_statement":
+                yield from self._try(node)
+            case "with_statement":
+                yield from self._with(node)
+            case "assert_statement":
+                asked = self.expressions.condition(named(node)[0])
+                yield m.ExpressionStatement(m.Call(None, "assertion", (asked,)), (), span)
+            case "delete_statement":
+                for inner in named(node):
+                    body_stores.forget(self, inner)
+            case "raise_statement":
+                raise Unread(span, "an exception ends the callback: the model has none")
+            case _:
+                raise Unread(span, f'"{node.type.replace("_", " ")}" is not read')
+
+    def expression(self, node: Node) -> Iterator[m.Statement]:
+        """An expression as a statement."""
+        match node.type:
+            case "assignment":
+                yield from body_stores.assignment(self, node)
+            case "augmented_assignment":
+                yield from body_stores.augmented(self, node)
+            case "call":
+                yield from self._call(node)
+            case "string" | "concatenated_string":
+                return
+            case _ if is_harmless(self.reading, node, self.frame):
+                return
+            case _:
+                raise Unread(self.frame.span(node), f'"{short(node)}" is not read')
+
+    def _call(self, node: Node) -> Iterator[m.Statement]:
+        if is_log(node) and is_harmless(self.reading, node, self.frame):
+            return
+        sends = body_messages.published(self, node)
+        if sends is not None:
+            yield from sends
+            return
+        known = body_setup.asked(self, node)
+        if known is not None:
+            yield from known
+            return
+        own = self.reading.function(field(node, "function"), self.frame)
+        if own is not None:
+            yield from body_methods.inlined(self, own, node)
+        elif not is_harmless(self.reading, node, self.frame):
+            what = short(field(node, "function"))
+            raise Unread(self.frame.span(node), f'what "{what}" does is not known')
+
+    def _return(self, node: Node) -> Iterator[m.Statement]:
+        inner = named(node)
+        span = self.frame.span(node)
+        if inner and not is_harmless(self.reading, inner[0], self.frame):
+            yield from self.expression(inner[0])
+        yield m.Return(None, (), span)
+
+    def _if(self, node: Node) -> Iterator[m.Statement]:
+        if self.frame.is_start and "__name__" in text_of(field(node, "condition")):
+            yield from self.statements(named(field(node, "consequence")))
+            return
+        alternatives = node.children_by_field_name("alternative")
+        yield self._branch(node, list(alternatives))
+
+    def _branch(self, node: Node, others: list[Node]) -> m.Statement:
+        condition = self.expressions.condition(field(node, "condition"))
+        before = set(self.frame.assigned)
+        then = self.block(field(node, "consequence"))
+        after, self.frame.assigned = self.frame.assigned, before
+        otherwise: m.Statement | None = None
+        if others:
+            first, *rest = others
+            if first.type == "elif_clause":
+                otherwise = self._branch(first, rest)
+            else:
+                otherwise = self.block(field(first, "body"))
+        if always_leaves(then):
+            pass
+        elif otherwise is not None and always_leaves(otherwise):
+            self.frame.assigned = after
+        else:
+            self.frame.assigned &= after
+        return m.If(condition, then, otherwise, (), self.frame.span(node))
+
+    def block(self, node: Node) -> m.Block:
+        """The statements of a branch or loop."""
+        self.frame.depth += 1
+        try:
+            found = self.statements(named(node))
+        finally:
+            self.frame.depth -= 1
+        return m.Block(found, span=self.frame.span(node))
+
+    def _try(self, node: Node) -> Iterator[m.Statement]:
+        """What is read exactly raises nothing, so that nothing else of the statement runs."""
+        findings = self.reading.findings
+        count = len(findings.all)
+        body = field(node, "body")
+        found = self.statements(named(body))
+        if not self.frame.is_start:
+            unsure = [n for n in _inside(body) if n.type == "call" and not self._is_sure(n)]
+            if unsure or len(findings.all) > count:
+                why = "what may raise an exception here is not in the model"
+                raise Unread(self.frame.span(node), why)
+        yield from found
+        for clause in named(node):
+            if clause.type == "finally_clause" and not self.frame.is_start:
+                yield from self.statements(named(named(clause)[-1]))
+            elif clause.type == "else_clause" and not self.frame.is_start:
+                yield from self.statements(named(field(clause, "body")))
+
+    def _is_sure(self, call: Node) -> bool:
+        name = self.reading.external(field(call, "function"), self.frame)
+        made = self.reading.message_type(call, self.frame)
+        own = self.reading.function(field(call, "function"), self.frame)
+        publishes = text_of(field(call, "function")).endswith(".publish")
+        return is_log(call) or bool(made) or own is not None or publishes or name == "rospy.sleep"
+
+    def _with(self, node: Node) -> Iterator[m.Statement]:
+        clause = named(node)[0]
+        for item in named(clause):
+            value = field(item, "value")
+            if "lock" not in text_of(value).lower() and not is_harmless(
+                self.reading, value, self.frame
+            ):
+                raise Unread(self.frame.span(node), "what this is done with is not known")
+        yield from self.statements(named(field(node, "body")))
+
+
+def always_leaves(statement: m.Statement) -> bool:
+    """Whether what follows a statement does not run after it."""
+    match statement:
+        case m.Return() | m.Break() | m.Continue():
+            return True
+        case m.Block(statements):
+            return any(map(always_leaves, statements))
+        case m.If(_, then, otherwise) if otherwise is not None:
+            return always_leaves(then) and always_leaves(otherwise)
+        case _:
+            return False
+
+
+def _inside(node: Node) -> Iterator[Node]:
+    waiting = [node]
+    while waiting:
+        current = waiting.pop()
+        yield current
+        if current.type not in ("function_definition", "class_definition", "lambda"):
+            waiting += current.named_children

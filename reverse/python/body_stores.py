@@ -1,0 +1,222 @@
+"""Variables of Python that get values: assignments, of state, of locals, of fields of messages."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.bodies.building import is_calm
+from rebsync.reverse.bodies.cpp_unknowns import Unknown
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.python import body_messages, body_setup
+from rebsync.reverse.python.body_effects import is_harmless
+from rebsync.reverse.python.body_expressions import short
+from rebsync.reverse.python.body_reading import field_key
+from rebsync.reverse.python.body_scope import (
+    OTHER,
+    REAL,
+    TYPES,
+    WHOLE,
+    Message,
+    Value,
+    Var,
+)
+from rebsync.reverse.python.py_tree import field, named, text_of
+
+if TYPE_CHECKING:
+    from rebsync.reverse.python.body_statements import PyStatements
+
+
+def assignment(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
+    """`target = value`; several targets get it from left to right."""
+    targets = [field(node, "left")]
+    value = node.child_by_field_name("right")
+    while value is not None and value.type == "assignment":
+        targets.append(field(value, "left"))
+        value = value.child_by_field_name("right")
+    if value is None:
+        return
+    if value.type == "call":
+        known = body_setup.asked(reader, value)
+        if known is not None:
+            yield from known
+            return
+    if len(targets) > 1 and value.type not in ("integer", "float", "true", "false", "none"):
+        raise Unread(reader.frame.span(node), "several variables get one value")
+    for target in targets:
+        yield from _assigned(reader, target, value, node)
+
+
+def _assigned(reader: PyStatements, target: Node, value: Node, node: Node) -> Iterator[m.Statement]:
+    if target.type in ("pattern_list", "tuple_pattern", "list_pattern"):
+        yield from _unpacked(reader, target, value, node)
+        return
+    if target.type not in ("identifier", "attribute"):
+        outside(reader, value, node)
+        return
+    meaning, path = reader.expressions.meaning(target)
+    type_ = reader.reading.message_type(value, reader.frame)
+    match meaning:
+        case Var(key) | Message(key, _, _, _, "") if not path and type_ is not None:
+            reader.reading.learnt.join(key, type_)
+            reader.frame.assigned.add(text_of(target))
+            if isinstance(meaning, Message):
+                yield from body_messages.made(reader, meaning, value)
+        case Var():
+            yield from _variable(reader, meaning, target, value, node)
+        case Message(server="") if path:
+            yield from _field(reader, meaning, path, value, node)
+        case Message(key):
+            if path:
+                raise Unread(reader.frame.span(node), "a message that came in is changed")
+            reader.reading.learnt.join(key, OTHER)
+            outside(reader, value, node)
+        case _:
+            outside(reader, value, node)
+
+
+def outside(reader: PyStatements, value: Node, node: Node) -> None:
+    """A value that goes where the model has nothing."""
+    if is_harmless(reader.reading, value, reader.frame):
+        return
+    raise Unread(reader.frame.span(node), f'what "{short(value)}" does is not known')
+
+
+def _variable(
+    reader: PyStatements, variable: Var, target: Node, value: Node, node: Node
+) -> Iterator[m.Statement]:
+    try:
+        read = reader.expressions.read(value)
+    except Unknown:
+        reader.reading.learnt.join(variable.key, OTHER)
+        outside(reader, value, node)
+        return
+    yield from give(reader, variable, text_of(target), read, node)
+
+
+def give(
+    reader: PyStatements, variable: Var, local: str, read: Value, node: Node
+) -> Iterator[m.Statement]:
+    """A variable gets a value."""
+    reader.reading.learnt.join(variable.key, read.kind)
+    if read.mixed and variable.key not in reader.reading.learnt.mixed:
+        reader.reading.learnt.mixed.add(variable.key)
+        reader.reading.learnt.changes += 1
+    kind = reader.reading.learnt.kinds[variable.key]
+    if kind == OTHER:
+        if not is_calm(read.expression):
+            raise Unread(reader.frame.span(node), "its value has effects, and it is of no type")
+        return
+    stored = read.expression
+    if kind == REAL:
+        stored = reader.expressions.real(read, node)
+    elif kind == WHOLE:
+        reader.reading.wide.add(variable.name)
+        reader.reading.places[variable.name] = reader.frame.py.source, reader.frame.span(node)
+    yield from store(reader, variable.name, TYPES[kind], stored, variable.is_state, local, node)
+
+
+def store(
+    reader: PyStatements,
+    name: str,
+    type_: m.Type,
+    value: m.Expression,
+    is_state: bool,
+    local: str,
+    node: Node,
+) -> Iterator[m.Statement]:
+    """A variable of the model gets a value; a local is declared with its first one."""
+    span = reader.frame.span(node)
+    reader.frame.assigned.add(local)
+    if not is_state and name not in reader.frame.declared:
+        reader.frame.declared.add(name)
+        if not reader.frame.depth:
+            yield declared(name, type_, value)
+            return
+        reader.frame.hoisted[name] = type_
+    yield m.ExpressionStatement(m.Assign("=", m.Name(name), value, span), (), span)
+
+
+def _field(
+    reader: PyStatements, message: Message, path: str, value: Node, node: Node
+) -> Iterator[m.Statement]:
+    fields = reader.reading.types.fields(message.type) or {}
+    type_ = fields.get(path)
+    if type_ is None or type_.dimensions:
+        outside(reader, value, node)
+        for each in fields:
+            if each == path or each.startswith(f"{path}."):
+                reader.reading.learnt.join(field_key(message, each), OTHER)
+        return
+    try:
+        read = reader.expressions.read(value)
+        body_messages.as_field(reader.expressions, read, message.type, path, value)
+    except Unknown:
+        reader.reading.learnt.join(field_key(message, path), OTHER)
+        outside(reader, value, node)
+        return
+    yield from body_messages.set_field(reader, message, path, read, node)
+
+
+def _unpacked(reader: PyStatements, target: Node, value: Node, node: Node) -> Iterator[m.Statement]:
+    """`a, b = 1, 2`: where the values are plain, one after the other."""
+    targets = named(target)
+    values = named(value) if value.type in ("expression_list", "tuple") else []
+    plain = all(v.type in ("integer", "float", "true", "false", "none") for v in values)
+    if len(values) == len(targets) and plain:
+        for one, other in zip(targets, values, strict=True):
+            yield from _assigned(reader, one, other, node)
+        return
+    outside(reader, value, node)
+    for inner in targets:
+        forget(reader, inner)
+
+
+def augmented(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
+    target, value = field(node, "left"), field(node, "right")
+    operator = text_of(field(node, "operator")).removesuffix("=")
+    meaning, path = reader.expressions.meaning(target)
+    try:
+        if not isinstance(meaning, (Var, Message)):
+            raise Unknown(reader.frame.span(node), "it is not in the model")
+        before = reader.expressions.read(target)
+        read = reader.expressions.operation(operator, before, reader.expressions.read(value), node)
+    except Unknown:
+        forget(reader, target)
+        outside(reader, value, node)
+        return
+    if isinstance(meaning, Var):
+        yield from give(reader, meaning, text_of(target), read, node)
+    elif meaning.server:
+        raise Unread(reader.frame.span(node), "a message that came in is changed")
+    else:
+        body_messages.as_field(reader.expressions, read, meaning.type, path, node)
+        yield from body_messages.set_field(reader, meaning, path, read, node)
+
+
+def forget(reader: PyStatements, target: Node) -> None:
+    """A variable gets a value that nobody knows."""
+    if target.type not in ("identifier", "attribute"):
+        for inner in named(target) if target.type.endswith(("list", "tuple", "pattern")) else []:
+            forget(reader, inner)
+        return
+    meaning, path = reader.expressions.meaning(target)
+    match meaning:
+        case Var(key):
+            reader.reading.learnt.join(key, OTHER)
+        case Message(key, _, type_, _, "") if path:
+            for each in reader.reading.types.fields(type_) or {}:
+                if each == path or each.startswith(f"{path}."):
+                    reader.reading.learnt.join(field_key(meaning, each), OTHER)
+        case Message(key):
+            reader.reading.learnt.join(key, OTHER)
+        case _:
+            return
+
+
+def declared(name: str, type_: m.Type, value: m.Expression | None) -> m.Statement:
+    """`type name = value;`"""
+    return m.Local(m.Declaration(type_, (m.Declarator(name, value),)))

@@ -1,0 +1,224 @@
+"""Hand-written nodes in Python as reactive classes, and the rebecs that they are.
+
+All bodies are read again until nothing new is learnt: what kinds of values variables hold, which
+fields of messages are read, and which whole numbers may leave the model's `int`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import field as with_default
+from fractions import Fraction
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.bodies.scope import Target
+from rebsync.reverse.build.message_types import MessageTypes
+from rebsync.reverse.findings import Findings
+from rebsync.reverse.graph import Fact, Graph, RateFact, TimerFact
+from rebsync.reverse.nodes.node_names import Names, class_word
+from rebsync.reverse.nodes.node_servers import Server
+from rebsync.reverse.nodes.node_times import Times
+from rebsync.reverse.nodes.node_units import Start
+from rebsync.reverse.nodes.node_values import Instance
+from rebsync.reverse.nodes.node_wiring import Wiring
+from rebsync.reverse.python.body_classes import PyClass
+from rebsync.reverse.python.body_listing import list_unit, list_wiring
+from rebsync.reverse.python.body_proof import Proved
+from rebsync.reverse.python.body_reading import Reading
+from rebsync.reverse.python.body_scope import OTHER, Learnt, PyTarget, PyUnit
+from rebsync.reverse.python.body_units import names_of, servers_of, units_of, words_of
+from rebsync.reverse.python.py_index import PyCode
+from rebsync.reverse.python.py_values import Values
+
+_MOST_ROUNDS = 60
+
+
+@dataclass(frozen=True, slots=True)
+class PyNodes:
+    """The reactive classes of hand-written Python, and their rebecs."""
+
+    classes: tuple[m.ReactiveClass, ...] = ()
+    rebecs: tuple[m.Rebec, ...] = ()
+    units: tuple[PyUnit, ...] = ()
+    servers: Mapping[str, Mapping[int, Server]] = with_default(default_factory=dict)
+
+
+@dataclass(eq=False, slots=True)
+class PySystem:
+    """Reads the nodes of a package; `second` are the model's units of time in one second."""
+
+    code: PyCode
+    graph: Graph
+    types: MessageTypes
+    unit_of_time: Fraction
+    findings: Findings
+    is_people: Callable[[Fact], bool]
+    only: str | None = None
+
+    def read(self) -> PyNodes:
+        """All of them; what has no place in the model is listed."""
+        values = Values(self.code)
+        units = units_of(values, self.graph, self.is_people)
+        if not units:
+            return PyNodes()
+        names = Names.beside(())
+        classes = {u.name: names.give(u.name if u.lineage else class_word(u.name)) for u in units}
+        instances = []
+        for unit in units:
+            alone = sum(u.node == unit.node for u in units) == 1 or not unit.lineage
+            wish = unit.node if alone else unit.lineage[0].name
+            wish = wish[:1].lower() + wish[1:]
+            instances.append(Instance(Start(unit.unit, None, None), names.give(wish), unit.node))
+        servers = {u.name: servers_of(self.code, u, Names.beside(())) for u in units}
+        wiring = Wiring(
+            tuple(instances),
+            {n: tuple({s.name: s for s in of.values()}.values()) for n, of in servers.items()},
+        )
+        times = Times.of(self.unit_of_time, instances)
+        round_ = _Round(self, values, units, wiring, servers, classes, times)
+        read = round_.settled()
+        wanted = [u for u in units if self._is_wanted(u)]
+        found = []
+        for unit in wanted:
+            read[unit.name].note()
+            found.append(read[unit.name].reactive(classes[unit.name], round_.known(unit)))
+            list_unit(unit, servers[unit.name], len(read[unit.name].loops), self.findings)
+        list_wiring(wiring, {u.name for u in wanted}, self.findings)
+        rebecs = tuple(round_.rebec(u) for u in units)
+        return PyNodes(tuple(found), rebecs, tuple(units), servers)
+
+    def _is_wanted(self, unit: PyUnit) -> bool:
+        return self.only in (None, unit.module.py.source.path)
+
+
+@dataclass(eq=False, slots=True)
+class _Round:
+    """Reads all units over and over."""
+
+    system: PySystem
+    values: Values
+    units: Sequence[PyUnit]
+    wiring: Wiring
+    servers: Mapping[str, dict[int, Server]]
+    classes: Mapping[str, str]
+    times: Times
+    learnt: Learnt = with_default(default_factory=Learnt)
+
+    def settled(self) -> dict[str, PyClass]:
+        """The units as they are read when nothing changes any more."""
+        for _ in range(_MOST_ROUNDS):
+            before = self.learnt.changes
+            self.learnt.pending.clear()
+            read = {u.name: self._read(u, Findings()) for u in self.units}
+            if self.learnt.changes != before:
+                continue
+            waiting = {k for k in self.learnt.pending if k not in self.learnt.kinds}
+            for key in waiting:
+                self.learnt.join(key, OTHER)
+            if not waiting and not self._refuse(read):
+                break
+        found = {}
+        for unit in self.units:
+            wanted = self.system._is_wanted(unit)
+            findings = self.system.findings if wanted else Findings()
+            found[unit.name], proof = self._read(unit, findings)
+            self._note_counted(found[unit.name], proof)
+        return found
+
+    def _refuse(self, read: Mapping[str, tuple[PyClass, Proved]]) -> bool:
+        """Takes note of what may leave the model's `int`; whether there is anything new."""
+        before = self.learnt.changes
+        for class_, proof in read.values():
+            for mark in proof.failed:
+                self.learnt.refuse(mark)
+            for name in proof.broken:
+                reading = class_.reading
+                key = reading.state.get(name) or reading.keys.get(name)
+                if key is not None:
+                    self.learnt.join(key, OTHER)
+        return self.learnt.changes != before
+
+    def _read(self, unit: PyUnit, findings: Findings) -> tuple[PyClass, Proved]:
+        reading = self._reading(unit, findings)
+        class_ = PyClass(reading)
+        return class_, class_.read()
+
+    def _reading(self, unit: PyUnit, findings: Findings) -> Reading:
+        known = self.known(unit)
+        own = self.servers[unit.name]
+        taken = names_of(self.values.code, unit)
+        instance = self._instance(unit)
+        return Reading(
+            unit,
+            self.values,
+            self.learnt,
+            self.system.types,
+            instance,
+            own,
+            self._targets(unit, instance, known),
+            findings,
+            taken,
+            dict(self._periods(unit, instance, findings)),
+            self.system.unit_of_time,
+            used_names={n for n, _ in known} | {s.name for s in own.values()},
+        )
+
+    def _periods(
+        self, unit: PyUnit, instance: Instance, findings: Findings
+    ) -> Iterator[tuple[int, int | None]]:
+        for number, fact in enumerate(unit.unit.facts):
+            if isinstance(fact, TimerFact | RateFact):
+                yield number, self.times.units(fact, [instance], findings, unit.name)
+
+    def _note_counted(self, class_: PyClass, proof: Proved) -> None:
+        for name in sorted(proof.counted):
+            if name in class_.reading.places:
+                source, span = class_.reading.places[name]
+                why = f'"{name}" counts on without end; the model\'s int ends at 2147483647'
+                class_.reading.findings.approximated(
+                    source, span, why, within=class_.reading.unit.name
+                )
+
+    # --- wiring ---------------------------------------------------------------------------------
+
+    def _instance(self, unit: PyUnit) -> Instance:
+        return next(i for i in self.wiring.instances if i.start.unit is unit.unit)
+
+    def known(self, unit: PyUnit) -> list[tuple[str, str]]:
+        """Names and classes of the rebecs that a class sends to."""
+        taken = words_of(unit) | {s.name for s in self.servers[unit.name].values()}
+        names = Names.beside(())
+        found = []
+        for place in self.wiring.known(self._instance(unit)):
+            to = self.wiring.instances[place]
+            wish = to.name if to.name not in taken else f"{to.name}_rebec"
+            found.append((names.give(wish), self.classes[to.start.unit.name]))
+        return found
+
+    def _targets(
+        self, unit: PyUnit, instance: Instance, known: Sequence[tuple[str, str]]
+    ) -> dict[int, tuple[PyTarget, ...]]:
+        own = self.wiring.place(instance)
+        slots = self.wiring.known(instance)
+        found: dict[int, list[PyTarget]] = {}
+        for number, to, name in self.wiring.edges[instance.name]:
+            other = self.wiring.instances[to].start.unit.name
+            server = next(s for s in self.servers[other].values() if s.name == name)
+            types = self.system.types.fields(server.type or "") or {}
+            used = self.learnt.used.get((other, name), set())
+            paths = tuple(
+                p
+                for p, t in types.items()
+                if p in used and t is not None and (other, name, p) not in self.learnt.open
+            )
+            receiver = None if to == own else known[slots.index(to)][0]
+            target = Target(receiver, name, paths)
+            found.setdefault(number, []).append(PyTarget(other, target, {}))
+        return {n: tuple(t) for n, t in found.items()}
+
+    def rebec(self, unit: PyUnit) -> m.Rebec:
+        """The rebec of a unit."""
+        instance = self._instance(unit)
+        bindings = [m.Name(self.wiring.instances[n].name) for n in self.wiring.known(instance)]
+        return m.Rebec(m.Type(self.classes[unit.name]), instance.name, tuple(bindings), ())

@@ -1,0 +1,138 @@
+"""Functions that a client library calls for other reasons than messages, timers, and services.
+
+Each entry names a call of rospy, actionlib, rclpy, or of what they are used with, and the arguments
+that are called later: their places in order and their names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reverse.graph import Callback, Callbacks, Place
+from rebsync.reverse.python.py_callbacks import callbacks_of
+from rebsync.reverse.python.py_index import PyCode, Scope, arguments_of
+from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.reverse.python.py_values import Values
+from rebsync.reverse.python.py_worth import Class, External, Function, Module
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """The arguments of a call that are called later.
+
+    `of` are the modules that have the function; empty for a method, whose object is not looked at
+    unless its class is in the files.
+    """
+
+    places: tuple[int, ...]
+    names: tuple[str, ...]
+    of: tuple[str, ...] = ()
+
+
+_DONE = ("done_cb", "active_cb", "feedback_cb")
+_EVENTS = ("deadline", "liveliness", "matched", "incompatible_type", "incompatible_qos")
+_IN_EVENTS = ("rclpy.event_handler", "rclpy.qos_event")
+
+ENTRIES: dict[str, tuple[Entry, ...]] = {
+    "on_shutdown": (
+        Entry((0,), ("h",), ("rospy",)),
+        Entry((0,), ("callback",)),
+    ),
+    "add_on_set_parameters_callback": (Entry((0,), ("callback",)),),
+    "add_pre_set_parameters_callback": (Entry((0,), ("callback",)),),
+    "add_post_set_parameters_callback": (Entry((0,), ("callback",)),),
+    "set_parameters_callback": (Entry((0,), ("callback",)),),
+    "SimpleActionServer": (Entry((2,), ("execute_cb",), ("actionlib",)),),
+    "ActionServer": (
+        Entry((2, 3), ("goal_cb", "cancel_cb"), ("actionlib",)),
+        Entry(
+            (3,),
+            (
+                *("execute_callback", "goal_callback", "handle_accepted_callback"),
+                "cancel_callback",
+            ),
+            ("rclpy.action",),
+        ),
+    ),
+    "register_goal_callback": (Entry((0,), ("cb",)),),
+    "register_preempt_callback": (Entry((0,), ("cb",)),),
+    "register_execute_callback": (Entry((0,), ("execute_callback",)),),
+    "register_cancel_callback": (Entry((0,), ("cancel_callback",)),),
+    "register_handle_accepted_callback": (Entry((0,), ("handle_accepted_callback",)),),
+    "send_goal": (Entry((1, 2, 3), _DONE),),
+    "send_goal_async": (Entry((1,), ("feedback_callback",)),),
+    "add_done_callback": (Entry((0,), ("callback",)),),
+    "PublisherEventCallbacks": (Entry((), (*_EVENTS, "liveliness_lost"), _IN_EVENTS),),
+    "SubscriptionEventCallbacks": (Entry((), (*_EVENTS, "message_lost"), _IN_EVENTS),),
+    "create_guard_condition": (Entry((0,), ("callback",)),),
+    "Server": (Entry((1,), ("callback",), ("dynamic_reconfigure.server",)),),
+}
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Hook:
+    """A call that hands functions over: `name` is what is called, `within` where it stands."""
+
+    name: str
+    place: Place
+    within: Scope
+    callbacks: Callbacks
+
+    @property
+    def functions(self) -> str:
+        """The functions by their names, as far as they have any."""
+        named = (c.name or "lambda" for c in self.callbacks if isinstance(c, Callback))
+        return ", ".join(named)
+
+
+def hooks_in(code: PyCode) -> Iterator[Hook]:
+    """All such calls that hand over something, file by file in the order of the text."""
+    calls = [(call, scope) for name in ENTRIES for call, scope in code.by_callee.get(name, ())]
+    values = Values(code)
+    for call, scope in sorted(calls, key=lambda c: (c[1].py.source.path, c[0].start_byte)):
+        hook = _hook(values, call, scope)
+        if hook is not None:
+            yield hook
+
+
+def _hook(values: Values, call: Node, scope: Scope) -> Hook | None:
+    called = field(call, "function")
+    word = field(called, "attribute") if called.type == "attribute" else called
+    entry = _entry(values, text_of(word), called, scope)
+    if entry is None:
+        return None
+    given = _given(entry, call)
+    if not given:
+        return None
+    callbacks = tuple(c for node in given for c in callbacks_of(values, node, scope))
+    return Hook(text_of(word), Place(scope.py.source, scope.py.span(word)), scope, callbacks)
+
+
+def _given(entry: Entry, call: Node) -> list[Node]:
+    """The arguments that are called later, None left out."""
+    plain, keywords = arguments_of(call)
+    given = [plain[at] for at in entry.places if at < len(plain)]
+    given += [keywords[name] for name in entry.names if name in keywords]
+    return [node for node in given if node.type != "none"]
+
+
+def _entry(values: Values, name: str, called: Node, scope: Scope) -> Entry | None:
+    """The entry that a call is of: by the module of a function, by the name of a method."""
+    entries = ENTRIES[name]
+    ways = values.ways(called, scope)
+    for value in ways:
+        if isinstance(value, External):
+            module = value.name.rpartition(".")[0]
+            for entry in entries:
+                if any(module == of or module.startswith(f"{of}.") for of in entry.of):
+                    return entry
+    if called.type != "attribute" or any(isinstance(v, (Function, Class)) for v in ways):
+        return None
+    holder = field(called, "object")
+    is_known = any(isinstance(h, (External, Module)) for h in values.ways(holder, scope))
+    if is_known or text_of(holder).startswith("super("):
+        return None
+    return next((e for e in entries if not e.of), None)

@@ -1,0 +1,115 @@
+"""Trees of generated Python in which nothing is left of layout, remarks, types and logging."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+
+from rebsync.reverse.python.log_words import HARMLESS, LOGS
+from rebsync.source import Source, Span
+
+
+def tree_of(source: Source) -> ast.Module | None:
+    """The tree of a text; None where it is no Python."""
+    with suppress(SyntaxError, ValueError, RecursionError):
+        return ast.parse(source.text)
+    return None
+
+
+def span_of(source: Source, node: ast.AST) -> Span:
+    """The place of a node, in characters."""
+    first, column = getattr(node, "lineno", 1), getattr(node, "col_offset", 0)
+    last, end = getattr(node, "end_lineno", first), getattr(node, "end_col_offset", column)
+    lines = source.text.split("\n")
+    starts = [0]
+    for line in lines[: last or first]:
+        starts.append(starts[-1] + len(line) + 1)
+
+    def place(number: int, bytes_: int) -> int:
+        line = lines[number - 1].encode("utf-8")[:bytes_]
+        return starts[number - 1] + len(line.decode("utf-8", "ignore"))
+
+    return Span(place(first, column), place(last, end))
+
+
+def said(body: list[ast.stmt]) -> Iterator[ast.stmt]:
+    """The statements but for texts, logging, and imports for type checkers."""
+    for statement in body:
+        match statement:
+            case ast.Expr(ast.Constant()) | ast.Pass():
+                continue
+            case ast.Expr(ast.Call() as call) if _is_log(call):
+                continue
+            case ast.If(ast.Name("TYPE_CHECKING")):
+                continue
+            case _:
+                yield statement
+
+
+def _is_log(call: ast.Call) -> bool:
+    """Whether a call only logs what is there already."""
+    if LOGS.match(ast.unparse(call.func)) is None:
+        return False
+    inside = [n for a in (*call.args, *call.keywords) for n in ast.walk(a)]
+    calls = (n for n in inside if isinstance(n, ast.Call))
+    return not any(isinstance(n, ast.NamedExpr | ast.Await | ast.Yield) for n in inside) and all(
+        ast.unparse(c.func).rpartition(".")[2] in HARMLESS for c in calls
+    )
+
+
+class _Plain(ast.NodeTransformer):
+    """Takes types out, and calls names as they are in another tree."""
+
+    def __init__(self, names: Mapping[str, str]) -> None:
+        self.names = names
+
+    def visit_Name(self, node: ast.Name) -> ast.AST:
+        return ast.Name(self.names.get(node.id, node.id), node.ctx)
+
+    def visit_arg(self, node: ast.arg) -> ast.AST:
+        return ast.arg(self.names.get(node.arg, node.arg), None)
+
+    def visit_AnnAssign(self, node: ast.AnnAssign) -> ast.AST:
+        self.generic_visit(node)
+        if node.value is None:
+            return ast.Pass()
+        made = ast.Assign([node.target], node.value, lineno=node.lineno)
+        return ast.copy_location(made, node)
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
+        node.returns = None
+        node.body = list(said(node.body)) or [ast.Pass()]
+        self.generic_visit(node)
+        return node
+
+
+def without_types(tree: ast.Module) -> ast.Module:
+    """The same tree, which changes for that."""
+    found = _Plain({}).visit(tree)
+    assert isinstance(found, ast.Module)
+    return found
+
+
+def plain(node: ast.AST, names: Mapping[str, str] | None = None) -> str:
+    """What a tree says in one line, or several for a function."""
+    copied = ast.parse(ast.unparse(node))
+    return ast.unparse(_Plain(names or {}).visit(copied))
+
+
+def bindings(tree: ast.Module) -> dict[str, tuple[str, ast.stmt]]:
+    """What the imports of a module bring: by name what it is of, and the statement."""
+    found: dict[str, tuple[str, ast.stmt]] = {}
+    for statement in tree.body:
+        match statement:
+            case ast.Import(names):
+                for each in names:
+                    bound = each.asname or each.name.partition(".")[0]
+                    found[bound] = each.name, statement
+            case ast.ImportFrom(module, names, level):
+                for each in names:
+                    of = f"{'.' * level}{module or ''}.{each.name}"
+                    found[each.asname or each.name] = of, statement
+            case _:
+                pass
+    return found

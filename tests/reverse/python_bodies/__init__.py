@@ -1,0 +1,1 @@
+"""Bodies of nodes that people could have written in Python, as models."""

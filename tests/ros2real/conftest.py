@@ -1,0 +1,72 @@
+"""What the tests on a real ROS 2 share: packages that colcon has built."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from tests.ros1.conftest import shared
+from tests.ros1.recording import Recording
+from tests.ros1.run import Clock
+from tests.ros2.launching import launched
+from tests.ros2real.running import run
+from tests.ros2real.workspace import Workspace, build, missing_ros2
+
+_HERE = Path(__file__).parent
+DIALECTS = ("ros2-cpp", "ros2-py")
+
+Builder = Callable[[Path, str], Workspace]
+Play = Callable[[Path, str, Clock], Recording]
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark what is here; skip it, loudly, where no ROS 2 is sourced: Debian has none."""
+    reason = missing_ros2()
+    for item in items:
+        if _HERE not in item.path.parents:
+            continue
+        item.add_marker(pytest.mark.ros2)
+        # On a busy machine real nodes may be too late for the clock of a test: it is tried again.
+        item.add_marker(pytest.mark.flaky(reruns=2))
+        if reason is not None:
+            item.add_marker(pytest.mark.skip(reason=reason))
+
+
+@pytest.fixture(scope="session")
+def build_real(tmp_path_factory: pytest.TempPathFactory) -> Builder:
+    """Builds the packages in a folder in a workspace of the given name.
+
+    REBSYNC_ROS_WORKSPACE names a directory that keeps workspaces from run to run.
+    """
+    kept = os.environ.get("REBSYNC_ROS_WORKSPACE")
+    root = Path(kept) if kept else shared(tmp_path_factory)
+    return lambda folder, name: build(folder, root / "ros2" / name)
+
+
+@pytest.fixture(scope="session")
+def play_real(build_real: Builder, tmp_path_factory: pytest.TempPathFactory) -> Play:
+    """Builds the package in a folder, of a dialect, and runs its launch file."""
+
+    def play(folder: Path, dialect: str, clock: Clock) -> Recording:
+        name = folder.name
+        workspace = build_real(folder, f"{name}_{dialect}")
+        package = folder / name if dialect == "ros2-py" else folder
+        nodes = launched(package)
+        rebecs = [n.name for n in nodes if "mailbox.rebecs" in n.parameters]
+        launch = workspace.root / "install/share" / name / "launch" / f"{name}.launch.py"
+        names = [f"/{n.name}" for n in nodes]
+        directory = tmp_path_factory.mktemp(name)
+        return run(workspace, launch, names, rebecs, directory, followed(clock, dialect))
+
+    return play
+
+
+def followed(clock: Clock, dialect: str) -> Clock:
+    """The clock, no faster than the nodes of a dialect can follow."""
+    if dialect != "ros2-py" or clock.rate is None:
+        return clock
+    return replace(clock, rate=min(clock.rate, 4.0), step=max(clock.step, 0.02))

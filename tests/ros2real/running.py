@@ -1,0 +1,41 @@
+"""Runs launch files with a real `ros2 launch`, and records what happens."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from tests.ros1.recording import Recording
+from tests.ros1.run import Clock, launched, record
+from tests.ros2real.workspace import Workspace
+
+_RECORDER = Path(__file__).parent / "nodes" / "recorder.py"
+_WRAPPER = """
+from launch import LaunchDescription
+from launch.actions import IncludeLaunchDescription
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch_ros.actions import SetParameter
+
+
+def generate_launch_description():
+    system = IncludeLaunchDescription(PythonLaunchDescriptionSource({launch!r}))
+    return LaunchDescription([SetParameter("use_sim_time", {simulated}), system])
+"""
+
+
+def run(
+    workspace: Workspace,
+    launch: Path,
+    nodes: Sequence[str],
+    rebecs: Sequence[str],
+    directory: Path,
+    clock: Clock,
+) -> Recording:
+    """Run a launch file to the end of `clock`; `nodes` are its nodes by their full names."""
+    wrapper = directory / "wrapper.launch.py"
+    simulated = clock.rate is not None
+    wrapper.write_text(_WRAPPER.format(launch=str(launch), simulated=simulated))
+    environment = workspace.environment(directory)
+    facts = {"nodes": list(nodes), "rebecs": list(rebecs)}
+    with launched(["ros2", "launch", str(wrapper)], directory, environment) as stop:
+        return record(_RECORDER, facts, clock, directory, environment, stop)

@@ -1,0 +1,54 @@
+"""The examples on a real ROS 2: what their nodes do is what their models mean."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from tests.ros1 import test_examples as behaviour
+from tests.ros1.run import Clock
+from tests.ros1.test_examples import (
+    Example,
+    test_a_rebec_is_busy_until_its_body_ends,
+    test_each_rebec_serves_what_the_model_says,
+    test_every_message_is_served,
+    test_invariants_hold_in_every_state,
+    test_no_message_is_taken_before_it_arrives,
+    test_nothing_is_lost_at_the_start,
+    test_nothing_is_reported,
+    test_robots_keep_apart,
+    test_the_run_ends_in_the_state_of_the_model,
+    test_the_run_gets_somewhere,
+    test_the_unsafe_robots_collide,
+    test_velocities_take_every_robot_to_its_cells,
+)
+from tests.ros2real.conftest import DIALECTS, Play
+
+__all__ = [
+    "test_a_rebec_is_busy_until_its_body_ends",
+    "test_each_rebec_serves_what_the_model_says",
+    "test_every_message_is_served",
+    "test_invariants_hold_in_every_state",
+    "test_no_message_is_taken_before_it_arrives",
+    "test_nothing_is_lost_at_the_start",
+    "test_nothing_is_reported",
+    "test_robots_keep_apart",
+    "test_the_run_ends_in_the_state_of_the_model",
+    "test_the_run_gets_somewhere",
+    "test_the_unsafe_robots_collide",
+    "test_velocities_take_every_robot_to_its_cells",
+]
+
+
+@pytest.fixture(scope="module", params=[f"{n}-{d}" for n in behaviour.NAMES for d in DIALECTS])
+def example(
+    request: pytest.FixtureRequest, play_real: Play, tmp_path_factory: pytest.TempPathFactory
+) -> Example:
+    name, _, dialect = str(request.param).partition("-")
+    expected = json.loads((behaviour.EXPECTED / f"{name}.json").read_text())
+    folder = tmp_path_factory.mktemp("packages")
+    package = behaviour.example_package(behaviour.EXAMPLES / name, dialect, folder)
+    rate = expected.get("rate", behaviour.SLOW)
+    clock = Clock(until=expected["until"] + 0.5, quiet=behaviour.QUIET, rate=rate)
+    return Example(name, expected, play_real(package, dialect, clock))

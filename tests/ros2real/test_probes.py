@@ -1,0 +1,108 @@
+"""Mailbox, drive and start-up of rclpy packages on a real ROS 2, by rebecs that run scripts."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from rebsync.config import Config
+from rebsync.forward.templating import fill
+from tests.forward.compiling import generated, written
+from tests.ros1.probes import Player, Rebec
+from tests.ros1.recording import Recording
+from tests.ros1.run import Clock
+from tests.ros1.test_startup import (
+    test_a_missing_node_is_named,
+    test_a_node_that_is_only_waited_for_is_named,
+    test_a_rebec_that_starts_again_is_named,
+)
+from tests.ros2py.conftest import probe_nodes, write_probe
+from tests.ros2py.test_drive import *  # noqa: F403 - the same tests, on the probe below
+from tests.ros2py.test_mailbox import *  # noqa: F403
+from tests.ros2py.test_startup import *  # noqa: F403
+from tests.ros2py.world import Launched
+from tests.ros2real.conftest import Builder, followed
+from tests.ros2real.running import run
+from tests.ros2real.workspace import Workspace
+
+__all__ = [
+    "test_a_missing_node_is_named",
+    "test_a_node_that_is_only_waited_for_is_named",
+    "test_a_rebec_that_starts_again_is_named",
+]
+
+_DIALECT = "ros2-py"
+_MESSAGES = ("Note", "ScriptState", "Timing")
+_MODEL = "reactiveclass Script(3) { Script() { } } main { Script s():(); }"
+_MAIN = "from probe.script import main\n\n__all__ = ['main']\n"
+_HEAD = """
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([
+"""
+
+
+@dataclass(frozen=True)
+class _Real:
+    """Plays with an installed package, each time in a folder of its own."""
+
+    workspace: Workspace
+    factory: pytest.TempPathFactory
+
+    def play(
+        self,
+        rebecs: Mapping[str, Rebec],
+        clock: Clock,
+        parameters: Mapping[str, Any],
+        names: Sequence[str],
+    ) -> Recording:
+        """Run rebecs of which each knows all the names, until the clock's end."""
+        folder = self.factory.mktemp("play")
+        nodes = probe_nodes(rebecs, parameters, names)
+        launch = folder / "probe.launch.py"
+        texts = [_node(node, rebecs[node.name], folder) for node in nodes]
+        launch.write_text(f"{_HEAD}{''.join(texts)}    ])\n")
+        told = nodes[0].parameters["mailbox.rebecs"]
+        assert isinstance(told, list)
+        expected = [rebec for rebec in told if rebec]
+        present = [f"/{node.name}" for node in nodes]
+        followed_clock = followed(clock, _DIALECT)
+        return run(self.workspace, launch, present, expected, folder, followed_clock)
+
+
+def _node(node: Launched, rebec: Rebec, folder: Path) -> str:
+    """A node in the launch file; its parameters are in a file, where no text is read as YAML."""
+    file = folder / f"{node.name}.yaml"
+    file.write_text(yaml.safe_dump({"/**": {"ros__parameters": dict(node.parameters)}}))
+    prefix = f'sh -c \'sleep {rebec.wait}; exec "$0" "$@"\''
+    return (
+        f"        Node(package='probe', executable='script_node', name={node.name!r},\n"
+        f"             parameters=[{str(file)!r}], remappings={list(node.remaps.items())!r},\n"
+        f"             prefix={prefix!r}, respawn={rebec.respawn}, output='screen'),\n"
+    )
+
+
+@pytest.fixture(scope="module")
+def probe(build_real: Builder, tmp_path_factory: pytest.TempPathFactory) -> Player:
+    """The package whose rebecs run scripts, with the run-time part as it is now."""
+    config = Config(target=_DIALECT)
+    folder = written(
+        *(generated(_MODEL, "probe", config), tmp_path_factory.mktemp("probe"), "probe", config)
+    )
+    shutil.rmtree(folder / "probe_interfaces" / "msg")
+    write_probe(folder / "probe" / "probe", folder / "probe_interfaces")
+    (folder / "probe" / "probe" / "script_node.py").write_text(_MAIN)
+    build_file = folder / "probe_interfaces" / "CMakeLists.txt"
+    build_file.write_text(
+        fill("ros2_py/CMakeLists.txt.j2", package="probe_interfaces", messages=_MESSAGES)
+    )
+    return _Real(build_real(folder, "probe"), tmp_path_factory)

@@ -1,0 +1,79 @@
+"""What `rebsync check` says of packages in Python, and of those of two languages."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from rebsync.roundtrip.verdict import Verdict
+from tests.roundtrip.python.packages import (
+    MIXED,
+    MODELS,
+    checked,
+    classes_without_ancestors,
+    made,
+    python_of,
+    told,
+)
+
+FRESH = [
+    (name, target)
+    for name in MODELS
+    for target in ("ros1-py", "ros2-py", MIXED)
+    if target != MIXED or len(classes_without_ancestors(name)) > 1
+]
+
+
+@pytest.fixture(autouse=True)
+def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("REBSYNC_CACHE", str(tmp_path / ".cache"))
+
+
+@pytest.mark.parametrize(("name", "target"), FRESH)
+def test_fresh_packages_are_in_step(name: str, target: str, tmp_path: Path) -> None:
+    root = made(name, target, tmp_path)
+    assert checked(root).drift is None, "digests tell it"
+    for path in python_of(root):
+        path.write_text(path.read_text(encoding="utf-8") + "# a remark\n", encoding="utf-8")
+    found = checked(root)
+    assert told(found) == []
+    assert found.drift is not None
+    assert found.drift.verdict is Verdict.IN_STEP, found.drift.differences
+
+
+PLAIN = """\
+reactiveclass Counter(3) {
+  statevars { int a; float f; }
+  Counter() { self.run(); }
+  msgsrv run() {
+    int i;
+    a += 1;
+    f = 1.5f;
+    for (int k = 0; k < 3; k++) { a = a + k; }
+    for (i = 0; i < 3; i += 1) a--;
+    if (a > 3) for (int k = 5; k > 3; --k) { a = a - k; } else { self.a = 1; }
+    int b = ++a;
+    a = (b += 1);
+    self.run() after(1);
+  }
+}
+main { Counter c():(); }
+"""
+
+
+@pytest.mark.parametrize("target", ["ros1-py", "ros2-py"])
+def test_what_python_does_not_show_is_no_difference(target: str, tmp_path: Path) -> None:
+    root = made("counter", target, tmp_path, PLAIN)
+    (path,) = (p for p in python_of(root) if p.name == "counter.py")
+    path.write_text(path.read_text(encoding="utf-8") + "# a remark\n", encoding="utf-8")
+    found = checked(root)
+    assert found.drift is not None
+    assert found.drift.verdict is Verdict.IN_STEP, (found.drift.differences, told(found))
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace("1.5", "2.5"), encoding="utf-8")
+    found = checked(root)
+    assert found.drift is not None
+    assert found.drift.verdict is Verdict.CODE_AHEAD
+    ((difference, _),) = found.drift.differences
+    assert str(difference.element) == "msgsrv Counter.run"
