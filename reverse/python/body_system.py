@@ -23,7 +23,7 @@ from rebsync.reverse.nodes.node_units import Start
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.nodes.node_wiring import Wiring
 from rebsync.reverse.python.body_classes import PyClass
-from rebsync.reverse.python.body_listing import list_unit, list_wiring
+from rebsync.reverse.python.body_listing import list_shared, list_unit, list_wiring
 from rebsync.reverse.python.body_proof import Proved
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import OTHER, Learnt, PyTarget, PyUnit
@@ -84,6 +84,8 @@ class PySystem:
             read[unit.name].note()
             found.append(read[unit.name].reactive(classes[unit.name], round_.known(unit)))
             list_unit(unit, servers[unit.name], len(read[unit.name].loops), self.findings)
+        readings = {u.name: read[u.name].reading for u in wanted}
+        list_shared(wanted, readings, self.findings)
         list_wiring(wiring, {u.name for u in wanted}, self.findings)
         rebecs = tuple(round_.rebec(u) for u in units)
         return PyNodes(tuple(found), rebecs, tuple(units), servers)
@@ -148,6 +150,7 @@ class _Round:
             taken,
             dict(self._periods(unit, instance, findings)),
             self.system.unit_of_time,
+            frozenset(s for u in self.units for s in u.lineage),
             used_names={n for n, _ in known} | {s.name for s in own.values()},
         )
 
