@@ -109,12 +109,11 @@ def extract(
         ).read()
     if system is not None and only is None and (read or nodes.classes):
         system.note(findings)
-    python = _python(files, findings, only, package)
+    python = _python(files, findings, only, package, launch)
     if python is not None:
         read = (*read, *python.classes)
-    made = _System(code, classes, read, launch if only is None else None, started, python)
-    if python is not None:
         nodes = nodes.beside(python.nodes.classes, python.nodes.rebecs)
+    made = _System(code, classes, read, launch if only is None else None, started, python)
     main = _main(made, nodes, only is not None and len(files) > 1)
     model = m.Model(tuple(made.heads() if read else ()), (*read, *nodes.classes), main)
     statements = tuple(findings.statements.items())
@@ -123,7 +122,11 @@ def extract(
 
 
 def _python(
-    files: Mapping[str, Source], findings: Findings, only: str | None, package: str
+    files: Mapping[str, Source],
+    findings: Findings,
+    only: str | None,
+    package: str,
+    launch: Launch | None,
 ) -> PythonPart | None:
     """What the files of Python say; what of them is not in the model is listed."""
     sources = {path: source for path, source in files.items() if is_python(path, source)}
@@ -132,7 +135,7 @@ def _python(
     from rebsync.reverse.python.recovery import read_python
 
     messages = {t.rpartition("/")[2]: tuple(f) for t, f in own_messages(files).items()}
-    return read_python(sources, findings, only, messages, files, package)
+    return read_python(sources, findings, only, messages, files, package, launch)
 
 
 def _main(generated: _System, nodes: Nodes, is_part: bool) -> m.Main | None:

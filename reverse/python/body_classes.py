@@ -12,6 +12,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.made_locals import tidied
 from rebsync.reverse.bodies.proving import Interval
+from rebsync.reverse.bodies.rewriting import rewritten
 from rebsync.reverse.graph import SubscriptionFact, TimerFact
 from rebsync.reverse.nodes.node_bodies import takes_time, without_end
 from rebsync.reverse.nodes.node_names import Names
@@ -19,6 +20,7 @@ from rebsync.reverse.nodes.node_servers import Carried, Server
 from rebsync.reverse.nodes.node_starts import started_late
 from rebsync.reverse.nodes.node_tidying import tidy
 from rebsync.reverse.python.body_loops import Loop
+from rebsync.reverse.python.body_messages import PROBE
 from rebsync.reverse.python.body_methods import without_returns
 from rebsync.reverse.python.body_proof import Bodies, Proved, proved
 from rebsync.reverse.python.body_reading import Reading
@@ -168,7 +170,7 @@ class PyClass:
         """The class of the model, of known rebecs by their names and classes."""
         variables = self._types()
         names = Names(set(variables) | {s.name for s in self.served} | {n for n, _ in known})
-        begun = m.Block(tidied(self.constructor, self.reading.made))
+        begun = m.Block(tidied(_shown(self.constructor), self.reading.made))
         body, late, more = started_late(tidy(begun, variables), (), names)
         variables |= more
         servers = [*late, *(self._as_server(s, variables) for s in self.served)]
@@ -186,7 +188,7 @@ class PyClass:
         )
 
     def _as_server(self, served: Served, variables: Mapping[str, m.Type]) -> m.MessageServer:
-        body = tidy(m.Block(tidied(served.statements, self.reading.made)), variables)
+        body = tidy(m.Block(tidied(_shown(served.statements), self.reading.made)), variables)
         parameters = tuple(m.Parameter(c.type, c.name) for c in served.parameters)
         py = self.reading.unit.module.py
         if served.node is None:
@@ -234,6 +236,25 @@ def _leaving(statement: m.Statement, again: m.Statement) -> m.Statement:
             return replace(statement, then=_leaving(then, again), otherwise=other)
         case _:
             return statement
+
+
+def _shown(statements: tuple[m.Statement, ...]) -> tuple[m.Statement, ...]:
+    """Without what is only looked at."""
+
+    def change(node: object) -> object:
+        if not isinstance(node, m.Block):
+            return node
+        return replace(node, statements=tuple(s for s in node.statements if not _is_probe(s)))
+
+    return rewritten(m.Block(statements), change).statements
+
+
+def _is_probe(statement: m.Statement) -> bool:
+    match statement:
+        case m.ExpressionStatement(_, annotations):
+            return any(a.name == PROBE for a in annotations)
+        case _:
+            return False
 
 
 def _send(server: str, period: int) -> m.Statement:

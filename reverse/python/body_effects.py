@@ -7,16 +7,17 @@ from collections.abc import Iterator
 
 from tree_sitter import Node
 
-from rebsync.reverse.python.body_reading import Reading
+from rebsync.reverse.python.body_reading import Reading, nonlocals
 from rebsync.reverse.python.body_scope import Frame, Message, Own, Var
-from rebsync.reverse.python.py_index import last_name
+from rebsync.reverse.python.py_index import Scope, last_name
 from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.reverse.python.py_worth import Class, Function, Value
 
 # Calls that wait, end the node, or lead to its callbacks: by the last word of what is called.
 _ACTS = re.compile(
     r"sleep|wait|spin|publish|shutdown|exit|_exit|abort|kill|cancel|destroy|start|stop|reset|call"
-    r"|shut|run|exec|eval|unregister|register|setattr|delattr|connect|raise|create_|input|acquire"
-    r"|set_param|signal|send_goal|add_|execute|getch|readline|read\b|recv|accept|join|get_key"
+    r"|shut|run|exec|eval|unregister|register|setattr|delattr|connect|raise|create_(pub|sub|timer|serv|client|rate|node|guard)|input|acquire"
+    r"|set_param|signal|send_goal|add_(node|call|on_|done|list|wait)|execute|getch|readline|read\b|recv|accept|join|get_key"
 )
 _PLAIN = frozenset(
     {"print", "str", "repr", "len", "int", "float", "bool", "abs", "min", "max", "sum", "round"}
@@ -29,6 +30,7 @@ LOG = re.compile(
     r"(rospy\.)?(log(debug|info|warn|err|fatal)(_once|_throttle|_throttle_identical)?)\Z"
     r"|(\w+\.)*(get_logger\(\)|_?logger(_)?|_?log)\.(debug|info|warn|warning|error|fatal)\Z"
 )
+_DEEPEST = 4
 _WORDS = frozenset({"await", "yield", "named_expression"})
 
 
@@ -56,9 +58,55 @@ def _is_one(reading: Reading, node: Node, frame: Frame) -> bool:
     name = last_name(function)
     if reading.fact(node, frame) is not None and not _is_parameter(name):
         return False
-    if reading.function(function, frame) is not None:
+    own = reading.function(function, frame)
+    if own is not None:
+        from rebsync.reverse.python.body_methods import is_still
+
+        return is_still(reading, own)
+    if not all(is_quiet(reading, w) for w in reading.values.ways(function, frame.scope)):
         return False
     return name in _PLAIN or (bool(name) and _ACTS.match(name) is None and _ends(name))
+
+
+def is_quiet(reading: Reading, way: Value, depth: int = 0) -> bool:
+    """Whether a function of the files touches nothing that is a node's, as far as it is seen.
+
+    A method of an object that helps a node may change that object: the model has none of it.
+    """
+    match way:
+        case Class(scope):
+            made = scope.names.get("__init__", [])
+            inner = [reading.code.scope_of(b.node, scope.py) for b in made if b.how == "scope"]
+            is_node = scope in reading.nodes
+            return not is_node and all(is_quiet_body(reading, s, depth) for s in inner)
+        case Function(scope):
+            return scope.owner not in reading.nodes and is_quiet_body(reading, scope, depth)
+        case _:
+            return True
+
+
+def is_quiet_body(reading: Reading, scope: Scope, depth: int) -> bool:
+    """Whether the statements of a function are all so."""
+    if depth > _DEEPEST or scope.outer or nonlocals(scope):
+        return False
+    return all(_is_quiet_node(reading, n, scope, depth) for n in _all(scope.node))
+
+
+def _is_quiet_node(reading: Reading, node: Node, scope: Scope, depth: int) -> bool:
+    if node.type in _WORDS:
+        return False
+    if node.type in ("assignment", "augmented_assignment"):
+        target = field(node, "left")
+        if target.type == "attribute":
+            return text_of(field(target, "object")).partition(".")[0] == scope.self_name
+        return target.type == "identifier" or depth == 0 or "." not in text_of(target)
+    if node.type != "call" or is_log(node):
+        return True
+    name = last_name(field(node, "function"))
+    if not name or (_ACTS.match(name) is not None and name not in _PLAIN) or not _ends(name):
+        return False
+    ways = reading.values.ways(field(node, "function"), scope)
+    return all(is_quiet(reading, w, depth + 1) for w in ways)
 
 
 def _may_divide_by_zero(reading: Reading, node: Node, frame: Frame) -> bool:

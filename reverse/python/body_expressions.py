@@ -16,6 +16,7 @@ from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import body_calls
 from rebsync.reverse.python.body_effects import is_harmless
+from rebsync.reverse.python.body_floats import doubled, is_zero
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import (
     REAL,
@@ -184,7 +185,7 @@ class PyExpressions:
                 self._is_not_zero(right, node)
                 self._is_real(left, right, node)
             sides = self.real(left, node), self.real(right, node)
-            return Value(_doubled(operator, *sides, self._span(node)), REAL)
+            return Value(doubled(operator, *sides, self._span(node)), REAL)
         raise Unread(self._span(node), f'"{operator}" of floats has no like in the model')
 
     def _whole(self, operator: str, left: Value, right: Value, node: Node) -> Value:
@@ -196,7 +197,7 @@ class PyExpressions:
             self._is_real(left, right, node)
             self._is_not_zero(right, node)
             sides = self.real(left, node), self.real(right, node, "right")
-            return Value(_doubled("/", *sides, self._span(node)), REAL)
+            return Value(doubled("/", *sides, self._span(node)), REAL)
         if operator in ("/", "//", "%"):
             return self._divided("%" if operator == "%" else "/", left, right, node)
         if operator in _BITS or operator == ">>":
@@ -235,7 +236,7 @@ class PyExpressions:
                 return
             case m.FloatLiteral() | m.Unary("-", m.FloatLiteral() | m.IntLiteral()):
                 if not any(
-                    isinstance(n, (m.FloatLiteral, m.IntLiteral)) and _is_zero(n)
+                    isinstance(n, (m.FloatLiteral, m.IntLiteral)) and is_zero(n)
                     for n in m.walk(value.expression)
                 ):
                     return
@@ -351,37 +352,8 @@ class PyExpressions:
         return self.frame.span(node)
 
 
-def _doubled(operator: str, left: m.Expression, right: m.Expression, span: Span) -> m.Expression:
-    """An operation of the model with 64 bits: its literals have 32."""
-    if _is_literal(left) and _is_literal(right):
-        left = cast(DOUBLE, left)
-    return binary(operator, left, right, span)
-
-
-def _is_literal(expression: m.Expression) -> bool:
-    match bare(expression):
-        case m.FloatLiteral():
-            return True
-        case m.Unary(_, operand):
-            return _is_literal(operand)
-        case m.Conditional(_, then, otherwise):
-            return _is_literal(then) and _is_literal(otherwise)
-        case m.Choice(options):
-            return all(map(_is_literal, options))
-        case _:
-            return False
-
-
 def _is_float(value: Value) -> bool:
     return value.kind == REAL and not value.mixed
-
-
-def _is_zero(literal: m.FloatLiteral | m.IntLiteral) -> bool:
-    return (
-        not literal.value
-        if isinstance(literal, m.IntLiteral)
-        else not float(literal.text.rstrip("fFdD"))
-    )
 
 
 def is_asked(node: Node) -> bool:

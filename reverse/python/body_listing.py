@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import (
@@ -12,10 +12,17 @@ from rebsync.reverse.graph import (
     ServiceFact,
     SubscriptionFact,
     TimerFact,
+    Unresolved,
 )
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_wiring import Wiring, unfed, unheard
-from rebsync.reverse.python.body_scope import PyUnit
+from rebsync.reverse.python.body_reading import Reading
+from rebsync.reverse.python.body_scope import Key, PyUnit
+from rebsync.reverse.python.py_bindings import Binding
+from rebsync.reverse.python.py_index import Scope
+from rebsync.reverse.python.py_tree import field
+from rebsync.reverse.python.py_worth import Instance as Object
+from rebsync.reverse.python.py_worth import Value
 from rebsync.reverse.unknowns import Open
 
 _OPEN = "add the package that has the receivers, if they matter"
@@ -59,6 +66,61 @@ def _fact(unit: PyUnit, fact: Fact, served: bool, findings: Findings) -> None:
             findings.approximated(place.source, place.span, why, "", unit.name)
         case _:
             return
+
+
+def list_shared(
+    units: Sequence[PyUnit], readings: Mapping[str, Reading], findings: Findings
+) -> None:
+    """What rebecs share in the code, and what sets their state from elsewhere."""
+    users: dict[Key, list[str]] = {}
+    for unit in units:
+        for key in readings[unit.name].state.values():
+            if key[0] in ("module", "local"):
+                users.setdefault(key, []).append(unit.name)
+    for (_, _, name), names in users.items():
+        if len(names) < 2:
+            continue
+        unit = next(u for u in units if u.name == names[0])
+        for binding in unit.module.names.get(name, [])[:1]:
+            why = f'several rebecs of one program share "{name}": in the model each has its own'
+            span = unit.module.py.span(binding.node)
+            findings.unreadable(unit.module.py.source, Unread(span, why), names[0])
+    for unit in units:
+        for scope, binding in _set_elsewhere(unit, readings[unit.name]):
+            why = "this sets what is state of a rebec, in code that is not read"
+            span = scope.py.span(binding.node)
+            findings.unreadable(scope.py.source, Unread(span, why), unit.name)
+    _note_turns(units, findings)
+
+
+def _set_elsewhere(unit: PyUnit, reading: Reading) -> Iterator[tuple[Scope, Binding]]:
+    """The assignments to attributes of the unit's object that its bodies do not have."""
+    own = {key[2] for key in reading.state.values() if key[0] == "self"}
+    code = reading.code
+    for scope in (*code.scopes.values(), *code.modules.values()):
+        for (_, name), bindings in scope.stores.items():
+            if name not in own or scope.node.id in reading.bodies:
+                continue
+            for binding in bindings:
+                target = field(binding.node, "left")
+                holder = target.child_by_field_name("object")
+                ways = reading.values.ways(holder, scope) if holder is not None else ()
+                if any(_is_object(w, unit) for w in ways):
+                    yield scope, binding
+
+
+def _is_object(way: Value, unit: PyUnit) -> bool:
+    return isinstance(way, Unresolved) or (isinstance(way, Object) and way.scope in unit.lineage)
+
+
+def _note_turns(units: Sequence[PyUnit], findings: Findings) -> None:
+    """Nodes of one program that a single thread serves."""
+    for module in dict.fromkeys(u.module for u in units):
+        together = [u for u in units if u.module is module]
+        if len(together) > 1:
+            place = together[1].unit.facts[0].site.place
+            why = "objects of one program may take turns; in the model they act by themselves"
+            findings.approximated(place.source, place.span, why, "", together[1].name)
 
 
 def list_wiring(wiring: Wiring, wanted: Collection[str], findings: Findings) -> None:

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.python.body_statements import PyStatements
 
 _BEYOND = "a number that the field of the message may not hold, which Python refuses"
+PROBE = "probe"  # of statements that are only looked at: they are not in the model
 # The fields of a message that an expression makes: nodes, with what is read there.
 Given = Mapping[str, Node]
 
@@ -122,7 +123,7 @@ def _sends(
         is_name = node.type in ("identifier", "attribute")
         if not targets and not is_name and not is_harmless(reader.reading, node, reader.frame):
             raise Unread(span, "what is published here does more than to give a value")
-    _check(reader, message, type_, given)
+    yield from _checked(reader, message, type_, given)
     read: dict[str, m.Expression] = {}
     for target in targets:
         arguments = []
@@ -135,8 +136,10 @@ def _sends(
         yield m.ExpressionStatement(sent, (), span)
 
 
-def _check(reader: PyStatements, message: Node, type_: str, given: Given | None) -> None:
-    """Fields that nobody gets must hold what they are given as well."""
+def _checked(
+    reader: PyStatements, message: Node, type_: str, given: Given | None
+) -> Iterator[m.Statement]:
+    """Fields that nobody gets must hold what they are given as well: statements to look at."""
     if given is None and reader.reading.message_type(message, reader.frame) is None:
         return
     fields = reader.reading.types.fields(type_) or {}
@@ -146,9 +149,10 @@ def _check(reader: PyStatements, message: Node, type_: str, given: Given | None)
             continue
         try:
             value = field_of(reader.expressions, message, type_, path, given)
-            as_field(reader.expressions, value, type_, path, message)
+            found = as_field(reader.expressions, value, type_, path, message)
         except Unknown:
             continue
+        yield m.ExpressionStatement(found, (m.Annotation(PROBE),))
 
 
 def _is_message(reader: PyStatements, node: Node, type_: str) -> bool:

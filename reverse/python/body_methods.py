@@ -11,7 +11,10 @@ from rebsync import model as m
 from rebsync.reverse.bodies.building import is_calm, negated
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.python.body_effects import is_harmless, is_quiet_body
+from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import Frame, Message, Nobody, Own, Value, Var
+from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import Parameter, Scope, arguments_of
 from rebsync.reverse.python.py_tree import field, named, text_of
@@ -128,6 +131,10 @@ def value_of_method(reader: PyExpressions, own: Scope, call: Node) -> Value:
     """The value of a function that only computes it from what it is given."""
     span = reader.frame.span(call)
     body = body_of(own)
+    if is_still(reader.reading, own):
+        quiet = all(is_harmless(reader.reading, n, reader.frame) for n in _given(call))
+        if quiet and not (len(body) == 1 and body[0].type == "return_statement"):
+            raise Unknown(span, f'the model cannot know what "{own.name}" gives', "")
     if len(body) != 1 or body[0].type != "return_statement" or own.decorators:
         raise Unread(span, f'the value of "{own.name}" is not read')
     inner = Frame(own, server=reader.frame.server)
@@ -145,6 +152,29 @@ def value_of_method(reader: PyExpressions, own: Scope, call: Node) -> Value:
         raise Unread(span, f'the value of "{own.name}" is not read')
     running = (*reader.running, own.node.id)
     return type(reader)(reader.reading, inner, reader.within, running).read(returned[0])
+
+
+def _given(call: Node) -> list[Node]:
+    plain, keywords = arguments_of(call)
+    return [*plain, *keywords.values()]
+
+
+def is_still(reading: Reading, own: Scope) -> bool:
+    """Whether a function of the node changes nothing: it only computes what it gives."""
+    return is_quiet_body(reading, own, 0) and not any(
+        b.how in ("value", "augmented") and scope_of_binding(b, own)
+        for above in reading.unit.lineage
+        for of in above.attributes.values()
+        for b in of
+    )
+
+
+def scope_of_binding(binding: Binding, own: Scope) -> bool:
+    """Whether a binding stands in a function."""
+    return (
+        own.node.start_byte <= binding.node.start_byte
+        and binding.node.end_byte <= own.node.end_byte
+    )
 
 
 # --- early ends ---------------------------------------------------------------------------------

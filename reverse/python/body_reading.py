@@ -51,9 +51,9 @@ from rebsync.source import Source, Span
 class Reading:
     """What all bodies of a unit share in one round of reading.
 
-    `taken` are the names of the code, which locals that the model gets do not have; `stored` the
-    objects whose fields some statement sets; `periods` the periods of timers, in units, by the
-    number of their fact.
+    `taken` are the names of the code, which locals that the model gets do not have; `periods` those
+    of timers, in units, by the number of their fact; `nodes` are the classes of all units, and
+    `bodies` the functions that were read, by the ids of their nodes.
     """
 
     unit: PyUnit
@@ -67,6 +67,8 @@ class Reading:
     taken: set[str]
     periods: Mapping[int, int | None] = with_default(default_factory=dict)
     second: Fraction = Fraction(1)
+    nodes: frozenset[Scope] = frozenset()
+    bodies: set[int] = with_default(default_factory=set)
     needs: dict[int, list[Need]] = with_default(default_factory=dict)
     state: dict[str, Key] = with_default(default_factory=dict)
     wide: set[str] = with_default(default_factory=set)

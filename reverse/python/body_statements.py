@@ -51,6 +51,7 @@ class PyStatements:
 
     def body(self, nodes: Sequence[Node]) -> tuple[m.Statement, ...]:
         """All of a body, behind the locals that it must declare first."""
+        self.reading.bodies.add(self.frame.scope.node.id)
         found = self.statements(nodes)
         first = [
             body_stores.declared(name, type_, None) for name, type_ in self.frame.hoisted.items()

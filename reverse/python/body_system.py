@@ -14,8 +14,9 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.scope import Target
 from rebsync.reverse.build.message_types import MessageTypes
-from rebsync.reverse.findings import Findings
+from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import Fact, Graph, RateFact, TimerFact
+from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.nodes.node_names import Names, class_word
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_times import Times
@@ -23,7 +24,7 @@ from rebsync.reverse.nodes.node_units import Start
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.nodes.node_wiring import Wiring
 from rebsync.reverse.python.body_classes import PyClass
-from rebsync.reverse.python.body_listing import list_unit, list_wiring
+from rebsync.reverse.python.body_listing import list_shared, list_unit, list_wiring
 from rebsync.reverse.python.body_proof import Proved
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import OTHER, Learnt, PyTarget, PyUnit
@@ -55,6 +56,7 @@ class PySystem:
     findings: Findings
     is_people: Callable[[Fact], bool]
     only: str | None = None
+    launch: Launch | None = None
 
     def read(self) -> PyNodes:
         """All of them; what has no place in the model is listed."""
@@ -64,12 +66,7 @@ class PySystem:
             return PyNodes()
         names = Names.beside(())
         classes = {u.name: names.give(u.name if u.lineage else class_word(u.name)) for u in units}
-        instances = []
-        for unit in units:
-            alone = sum(u.node == unit.node for u in units) == 1 or not unit.lineage
-            wish = unit.node if alone else unit.lineage[0].name
-            wish = wish[:1].lower() + wish[1:]
-            instances.append(Instance(Start(unit.unit, None, None), names.give(wish), unit.node))
+        instances = [self._instance(u, units, names) for u in units]
         servers = {u.name: servers_of(self.code, u, Names.beside(())) for u in units}
         wiring = Wiring(
             tuple(instances),
@@ -84,9 +81,26 @@ class PySystem:
             read[unit.name].note()
             found.append(read[unit.name].reactive(classes[unit.name], round_.known(unit)))
             list_unit(unit, servers[unit.name], len(read[unit.name].loops), self.findings)
+        readings = {u.name: read[u.name].reading for u in wanted}
+        list_shared(wanted, readings, self.findings)
         list_wiring(wiring, {u.name for u in wanted}, self.findings)
         rebecs = tuple(round_.rebec(u) for u in units)
         return PyNodes(tuple(found), rebecs, tuple(units), servers)
+
+    def _instance(self, unit: PyUnit, units: Sequence[PyUnit], names: Names) -> Instance:
+        """The rebec of a unit, as a launch file starts it or by itself."""
+        path = unit.module.py.source.path.rpartition("/")[2]
+        launched = self.launch.nodes if self.launch is not None else ()
+        nodes = [n for n in launched if n.type in (path, path.removesuffix(".py"))]
+        for other in nodes[1:]:
+            why = "the same program is started again: the model has one of its rebecs"
+            self.findings.unreadable(other.source, Unread(other.span, why), unit.name)
+        node = next((n.name for n in nodes[:1] if isinstance(n.name, str)), unit.node)
+        alone = sum(u.module is unit.module for u in units) == 1 or not unit.lineage
+        wish = node if alone else unit.lineage[0].name
+        name = names.give(wish[:1].lower() + wish[1:])
+        start = Start(unit.unit, None, None)
+        return Instance(start, name, node, nodes[0] if nodes else None, self.launch)
 
     def _is_wanted(self, unit: PyUnit) -> bool:
         return self.only in (None, unit.module.py.source.path)
@@ -148,6 +162,7 @@ class _Round:
             taken,
             dict(self._periods(unit, instance, findings)),
             self.system.unit_of_time,
+            frozenset(s for u in self.units for s in u.lineage),
             used_names={n for n, _ in known} | {s.name for s in own.values()},
         )
 

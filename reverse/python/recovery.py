@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from functools import partial
 
 from tree_sitter import Node
 
@@ -20,6 +21,7 @@ from rebsync.reverse.graph import (
     SubscriptionFact,
     TimerFact,
 )
+from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.nodes.node_system import unit_of_time
 from rebsync.reverse.python.body_system import PyNodes, PySystem
 from rebsync.reverse.python.model_classes import Classes, is_runtime_file
@@ -69,11 +71,12 @@ def read_python(
     messages: Mapping[str, Sequence[str]] | None = None,
     files: Mapping[str, Source] | None = None,
     package: str = "",
+    launch: Launch | None = None,
 ) -> PythonPart:
     """What some files say; each callback whose body is not in the model is listed.
 
     With `only` the classes of that file; `messages` are the fields of the
-    package's message types, and `files` all that it has.
+    package's message types, `files` all that it has, and `launch` what starts its nodes.
     """
     trees = [parse(source) for _, source in sorted(sources.items())]
     findings.all += [f for py in trees for f in unparsed(py)]
@@ -85,8 +88,8 @@ def read_python(
     read = classes.read(path) if asked is not None or only is None else ()
     known, unit = MessageTypes.of(files or {}, package), unit_of_time(files or {})
     own = {(o.name, o.py.source.path) for o in classes.owners}
-    system = PySystem(code, graph, known, unit, findings, lambda f: _is_people(f, own), path)
-    nodes = system.read()
+    is_people = partial(_is_people, own=own)
+    nodes = PySystem(code, graph, known, unit, findings, is_people, path, launch).read()
     _list_callbacks(graph, own, findings, path, nodes)
     _list_hooks(code, own, findings, path)
     used = tuple((e.key, (e.type, e.name, constant(e.default))) for e in classes.env())
