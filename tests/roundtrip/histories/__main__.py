@@ -1,4 +1,4 @@
-"""python -m tests.roundtrip.histories [--seed N] [--count N] [--length N] [--jobs N]"""
+"""python -m tests.roundtrip.histories [--seed N] [--count N] [--length N] [--dialect D]"""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 
 from tests.roundtrip.histories.history import History, history
+from tests.roundtrip.mutations.package import DIALECTS
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -19,11 +20,12 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--seed", type=int, default=0, help="of the first history")
     parser.add_argument("--count", type=int, default=50)
     parser.add_argument("--length", type=int, default=3, help="steps of each")
+    parser.add_argument("--dialect", choices=DIALECTS, default=DIALECTS[0])
     parser.add_argument("--jobs", type=int, default=2, help="processes")
     given = parser.parse_args(arguments)
     start = time.monotonic()
     seeds = range(given.seed, given.seed + given.count)
-    one = partial(history, length=given.length)
+    one = partial(history, length=given.length, dialect=given.dialect)
     if given.jobs == 1:
         broken = told(map(one, seeds))
     else:

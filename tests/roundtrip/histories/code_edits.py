@@ -22,30 +22,34 @@ from tests.roundtrip.mutations.package import Kind, Package
 
 Files = dict[str, str]
 _LABELS = ("a", "b")
-_SLOW = "clang-format"
+_SLOW = ("clang-format", "ruff format")
 _MOST = 40  # places of a kind that are drawn from
-_QUIET = [kind for kind in NEUTRAL["ros1-cpp"] if not kind.name.startswith(_SLOW)]
+_QUIET = {d: [k for k in kinds if not k.name.startswith(_SLOW)] for d, kinds in NEUTRAL.items()}
 
 
-def edited_code(rng: Random, name: str, files: Files, text: str) -> tuple[str, Files]:
+def edited_code(
+    rng: Random, name: str, files: Files, text: str, dialect: str = "ros1-cpp"
+) -> tuple[str, Files]:
     """The name of an edit, and the files with it; `text` is the model that they say."""
     match rng.choices(("model", "remark", "user", "neutral", "behaviour"), (50, 20, 5, 15, 10))[0]:
         case "model":
             kind, new = edited_model(rng, text, MODEL_KINDS)
-            return f"code: {kind}", as_generated(name, files, text, new) or files
+            return f"code: {kind}", as_generated(name, files, text, new, dialect) or files
         case "remark":
             return "code: remark", _remark(rng, files)
         case "user":
             return "code: user's block", _user_block(rng, files)
         case "neutral":
-            return _mutated(rng, name, files, _QUIET)
+            return _mutated(rng, name, files, _QUIET[dialect], dialect)
         case _:
-            return _mutated(rng, name, files, BEHAVIOUR["ros1-cpp"])
+            return _mutated(rng, name, files, BEHAVIOUR[dialect], dialect)
 
 
-def as_generated(name: str, files: Files, old: str, new: str) -> Files | None:
+def as_generated(
+    name: str, files: Files, old: str, new: str, dialect: str = "ros1-cpp"
+) -> Files | None:
     """The files with what is generated otherwise for another model; None where that touches."""
-    before, after = _generated(name, old), _generated(name, new)
+    before, after = _generated(name, old, dialect), _generated(name, new, dialect)
     result = dict(files)
     for path in sorted({*before, *after}):
         if before.get(path) == after.get(path):
@@ -64,20 +68,22 @@ def as_generated(name: str, files: Files, old: str, new: str) -> Files | None:
     return result
 
 
-def _generated(name: str, text: str) -> Mapping[str, str]:
-    parsed = parse_model(Source(f"{name}.rebeca", text))
-    return generate(parsed.model, parsed.comments, analyse(parsed.model), Config(), name)
+def _generated(name: str, text: str, dialect: str) -> Mapping[str, str]:
+    parsed, config = parse_model(Source(f"{name}.rebeca", text)), Config(target=dialect)
+    return generate(parsed.model, parsed.comments, analyse(parsed.model), config, name)
 
 
 def _remark(rng: Random, files: Files) -> Files:
     """A comment after a statement, or on a line before one."""
-    path = rng.choice([p for p in sorted(files) if p.endswith((".cpp", ".h"))])
+    path = rng.choice([p for p in sorted(files) if p.endswith((".cpp", ".h", ".hpp", ".py"))])
     lines = files[path].split("\n")
-    fine = [i for i, line in enumerate(lines) if line.endswith(";") and line.startswith("  ")]
+    is_python = path.endswith(".py")
+    end, sign = (")", "#") if is_python else (";", "//")
+    fine = [i for i, line in enumerate(lines) if line.endswith(end) and line.startswith("  ")]
     if not fine:
         return files
     at = rng.choice(fine)
-    mark = f"// kept {rng.randrange(10**6)}"
+    mark = f"{sign} kept {rng.randrange(10**6)}"
     if rng.random() < 0.5:
         lines[at] = f"{lines[at]}  {mark}"
     else:
@@ -97,11 +103,15 @@ def _user_block(rng: Random, files: Files) -> Files:
     path, at = rng.choice(found)
     number = rng.randrange(10**6)
     own = f"// mine {number}   \n\tinline int own{number}() {{return 1;}}\n"
+    if path.endswith(".py"):
+        own = f"# mine {number}   \nOWN{number} = 1\n"
     return {**files, path: files[path][:at] + own + files[path][at:]}
 
 
-def _mutated(rng: Random, name: str, files: Files, kinds: Sequence[Kind]) -> tuple[str, Files]:
-    package = Package(name)
+def _mutated(
+    rng: Random, name: str, files: Files, kinds: Sequence[Kind], dialect: str
+) -> tuple[str, Files]:
+    package = Package(name, dialect)
     package.files = dict(files)
     if not parts_of(package):
         return "code: nothing", files

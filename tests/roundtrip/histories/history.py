@@ -50,13 +50,15 @@ class History:
     steps: list[Step] = field(default_factory=list)
 
 
-def history(seed: int, length: int, examples: tuple[str, ...] = EXAMPLES) -> History:
+def history(
+    seed: int, length: int, examples: tuple[str, ...] = EXAMPLES, dialect: str = "ros1-cpp"
+) -> History:
     """Draws and carries out one history in a directory of its own."""
     rng = Random(seed)
     weights = [_WEIGHTS[EXAMPLES.index(e)] for e in examples]
     done = History(seed, rng.choices(examples, weights)[0])
     with TemporaryDirectory() as folder, _inside(folder):
-        running = _Running(rng, done.example)
+        running = _Running(rng, done.example, dialect)
         for _ in range(length):
             step = running.step()
             done.steps.append(step)
@@ -92,15 +94,15 @@ def run(*arguments: str) -> tuple[int, str]:
 class _Running:
     """The files of a history, and its steps."""
 
-    def __init__(self, rng: Random, name: str) -> None:
-        self.rng, self.name = rng, name
+    def __init__(self, rng: Random, name: str, dialect: str) -> None:
+        self.rng, self.name, self.dialect = rng, name, dialect
         self.model, self.root = Path(f"{name}.rebeca"), Path(name)
         text = (BY_NAME[name] / self.model.name).read_text(encoding="utf-8")
         self.model.write_text(text, encoding="utf-8")
-        status, told = run("generate", str(self.model))
+        status, told = run("generate", str(self.model), "--target", dialect)
         assert status == 0, told
         (self.root / "notes.txt").write_bytes(b"mine\r\n\xff\n")
-        (self.root / "scripts").mkdir()
+        (self.root / "scripts").mkdir(exist_ok=True)
         (self.root / "scripts/plot").write_text("print(1)  \n")
 
     def step(self) -> Step:
@@ -137,7 +139,7 @@ class _Running:
             case "same":
                 name, new = edited_model(self.rng, text, BEHAVIOUR)
                 names.append(f"both the same: {name}")
-                self._write(new, as_generated(self.name, files, text, new) or files)
+                self._write(new, as_generated(self.name, files, text, new, self.dialect) or files)
             case "touching":
                 self._touching(text, files)
                 names.append("both the same place")
@@ -147,7 +149,7 @@ class _Running:
                     name, new = edited_model(self.rng, new)
                     names.append(f"model: {name}")
                 for _ in range(self.rng.choice((1, 1, 2)) if side != "model" else 0):
-                    name, files = edited_code(self.rng, self.name, files, text)
+                    name, files = edited_code(self.rng, self.name, files, text, self.dialect)
                     names.append(name)
                 self._write(new, files)
         return tuple(names)
@@ -159,7 +161,7 @@ class _Running:
         self.rng.setstate(state)
         _, same = edited_model(self.rng, text, {"number": number})
         theirs = edited_model(self.rng, same, {"number": number})[1]
-        self._write(mine, as_generated(self.name, files, text, theirs) or files)
+        self._write(mine, as_generated(self.name, files, text, theirs, self.dialect) or files)
 
     # --- laws ---------------------------------------------------------------------------------
 
@@ -171,7 +173,7 @@ class _Running:
         new = self.model.read_text(encoding="utf-8")
         yield from laws.says_the_same(self.root, self.model)
         yield from laws.untouched_model(old, new, drift)
-        package = Package(self.name)
+        package = Package(self.name, self.dialect)
         package.files = _texts(edited, self.root)
         yield from laws.untouched_code(package, self._code(), (last, old), drift)
         yield from self._again(0)
@@ -231,7 +233,7 @@ class _Running:
 
     def _give_up(self) -> None:
         """Starts anew from the code: nothing else is left to try."""
-        status, told = run("generate", str(self.model), "--force")
+        status, told = run("generate", str(self.model), "--force", "--target", self.dialect)
         assert status == 0, told
 
     # --- files --------------------------------------------------------------------------------

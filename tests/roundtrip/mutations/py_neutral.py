@@ -240,8 +240,11 @@ KINDS = (
     Kind("docstring of a method", at_start('        """What it does."""\n', *BODIES)),
     Kind("blank lines", within(_STATEMENT, r"\n\1\2\n", *BODIES)),
     Kind("indented deeper", _rewritten(_indented)),
-    Kind("byte order mark", _rewritten(lambda t: f"\ufeff{t}")),
-    Kind("coding line", _rewritten(lambda t: f"# -*- coding: utf-8 -*-\n{t}")),
+    Kind("byte order mark", _rewritten(lambda t: t if t.startswith("#!") else f"\ufeff{t}")),
+    Kind(
+        "coding line",
+        _rewritten(lambda t: t if t.startswith("#!") else f"# -*- coding: utf-8 -*-\n{t}"),
+    ),
     Kind("single quotes", _rewritten(_other_quotes)),
     Kind("statement in parentheses", within(r" = ([^\n]+)$", r" = (\1)", *BODIES)),
     Kind("condition in parentheses", within(r"\b((?:el)?if) (?!case_)(.*):$", r"\1 (\2):")),
