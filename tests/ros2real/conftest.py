@@ -71,4 +71,4 @@ def followed(clock: Clock, dialect: str) -> Clock:
     """The clock, no faster than the nodes of a dialect can follow."""
     if dialect != "ros2-py" or clock.rate is None:
         return clock
-    return replace(clock, rate=min(clock.rate, 4.0), step=max(clock.step, 0.02))
+    return replace(clock, rate=min(clock.rate, 2.0), step=max(clock.step, 0.02))
