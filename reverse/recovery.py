@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 from dataclasses import field, replace
 from fractions import Fraction
-from math import prod
 from typing import TYPE_CHECKING
-
-from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.literals import initial_of, literal_of
@@ -24,6 +20,14 @@ from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.files.python_files import is_python
 from rebsync.reverse.findings import Finding, Findings
+from rebsync.reverse.generated.env_values import (
+    as_type,
+    constant,
+    marked_type,
+    plain_value,
+    shaped,
+    type_of_value,
+)
 from rebsync.reverse.generated.ros1_classes import Classes
 from rebsync.reverse.generated.ros1_kept import Memory, read_with
 from rebsync.reverse.generated.ros1_messages import own_messages
@@ -31,7 +35,6 @@ from rebsync.reverse.generated.ros1_names import variable_name
 from rebsync.reverse.generated.ros2_words import made_in
 from rebsync.reverse.graph import Graph
 from rebsync.reverse.launch.launched import Launch, LaunchedNode
-from rebsync.reverse.launch.parameters import Parameter
 from rebsync.reverse.nodes.node_launch import is_launch, system_of
 from rebsync.reverse.nodes.node_presence import is_generated, may_have_nodes
 from rebsync.reverse.nodes.node_programs import Program, programs, with_nodes
@@ -41,12 +44,10 @@ from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, parse, part, text_of
 from rebsync.reverse.syntax.unparsed import unparsed
 from rebsync.source import NOWHERE, Source
-from rebsync.static.values import converted
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.recovery import PythonPart
 
-_ENV_MARKER = re.compile(r"# *rebsync: env (?P<type>[a-z]+)(?P<lengths>(?:\[\d+\])*) (?P<name>\S+)")
 _MANIFEST = "package.xml"
 _TIME_UNIT = "/mailbox/time_unit"
 _CODE = tuple(sorted(CODE))
@@ -190,12 +191,12 @@ class _System:
             if first in RESERVED_GLOBALS or "/" in key:
                 continue
             type_, name, default = used.get(key, (None, "", None))
-            value = _plain(given[key]) if key in given else default
+            value = plain_value(given[key]) if key in given else default
             if value is None:
                 continue
             if type_ is None:
-                type_, name = _marked_type(given[key]) or (_type_of_value(value), "")
-            initial = initial_of(_as(_shaped(value, type_.dimensions), type_))
+                type_, name = marked_type(given[key]) or (type_of_value(value), "")
+            initial = initial_of(as_type(shaped(value, type_.dimensions), type_))
             span = given[key].source.within(given[key].span) if key in given else NOWHERE
             declarator = m.Declarator(name or uncarry(key, self._taken()), initial, span)
             yield m.Env(m.Declaration(type_, (declarator,), span=span), span)
@@ -213,7 +214,7 @@ class _System:
                 type_ = type_of(member.type)
                 if type_ is not None:
                     name = variable_name(roles, member)
-                    yield key, (type_, name, _constant(default))
+                    yield key, (type_, name, constant(default))
 
     def _taken(self) -> frozenset[str]:
         nodes = self.launch.nodes if self.launch else ()
@@ -292,13 +293,13 @@ class _System:
 
     def _argument(self, node: LaunchedNode, key: str, type_: m.Type) -> m.Expression | None:
         parameter = node.parameter(key)
-        value = _plain(parameter) if parameter is not None else None
+        value = plain_value(parameter) if parameter is not None else None
         if parameter is None or value is None:
             return None
         if isinstance(value, str):
             read: m.Expression = m.Name(uncarry(value, TAKEN_NODES))
         else:
-            read = literal_of(_as(value, type_))
+            read = literal_of(as_type(value, type_))
         return replace(read, span=parameter.source.within(parameter.span))
 
 
@@ -319,87 +320,3 @@ def _made(function: CppFunction) -> Iterator[tuple[str, list[str]]]:
             and (key := string_of(call.arguments[0])) is not None
         ]
         yield text_of(part(statement, "type")), keys
-
-
-# --- values -------------------------------------------------------------------------------------
-
-
-def _plain(parameter: Parameter) -> Value | None:
-    """The value of a parameter, if the model has such values."""
-    return _listed(parameter.value)
-
-
-def _listed(value: object) -> Value | None:
-    match value:
-        case bool() | int() | float() | str():
-            return value
-        case tuple():
-            inner = [_listed(v) for v in value]
-            return None if None in inner else tuple(v for v in inner if v is not None)
-        case _:
-            return None
-
-
-def _constant(node: Node) -> Value | None:
-    """A constant of C++: a number, a truth value, or nested braces."""
-    text = text_of(node)
-    match node.type:
-        case "true" | "false":
-            return text == "true"
-        case "number_literal":
-            plain = text.rstrip("fFlLuU") if not text.lower().startswith("0x") else text
-            return float(plain) if any(c in plain for c in ".eE") else int(plain, 0)
-        case "initializer_list":
-            values = named(node)
-            if len(values) == 1 and values[0].type == "initializer_list":
-                values = named(values[0])
-            inner = [_constant(v) for v in values]
-            return None if None in inner else tuple(v for v in inner if v is not None)
-        case _:
-            return -0x80000000 if text == "INT32_MIN" else None
-
-
-def _shaped(value: Value, lengths: tuple[int, ...]) -> Value:
-    """An array of several dimensions whose values stand one after the other, as in ROS 2."""
-    if not isinstance(value, tuple) or len(lengths) < 2 or any(isinstance(v, tuple) for v in value):
-        return value
-    step = prod(lengths[1:])
-    rows = (value[i : i + step] for i in range(0, len(value), step))
-    return tuple(_shaped(row, lengths[1:]) for row in rows)
-
-
-def _as(value: Value, type_: m.Type) -> Value:
-    """A value as one of a declared type."""
-    match value:
-        case tuple():
-            inner = m.Type(type_.name, type_.dimensions[1:])
-            return tuple(_as(v, inner) for v in value)
-        case str():
-            return value
-        case _:
-            return converted(value, type_)
-
-
-def _marked_type(parameter: Parameter) -> tuple[m.Type, str] | None:
-    """Type and name from the marker beside a parameter: `key: 0  # rebsync: env byte name`."""
-    source = parameter.source
-    line = source.line(source.position(parameter.span.start).line)
-    match = _ENV_MARKER.search(line)
-    if match is None:
-        return None
-    lengths = tuple(int(n) for n in re.findall(r"\d+", match["lengths"]))
-    return m.Type(match["type"], lengths), match["name"]
-
-
-def _type_of_value(value: Value) -> m.Type:
-    """The type of a parameter that no class reads."""
-    match value:
-        case tuple():
-            inner = _type_of_value(value[0]) if value else m.Type("int")
-            return m.Type(inner.name, (len(value), *inner.dimensions))
-        case bool():
-            return m.Type("boolean")
-        case float():
-            return m.Type("double")
-        case _:
-            return m.Type("int")

@@ -21,7 +21,7 @@ from rebsync.reverse.bodies.cpp_widths import place_of, wide_of
 from rebsync.reverse.bodies.known_functions import type_takes_values
 from rebsync.reverse.bodies.scope import Itself, Lambda, Meaning, Outside, Record, Variable
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import markers_in, named, part, text_of
 from rebsync.static.constants import constant
 from rebsync.static.types import BYTE, INT, SHORT
 
@@ -373,3 +373,9 @@ def _called_or_made(reader: CppStatements, declared: _Declared) -> Iterator[m.St
                 why = f'this may change "{argument}"'
                 raise Touches(reader.cpp.span(declared.node), why)
     raise reader.unread(declared.node, f'the model has no type "{declared.text}"')
+
+
+def is_hoisting(node: Node) -> bool:
+    """Whether a block only holds locals of a switch, and the switch."""
+    comments = (text_of(c) for c in node.named_children if c.type == "comment")
+    return any(t.startswith("local ") for t in markers_in(comments))

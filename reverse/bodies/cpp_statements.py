@@ -222,7 +222,7 @@ class CppStatements:
                 yield from self.declaration(node, annotations, local)
             case "compound_statement" | "initializer_list":
                 block = self.inner(node)
-                if self._is_hoisting(node):
+                if cpp_locals.is_hoisting(node):
                     yield from block.statements
                 else:
                     yield m.Block(block.statements, annotations, span)
@@ -397,8 +397,3 @@ class CppStatements:
         read = tuple(self.statements(statements))
         self.scope = outside
         return m.Block(read, span=self.cpp.span(node))
-
-    def _is_hoisting(self, node: Node) -> bool:
-        """Whether a block only holds locals of a switch, and the switch."""
-        comments = (text_of(c) for c in node.named_children if c.type == "comment")
-        return any(t.startswith("local ") for t in markers_in(comments))

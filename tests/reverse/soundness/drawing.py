@@ -398,10 +398,8 @@ class Body:
         self.looping = looping
         return [*lines, "}"]
 
-
-def lines_of(body: Body) -> Iterator[str]:
-    """The lines of a whole body, with what it returns at its end."""
-    drawn = body.block(0, 5)[1:-1]
-    yield from drawn
-    if body.result != "void":
-        yield f"  return {replace(body).expression(body.result)};"
+    def lines(self) -> Iterator[str]:
+        """The lines of the whole body, with what it returns at its end."""
+        yield from self.block(0, 5)[1:-1]
+        if self.result != "void":
+            yield f"  return {replace(self).expression(self.result)};"

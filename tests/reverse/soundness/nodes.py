@@ -16,7 +16,6 @@ from tests.reverse.soundness.drawing import (
     Helper,
     Publisher,
     Variable,
-    lines_of,
 )
 from tests.reverse.soundness.odd import odd_statement
 from tests.reverse.soundness.shapes import SHAPES, Function, Parts, Subscription, files_of
@@ -266,7 +265,7 @@ class _Writer:
             names = [f"p{i}" for i in range(len(takes))]
             body = self._helping(helper, names, [h for h, _ in found if member or not h.member])
             given = ", ".join(f"{t} {n}" for t, n in zip(takes, names, strict=True))
-            function = Function(result, helper.name, given, tuple(lines_of(body)))
+            function = Function(result, helper.name, given, tuple(body.lines()))
             found.append((helper, function))
             free += [] if member else [*function.text(), ""]
         return found, free
@@ -300,7 +299,7 @@ class _Writer:
         body.message = callback.message or ""
         body.by_value = callback.by_value
         body.callable = self._ticks() if callback.message is not None else []
-        return Function("void", callback.name, taken, tuple(lines_of(body)))
+        return Function("void", callback.name, taken, tuple(body.lines()))
 
 
 def _path(message: str) -> str:
