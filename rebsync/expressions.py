@@ -48,6 +48,11 @@ class FloatLiteral:
     text: str
     span: Span = span_field()
 
+    @property
+    def is_double(self) -> bool:
+        """Whether it is a double, as `0.1d` is; others are floats."""
+        return self.text[-1] in "dD"
+
 
 @dataclass(frozen=True, slots=True)
 class BoolLiteral:

@@ -15,6 +15,7 @@ from rebsync.static.constants import constant
 from rebsync.static.operators import binary_type, unary_type
 from rebsync.static.types import (
     BOOLEAN,
+    DOUBLE,
     FLOAT,
     NULL,
     casts,
@@ -148,7 +149,7 @@ class _Check:
             case m.IntLiteral(value):
                 return integer_type(value)
             case m.FloatLiteral():
-                return FLOAT
+                return DOUBLE if node.is_double else FLOAT
             case m.BoolLiteral():
                 return BOOLEAN
             case m.NullLiteral():

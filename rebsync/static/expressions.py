@@ -37,6 +37,7 @@ from rebsync.static.resolve import resolve_class
 from rebsync.static.scope import Body
 from rebsync.static.types import (
     BOOLEAN,
+    DOUBLE,
     FLOAT,
     INT_MAX,
     NULL,
@@ -83,7 +84,7 @@ def _type_of(expression: Expression, body: Body) -> Type | None:
         case BoolLiteral():
             return BOOLEAN
         case FloatLiteral():
-            return FLOAT
+            return DOUBLE if expression.is_double else FLOAT
         case NullLiteral():
             return NULL
         case Unary():

@@ -48,8 +48,8 @@ def type_in(scope: Scope, expression: m.Expression) -> m.Type | None:
     match expression:
         case m.IntLiteral(value):
             return integer_type(value)
-        case m.FloatLiteral(text):
-            return DOUBLE if text[-1] in "dD" else _FLOAT
+        case m.FloatLiteral():
+            return DOUBLE if expression.is_double else _FLOAT
         case m.BoolLiteral() | m.InstanceOf():
             return BOOLEAN
         case m.Name("now" | "currentMessageArrival" | "currentMessageWaitingTime"):

@@ -96,7 +96,8 @@ class Expressions:
             case m.IntLiteral(value):
                 return "int", value
             case m.FloatLiteral(text):
-                return "float", convert(float_value(text), "float")
+                kind = "double" if node.is_double else "float"
+                return kind, convert(float_value(text), kind)
             case m.BoolLiteral(truth):
                 return "boolean", truth
             case m.NullLiteral():

@@ -73,7 +73,8 @@ class _Judge:
             case m.BoolLiteral(truth):
                 return "boolean", truth
             case m.FloatLiteral(text):
-                return "float", convert(float_value(text), "float")
+                kind = "double" if node.is_double else "float"
+                return kind, convert(float_value(text), kind)
             case m.NullLiteral():
                 return "rebec", None
             case m.Name(name) if name in self.defines:

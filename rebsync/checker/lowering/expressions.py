@@ -93,8 +93,9 @@ def value(node: Expression, e: Emitter) -> Kind:
             e.emit("CONST", int(truth))
             return "boolean"
         case FloatLiteral(text):
-            constant(float_value(text), "float", e)
-            return "float"
+            kind: Kind = "double" if node.is_double else "float"
+            constant(float_value(text), kind, e)
+            return kind
         case NullLiteral():
             e.emit("CONST", NULL)
             return "rebec"

@@ -27,7 +27,7 @@ from rebsync.model import (
 )
 from rebsync.static.constants import float_value
 from rebsync.static.operators import binary_type
-from rebsync.static.types import BOOLEAN, FLOAT, INT, common, element
+from rebsync.static.types import BOOLEAN, DOUBLE, FLOAT, INT, common, element
 from rebsync.static.types import NULL as NULL_TYPE
 
 
@@ -74,8 +74,9 @@ class Predicates:
                 e.emit("CONST", number)
                 return "int"
             case FloatLiteral(text):
-                constant(float_value(text), "float", e)
-                return "float"
+                kind: Kind = "double" if node.is_double else "float"
+                constant(float_value(text), kind, e)
+                return kind
             case BoolLiteral(truth):
                 e.emit("CONST", int(truth))
                 return "boolean"
@@ -172,7 +173,7 @@ class Predicates:
             case IntLiteral():
                 return INT
             case FloatLiteral():
-                return FLOAT
+                return DOUBLE if node.is_double else FLOAT
             case NullLiteral():
                 return NULL_TYPE
             case Paren(inner):
