@@ -16,7 +16,14 @@ from rebsync.model import Type
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_names import declared_type
-from rebsync.reverse.generated.ros1_roles import Roles, Taken, best_priority, call_in, number_of
+from rebsync.reverse.generated.ros1_roles import (
+    Roles,
+    Taken,
+    best_priority,
+    call_in,
+    number_of,
+    odd_priorities,
+)
 from rebsync.reverse.generated.ros1_timers import timers_of
 from rebsync.reverse.generated.ros2_words import SETS_UP, arguments_in
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
@@ -44,6 +51,9 @@ def check_plumbing(
     roles = all_roles[owner.name]
     lineage = [all_roles[c.name] for c in code.lineage(owner.name)]
     topics = {t for above in lineage for t in above.topics}
+    for cpp, node in odd_priorities(code, roles):
+        why = "a server has kNoPriority, priority(number) or globalPriority(number)"
+        findings.unreadable(cpp.source, Unread(cpp.span(node), why), owner.name)
     for function in code.functions_of(owner):
         if function.body is None:
             continue

@@ -134,13 +134,41 @@ def _port(topic: str) -> Iterator[m.Annotation]:
 
 def _priority(code: Code, function: CppFunction, call: CppCall) -> Iterator[m.Annotation]:
     """`@priority(n)` or `@globalPriority(n)` of a server's descriptor."""
-    found = code.constant(function.cpp, text_of(call.arguments[0]))
-    for given in calls_in(found[1] if found is not None else None):
-        if given.name in ("priority", "globalPriority") and len(given.arguments) == 1:
-            number = number_of(code, function.cpp, given.arguments[0])
-            if number is not None:
-                value = m.IntLiteral(abs(number))
-                yield m.Annotation(given.name, (value if number >= 0 else m.Unary("-", value),))
+    given = _given_priority(code, function.cpp, text_of(call.arguments[0]))
+    called = call_of(given) if given is not None else None
+    if called is not None and (number := _priority_in(code, function.cpp, called)) is not None:
+        value = m.IntLiteral(abs(number))
+        yield m.Annotation(called.name, (value if number >= 0 else m.Unary("-", value),))
+
+
+def _given_priority(code: Code, cpp: Cpp, descriptor: str) -> Node | None:
+    """What the descriptor of a server says of its priority, a constant by its value."""
+    found = code.constant(cpp, descriptor)
+    values = named(found[1]) if found is not None else []
+    if len(values) != 2:
+        return None
+    constant = code.constant(cpp, text_of(values[1]))
+    return constant[1] if constant is not None else values[1]
+
+
+def _priority_in(code: Code, cpp: Cpp, call: CppCall) -> int | None:
+    if call.name not in ("priority", "globalPriority") or len(call.arguments) != 1:
+        return None
+    return number_of(code, cpp, call.arguments[0])
+
+
+def odd_priorities(code: Code, roles: Roles) -> Iterator[tuple[Cpp, Node]]:
+    """The descriptors of servers whose priority is told in a way that the model does not have."""
+    for taken in roles.taken:
+        descriptor = text_of(taken.call.arguments[0])
+        found = code.constant(taken.function.cpp, descriptor)
+        if found is None:
+            continue
+        given = _given_priority(code, taken.function.cpp, descriptor)
+        called = call_of(given) if given is not None else None
+        is_told = called is not None and _priority_in(code, taken.function.cpp, called) is not None
+        if not is_told and (given is None or text_of(given) != "kNoPriority"):
+            yield found
 
 
 def best_priority(lineage: Iterable[Roles]) -> int | None:

@@ -221,7 +221,6 @@ def test_what_cannot_be_read_is_undetermined(check: Check) -> None:
         ("patrol/src/robot_node.cpp", "  reception.start();\n", ""),
         ("patrol/src/robot_node.cpp", "  return 0;", "  rebec.go(4);\n  return 0;"),
         (SOURCE, 'subscribe("go"', 'subscribe("look"'),
-        (SOURCE, 'Server kGo{"go", kNoPriority}', 'Server kGo{"go", 1}'),
         (SOURCE, '>("other/go")', '>("other/went")'),
         ("patrol/launch/patrol.launch", 'to="robot2/go"', 'to="robot1/go"'),
         (
@@ -243,6 +242,14 @@ def test_run_time_code_that_was_edited_is_undetermined(
     status, shown = check()
     assert status == 4
     assert f"{path}:" in shown and "RS956" in shown
+
+
+@pytest.mark.parametrize("told", ["1", "priority(other)", "1 + priority(1)"])
+def test_a_priority_that_no_model_has_is_unreadable(check: Check, told: str) -> None:
+    replace(SOURCE, 'Server kGo{"go", kNoPriority}', f'Server kGo{{"go", {told}}}')
+    status, shown = check()
+    assert status == 4
+    assert f"{SOURCE}:" in shown and "RS941" in shown and "kNoPriority" in shown
 
 
 def test_run_time_code_may_be_laid_out_anew(check: Check) -> None:
