@@ -63,6 +63,12 @@ class Findings:
         del self.all[count:]
         self.statements, self.open_members = Counter(statements), set(members)
 
+    def take(self, others: Findings) -> None:
+        """Adds what was found elsewhere."""
+        self.all += others.all
+        self.statements.update(others.statements)
+        self.open_members |= others.open_members
+
     def unreadable(self, source: Source, unread: Unread, within: str) -> None:
         """Lists a place that the model lacks."""
         grade = Grade.UNREADABLE

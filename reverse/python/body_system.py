@@ -80,6 +80,7 @@ class PySystem:
         for unit in wanted:
             read[unit.name].note()
             found.append(read[unit.name].reactive(classes[unit.name], round_.known(unit)))
+            self.findings.take(read[unit.name].reading.findings)
             list_unit(unit, servers[unit.name], len(read[unit.name].loops), self.findings)
         readings = {u.name: read[u.name].reading for u in wanted}
         list_shared(wanted, readings, self.findings)
@@ -118,27 +119,32 @@ class _Round:
     classes: Mapping[str, str]
     times: Times
     learnt: Learnt = with_default(default_factory=Learnt)
+    before: int = 0
+    # By unit, as no round changes them: the names of variables, and all known rebecs.
+    _names: dict[str, set[str]] = with_default(default_factory=dict)
+    _known: dict[str, list[tuple[str, str]]] = with_default(default_factory=dict)
 
     def settled(self) -> dict[str, PyClass]:
         """The units as they are read when nothing changes any more."""
         for _ in range(_MOST_ROUNDS):
-            before = self.learnt.changes
-            self.learnt.pending.clear()
-            read = {u.name: self._read(u, Findings()) for u in self.units}
-            if self.learnt.changes != before:
+            read = self._all()
+            if self.learnt.changes != self.before:
                 continue
             waiting = {k for k in self.learnt.pending if k not in self.learnt.kinds}
             for key in waiting:
                 self.learnt.join(key, OTHER)
             if not waiting and not proved_otherwise(self.learnt, read.values()):
                 break
-        found = {}
-        for unit in self.units:
-            wanted = self.system._is_wanted(unit)
-            findings = self.system.findings if wanted else Findings()
-            found[unit.name], proof = self._read(unit, findings)
-            self._note_counted(found[unit.name], proof)
-        return found
+        else:
+            read = self._all()
+        for class_, proof in read.values():
+            self._note_counted(class_, proof)
+        return {name: class_ for name, (class_, _) in read.items()}
+
+    def _all(self) -> dict[str, tuple[PyClass, Proved]]:
+        self.before = self.learnt.changes
+        self.learnt.pending.clear()
+        return {u.name: self._read(u, Findings()) for u in self.units}
 
     def _read(self, unit: PyUnit, findings: Findings) -> tuple[PyClass, Proved]:
         reading = self._reading(unit, findings)
@@ -148,7 +154,8 @@ class _Round:
     def _reading(self, unit: PyUnit, findings: Findings) -> Reading:
         known = self.known(unit)
         own = self.servers[unit.name]
-        taken = names_of(self.values.code, unit)
+        if unit.name not in self._names:
+            self._names[unit.name] = names_of(self.values.code, unit)
         instance = self._instance(unit)
         return Reading(
             unit,
@@ -159,7 +166,7 @@ class _Round:
             own,
             self._targets(unit, instance, known),
             findings,
-            taken,
+            self._names[unit.name],
             dict(self._periods(unit, instance, findings)),
             self.system.unit_of_time,
             frozenset(s for u in self.units for s in u.lineage),
@@ -189,6 +196,11 @@ class _Round:
 
     def known(self, unit: PyUnit) -> list[tuple[str, str]]:
         """Names and classes of the rebecs that a class sends to."""
+        if unit.name not in self._known:
+            self._known[unit.name] = self._rebecs_of(unit)
+        return self._known[unit.name]
+
+    def _rebecs_of(self, unit: PyUnit) -> list[tuple[str, str]]:
         taken = words_of(unit) | {s.name for s in self.servers[unit.name].values()}
         names = Names.beside(())
         found = []
