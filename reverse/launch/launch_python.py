@@ -25,6 +25,7 @@ from rebsync.reverse.launch.ros2_actions import (
     Start,
     Unlisted,
 )
+from rebsync.reverse.launch.ros2_words import Path, Words
 from rebsync.reverse.unknowns import Unknown
 from rebsync.source import Source, Span
 
@@ -65,6 +66,17 @@ def _bound(tree: ast.Module) -> Mapping[str, ast.expr]:
     return {name: value for name, value in found.items() if value is not None}
 
 
+def _is_settings(words: Words) -> bool:
+    """Whether a text names a file of parameters."""
+    match words.parts:
+        case (*_, Path(pieces)) if pieces:
+            return _is_settings(pieces[-1])
+        case (*_, str() as last):
+            return last.endswith((".yaml", ".yml"))
+        case _:
+            return False
+
+
 class _File:
     """Makes actions of calls; each call for a node is taken once."""
 
@@ -83,6 +95,9 @@ class _File:
         for call in _calls(self._tree):
             if called(call) in _NODES and call not in self._seen:
                 yield from self._elsewhere(call)
+        if not any(called(call) in _NODES for call in _calls(self._tree)):
+            files = (w for v in self._values.bound() if _is_settings(w := self._values.words(v)))
+            yield from (ForAll(parameters=(FromFile(words),)) for words in files)
 
     def _described(self) -> Iterator[ast.expr]:
         """The lists of actions that descriptions are made of."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 from rebsync.reverse.launch.parameters import ParameterValue
 from rebsync.reverse.launch.ros2_actions import (
@@ -56,6 +56,10 @@ class PythonValues:
         self._source = source
         self._names = names
         self._lines = source.text.split("\n")
+
+    def bound(self) -> Iterable[ast.expr]:
+        """The values of all names that are bound once."""
+        return self._names.values()
 
     def resolved(self, value: ast.expr) -> ast.expr:
         """What a name that is bound once stands for."""

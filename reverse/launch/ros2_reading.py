@@ -85,7 +85,12 @@ class Reader:
 
     def result(self, source: Source) -> Launch:
         """All that a file and those that it includes say."""
-        self._file(_Scope(source, {}, [], [], []), 0)
+        scope = _Scope(source, {}, [], [], [])
+        self._file(scope, 0)
+        for each in (
+            () if self.nodes else scope.parameters
+        ):  # a system of no nodes has constants, too
+            tuple(self._parameters(each, "", "", scope))
         sources = (source, *self.files.values())
         return Launch(tuple(self.nodes), tuple(self.common.values()), tuple(self.unknowns), sources)
 

@@ -17,6 +17,7 @@ from rebsync.files import read_source
 from rebsync.forward.generate import generate
 from rebsync.grammars.parser import parse_model
 from rebsync.roundtrip.normal import normal
+from rebsync.source import Source
 from rebsync.static import analyse
 from tests.reverse.laws import (
     assert_same,
@@ -54,6 +55,13 @@ def test_they_come_back_without_markers(model: m.Model, target: str) -> None:
     assert [(f.text, f.why) for f in found.findings] == []
     told = told_without_markers(python_normal(found.model))
     assert_same(told, told_without_markers(python_normal(normal(model))))
+
+
+@pytest.mark.parametrize("target", [*TARGETS, "ros2-cpp"])
+def test_constants_of_a_system_without_rebecs_come_back(target: str) -> None:
+    text = "env int e = 3; abstract reactiveclass Robot(3) { Robot() {} msgsrv go() {} } main {}"
+    model = parse_model(Source("model", text)).model
+    assert_says(python_files(model, target), model)
 
 
 def test_a_package_in_two_languages_comes_back() -> None:
