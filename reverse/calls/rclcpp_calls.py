@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from tree_sitter import Node
 
-from rebsync.reverse.calls.ros_calls_shapes import Asked, objects_of, types_of
+from rebsync.reverse.calls.ros_calls_shapes import Asked, called_as, objects_of, types_of
 from rebsync.reverse.calls.ros_calls_sites import site_of
 from rebsync.reverse.rclcpp_vocabulary import (
     FUNCTIONS,
@@ -72,16 +72,10 @@ def _of_function(
     values: Values, cpp: Cpp, place: Node, node: Node, above: Node, name: str
 ) -> Iterator[Asked]:
     """`create_publisher<T>("x", 10)` in a class of nodes, `rclcpp::create_timer(...)`."""
-    scope, last = "", node
-    while above.type == "qualified_identifier" and part(above, "name") == node:
-        if not scope:
-            written = above.child_by_field_name("scope")
-            scope = text_of(written) if written is not None else ""
-        if above.parent is None:
-            return
-        node, above = above, above.parent
-    if above.type != "call_expression" or part(above, "function") != node:
+    called = called_as(node, above)
+    if called is None:
         return
+    scope, call = called
     ask = FUNCTIONS.get((scope, name))
     if ask is None and scope in ("", *NODE_CLASSES):
         function = values.texts.function_around(cpp, place)
@@ -89,8 +83,8 @@ def _of_function(
         if class_ is not None and _may_be_node(values, class_, name):
             ask = NODE.get(name)
     if ask is not None:
-        given = tuple(named(part(above, "arguments")))
-        yield Asked(ask, site_of(values, cpp, place, above), given, types_of(last))
+        given = tuple(named(part(call, "arguments")))
+        yield Asked(ask, site_of(values, cpp, place, call), given, types_of(node))
 
 
 def _may_be_node(values: Values, class_: CppClass, method: str) -> bool:

@@ -10,7 +10,7 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.calls.rclcpp_calls import asked_of_ros2
 from rebsync.reverse.calls.ros_calls_facts import Facts
-from rebsync.reverse.calls.ros_calls_shapes import TEMPLATES, Asked, objects_of, types_of
+from rebsync.reverse.calls.ros_calls_shapes import TEMPLATES, Asked, called_as, objects_of, types_of
 from rebsync.reverse.calls.ros_calls_sites import owner_of, site_of
 from rebsync.reverse.graph import Fact, Graph
 from rebsync.reverse.rclcpp_vocabulary import words_in as words_of_ros2
@@ -138,23 +138,16 @@ def _asked(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
 def _of_function(
     values: Values, cpp: Cpp, place: Node, node: Node, above: Node, name: str
 ) -> Iterator[Asked]:
-    scope = ""
-    last = node
-    while above.type == "qualified_identifier" and part(above, "name") == node:
-        if not scope:
-            written = above.child_by_field_name("scope")
-            scope = text_of(written) if written is not None else ""
-        if above.parent is None:
-            return
-        node, above = above, above.parent
-    if above.type != "call_expression" or part(above, "function") != node:
+    called = called_as(node, above)
+    if called is None:
         return
+    scope, call = called
     ask = FUNCTIONS.get((scope, name))
-    if ask is None or _is_own(above, scope):
+    if ask is None or _is_own(call, scope):
         return
-    given = tuple(named(part(above, "arguments")))
-    if scope or (len(given) >= len(ask.arguments) - 1 and not values.calls.functions(cpp, above)):
-        yield Asked(ask, site_of(values, cpp, place, above), given, types_of(last))
+    given = tuple(named(part(call, "arguments")))
+    if scope or (len(given) >= len(ask.arguments) - 1 and not values.calls.functions(cpp, call)):
+        yield Asked(ask, site_of(values, cpp, place, call), given, types_of(node))
 
 
 def _is_own(call: Node, scope: str) -> bool:

@@ -107,3 +107,20 @@ def truth_of(value: Resolved) -> Resolved:
             return value
         case _:
             return value
+
+
+def called_as(node: Node, above: Node) -> tuple[str, Node] | None:
+    """The scope that the name of a function is called in, and the call; None for no call of it.
+
+    `above` is what the name stands in; of `a::b::f()` the scope is the last one.
+    """
+    scope = ""
+    while above.type == "qualified_identifier" and part(above, "name") == node:
+        if not scope:
+            written = above.child_by_field_name("scope")
+            scope = text_of(written) if written is not None else ""
+        if above.parent is None:
+            return None
+        node, above = above, above.parent
+    is_called = above.type == "call_expression" and part(above, "function") == node
+    return (scope, above) if is_called else None
