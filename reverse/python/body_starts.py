@@ -101,8 +101,8 @@ def declared(reading: Reading) -> Iterator[m.Statement]:
         value = reading.constant(reading.values.ways(binding.value, scope))
         kind = value.kind if value is not None and len(bindings) == 1 else OTHER
         reading.learnt.join(reading.state[name], kind)
-        found = reading.learnt.kinds[reading.state[name]]
-        if value is None or found not in TYPES:
+        found = reading.learnt.kind(reading.state[name])
+        if value is None or found is None or found not in TYPES:
             continue
         if found == WHOLE:
             reading.wide.add(name)
