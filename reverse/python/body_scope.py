@@ -108,7 +108,8 @@ class PyUnit:
     """What of Python becomes a reactive class: a class with those above it, or a module.
 
     `lineage` is empty for a module; `calls` are the numbers of its facts by the ids of their calls.
-    `version` is that of the language, 0 where it may be 2 or 3.
+    `version` is that of the language, 0 where it may be 2 or 3. What was found of functions, by the
+    ids of their nodes: whether they are `quiet`, also from how deep, and names to be `kept`.
     """
 
     unit: Unit
@@ -118,6 +119,8 @@ class PyUnit:
     calls: Mapping[tuple[str, int], int]
     version: int
     is_rclpy: bool
+    quiet: dict[tuple[int, int], bool] = with_default(default_factory=dict)
+    kept: dict[int, frozenset[str]] = with_default(default_factory=dict)
 
     @property
     def name(self) -> str:

@@ -51,7 +51,7 @@ def _read(
     loops: list[Loop],
     only: tuple[str, ...] = (),
 ) -> tuple[m.Statement, ...]:
-    kept = kept_names(scope) if scope.kind != MODULE else frozenset()
+    kept = kept_names(reading, scope) if scope.kind != MODULE else frozenset()
     frame = Frame(scope, is_start=True, kept=kept)
     for number, parameter in enumerate(scope.parameters if scope.kind != MODULE else ()):
         if number or scope.self_name is None:

@@ -28,8 +28,7 @@ from rebsync.reverse.python.body_learnt import Asked, Learnt
 from rebsync.reverse.python.body_listing import list_shared, list_unit, list_wiring
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import OTHER, Key, PyTarget, PyUnit
-from rebsync.reverse.python.body_units import names_of, servers_of, units_of, words_of
-from rebsync.reverse.python.py_index import PyCode
+from rebsync.reverse.python.body_units import has_word, names_of, servers_of, units_of
 from rebsync.reverse.python.py_values import Values
 
 _MOST_ROUNDS = 60
@@ -49,7 +48,7 @@ class PyNodes:
 class PySystem:
     """Reads the nodes of a package; `second` are the model's units of time in one second."""
 
-    code: PyCode
+    values: Values
     graph: Graph
     types: MessageTypes
     unit_of_time: Fraction
@@ -60,14 +59,14 @@ class PySystem:
 
     def read(self) -> PyNodes:
         """All of them; what has no place in the model is listed."""
-        values = Values(self.code)
+        values = self.values
         units = units_of(values, self.graph, self.is_people)
         if not units:
             return PyNodes()
         names = Names.beside(())
         classes = {u.name: names.give(u.name if u.lineage else class_word(u.name)) for u in units}
         instances = [self._instance(u, units, names) for u in units]
-        servers = {u.name: servers_of(self.code, u, Names.beside(())) for u in units}
+        servers = {u.name: servers_of(values.code, u, Names.beside(())) for u in units}
         wiring = Wiring(
             tuple(instances),
             {n: tuple({s.name: s for s in of.values()}.values()) for n, of in servers.items()},
@@ -228,12 +227,13 @@ class _Round:
         return self._known[unit.name]
 
     def _rebecs_of(self, unit: PyUnit) -> list[tuple[str, str]]:
-        taken = words_of(unit) | {s.name for s in self.servers[unit.name].values()}
+        servers = {s.name for s in self.servers[unit.name].values()}
         names = Names.beside(())
         found = []
         for place in self.wiring.known(self._instance(unit)):
             to = self.wiring.instances[place]
-            wish = to.name if to.name not in taken else f"{to.name}_rebec"
+            is_taken = to.name in servers or has_word(unit, to.name)
+            wish = f"{to.name}_rebec" if is_taken else to.name
             found.append((names.give(wish), self.classes[to.start.unit.name]))
         return found
 
