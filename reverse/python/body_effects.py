@@ -87,6 +87,14 @@ def is_quiet(reading: Reading, way: Value, depth: int = 0) -> bool:
 
 def is_quiet_body(reading: Reading, scope: Scope, depth: int) -> bool:
     """Whether the statements of a function are all so."""
+    key = scope.node.id, depth
+    found = reading.unit.quiet.get(key)
+    if found is None:
+        found = reading.unit.quiet[key] = _is_quiet(reading, scope, depth)
+    return found
+
+
+def _is_quiet(reading: Reading, scope: Scope, depth: int) -> bool:
     if depth > _DEEPEST or scope.outer or nonlocals(scope):
         return False
     return all(_is_quiet_node(reading, n, scope, depth) for n in _all(scope.node))
@@ -143,11 +151,7 @@ def _is_safe_name(reading: Reading, node: Node, frame: Frame) -> bool:
     above = node.parent
     if node.type not in ("identifier", "attribute") or above is None:
         return True
-    if above.type in ("attribute", "call") and node in (
-        above.child_by_field_name("object"),
-        above.child_by_field_name("function"),
-        above.child_by_field_name("attribute"),
-    ):
+    if above.type in ("attribute", "call"):  # what it is of, its own name, or what is called
         return True
     if above.type == "keyword_argument" and above.child_by_field_name("name") == node:
         return True

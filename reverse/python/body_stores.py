@@ -102,11 +102,10 @@ def give(
 ) -> Iterator[m.Statement]:
     """A variable gets a value."""
     reader.reading.learnt.join(variable.key, read.kind)
-    if read.mixed and variable.key not in reader.reading.learnt.mixed:
-        reader.reading.learnt.mixed.add(variable.key)
-        reader.reading.learnt.changes += 1
-    kind = reader.reading.learnt.kinds[variable.key]
-    if kind == OTHER:
+    if read.mixed:
+        reader.reading.learnt.mix(variable.key)
+    kind = reader.reading.learnt.kind(variable.key)
+    if kind is None or kind == OTHER:
         if not is_calm(read.expression):
             raise Unread(reader.frame.span(node), "its value has effects, and it is of no type")
         return

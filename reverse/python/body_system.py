@@ -6,7 +6,7 @@ fields of messages are read, and which whole numbers may leave the model's `int`
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import field as with_default
 from fractions import Fraction
 
@@ -24,12 +24,11 @@ from rebsync.reverse.nodes.node_units import Start
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.nodes.node_wiring import Wiring
 from rebsync.reverse.python.body_classes import PyClass
+from rebsync.reverse.python.body_learnt import Asked, Learnt
 from rebsync.reverse.python.body_listing import list_shared, list_unit, list_wiring
-from rebsync.reverse.python.body_proof import Proved
 from rebsync.reverse.python.body_reading import Reading
-from rebsync.reverse.python.body_scope import OTHER, Learnt, PyTarget, PyUnit
-from rebsync.reverse.python.body_units import names_of, servers_of, units_of, words_of
-from rebsync.reverse.python.py_index import PyCode
+from rebsync.reverse.python.body_scope import OTHER, Key, PyTarget, PyUnit
+from rebsync.reverse.python.body_units import has_word, names_of, servers_of, units_of
 from rebsync.reverse.python.py_values import Values
 
 _MOST_ROUNDS = 60
@@ -49,7 +48,7 @@ class PyNodes:
 class PySystem:
     """Reads the nodes of a package; `second` are the model's units of time in one second."""
 
-    code: PyCode
+    values: Values
     graph: Graph
     types: MessageTypes
     unit_of_time: Fraction
@@ -60,14 +59,14 @@ class PySystem:
 
     def read(self) -> PyNodes:
         """All of them; what has no place in the model is listed."""
-        values = Values(self.code)
+        values = self.values
         units = units_of(values, self.graph, self.is_people)
         if not units:
             return PyNodes()
         names = Names.beside(())
         classes = {u.name: names.give(u.name if u.lineage else class_word(u.name)) for u in units}
         instances = [self._instance(u, units, names) for u in units]
-        servers = {u.name: servers_of(self.code, u, Names.beside(())) for u in units}
+        servers = {u.name: servers_of(values.code, u, Names.beside(())) for u in units}
         wiring = Wiring(
             tuple(instances),
             {n: tuple({s.name: s for s in of.values()}.values()) for n, of in servers.items()},
@@ -107,9 +106,18 @@ class PySystem:
         return self.only in (None, unit.module.py.source.path)
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class _Read:
+    """A unit as it was read last: what it asked for, and on which variables it waits."""
+
+    class_: PyClass
+    answers: dict[Asked, object]
+    pending: set[Key]
+
+
 @dataclass(eq=False, slots=True)
 class _Round:
-    """Reads all units over and over."""
+    """Reads units until nothing is learnt any more."""
 
     system: PySystem
     values: Values
@@ -120,6 +128,7 @@ class _Round:
     times: Times
     learnt: Learnt = with_default(default_factory=Learnt)
     before: int = 0
+    _read: dict[str, _Read] = with_default(default_factory=dict)
     # By unit, as no round changes them: the names of variables, and all known rebecs.
     _names: dict[str, set[str]] = with_default(default_factory=dict)
     _known: dict[str, list[tuple[str, str]]] = with_default(default_factory=dict)
@@ -127,29 +136,46 @@ class _Round:
     def settled(self) -> dict[str, PyClass]:
         """The units as they are read when nothing changes any more."""
         for _ in range(_MOST_ROUNDS):
-            read = self._all()
+            self._all()
             if self.learnt.changes != self.before:
                 continue
-            waiting = {k for k in self.learnt.pending if k not in self.learnt.kinds}
+            pending = {k for read in self._read.values() for k in read.pending}
+            waiting = {k for k in pending if k not in self.learnt.kinds}
             for key in waiting:
                 self.learnt.join(key, OTHER)
-            if not waiting and not proved_otherwise(self.learnt, read.values()):
+            if not waiting and not self._proved_otherwise():
                 break
         else:
-            read = self._all()
-        for class_, proof in read.values():
-            self._note_counted(class_, proof)
-        return {name: class_ for name, (class_, _) in read.items()}
+            self._all()
+        for read in self._read.values():
+            self._note_counted(read.class_)
+        return {name: read.class_ for name, read in self._read.items()}
 
-    def _all(self) -> dict[str, tuple[PyClass, Proved]]:
+    def _all(self) -> None:
+        """Reads the units of which something is known now that they asked for."""
         self.before = self.learnt.changes
-        self.learnt.pending.clear()
-        return {u.name: self._read(u, Findings()) for u in self.units}
+        for unit in self.units:
+            read = self._read.get(unit.name)
+            if read is None or not self.learnt.is_same(read.answers):
+                self.learnt.start()
+                class_ = PyClass(self._reading(unit, Findings()))
+                class_.read()
+                learnt = self.learnt
+                self._read[unit.name] = _Read(class_, learnt.answers, learnt.pending)
 
-    def _read(self, unit: PyUnit, findings: Findings) -> tuple[PyClass, Proved]:
-        reading = self._reading(unit, findings)
-        class_ = PyClass(reading)
-        return class_, class_.read()
+    def _proved_otherwise(self) -> bool:
+        """Takes note of what may leave the model's `int`; whether there is anything new."""
+        before = self.learnt.changes
+        for read in self._read.values():
+            proof = read.class_.proof
+            for mark in proof.failed:
+                self.learnt.refuse(mark)
+            for name in proof.broken:
+                reading = read.class_.reading
+                key = reading.state.get(name) or reading.keys.get(name)
+                if key is not None:
+                    self.learnt.join(key, OTHER)
+        return self.learnt.changes != before
 
     def _reading(self, unit: PyUnit, findings: Findings) -> Reading:
         known = self.known(unit)
@@ -180,8 +206,8 @@ class _Round:
             if isinstance(fact, TimerFact | RateFact):
                 yield number, self.times.units(fact, [instance], findings, unit.name)
 
-    def _note_counted(self, class_: PyClass, proof: Proved) -> None:
-        for name in sorted(proof.counted):
+    def _note_counted(self, class_: PyClass) -> None:
+        for name in sorted(class_.proof.counted):
             if name in class_.reading.places:
                 source, span = class_.reading.places[name]
                 why = f'"{name}" counts on without end; the model\'s int ends at 2147483647'
@@ -201,12 +227,13 @@ class _Round:
         return self._known[unit.name]
 
     def _rebecs_of(self, unit: PyUnit) -> list[tuple[str, str]]:
-        taken = words_of(unit) | {s.name for s in self.servers[unit.name].values()}
+        servers = {s.name for s in self.servers[unit.name].values()}
         names = Names.beside(())
         found = []
         for place in self.wiring.known(self._instance(unit)):
             to = self.wiring.instances[place]
-            wish = to.name if to.name not in taken else f"{to.name}_rebec"
+            is_taken = to.name in servers or has_word(unit, to.name)
+            wish = f"{to.name}_rebec" if is_taken else to.name
             found.append((names.give(wish), self.classes[to.start.unit.name]))
         return found
 
@@ -220,11 +247,11 @@ class _Round:
             other = self.wiring.instances[to].start.unit.name
             server = next(s for s in self.servers[other].values() if s.name == name)
             types = self.system.types.fields(server.type or "") or {}
-            used = self.learnt.used.get((other, name), set())
+            used = self.learnt.used_of(other, name)
             paths = tuple(
                 p
                 for p, t in types.items()
-                if p in used and t is not None and (other, name, p) not in self.learnt.open
+                if p in used and t is not None and not self.learnt.is_open(other, name, p)
             )
             receiver = None if to == own else known[slots.index(to)][0]
             target = Target(receiver, name, paths)
@@ -236,17 +263,3 @@ class _Round:
         instance = self._instance(unit)
         bindings = [m.Name(self.wiring.instances[n].name) for n in self.wiring.known(instance)]
         return m.Rebec(m.Type(self.classes[unit.name]), instance.name, tuple(bindings), ())
-
-
-def proved_otherwise(learnt: Learnt, read: Iterable[tuple[PyClass, Proved]]) -> bool:
-    """Takes note of what may leave the model's `int`; whether there is anything new."""
-    before = learnt.changes
-    for class_, proof in read:
-        for mark in proof.failed:
-            learnt.refuse(mark)
-        for name in proof.broken:
-            reading = class_.reading
-            key = reading.state.get(name) or reading.keys.get(name)
-            if key is not None:
-                learnt.join(key, OTHER)
-    return learnt.changes != before

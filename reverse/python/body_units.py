@@ -25,7 +25,6 @@ from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.python.body_scope import PyUnit
 from rebsync.reverse.python.py_index import CLASS, LAMBDA, PyCode, Scope
 from rebsync.reverse.python.py_lookup import lineage
-from rebsync.reverse.python.py_tree import text_of
 from rebsync.reverse.python.py_values import Values
 from rebsync.reverse.syntax.cpp_index import Code
 
@@ -199,13 +198,14 @@ def names_of(code: PyCode, unit: PyUnit) -> set[str]:
     return found
 
 
-def words_of(unit: PyUnit) -> set[str]:
-    """The names that the code of a unit uses: known rebecs get others."""
-    found: set[str] = set()
+def has_word(unit: PyUnit, word: str) -> bool:
+    """Whether the code of a unit uses a name: known rebecs get others."""
     waiting = [s.node for s in unit.lineage] or [unit.module.node]
+    bytes_ = word.encode()
     while waiting:
         node = waiting.pop()
-        if node.type == "identifier":
-            found.add(text_of(node))
-        waiting += node.named_children
-    return found
+        if node.type == "identifier" and node.text == bytes_:
+            return True
+        if bytes_ in (node.text or b""):
+            waiting += node.named_children
+    return False
