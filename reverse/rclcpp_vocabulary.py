@@ -27,6 +27,12 @@ NODE_SCOPES = frozenset({"rclcpp", "rclcpp_lifecycle"})
 NAMED = _asks(Kind.NODE, "name")
 MAKERS = frozenset({"make_shared", "make_unique"})
 
+# Classes of timers, which a program may make by itself and then add to a node.
+TIMERS: dict[str, Ask] = {
+    "GenericTimer": _asks(Kind.TIMER, "", "period", "callback"),
+    "WallTimer": _asks(Kind.TIMER, "period", "callback", wall=True),
+}
+
 # Methods of a node.
 NODE: dict[str, Ask] = {
     "create_publisher": _asks(Kind.PUBLISHER, "name", "depth", least=2),
@@ -136,7 +142,7 @@ COMPONENT = "RCLCPP_COMPONENTS_REGISTER_NODE"
 # Without this no file of a package uses rclcpp.
 MARK = b"rclcpp"
 
-_NAMES = frozenset({*NODE, *(name for _, name in FUNCTIONS), *NODE_CLASSES})
+_NAMES = frozenset({*NODE, *(name for _, name in FUNCTIONS), *NODE_CLASSES, *TIMERS})
 _PLAIN = frozenset(name.encode() for name in _NAMES)
 
 

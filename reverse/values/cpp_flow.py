@@ -74,6 +74,7 @@ class Texts:
     _lineages: dict[int, list[CppClass]] = field(default_factory=dict)
     _descendants: dict[int, list[CppClass]] = field(default_factory=dict)
     _homes: dict[int, CppFunction | None] = field(default_factory=dict)
+    _other_names: dict[str, list[str]] | None = None
 
     def named(self, cpp: Cpp, name: str) -> list[Node]:
         """All places of a file where a name stands in the code."""
@@ -157,11 +158,32 @@ class Texts:
         return climb(node, lambda n: n.type in ("class_specifier", "struct_specifier"))
 
     def class_near(self, name: str, cpp: Cpp) -> CppClass | None:
-        """The class of a name that a file means: of several, the nearest."""
+        """The class that a file means by a name: of several, the nearest."""
         found = self.code.all_classes.get(name)
+        if not found:
+            found = self._by_other_name(name)
         if not found:
             return None
         return found[0] if len(found) == 1 else max(found, key=lambda c: nearness(c.cpp, cpp))
+
+    def _by_other_name(self, name: str) -> list[CppClass]:
+        """The classes that `using name = type` and the like give another name."""
+        seen = {name}
+        while (known := self.code.aliases.get(name)) and not self.code.all_classes.get(name):
+            name = _last_name(known[0].type)
+            if name in seen:
+                return []
+            seen.add(name)
+        return self.code.all_classes.get(name, []) if len(seen) > 1 else []
+
+    def names(self, class_: CppClass) -> list[str]:
+        """The name of a class and the other names for it."""
+        if self._other_names is None:
+            self._other_names = {}
+            for alias in self.code.aliases:
+                if alias not in self.code.all_classes and (found := self._by_other_name(alias)):
+                    self._other_names.setdefault(found[0].name, []).append(alias)
+        return [class_.name, *self._other_names.get(class_.name, ())]
 
     def class_of(self, function: CppFunction | None) -> CppClass | None:
         """The class that a function is a member of."""
@@ -219,6 +241,16 @@ def _near(one: str, other: str) -> tuple[int, int]:
     while shared < min(len(left), len(right)) and left[shared] == right[shared]:
         shared += 1
     return shared, -len(left)
+
+
+def _last_name(type_: Node) -> str:
+    """The name of a type without its scope and the arguments of its template."""
+    while type_.type in ("type_descriptor", "qualified_identifier", "template_type"):
+        inner = type_.child_by_field_name("type" if type_.type == "type_descriptor" else "name")
+        if inner is None:
+            return ""
+        type_ = inner
+    return text_of(type_)
 
 
 # --- declarations of variables ------------------------------------------------------------------
