@@ -36,7 +36,8 @@ class Unit:
     """What becomes a reactive class.
 
     `functions` are its functions with bodies, of overridden ones the last; `owner` is None for
-    what a program does outside of classes. `code` is what its functions can name.
+    what a program does outside of classes. `code` is what its functions can name. `rclpy` says
+    that it is Python for ROS 2.
     """
 
     name: str
@@ -46,6 +47,7 @@ class Unit:
     facts: tuple[Fact, ...]
     code: Code
     program: Program | None = None
+    rclpy: bool = False
 
     @property
     def names(self) -> frozenset[str]:
@@ -59,7 +61,9 @@ class Unit:
     @property
     def flat(self) -> bool:
         """Whether it is for ROS 2, where parameters are the node's own."""
-        return any(MARK in f.cpp.data for f in self.functions) or any(c.roots for c in self.lineage)
+        if self.rclpy or any(c.roots for c in self.lineage):
+            return True
+        return any(MARK in f.cpp.data for f in self.functions)
 
     @property
     def files(self) -> frozenset[str]:

@@ -26,13 +26,13 @@ from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.python.py_values import Values
 from rebsync.source import Source
 
-# The modules of the run-time part, and a class that each has.
+# The modules of the run-time part, and what each has that people's of that name lack.
 _RUNTIME = {
-    "mailbox": "Mailbox",
-    "startup": "Startup",
-    "values": "Violation",
-    "drive": "Drive",
-    "sensor": "Sensor",
+    "mailbox": ("\nclass Mailbox",),
+    "startup": ("\nclass Startup",),
+    "values": ("\nclass Violation",),
+    "drive": ("\nclass Drive", "def move("),
+    "sensor": ("\nclass Sensor", "def seen("),
 }
 
 
@@ -301,7 +301,7 @@ class Classes:
 def is_runtime_file(source: Source) -> bool:
     """Whether a file is a module of the run-time part, which is the same in all packages."""
     stem = source.path.rpartition("/")[2].removesuffix(".py")
-    return stem in _RUNTIME and f"\nclass {_RUNTIME[stem]}" in source.text
+    return stem in _RUNTIME and all(text in source.text for text in _RUNTIME[stem])
 
 
 def _messages_of(owners: list[Scope]) -> Iterator[str]:
