@@ -6,7 +6,7 @@ fields of messages are read, and which whole numbers may leave the model's `int`
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field as with_default
 from dataclasses import replace
 from fractions import Fraction
@@ -159,7 +159,8 @@ class _Round:
             waiting = {k for k in pending if k not in self.learnt.kinds}
             for key in waiting:
                 self.learnt.join(key, OTHER)
-            if not waiting and not self._proved_otherwise():
+            classes = [read.class_ for read in self._read.values()]
+            if not waiting and not proved_otherwise(self.learnt, classes):
                 break
         else:
             self._all()
@@ -178,19 +179,6 @@ class _Round:
                 class_.read()
                 learnt = self.learnt
                 self._read[kind] = _Read(class_, learnt.answers, learnt.pending)
-
-    def _proved_otherwise(self) -> bool:
-        """Takes note of what may leave the model's `int`; whether there is anything new."""
-        before = self.learnt.changes
-        for read in self._read.values():
-            proof, reading = read.class_.proof, read.class_.reading
-            for mark in proof.failed:
-                self.learnt.refuse(mark)
-            for name in proof.broken:
-                key = reading.state.get(name) or reading.keys.get(name)
-                if key is not None:
-                    self.learnt.join(key, OTHER)
-        return self.learnt.changes != before
 
     def _reading(self, kind: _Kind, findings: Findings) -> Reading:
         unit, alike = kind[0], self.alike[kind]
@@ -286,3 +274,16 @@ class _Round:
         wiring = self.joined.wiring
         bindings = [m.Name(wiring.instances[n].name) for n in wiring.known(instance)]
         return m.Rebec(m.Type(self.joined.class_of(instance)), instance.name, tuple(bindings), ())
+
+
+def proved_otherwise(learnt: Learnt, classes: Iterable[PyClass]) -> bool:
+    """Takes note of what may leave the model's `int`; whether there is anything new."""
+    before = learnt.changes
+    for class_ in classes:
+        for mark in class_.proof.failed:
+            learnt.refuse(mark)
+        for name in class_.proof.broken:
+            key = class_.reading.state.get(name) or class_.reading.keys.get(name)
+            if key is not None:
+                learnt.join(key, OTHER)
+    return learnt.changes != before
