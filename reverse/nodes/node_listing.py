@@ -115,17 +115,18 @@ class Listing:
 
     def wiring(self, wiring: Wiring, units: list[Unit]) -> None:
         """Topics of some units that are not known, and those with nobody at their other end."""
-        wanted = [i for i in wiring.instances if i.start.unit in units]
+        asked = {id(unit) for unit in units}
+        wanted = [i for i in wiring.instances if id(i.start.unit) in asked]
         for instance in wanted:
             self._topics(instance)
         for instance, fact in unheard(wiring):
             topic = instance.topic(fact.topic)
-            if isinstance(topic, str) and instance in wanted:
+            if isinstance(topic, str) and id(instance.start.unit) in asked:
                 why = f'nobody in these files subscribes to "{topic}": it is not sent in the model'
                 self._approximated(fact.site.place, why, instance.start.unit.name, _OPEN)
         for instance, heard in unfed(wiring):
             topic = instance.topic(heard.topic)
-            if isinstance(topic, str) and instance in wanted:
+            if isinstance(topic, str) and id(instance.start.unit) in asked:
                 why = f'nobody in these files publishes "{topic}": the model gets no such message'
                 self._approximated(heard.site.place, why, instance.start.unit.name, _CLOSE)
         self._services(wiring, wanted)
