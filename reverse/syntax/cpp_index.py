@@ -5,7 +5,7 @@ Header and source are read together: a function's body is looked for wherever it
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import field
 from typing import TypeVar
 
@@ -151,9 +151,14 @@ class Code:
         body = function.body
         return self._searches.names_called(function.cpp, body) if body is not None else frozenset()
 
-    def handed_on(self) -> frozenset[str]:
-        """The names of functions that some code calls on an object, or hands on."""
-        return frozenset().union(*map(self._searches.handed_on, self.files))
+    def named(self, cpp: Cpp, node: Node, names: Collection[str]) -> list[Node]:
+        """The nodes in a node of a file that are some words, in the order of the text."""
+        return self._searches.named(cpp, node, names)
+
+    def handed_on(self, wanted: Collection[str]) -> frozenset[str]:
+        """The names of functions that some code calls on an object, or hands on: the wanted."""
+        files = (self._searches.handed_on(cpp, wanted) for cpp in self.files)
+        return frozenset(wanted).intersection(*[frozenset[str]().union(*files)])
 
     def constant(self, cpp: Cpp, name: str) -> tuple[Cpp, Node] | None:
         """The value of a constant of a file."""
@@ -244,7 +249,7 @@ class Code:
             tuple(bases_of(node)),
             tuple(fields),
             tuple(functions),
-            markers_above(node),
+            markers_above(node) if cpp.has_markers else (),
             cpp,
             node,
             tuple(others),
