@@ -244,6 +244,8 @@ class State:
 
         Those that are declared `within` a loop live for one round only.
         """
+        if only_static and b"static" not in function.cpp.words:
+            return {}
         key = function.node.id, frozenset(names), only_static
         if key not in self._outlived:
             self._outlived[key] = self._outlive(function, names, only_static, within)

@@ -196,8 +196,8 @@ class _Reader:
                 findings.back_to(listed)
                 read = self._too_deep(unit, alike, findings)
             yield read
-            known = {(f.span, f.why) for f in self.system.findings.all}
             if number:
+                known = {(f.span, f.why) for f in self.system.findings.all}
                 new = [f for f in findings.all if (f.span, f.why) not in known]
                 self.system.findings.all += new
 
@@ -293,6 +293,8 @@ class _Reader:
 
     def _known(self, unit: Unit, alike: list[Instance], names: Names) -> list[tuple[str, str, int]]:
         """Name, class and place among the slots of the rebecs that a class sends to."""
+        if not any(self.wiring.known(i) for i in alike):
+            return []
         bodies = [(f.cpp, f.body) for f in unit.functions if f.body is not None]
         taken = {n for cpp, body in bodies for n in declared(unit.code, cpp, body)}
         taken |= {p.name for s in self.wiring.servers[unit.name] for p in s.parameters}

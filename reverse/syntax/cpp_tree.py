@@ -58,6 +58,11 @@ class Cpp:
         """All words of the text: what is not among them stands nowhere in it."""
         return words_of(self.original)
 
+    @property
+    def has_markers(self) -> bool:
+        """Whether there may be markers in its comments."""
+        return b"rebsync" in self.words
+
     def operator(self, node: Node) -> str:
         """The operator of an operation."""
         operator = part(node, "operator")
