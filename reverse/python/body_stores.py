@@ -57,22 +57,26 @@ def _assigned(reader: PyStatements, target: Node, value: Node, node: Node) -> It
     if target.type not in ("identifier", "attribute"):
         outside(reader, value, node)
         return
+    learnt = reader.reading.learnt
+    since = len(learnt.answers)
     meaning, path = reader.expressions.meaning(target)
     type_ = reader.reading.message_type(value, reader.frame)
     match meaning:
         case Var(key) | Message(key, _, _, _, "") if not path and type_ is not None:
-            reader.reading.learnt.join(key, type_)
+            learnt.join(key, type_)
+            learnt.settle(key, since)
+            meaning, _ = reader.expressions.meaning(target)
             reader.frame.assigned.add(text_of(target))
             if isinstance(meaning, Message):
                 yield from body_messages.made(reader, meaning, value)
         case Var():
-            yield from _variable(reader, meaning, target, value, node)
+            yield from _variable(reader, meaning, target, value, node, since)
         case Message(server="") if path:
             yield from _field(reader, meaning, path, value, node)
         case Message(key):
             if path:
                 raise Unread(reader.frame.span(node), "a message that came in is changed")
-            reader.reading.learnt.join(key, OTHER)
+            learnt.join(key, OTHER)
             outside(reader, value, node)
         case _:
             outside(reader, value, node)
@@ -86,12 +90,15 @@ def outside(reader: PyStatements, value: Node, node: Node) -> None:
 
 
 def _variable(
-    reader: PyStatements, variable: Var, target: Node, value: Node, node: Node
+    reader: PyStatements, variable: Var, target: Node, value: Node, node: Node, since: int
 ) -> Iterator[m.Statement]:
+    before = reader.reading.extent
     try:
         read = reader.expressions.read(value)
     except Unknown:
         reader.reading.learnt.join(variable.key, OTHER)
+        if reader.reading.extent == before:  # else trying to read the value has left something
+            reader.reading.learnt.settle(variable.key, since)
         outside(reader, value, node)
         return
     yield from give(reader, variable, text_of(target), read, node)
@@ -202,10 +209,12 @@ def forget(reader: PyStatements, target: Node) -> None:
         for inner in named(target) if target.type.endswith(("list", "tuple", "pattern")) else []:
             forget(reader, inner)
         return
+    since = len(reader.reading.learnt.answers)
     meaning, path = reader.expressions.meaning(target)
     match meaning:
         case Var(key):
             reader.reading.learnt.join(key, OTHER)
+            reader.reading.learnt.settle(key, since)
         case Message(key, _, type_, _, "") if path:
             for each in reader.reading.types.fields(type_) or {}:
                 if each == path or each.startswith(f"{path}."):

@@ -6,7 +6,7 @@ fields of messages are read, and which whole numbers may leave the model's `int`
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field as with_default
 from fractions import Fraction
 
@@ -143,7 +143,8 @@ class _Round:
             waiting = {k for k in pending if k not in self.learnt.kinds}
             for key in waiting:
                 self.learnt.join(key, OTHER)
-            if not waiting and not self._proved_otherwise():
+            classes = [read.class_ for read in self._read.values()]
+            if not waiting and not proved_otherwise(self.learnt, classes):
                 break
         else:
             self._all()
@@ -162,20 +163,6 @@ class _Round:
                 class_.read()
                 learnt = self.learnt
                 self._read[unit.name] = _Read(class_, learnt.answers, learnt.pending)
-
-    def _proved_otherwise(self) -> bool:
-        """Takes note of what may leave the model's `int`; whether there is anything new."""
-        before = self.learnt.changes
-        for read in self._read.values():
-            proof = read.class_.proof
-            for mark in proof.failed:
-                self.learnt.refuse(mark)
-            for name in proof.broken:
-                reading = read.class_.reading
-                key = reading.state.get(name) or reading.keys.get(name)
-                if key is not None:
-                    self.learnt.join(key, OTHER)
-        return self.learnt.changes != before
 
     def _reading(self, unit: PyUnit, findings: Findings) -> Reading:
         known = self.known(unit)
@@ -263,3 +250,16 @@ class _Round:
         instance = self._instance(unit)
         bindings = [m.Name(self.wiring.instances[n].name) for n in self.wiring.known(instance)]
         return m.Rebec(m.Type(self.classes[unit.name]), instance.name, tuple(bindings), ())
+
+
+def proved_otherwise(learnt: Learnt, classes: Iterable[PyClass]) -> bool:
+    """Takes note of what may leave the model's `int`; whether there is anything new."""
+    before = learnt.changes
+    for class_ in classes:
+        for mark in class_.proof.failed:
+            learnt.refuse(mark)
+        for name in class_.proof.broken:
+            key = class_.reading.state.get(name) or class_.reading.keys.get(name)
+            if key is not None:
+                learnt.join(key, OTHER)
+    return learnt.changes != before
