@@ -73,13 +73,21 @@ def _assigned(reader: PyStatements, target: Node, value: Node, node: Node) -> It
             yield from _variable(reader, meaning, target, value, node, since)
         case Message(server="") if path:
             yield from _field(reader, meaning, path, value, node)
+        case Message() if path:
+            outside(reader, value, node)
+            _change(reader, meaning, path)
         case Message(key):
-            if path:
-                raise Unread(reader.frame.span(node), "a message that came in is changed")
             learnt.join(key, OTHER)
             outside(reader, value, node)
         case _:
             outside(reader, value, node)
+
+
+def _change(reader: PyStatements, message: Message, path: str) -> None:
+    """A field of a message that came in is set: from its start nobody knows what it holds."""
+    for each in reader.reading.types.fields(message.type) or {}:
+        if each == path or each.startswith(f"{path}."):
+            reader.reading.learnt.leave_open(reader.reading.unit.name, message.server, each)
 
 
 def outside(reader: PyStatements, value: Node, node: Node) -> None:
@@ -197,7 +205,8 @@ def augmented(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
     if isinstance(meaning, Var):
         yield from give(reader, meaning, text_of(target), read, node)
     elif meaning.server:
-        raise Unread(reader.frame.span(node), "a message that came in is changed")
+        outside(reader, value, node)
+        _change(reader, meaning, path)
     else:
         body_messages.as_field(reader.expressions, read, meaning.type, path, node)
         yield from body_messages.set_field(reader, meaning, path, read, node)
@@ -219,6 +228,8 @@ def forget(reader: PyStatements, target: Node) -> None:
             for each in reader.reading.types.fields(type_) or {}:
                 if each == path or each.startswith(f"{path}."):
                     reader.reading.learnt.join(field_key(meaning, each), OTHER)
+        case Message() if path:
+            _change(reader, meaning, path)
         case Message(key):
             reader.reading.learnt.join(key, OTHER)
         case _:
