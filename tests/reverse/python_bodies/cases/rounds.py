@@ -20,6 +20,13 @@ class Relay:
         self.pub.publish(value)
 
 
+def fill(make):
+    twist = make()
+    twist.linear.near = 1
+    twist.relays.near = 1
+    return twist
+
+
 class Scanner:
     def __init__(self):
         self.near = 0
