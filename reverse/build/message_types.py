@@ -66,6 +66,12 @@ class MessageTypes:
         """The whole numbers that messages of the package give names, as the code has them."""
         return self._constants
 
+    def has_field(self, name: str) -> bool:
+        """Whether a type of the package, or one that comes with ROS, has a field of this name."""
+        own = (field for fields in self.own.values() for field, _, _ in fields)
+        common = (part.partition(" ")[0] for text in COMMON.values() for part in text.split(", "))
+        return name in own or name in common
+
     def fields(self, type_: str) -> Fields | None:
         """The fields of a type by their paths, inner ones too; None for a type that is not known.
 

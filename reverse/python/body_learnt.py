@@ -34,12 +34,14 @@ class Learnt:
     pending: set[Key] = with_default(default_factory=set)
     answers: dict[Asked, object] = with_default(default_factory=dict)
     changes: int = 0
+    # How many answers there were when the shape of a variable was asked for the first time.
+    _first: dict[Key, int] = with_default(default_factory=dict)
 
     # --- what is asked --------------------------------------------------------------------------
 
     def start(self) -> None:
         """From here on it is noted anew what is asked, and what stands on nothing."""
-        self.answers, self.pending = {}, set()
+        self.answers, self.pending, self._first = {}, set(), {}
 
     def is_same(self, answers: dict[Asked, object]) -> bool:
         """Whether some answers are what the same questions would get now."""
@@ -59,7 +61,16 @@ class Learnt:
 
     def shape(self, key: Key) -> Kind:
         """The type of message that a variable holds, or OTHER; empty for a value of the model."""
+        self._first.setdefault(key, len(self.answers))
         return self._noted(self._shape, key, self._shape(key))
+
+    def settle(self, key: Key, since: int) -> None:
+        """Takes what a variable holds now for what was answered, which makes no difference.
+
+        That is for who asked; not if its shape was asked for earlier than `since` answers.
+        """
+        if self._first.get(key, -1) >= since:
+            self.answers[self._shape, key] = self._shape(key)
 
     def _shape(self, key: Key) -> Kind:
         kind = self.kinds.get(key)

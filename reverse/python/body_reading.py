@@ -82,6 +82,12 @@ class Reading:
     def code(self) -> PyCode:
         return self.values.code
 
+    @property
+    def extent(self) -> tuple[int, ...]:
+        """How much reading has left so far of what the model or the report shows."""
+        left = self.findings.all, self.learnt.pending, self.state, self.used_names
+        return tuple(map(len, left))
+
     # --- names ----------------------------------------------------------------------------------
 
     def name(self, text: str, node: Node, frame: Frame) -> Meaning:
