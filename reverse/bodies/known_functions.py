@@ -85,6 +85,15 @@ _CONVERSION = re.compile(
     r"(?:::)?(?:u?int(?:8|16|32|64)?(?:_t)?|float|double|bool|char|long|short|unsigned|size_t)\Z"
 )
 _LIBRARIES = re.compile(r"(?:::)?(?:std|boost|ros|tf2?|tf2_ros|Eigen|cv|pcl|\w+_msgs|\w+_srvs)::")
+# Types whose objects, when they are called, give an element of themselves.
+_MATRIX = re.compile(
+    r"(?:const\s+)?(?:::)?Eigen::(?:Matrix|(?:Row)?Vector|Array)(?:X?\d?X?[dfi]|<.*>)\Z", re.DOTALL
+)
+
+
+def is_matrix(type_: str) -> bool:
+    """Whether to call an object of a type only gives an element of it."""
+    return _MATRIX.match(type_) is not None
 
 
 def acts(call: CppCall) -> str | None:
