@@ -47,6 +47,8 @@ LOOKS = frozenset(
         *("get_subscription_count", "get_publisher_count", "get_topic_name", "get_logger"),
         *("is_canceled", "time_until_trigger", "service_is_ready", "nanoseconds", "seconds"),
         *("toSec", "c_str", "str", "cbegin", "cend"),
+        *("is_activated", "assert_liveliness", "get_network_flow_endpoints", "get_actual_qos"),
+        *("can_loan_messages", "get_content_filter", "is_cft_enabled", "get_gid"),
         *("now", "self", "sender", "arrival", "expiry", "waitingTime"),
     }
 )
