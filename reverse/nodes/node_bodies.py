@@ -124,6 +124,7 @@ class Bodies:
             overflowing=self.overflowing,
             regions=self._regions(cpp).of,
             wide=self.wide,
+            macros=self.code.macros,
             timers=self.setup.timers,
             instead=self.setup.instead,
             values=self.setup.values,

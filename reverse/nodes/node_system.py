@@ -21,6 +21,7 @@ from rebsync.reverse.nodes.node_bound import note_bound, note_helpers
 from rebsync.reverse.nodes.node_classes import NodeClass, too_deep
 from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_joined import Joined, Part
+from rebsync.reverse.nodes.node_lifecycle import note_life_cycle
 from rebsync.reverse.nodes.node_listing import Listing
 from rebsync.reverse.nodes.node_names import Names, class_word
 from rebsync.reverse.nodes.node_parameters import Given
@@ -219,6 +220,7 @@ class _Reader:
             findings.back_to(listed)
         state = self.system.state(unit)
         state.note(broken | node.overflowing.counted, findings, unit.name)
+        note_life_cycle(unit, findings)
         note_bound(node.bodies)
         note_helpers(node.bodies, self.found.part.classes)
         return read

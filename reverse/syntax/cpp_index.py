@@ -67,7 +67,8 @@ class Code:
     """All declarations of some files.
 
     `classes` has the first class of each name; `all_classes` has all of them, those inside of
-    classes too. `statics` are static members with the values that stand outside of their class.
+    classes too. `statics` are static members with the values that stand outside of their class;
+    `macros` those that take something.
     """
 
     files: list[Cpp] = field(default_factory=list)
@@ -79,6 +80,7 @@ class Code:
     classes: dict[str, CppClass] = field(default_factory=dict)
     definitions: dict[tuple[str, str], list[CppFunction]] = field(default_factory=dict)
     constants: dict[tuple[str, str], tuple[Cpp, Node]] = field(default_factory=dict)
+    macros: dict[str, list[Node]] = field(default_factory=dict)
     _types: dict[int, tuple[str, ...]] = field(default_factory=dict)
     _visible: dict[str, dict[str, tuple[Cpp, Node]]] = field(default_factory=dict)
     _searches: Searches = field(default_factory=Searches)
@@ -109,6 +111,7 @@ class Code:
         _append(self.enumerators, one.enumerators)
         _append(self.aliases, one.aliases)
         _append(self.variables, one.variables)
+        _append(self.macros, one.macros)
         _append(self.definitions, one.definitions)
         self.constants |= one.constants
         for name, class_ in one.classes.items():
@@ -204,6 +207,9 @@ class Code:
                     self._add_class(cpp, child)
                 case "preproc_def":
                     self._add_macro(cpp, child)
+                case "preproc_function_def":
+                    name = text_of(child.children_by_field_name("name")[0])
+                    self.macros.setdefault(name, []).append(child)
                 case "enum_specifier":
                     self._add_enum(cpp, child, "")
                 case "type_definition" | "alias_declaration":
