@@ -24,15 +24,17 @@ Builder = Callable[[Path, str], Workspace]
 Play = Callable[[Path, str, Clock], Recording]
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Mark what is here; skip it, loudly, where no ROS 2 is sourced: Debian has none."""
     reason = missing_ros2()
+    asked: int | None = config.getoption("reruns", None)
+    reruns = 2 if asked is None else asked
     for item in items:
         if _HERE not in item.path.parents:
             continue
         item.add_marker(pytest.mark.ros2)
         # On a busy machine real nodes may be too late for the clock of a test: it is tried again.
-        item.add_marker(pytest.mark.flaky(reruns=2))
+        item.add_marker(pytest.mark.flaky(reruns=reruns))
         item.add_marker(pytest.mark.timeout(_TIMEOUT))
         if reason is not None:
             item.add_marker(pytest.mark.skip(reason=reason))
