@@ -126,6 +126,15 @@ std::size_t countRebecs(const std::vector<Process>& processes) {
   return count;
 }
 
+// Whether programs end without complaint that are told to stop while they make their nodes.
+bool endsEarly(const std::vector<Process>& processes) {
+  for (const Process& process : processes) {
+    rclcpp::fake::arguments() = process.arguments;
+    if (process.main(0, nullptr) != 0) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -149,5 +158,5 @@ int main(int argc, char** argv) {
   middleware.record("end", "");
   middleware.shut_down();
   for (std::thread& thread : running) thread.join();
-  return 0;
+  return endsEarly(processes) ? 0 : 1;
 }
