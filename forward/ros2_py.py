@@ -142,10 +142,10 @@ def _node(c: PyClass) -> str:
     package = c.package.name
     modules: dict[str, tuple[str, ...]] = {
         f"{package}.{c.node.file}": (c.type_name,),
-        f"{package}.startup": ("declared",),
+        f"{package}.startup": ("declared", "stoppable"),
         f"{package}.values": VALUES,
     }
-    used = words_of([*arguments, c.type_name])
+    used = words_of([*arguments, c.type_name, "stoppable"])
     return fill(
         f"{_FOLDER}/node.py.j2",
         c=c,
@@ -169,5 +169,10 @@ def _stand_in(package: Package, node: NodeClass) -> str:
     types = sorted({s.type for s in sensors})
     messages = interfaces(package.name)
     return fill(
-        f"{_FOLDER}/stand_in.py.j2", messages=messages, node=node, sensors=sensors, types=types
+        f"{_FOLDER}/stand_in.py.j2",
+        package=package.name,
+        messages=messages,
+        node=node,
+        sensors=sensors,
+        types=types,
     )
