@@ -110,7 +110,8 @@ def extract(
         ).read()
     if system is not None and only is None and (read or nodes.classes):
         system.note(findings)
-    python = _python(files, findings, only, package, launch)
+    servers = {t: s for roles in classes.roles.values() for t, s in roles.messages.items()}
+    python = _python(files, findings, only, package, launch, servers)
     if python is not None:
         read = (*read, *python.classes)
         nodes = nodes.beside(python.nodes.classes, python.nodes.rebecs)
@@ -128,15 +129,19 @@ def _python(
     only: str | None,
     package: str,
     launch: Launch | None,
+    servers: Mapping[str, str],
 ) -> PythonPart | None:
-    """What the files of Python say; what of them is not in the model is listed."""
+    """What the files of Python say; what of them is not in the model is listed.
+
+    `servers` are those in C++, by the types of their messages.
+    """
     sources = {path: source for path, source in files.items() if is_python(path, source)}
     if not sources:
         return None
     from rebsync.reverse.python.recovery import read_python
 
     messages = {t.rpartition("/")[2]: tuple(f) for t, f in own_messages(files).items()}
-    return read_python(sources, findings, only, messages, files, package, launch)
+    return read_python(sources, findings, only, messages, files, package, launch, servers)
 
 
 def _main(generated: _System, nodes: Nodes, is_part: bool) -> m.Main | None:

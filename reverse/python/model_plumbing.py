@@ -15,7 +15,7 @@ from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python.model_constants import is_quiet
 from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_roles import Roles
-from rebsync.reverse.python.model_types import call_parts, type_made, type_of
+from rebsync.reverse.python.model_types import call_parts, called_late, type_made, type_of
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_tree import Py, field, named, text_of
@@ -115,7 +115,7 @@ class Plumbing:
         called, arguments = call_parts(call) or ("", [])
         if called == "self._mailbox.construct" and len(arguments) == 1:
             passed = arguments[0]
-            given = field(passed, "body") if passed.type == "lambda" else None
+            given = called_late(passed)
             _, values = call_parts(given) or ("", [])
             names = [p.name for p in function.parameters[1:]]
             return [text_of(v) for v in values] == names[-len(values) :] if values else True
@@ -143,9 +143,7 @@ class Plumbing:
         if type_ is None or text_of(arguments[1]) != f"{message}.timing":
             return False
         served = arguments[4]
-        _, values = (
-            call_parts(field(served, "body")) or ("", []) if served.type == "lambda" else ("", [])
-        )
+        _, values = call_parts(called_late(served)) or ("", [])
         given = [_field_read(v, message) for v in values]
         wanted = self.fields.get(text_of(type_))
         if wanted is not None:
@@ -214,7 +212,7 @@ def _posts(arguments: list[Node], passed: list[str]) -> bool:
     if len(arguments) != 4 or text_of(arguments[1]) != "when":
         return False
     served = arguments[3]
-    _, values = (call_parts(field(served, "body")) if served.type == "lambda" else None) or ("", [])
+    _, values = call_parts(called_late(served)) or ("", [])
     return [text_of(v) for v in values] == passed
 
 

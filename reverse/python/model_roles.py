@@ -18,6 +18,7 @@ from rebsync.records import dataclass
 from rebsync.reserved import OWN_TOPICS, PYTHON_MEMBERS, PYTHON_RESERVED
 from rebsync.reverse.python.model_types import (
     call_parts,
+    called_late,
     is_unset,
     markers_above,
     markers_beside,
@@ -273,8 +274,8 @@ def _received(
 ) -> None:
     server, annotations = servers.get(text_of(arguments[0]), ("", ()))
     served = arguments[4]
-    if served.type == "lambda":
-        served = field(field(served, "body"), "function")
+    late = called_late(served)
+    served = field(late, "function") if late is not None and late.type == "call" else served
     handler = text_of(served).removeprefix("self.")
     if not server or not handler.isidentifier():
         return

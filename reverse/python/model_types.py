@@ -119,3 +119,8 @@ def call_parts(node: Node | None) -> tuple[str, list[Node]] | None:
     if node is None or (node := without_parentheses(node)).type != "call":
         return None
     return text_of(field(node, "function")), named(field(node, "arguments"))
+
+
+def called_late(node: Node) -> Node | None:
+    """What a function without a name does when it is called; None for what is none."""
+    return without_parentheses(field(node, "body")) if node.type == "lambda" else None
