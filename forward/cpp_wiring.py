@@ -2,30 +2,39 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from rebsync.forward.class_names import publisher_place
 from rebsync.forward.cpp_class import CppClass
 from rebsync.forward.cpp_layout import indented, statement_lines, with_trailing_comments
 from rebsync.forward.cpp_messages import own_subscriptions, stored_in
 from rebsync.forward.cpp_types import cpp_type, cpp_value
-from rebsync.model import Type
+from rebsync.model import Annotation, Type
 from rebsync.package import Draw, Sensor
+from rebsync.printing import print_line
 
 
 def members(c: CppClass) -> list[str]:
     """State variables, known rebecs and env values, each with its marker beside it."""
-    lines = [
-        (f"{cpp_type(m.type)} {c.names.members[m.name]}{{}};", f"rebsync: statevar {m.path}")
-        for m in c.node.members
-    ]
-    lines += [
-        (f"{cpp_type(Type(k.type))} {c.names.members[k.name]};", f"rebsync: knownrebec {k.path}")
-        for k in c.node.known
-    ]
+    lines: list[tuple[str, str]] = []
+    for member in c.node.members:
+        lines += _annotations(member.annotations)
+        declared = f"{cpp_type(member.type)} {c.names.members[member.name]}{{}};"
+        lines.append((declared, f"rebsync: statevar {member.path}"))
+    for known in c.node.known:
+        lines += _annotations(known.annotations)
+        declared = f"{cpp_type(Type(known.type))} {c.names.members[known.name]};"
+        lines.append((declared, f"rebsync: knownrebec {known.path}"))
     lines += [
         (f"{cpp_type(e.type)} {c.names.env[e.name]}{{}};", f"rebsync: env {e.name}")
         for e in c.node.env
     ]
     return indented(with_trailing_comments(lines))
+
+
+def _annotations(annotations: tuple[Annotation, ...]) -> Iterator[tuple[str, str]]:
+    """The markers of annotations, each on a line of its own."""
+    return ((f"// rebsync: annotation {print_line(a).strip()}", "") for a in annotations)
 
 
 def ros_members(c: CppClass) -> list[str]:

@@ -57,7 +57,7 @@ class PyClass:
                 self.construct(c),
                 c.parameters,
                 c.body,
-                (f"constructor {self.node.name}", *_annotations(c.annotations)),
+                (f"constructor {self.node.name}", *annotation_markers(c.annotations)),
             )
             for c in self.node.constructors
             if c.body is not None
@@ -78,7 +78,7 @@ class PyClass:
                 self.names.function(s.server, s.parameters),
                 s.parameters,
                 s.body,
-                (f"msgsrv {s.path}", *_annotations(s.annotations)),
+                (f"msgsrv {s.path}", *annotation_markers(s.annotations)),
             )
             for s in self.node.subscriptions
             if s.body is not None or s.path.startswith(f"{own}.")
@@ -89,7 +89,7 @@ class PyClass:
         return [self._method(f) for f in self.node.functions]
 
     def _method(self, function: Function) -> list[str]:
-        markers = (f"method {function.path}", *_annotations(function.annotations))
+        markers = (f"method {function.path}", *annotation_markers(function.annotations))
         name = self.names.function(function.name, function.parameters)
         return self._function(name, function.parameters, function.body, markers, function.type)
 
@@ -122,5 +122,6 @@ def parameters_of(names: PyNames, parameters: tuple[Parameter, ...]) -> list[str
     return [f"{names.local(p.name)}: {py_type(p.type)}" for p in parameters]
 
 
-def _annotations(annotations: tuple[Annotation, ...]) -> Iterator[str]:
+def annotation_markers(annotations: tuple[Annotation, ...]) -> Iterator[str]:
+    """What the markers of annotations say."""
     return (f"annotation {print_line(a).strip()}" for a in annotations)

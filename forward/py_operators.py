@@ -60,11 +60,12 @@ def implied(inner: m.Expression, found: Text) -> int | None:
 
 def float_literal(literal: str) -> str:
     """A literal of the model: float unless it says double."""
-    digits = literal.replace("_", "")
-    if digits[-1] in "dD":
-        return f"float64({digits[:-1]})"
-    if digits[-1] in "fF":
-        return f"float32({digits[:-1]})"
+    digits, suffix = literal.replace("_", ""), ""
+    if digits[-1] in "dDfF":
+        digits, suffix = digits[:-1], digits[-1].lower()
+        digits += "" if set(digits) & set(".eE") else ".0"
+    if suffix:
+        return f"float{64 if suffix == 'd' else 32}({digits})"
     value = float(digits)
     try:
         single: float = struct.unpack("f", struct.pack("f", value))[0]

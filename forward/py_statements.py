@@ -80,12 +80,17 @@ class PyStatements:
         at = start
         for statement in statements:
             yield from self._remarks(at, statement.span.start)
-            for annotation in statement.annotations:
-                if annotation.name != "Move":
-                    yield f"# rebsync: annotation {print_line(annotation).strip()}"
+            if not isinstance(statement, m.For | m.Switch):
+                yield from self._annotations(statement)
             yield from self._statement(statement)
             at = statement.span.end
         yield from self._remarks(at, end)
+
+    def _annotations(self, statement: m.Statement | m.Case) -> Iterator[str]:
+        """The markers of annotations, which stand right above what they are on."""
+        for annotation in statement.annotations:
+            if annotation.name != "Move":
+                yield f"# rebsync: annotation {print_line(annotation).strip()}"
 
     def _remarks(self, start: int, end: int) -> Iterator[str]:
         return (f"#{line[2:]}" for line in self.remarks.between(start, end))
@@ -211,6 +216,7 @@ class PyStatements:
             yield from self._local(statement.initial)
         else:
             yield from map(self._effect, statement.initial)
+        yield from self._annotations(statement)
         yield "for again_ in rounds():"
         if statement.updates:
             yield f"{INDENT}if again_:"
@@ -239,6 +245,7 @@ class PyStatements:
         self.switches += 1
         self.loop += 1
         case = self._case(self.switches)
+        yield from self._annotations(statement)
         yield f"for {case} in switch({self.expressions.text(statement.subject)}):"
         lines = [
             INDENT + line for i in range(len(statement.cases)) for line in self._one(statement, i)
@@ -253,6 +260,7 @@ class PyStatements:
     def _one(self, statement: m.Switch, index: int) -> Iterator[str]:
         case = statement.cases[index]
         name = self._case(self.switches)
+        yield from self._annotations(case)
         if case.value is None:
             later = [c.value for c in statement.cases[index + 1 :] if c.value is not None]
             yield f"if {name}.default({', '.join(map(self.expressions.text, later))}):"

@@ -6,7 +6,7 @@ from typing import Protocol
 
 from rebsync.forward.class_names import publisher_place
 from rebsync.forward.lineage import base_of
-from rebsync.forward.py_class import PyClass
+from rebsync.forward.py_class import PyClass, annotation_markers
 from rebsync.forward.py_layout import call_lines, indented
 from rebsync.forward.py_messages import own_subscriptions, to_message
 from rebsync.forward.py_types import py_type, unset_value
@@ -119,12 +119,14 @@ def _wired(c: PyClass, words: PyWords, queue: str, best: str) -> list[str]:
 def _members(c: PyClass, words: PyWords) -> list[str]:
     """State variables, known rebecs and env values, each with its marker beside it."""
     names = c.names
-    lines = [
-        f"self.{names.members[m.name]}: {py_type(m.type)} = {unset_value(m.type)}"
-        f"  # rebsync: statevar {m.path}"
-        for m in c.node.members
-    ]
+    lines: list[str] = []
+    for member in c.node.members:
+        lines += (f"# rebsync: {a}" for a in annotation_markers(member.annotations))
+        typed = f"self.{names.members[member.name]}: {py_type(member.type)}"
+        unset = unset_value(member.type)
+        lines.append(f"{typed} = {unset}  # rebsync: statevar {member.path}")
     for known in c.node.known:
+        lines += (f"# rebsync: {a}" for a in annotation_markers(known.annotations))
         value = words.known(f"knownrebecs/{graph_name(known.name)}")
         typed = f"self.{names.members[known.name]}: {py_type(Type(known.type))}"
         lines.append(f"{typed} = {value}  # rebsync: knownrebec {known.path}")

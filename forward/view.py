@@ -166,7 +166,7 @@ class _View:
 
     def _members(self, declaration: ReactiveClass | None) -> tuple[p.Member, ...]:
         return tuple(
-            p.Member(d.name, section.type, f"{declaration.name}.{d.name}")
+            p.Member(d.name, section.type, f"{declaration.name}.{d.name}", section.annotations)
             for member in (declaration.members if declaration else ())
             if isinstance(member, StateVars)
             for section in member.declarations
@@ -176,7 +176,9 @@ class _View:
 
     def _known(self, declaration: ReactiveClass | None) -> tuple[p.KnownRebec, ...]:
         return tuple(
-            p.KnownRebec(d.name, section.type.name, f"{declaration.name}.{d.name}")
+            p.KnownRebec(
+                d.name, section.type.name, f"{declaration.name}.{d.name}", section.annotations
+            )
             for member in (declaration.members if declaration else ())
             if isinstance(member, KnownRebecs)
             for section in member.declarations

@@ -128,6 +128,7 @@ class Member:
     name: str
     type: Type
     path: str
+    annotations: tuple[Annotation, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,6 +138,7 @@ class KnownRebec:
     name: str
     type: str
     path: str
+    annotations: tuple[Annotation, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

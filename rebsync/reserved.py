@@ -64,8 +64,10 @@ RESERVED_GLOBALS = frozenset(
 
 def carry_local(name: str, reserved: Collection[str], functions: Collection[str]) -> str:
     """A local variable or parameter: the model's own name where it hides nothing."""
-    carried = carry(name, reserved)
-    return f"{carried}_v" if f"{carried.removesuffix('_v')}_v" in functions else carried
+    carried = stem = carry(name, reserved)
+    while stem.endswith("_v"):
+        stem = stem[:-2]
+    return f"{carried}_v" if f"{stem}_v" in functions else carried
 
 
 def uncarry_local(carried: str, reserved: Collection[str], functions: Collection[str]) -> str:

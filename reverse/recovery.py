@@ -111,7 +111,8 @@ def extract(
     people = of_cpp.find() if of_cpp is not None else None
     part = people.part if people is not None else Part.empty()
     listed = Findings()
-    python = _python(files, listed, only, package, launch, part, started)
+    servers = {t: s for roles in classes.roles.values() for t, s in roles.messages.items()}
+    python = _python(files, listed, only, package, launch, part, started, servers)
     joined = python.nodes.joined if python is not None else None
     nodes = Nodes((), (), False)
     if of_cpp is not None and people is not None:
@@ -138,8 +139,12 @@ def _python(
     launch: Launch | None,
     beside: Part,
     programs: tuple[Program, ...],
+    servers: Mapping[str, str],
 ) -> PythonPart | None:
-    """What the files of Python say; what of them is not in the model is listed."""
+    """What the files of Python say; what of them is not in the model is listed.
+
+    `servers` are those of generated C++, by the types of their messages.
+    """
     code = ((path, source) for path, source in files.items() if path != SETUP)
     sources = {path: source for path, source in code if is_python(path, source)}
     if not sources:
@@ -149,7 +154,9 @@ def _python(
     messages = {t.rpartition("/")[2]: tuple(f) for t, f in own_messages(files).items()}
     names = {name for p in programs for name in (p.name, p.stem)}
     names = names.union(*executables(files).values())
-    return read_python(sources, findings, only, messages, files, package, launch, beside, names)
+    return read_python(
+        sources, findings, only, messages, files, package, launch, beside, names, servers
+    )
 
 
 def _main(generated: _System, nodes: Nodes, is_part: bool) -> m.Main | None:

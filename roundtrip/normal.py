@@ -7,7 +7,7 @@ Models with one normal form have one meaning. Folded are
 * braces: the bodies of branches and loops have them, but for `else if`,
 * `env` variables and the arguments in `main`, which are constants: their values,
 * spellings of one number: `1_0.f` and `10.0f`, a negative literal and a minus before it,
-* in `@Move`, parentheses and `X + 0`.
+* in `@Move`, parentheses, `X + 0`, and `X + -1` for `X - 1`.
 
 Comments and places take no part in the equality of models anyway. What only Python does not show is
 folded apart from that (`as_in_python`), as C++ does show it.
@@ -65,8 +65,7 @@ def as_in_python(node: _Node) -> _Node:
     """A class, or a model, without what Python does not show of it.
 
     `x += 1` and `++x`, `1.5f` and `1.5`, and whether the start of a `for` stands in its head or
-    directly before it, and `X + -1` and `X - 1` in a `@Move`. What compares as one anyway is left:
-    parentheses, `x++` as a statement.
+    directly before it. What compares as one anyway is left: parentheses, `x++` as a statement.
     """
     return rewrite(rewrite(node, _unwritten), _started)
 
@@ -179,6 +178,8 @@ def _cell(argument: m.Expression) -> m.Expression:
             return _cell(inner)
         case m.Binary("+" | "-", m.Name() as axis, m.IntLiteral(0)):
             return axis
+        case m.Binary("+", m.Name() as axis, m.Unary("-", by)):
+            return m.Binary("-", axis, _cell(by), argument.span)
         case m.Binary(operator, left, right):
             return m.Binary(operator, _cell(left), _cell(right))
         case _:
@@ -192,20 +193,10 @@ def _unwritten(node: object) -> object:
     match node:
         case m.Assign("+=" | "-=" as operator, target, m.IntLiteral(1)):
             return m.Unary(operator[0] * 2, target, node.span)
-        case m.Annotation("Move", arguments) if arguments:
-            return replace(node, arguments=tuple(map(_less, arguments)))
         case m.FloatLiteral(text) if text[-1] in "fF":
             return replace(node, text=text[:-1])
         case _:
             return node
-
-
-def _less(cell: m.Expression) -> m.Expression:
-    match cell:
-        case m.Binary("+", m.Name() as axis, m.Unary("-", by)):
-            return m.Binary("-", axis, by, cell.span)
-        case _:
-            return cell
 
 
 def _started(node: object) -> object:

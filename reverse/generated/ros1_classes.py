@@ -190,7 +190,8 @@ class Classes:
                 continue
             span = member.cpp.span(member.node)
             declarator = m.Declarator(variable_name(self.roles[owner.name], member), None, span)
-            declaration = m.Declaration(type_, (declarator,), span=span)
+            notes = annotations_in(member.markers, owner)
+            declaration = m.Declaration(type_, (declarator,), notes, span)
             (known if member.name in roles.known else state).append(declaration)
         return known, state
 

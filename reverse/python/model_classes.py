@@ -9,8 +9,9 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.names import original
+from rebsync.names import original, uncarry
 from rebsync.records import dataclass
+from rebsync.reserved import RUNTIME_TOPICS
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python.model_constants import constants_of, enumerations_of
@@ -40,12 +41,14 @@ _RUNTIME = {
 class Classes:
     """Reads the classes of some code that have a mailbox, and the interfaces of these.
 
-    `messages` are the fields of the package's message types, by the names of these.
+    `messages` are the fields of the package's message types, by the names of these, `elsewhere`
+    the servers that are in another language, by the same.
     """
 
     code: PyCode
     findings: Findings
     messages: Mapping[str, Sequence[str]] = with_default(default_factory=dict)
+    elsewhere: Mapping[str, str] = with_default(default_factory=dict)
     roles: dict[int, Roles] = with_default(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -53,7 +56,7 @@ class Classes:
         self._owners = [c for c in classes_in(self.code) if not is_runtime_file(c.py.source)]
         self._lines: dict[int, list[Scope]] = {}
         if not any("Mailbox(" in s.py.source.text for s in self.code.modules.values()):
-            self._owners = []
+            self._owners = [o for o in self._owners if _is_marked(o)]
         for owner in self._owners:
             self.roles[id(owner)] = roles_of(self.code, owner)
         reached = {id(c) for o in self._owners if self._has_mailbox(o) for c in self.line(o)}
@@ -64,7 +67,8 @@ class Classes:
         ]
         own = {o.name for o in self._owners}
         self._types = frozenset({*self.messages, *_messages_of(self._owners), *own})
-        self._servers = {k: v for o in self._owners for k, v in self._of(o).messages.items()}
+        self._servers = dict(self.elsewhere)
+        self._servers |= {k: v for o in self._owners for k, v in self._of(o).messages.items()}
 
     def line(self, owner: Scope) -> list[Scope]:
         """A class and those above it, nearest first."""
@@ -166,7 +170,8 @@ class Classes:
 
     def _variable(self, owner: Scope, name: str, type_: m.Type, statement: Node) -> m.Declaration:
         span = owner.py.span(statement)
-        return m.Declaration(type_, (m.Declarator(name, None, span),), span=span)
+        declarator = m.Declarator(name, None, span)
+        return m.Declaration(type_, (declarator,), _annotations_above(owner, statement), span)
 
     # --- functions ------------------------------------------------------------------------------
 
@@ -332,7 +337,7 @@ class Classes:
         message, _, key = sends.server.partition(" ")
         if not key:
             return sends
-        server = self._servers.get(message, original(key.partition("__")[0]))
+        server = self._servers.get(message, uncarry(key, RUNTIME_TOPICS))
         return replace(sends, server=server)
 
 
@@ -378,6 +383,10 @@ def _is_abstract(function: Scope) -> bool:
 
 def _annotations(scope: Scope) -> tuple[m.Annotation, ...]:
     """The annotations that markers above something hold."""
-    span = scope.py.span(scope.node)
-    markers = markers_above(scope.py, scope.node)
+    return _annotations_above(scope, scope.node)
+
+
+def _annotations_above(scope: Scope, node: Node) -> tuple[m.Annotation, ...]:
+    span = scope.py.span(node)
+    markers = markers_above(scope.py, node)
     return tuple(a for x in markers if (a := annotation(x, span)) is not None)

@@ -17,6 +17,7 @@ from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_roles import Roles
 from rebsync.reverse.python.model_types import (
     call_parts,
+    called_late,
     handed_over,
     passed_on,
     type_made,
@@ -122,7 +123,7 @@ class Plumbing:
         called, arguments = call_parts(call) or ("", [])
         if called == "self._mailbox.construct" and len(arguments) == 1:
             passed = arguments[0]
-            given = field(passed, "body") if passed.type == "lambda" else None
+            given = called_late(passed)
             _, values = call_parts(given) or ("", [])
             names = [p.name for p in function.parameters[1:]]
             return [text_of(v) for v in values] == names[-len(values) :] if values else True

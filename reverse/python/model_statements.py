@@ -10,9 +10,8 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.names import uncarry
 from rebsync.records import dataclass
-from rebsync.reserved import PYTHON_RESERVED
+from rebsync.reserved import PYTHON_RESERVED, uncarry_local
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python import model_idioms as idioms
@@ -55,7 +54,8 @@ class Statements:
 
     def local(self, name: str) -> str:
         """The model's name of a local variable or parameter."""
-        return uncarry(name, PYTHON_RESERVED | self.types)
+        taken = self.types | {t.removesuffix("_v") for t in self.types}
+        return uncarry_local(name, PYTHON_RESERVED | taken, self.types)
 
     def _all(self, nodes: list[Node]) -> Iterator[m.Statement]:
         found: list[m.Statement] = []
@@ -95,12 +95,16 @@ class Statements:
         return bool(self.cases) and called == f"{self.cases[-1]}.go_on" and is_last
 
     def _with_annotations(self, node: Node, read: list[m.Statement]) -> list[m.Statement]:
-        span = self.expressions.py.span(node)
-        markers = markers_above(self.expressions.py, node)
-        given = tuple(a for x in markers if (a := annotation(x, span)) is not None)
+        given = self._notes(node)
         if given and read:
             read[-1] = _annotated(read[-1], given)
         return read
+
+    def _notes(self, node: Node) -> tuple[m.Annotation, ...]:
+        """The annotations of the markers above something."""
+        span = self.expressions.py.span(node)
+        markers = markers_above(self.expressions.py, node)
+        return tuple(a for x in markers if (a := annotation(x, span)) is not None)
 
     def _statement(self, node: Node, before: list[m.Statement]) -> list[m.Statement]:
         span = self.expressions.py.span(node)
@@ -305,7 +309,7 @@ class Statements:
         is_default = called.endswith(".default")
         value = None if is_default else self.expressions.read(arguments[0])
         body = self.branch(field(node, "consequence"))
-        return m.Case(value, body.statements, span=self.expressions.py.span(node))
+        return m.Case(value, body.statements, self._notes(node), self.expressions.py.span(node))
 
 
 def _asks(node: Node) -> str:

@@ -112,7 +112,7 @@ def literal_type(node: Node) -> m.Type | None:
 def passed_on(node: Node) -> tuple[str, list[Node]] | None:
     """What a callback calls, and with what: `lambda: f(x)`, `partial(f, x)`, or `f` itself."""
     if node.type == "lambda":
-        return call_parts(field(node, "body"))
+        return call_parts(called_late(node))
     called, arguments = call_parts(node) or ("", [])
     if called in ("partial", "functools.partial") and arguments:
         return text_of(arguments[0]), arguments[1:]
@@ -149,3 +149,8 @@ def call_parts(node: Node | None) -> tuple[str, list[Node]] | None:
     if node is None or (node := without_parentheses(node)).type != "call":
         return None
     return text_of(field(node, "function")), named(field(node, "arguments"))
+
+
+def called_late(node: Node) -> Node | None:
+    """What a function without a name does when it is called; None for what is none."""
+    return without_parentheses(field(node, "body")) if node.type == "lambda" else None

@@ -8,8 +8,10 @@ from functools import partial
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.names import carry
 from rebsync.package import Value
 from rebsync.records import dataclass
+from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import (
@@ -59,8 +61,10 @@ class PythonPart:
         names = {c.name for c in self.classes}
         for call, scope in self.code.calls if self.code is not None else ():
             path = scope.py.source.path.rpartition("/")[2]
-            made = class_name(text_of(field(call, "function")))
-            if program in (path, path.removesuffix(".py")) and made in names:
+            called = text_of(field(call, "function"))
+            made = class_name(called)
+            is_own = made in names and carry(made, NO_PYTHON_CLASSES) == called
+            if program in (path, path.removesuffix(".py")) and is_own:
                 arguments = named(field(call, "arguments"))
                 keys = [r[0] for a in arguments if (r := parameter_read(a)) is not None]
                 return made, keys
@@ -77,12 +81,14 @@ def read_python(
     launch: Launch | None = None,
     beside: Part | None = None,
     programs: Collection[str] = (),
+    servers: Mapping[str, str] | None = None,
 ) -> PythonPart:
     """What some files say; each callback whose body is not in the model is listed.
 
     With `only` the classes of that file; `messages` are the fields of the
     package's message types, `files` all that it has, and `launch` what starts its nodes. `beside`
-    are its nodes in C++, whose `programs` are none of Python's.
+    are its hand-written nodes in C++, whose `programs` are none of Python's, and `servers` those of
+    its generated ones, by the types of their messages.
     """
     trees = [parse(source) for _, source in sorted(sources.items())]
     findings.all += [f for py in trees for f in unparsed(py)]
@@ -91,7 +97,7 @@ def read_python(
     graph = graph_with(values)
     asked = sources.get(only) if only is not None else None
     path = asked.path if asked is not None else None
-    classes = Classes(code, findings, messages or {})
+    classes = Classes(code, findings, messages or {}, servers or {})
     read = classes.read(path) if asked is not None or only is None else ()
     known, unit = MessageTypes.of(files or {}, package), unit_of_time(files or {})
     own = {(o.name, o.py.source.path) for o in classes.owners}

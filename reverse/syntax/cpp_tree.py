@@ -258,14 +258,20 @@ def markers_above(node: Node) -> tuple[str, ...]:
 
 
 def markers_beside(node: Node) -> tuple[str, ...]:
-    """The markers in the comments that follow a node on its last line, and go on below."""
+    """The markers in the comments that follow a node on its last line, and go on below.
+
+    A marker that begins below is that of what follows.
+    """
     found: list[str] = []
     after = node.next_sibling
     row = node.end_point[0]
     while (
         after is not None and after.type == "comment" and after.start_point[0] <= row + len(found)
     ):
-        found.append(text_of(after))
+        text = text_of(after)
+        if after.start_point[0] > row and "rebsync:" in text:
+            break
+        found.append(text)
         after = after.next_sibling
     return markers_in(found)
 

@@ -16,10 +16,13 @@ MODELS = {path.stem: path for path in sorted(EXAMPLES.glob("*/*.rebeca"))}
 MIXED = "mixed"
 
 
-def classes_without_ancestors(name: str) -> list[str]:
-    """The classes of an example if none has an ancestor, so that each can have its own language."""
-    text = MODELS[name].read_text(encoding="utf-8")
-    classes = analyse(parse_model(Source(name, text)).model).classes
+def classes_without_ancestors(name: str, text: str | None = None) -> list[str]:
+    """The classes of an example if none has an ancestor, so that each can have its own language.
+
+    `text` is that of the model of another name.
+    """
+    given = MODELS[name].read_text(encoding="utf-8") if text is None else text
+    classes = analyse(parse_model(Source(name, given)).model).classes
     return [] if any(i.ancestors for i in classes.values()) else list(classes)
 
 
@@ -30,7 +33,7 @@ def made(name: str, target: str, folder: Path, text: str | None = None) -> Path:
     """
     settings = f'package = "{name}"\ntarget = "{target}"\n'
     if target == MIXED:
-        first = classes_without_ancestors(name)[0]
+        first = classes_without_ancestors(name, text)[0]
         settings = f'package = "{name}"\ntarget = "ros1-cpp"\n[targets]\n{first} = "ros1-py"\n'
     (folder / "rebsync.toml").write_text(settings, encoding="utf-8")
     model = folder / f"{name}.rebeca"

@@ -45,7 +45,10 @@ def test_fresh_packages_are_in_step(name: str, target: str, tmp_path: Path) -> N
     assert found.drift.verdict is Verdict.IN_STEP, found.drift.differences
 
 
-HARD = {"env": "ros2-py", "interfaces": "ros1-py", "moves": "ros2-py", "inheritance": "ros1-py"}
+HARD = {
+    **{"env": "ros2-py", "interfaces": "ros1-py", "moves": "ros2-py", "inheritance": "ros1-py"},
+    **{"annotations": "ros1-py", "control": "ros2-py", "names": "ros1-py", "rebecs": "ros2-py"},
+}
 
 
 @pytest.mark.parametrize("name", HARD)
@@ -107,3 +110,23 @@ def test_what_python_does_not_show_is_no_difference(target: str, tmp_path: Path)
     assert found.drift.verdict is Verdict.CODE_AHEAD
     ((difference, _),) = found.drift.differences
     assert str(difference.element) == "msgsrv Counter.run"
+
+
+OVERLOADS = """\
+reactiveclass Asker(3) {
+  knownrebecs { Teller teller; }
+  Asker() { self.ask(); }
+  msgsrv ask() { teller.tell(); teller.tell(3); teller.state(); }
+}
+reactiveclass Teller(3) { msgsrv tell() { } msgsrv tell(int n) { } msgsrv state() { } }
+main { Asker a(t):(); Teller t():(); }
+"""
+
+
+def test_overloads_in_the_other_language_are_no_difference(tmp_path: Path) -> None:
+    root = made("asking", MIXED, tmp_path, OVERLOADS)
+    (path,) = (p for p in python_of(root) if p.name == "asker.py")
+    path.write_text(path.read_text(encoding="utf-8") + "# a remark\n", encoding="utf-8")
+    found = checked(root)
+    assert found.drift is not None
+    assert found.drift.verdict is Verdict.IN_STEP, (found.drift.differences, told(found))
