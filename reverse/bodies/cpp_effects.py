@@ -395,5 +395,5 @@ def touching(cpp: Cpp, scope: Scope, node: Node) -> Touches | None:
     try:
         Effects(cpp, scope).check(node)
     except Touches as touches:
-        return touches
+        return touches.with_traceback(None)  # whose frames would keep the trees, and it them
     return None

@@ -202,6 +202,7 @@ class CppStatements:
             except Unread:
                 pass
         self.findings.unreadable(self.cpp.source, unread, self.within)
+        unread.with_traceback(None)  # the frames that it came through refer to it
         yield m.Empty((m.Annotation("Unreadable"),), self.cpp.span(node))
 
     def demote(self, names: set[str], unread: Unread) -> None:

@@ -46,6 +46,11 @@ class Asking:
     _calls: list[Asked] | None = None
     _graph: Graph | None = None
 
+    def __del__(self) -> None:
+        """Frees the trees at once, which else stay until what refers to itself is collected."""
+        if self._values is not None:
+            self._values.end()
+
     def calls(self) -> list[Asked]:
         """The calls, without those of the client library itself."""
         if self._calls is None:

@@ -17,7 +17,7 @@ LAUNCHES = (".launch.py", "_launch.py", "-launch.py")
 _LAUNCH = b"launch_ros"
 _SCRIPT = re.compile(rb"#![^\n]*\bpython")
 _HEAD = 80  # bytes, in which the first line of a script says who runs it
-_IMPORT = re.compile(rb"\n[ \t]*(?:from[ \t]+([\w.]+)[ \t]+import[ \t]+|import[ \t]+)([^#\n]*)")
+_IMPORT = re.compile(rb"[ \t]*(?:from[ \t]+([\w.]+)[ \t]+import[ \t]+|import[ \t]+)([^#\n]*)")
 _NAME = re.compile(rb"\w+")
 
 
@@ -72,6 +72,10 @@ def _module(path: str) -> str:
 
 def _imported(data: bytes) -> Iterator[bytes]:
     """All names in imports: of modules, and of what may be modules."""
-    for source, names in _IMPORT.findall(b"\n" + data):
-        yield from _NAME.findall(source)
-        yield from _NAME.findall(names)
+    at = data.find(b"import")
+    while at >= 0:
+        found = _IMPORT.match(data, data.rfind(b"\n", 0, at) + 1)
+        if found is not None:
+            yield from _NAME.findall(found[1] or b"")
+            yield from _NAME.findall(found[2])
+        at = data.find(b"import", data.find(b"\n", at) if found is not None else at + 1)

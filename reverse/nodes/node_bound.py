@@ -77,7 +77,7 @@ def _touched(bodies: Bodies, owner: CppClass, function: CppFunction) -> Touches 
     try:
         Effects(function.cpp, scope, returning=True).check(function.body or function.node)
     except Touches as touches:
-        return touches
+        return touches.with_traceback(None)
     return None
 
 

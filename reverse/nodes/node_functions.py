@@ -67,7 +67,12 @@ class Functions:
     def _with_defaults(self, function: CppFunction) -> CppFunction:
         """A function with what its parameters are by default: its declaration says so."""
         lineage = self.bodies.unit.lineage if function.owner else ()
+        if not function.parameters:
+            return function
         of_name = [f for c in lineage for f in c.functions if f.name == function.name]
+        given = (p.node.type for f in (*of_name, function) for p in f.parameters)
+        if "optional_parameter_declaration" not in given:
+            return function
         same = [f for f in of_name if f.types == function.types]
         parameters = list(function.parameters)
         for known in (*same, function):

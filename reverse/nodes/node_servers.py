@@ -279,21 +279,19 @@ def _path(node: Node) -> str:
 
 def declared(code: Code, cpp: Cpp, body: Node) -> set[str]:
     """The names of the variables that a body declares."""
-    found = set()
-    for node in code.inside(cpp, body, *_DECLARING):
-        for child in node.children_by_field_name("declarator"):
-            found |= {text_of(n) for n in _identifiers(child)}
-    return found
+    declarators = (
+        child
+        for node in code.inside(cpp, body, *_DECLARING)
+        for child in node.children_by_field_name("declarator")
+        if child.type != "init_declarator"  # which is itself among the nodes
+    )
+    return {text_of(name) for child in declarators for name in _identifiers(child)}
 
 
 def _identifiers(node: Node) -> Iterator[Node]:
     """The names that a declarator declares, without those of its value."""
     if node.type == "identifier":
         yield node
-    elif node.type == "init_declarator":
-        inner = node.child_by_field_name("declarator")
-        if inner is not None:
-            yield from _identifiers(inner)
     elif node.type.endswith("declarator"):
         for child in node.named_children:
             yield from _identifiers(child)

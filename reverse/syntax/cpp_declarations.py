@@ -17,6 +17,7 @@ WRAPPERS = frozenset(
     }
 )
 TYPES = frozenset({"class_specifier", "struct_specifier", "enum_specifier"})
+_OVERRIDING = frozenset({b"override", b"final"})
 _REFERRING = frozenset({"pointer_declarator", "reference_declarator"})
 _DECLARATORS = _REFERRING | {"array_declarator"}
 # What every node of rclcpp is.
@@ -141,7 +142,7 @@ def function_of(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
     while name.type == "qualified_identifier":
         scope = name.child_by_field_name("scope")
         owner, name = unscoped(scope) if scope is not None else owner, part(name, "name")
-    value = node.child_by_field_name("default_value")
+    value = node.child_by_field_name("default_value") if kind == "field_declaration" else None
     lists = (c for c in node.named_children if c.type == "field_initializer_list")
     return CppFunction(
         text_of(name),
@@ -154,7 +155,8 @@ def function_of(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
         cpp,
         node,
         pure=value is not None and text_of(value) == "0",
-        overrides=any(c.type == "virtual_specifier" for c in declarator.named_children),
+        overrides=not cpp.words.isdisjoint(_OVERRIDING)
+        and any(c.type == "virtual_specifier" for c in declarator.named_children),
     )
 
 

@@ -73,6 +73,7 @@ class Texts:
     _starts: dict[tuple[int, str], list[int]] = field(default_factory=dict)
     _lineages: dict[int, list[CppClass]] = field(default_factory=dict)
     _descendants: dict[int, list[CppClass]] = field(default_factory=dict)
+    _classes: dict[int, CppClass | None] = field(default_factory=dict)
     _homes: dict[int, CppFunction | None] = field(default_factory=dict)
     _other_names: dict[str, list[str]] | None = None
 
@@ -187,9 +188,16 @@ class Texts:
 
     def class_of(self, function: CppFunction | None) -> CppClass | None:
         """The class that a function is a member of."""
-        if function is not None and function.name in FIXTURES and function.parameters:
+        if function is None:
+            return None
+        if function.node.id not in self._classes:
+            self._classes[function.node.id] = self._class_of(function)
+        return self._classes[function.node.id]
+
+    def _class_of(self, function: CppFunction) -> CppClass | None:
+        if function.name in FIXTURES and function.parameters:
             return self.class_near(text_of(function.parameters[0].type), function.cpp)
-        if function is None or not function.owner:
+        if not function.owner:
             return None
         around = self.class_node_around(function.node)
         if around is not None:

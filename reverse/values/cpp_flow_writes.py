@@ -133,16 +133,16 @@ class Writes:
         key = key_of(variable, path)
         if key not in self._writers:
             self._writers[key] = []
-            found: dict[int, CppFunction] = {}
+            named_by: dict[int, CppFunction] = {}
             for cpp, place in self.texts.everywhere(variable.text):
                 function = self.texts.function_around(cpp, place)
-                if function is None or function.node.id in found:
-                    continue
-                if self._may_name(variable, function) and any(
-                    True for _ in self._own(variable, path, function)
-                ):
-                    found[function.node.id] = function
-            self._writers[key] = list(found.values())
+                if function is not None:
+                    named_by.setdefault(function.node.id, function)
+            self._writers[key] = [
+                f
+                for f in named_by.values()
+                if self._may_name(variable, f) and any(True for _ in self._own(variable, path, f))
+            ]
         return self._writers[key]
 
     def _may_name(self, variable: Variable, function: CppFunction) -> bool:

@@ -80,6 +80,11 @@ class Values:
         self.calls = Calls(self.texts, self.types)
         self.variables = Variables(self)
 
+    def end(self) -> None:
+        """Lets go of what refers back to it: nothing is asked of it any more."""
+        self.variables.end()
+        del self.variables
+
     # --- ways into a function -------------------------------------------------------------------
 
     def settle(self, frame: Frame, do: Callable[[Frame], T]) -> list[T]:

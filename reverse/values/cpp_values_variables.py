@@ -70,6 +70,10 @@ class Variables:
         self.writes = Writes(values.texts, values.types, values.calls)
         self._later = Afterwards(self)
 
+    def end(self) -> None:
+        """Lets go of what refers back to it."""
+        del self._later
+
     # --- at a place -----------------------------------------------------------------------------
 
     def value(self, variable: Variable, path: str, node: Node, frame: Frame) -> Value:
