@@ -27,7 +27,6 @@ _DEEPEST = 8
 # The namespace of messages in ROS 2: `std_msgs::msg::String`.
 _SPACE = re.compile(r"::(?:msg|srv|action)::(?=\w+\Z)")
 _POINTERS = re.compile(r"(::)?(Const)?(Shared|Unique|Weak)?Ptr$")
-_WORD = re.compile(r"[A-Z]\w*")
 _MESSAGE = re.compile(r"/?msg/([^/]+)\.msg\Z")
 
 Fields = Mapping[str, Type | None]
@@ -99,8 +98,8 @@ class MessageTypes:
 
     def mentioned(self, files: Iterable[Cpp]) -> set[str]:
         """The types that some code may use: of each the name stands in it."""
-        words = {w for cpp in files for w in set(_WORD.findall(cpp.source.text))}
-        return {t for t in (*self.own, *COMMON) if t.partition("/")[2] in words}
+        words = frozenset[bytes]().union(*(cpp.words for cpp in files))
+        return {t for t in (*self.own, *COMMON) if t.partition("/")[2].encode() in words}
 
     def named(self, text: str) -> str | None:
         """The message type of a type of C++: `const std_msgs::Int32::ConstPtr&` is one."""

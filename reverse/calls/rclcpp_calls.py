@@ -6,7 +6,13 @@ from collections.abc import Iterator
 
 from tree_sitter import Node
 
-from rebsync.reverse.calls.ros_calls_shapes import Asked, called_as, objects_of, types_of
+from rebsync.reverse.calls.ros_calls_shapes import (
+    TEMPLATES,
+    Asked,
+    called_as,
+    objects_of,
+    types_of,
+)
 from rebsync.reverse.calls.ros_calls_sites import site_of
 from rebsync.reverse.rclcpp_vocabulary import (
     FUNCTIONS,
@@ -15,6 +21,7 @@ from rebsync.reverse.rclcpp_vocabulary import (
     NODE,
     NODE_CLASSES,
     NODE_SCOPES,
+    TIMERS,
 )
 from rebsync.reverse.roscpp_vocabulary import Ask, Kind
 from rebsync.reverse.syntax.cpp_index import CppClass
@@ -32,6 +39,9 @@ def asked_of_ros2(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[
     """What a word asks for, if anything."""
     if name in NODE_CLASSES:
         yield from _node(values, cpp, place, name)
+        return
+    if name in TIMERS:
+        yield from _timer(values, cpp, place, TIMERS[name])
         return
     node, above = place, place.parent
     while above is not None and above.type in _CALLED:
@@ -134,28 +144,33 @@ def _node(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
         yield from _made(values, cpp, place, node, above)
 
 
-def _by_own_maker(values: Values, cpp: Cpp, place: Node, above: Node) -> Iterator[Asked]:
+def _timer(values: Values, cpp: Cpp, place: Node, ask: Ask) -> Iterator[Asked]:
+    """`rclcpp::GenericTimer<F>::make_shared(clock, period, f)`, without a node's help."""
+    node, above = place, place.parent
+    while above is not None and above.type in (*TEMPLATES, "qualified_identifier"):
+        if above.type == "qualified_identifier" and part(above, "name") != node:
+            yield from _by_own_maker(values, cpp, place, above, ask)
+            return
+        node, above = above, above.parent
+    if above is not None:
+        for call, given in objects_of(node, above):
+            yield Asked(ask, site_of(values, cpp, place, call), given)
+
+
+def _by_own_maker(
+    values: Values, cpp: Cpp, place: Node, above: Node, ask: Ask = NAMED
+) -> Iterator[Asked]:
     """`rclcpp::Node::make_shared("x")`; `above` is the name with the class before it."""
     if unscoped_member(part(above, "name")) not in MAKERS:
         return
     call = climb(above, lambda n: n.type != "qualified_identifier")
     if call is not None and call.type == "call_expression":
         given = tuple(named(part(call, "arguments")))
-        yield Asked(NAMED, site_of(values, cpp, place, call), given)
+        yield Asked(ask, site_of(values, cpp, place, call), given)
 
 
 def _made(values: Values, cpp: Cpp, place: Node, node: Node, above: Node) -> Iterator[Asked]:
     """An object that is declared, made by `new` or by a function of the standard library."""
-    if above.type == "type_descriptor" and above.parent is not None:
-        maker = above.parent.parent
-        if maker is None or maker.type != "template_function":
-            return
-        if text_of(part(maker, "name")) in MAKERS:
-            call = climb(maker, lambda n: n.type != "qualified_identifier")
-            if call is not None and call.type == "call_expression":
-                given = tuple(named(part(call, "arguments")))
-                yield Asked(NAMED, site_of(values, cpp, place, call), given)
-        return
     for call, given in objects_of(node, above):
-        if given:
+        if given or above.type == "type_descriptor":
             yield Asked(NAMED, site_of(values, cpp, place, call), given)

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import field
-from functools import partial
 
 from tree_sitter import Node
 
@@ -12,6 +10,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.calls.rclcpp_facts import interface_of, several
 from rebsync.reverse.calls.ros_calls_callbacks import Callbacks, Called
 from rebsync.reverse.calls.ros_calls_filters import registered
+from rebsync.reverse.calls.ros_calls_handles import namespace_of, usual_depth
 from rebsync.reverse.calls.ros_calls_options import Given, options_of
 from rebsync.reverse.calls.ros_calls_shapes import Asked, distinct, given_to, nodelets_of, truth_of
 from rebsync.reverse.calls.ros_calls_types import MessageTypes
@@ -29,10 +28,9 @@ from rebsync.reverse.graph import (
     ServiceFact,
     SubscriptionFact,
     TimerFact,
-    Under,
     Unresolved,
 )
-from rebsync.reverse.roscpp_vocabulary import ANONYMOUS, OPTIONS, TRANSPORTS, Kind
+from rebsync.reverse.roscpp_vocabulary import ANONYMOUS, OPTIONS, Kind
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 from rebsync.reverse.values.cpp_values import Values
 from rebsync.reverse.values.cpp_values_names import name_under, one_of, resolved
@@ -40,7 +38,6 @@ from rebsync.reverse.values.cpp_values_numbers import converted
 from rebsync.reverse.values.cpp_values_plain import (
     Found,
     Frame,
-    Handle,
     Length,
     Made,
     Nothing,
@@ -114,7 +111,7 @@ class Facts:
 
     def _answer(self, asked: Asked, frame: Frame) -> _Answer:
         answer = _Answer(frame)
-        namespace = self._namespace(asked, frame)
+        namespace = namespace_of(self.values, asked, frame)
         for role, given in self._roles(asked, frame).items():
             match role:
                 case "name":
@@ -137,6 +134,8 @@ class Facts:
                     continue
                 case _:
                     answer.values[role] = self._plain(given)
+        if asked.ask.kind is Kind.SUBSCRIPTION and "depth" not in answer.values:
+            answer.values["depth"] = usual_depth(self.values, asked, frame)
         return answer
 
     def _roles(self, asked: Asked, frame: Frame) -> dict[str, Given]:
@@ -178,43 +177,6 @@ class Facts:
         return isinstance(self.values.value(node, frame), (bool, int))
 
     # --- names ----------------------------------------------------------------------------------
-
-    def _namespace(self, asked: Asked, frame: Frame) -> Resolved:
-        """The namespace of the node handle that a call goes through."""
-        target = asked.target
-        if asked.ask.flat:
-            return ""
-        if "handle" in asked.ask.arguments:
-            index = asked.ask.arguments.index("handle")
-            given = asked.arguments[index : index + 1]
-            target = given[0] if given else None
-            if asked.ask.kind is Kind.SINGLE and target is not None:
-                type_ = self.values.types.type_of(frame.cpp, target).rpartition("::")[2]
-                target = target if type_ == "NodeHandle" else None
-        if target is None or self._is_node(target, frame):
-            return ""
-        found = [h.namespace for h in self._handles(self.values.value(target, frame))]
-        namespace = one_of(found)
-        return namespace if namespace is not None else Under("")
-
-    def _is_node(self, target: Node, frame: Frame) -> bool:
-        """Whether an expression is a node of rclcpp, under which names are not looked up."""
-        class_ = self.values.types.class_of(frame.cpp, target)
-        return any(c.roots for c in self.values.texts.lineage(class_))
-
-    def _handles(self, value: Value) -> Iterator[Handle]:
-        for way in ways(value):
-            if isinstance(way, Handle):
-                yield way
-            elif isinstance(way, Made) and way.type.rpartition("::")[2] in TRANSPORTS:
-                yield from self._made_of(way)
-
-    def _made_of(self, made: Made) -> Iterator[Handle]:
-        """The handles that an object is made of."""
-        for argument in made.use.arguments[:1]:
-            one = partial(self.values.value, argument)
-            for inner in self.values.settle(made.frame, one):
-                yield from self._handles(inner)
 
     def _name(self, given: Given, namespace: Resolved, answer: _Answer) -> Resolved | None:
         value = self.values.value(given.node, given.frame)

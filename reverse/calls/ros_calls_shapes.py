@@ -18,9 +18,10 @@ from rebsync.reverse.graph import (
     Site,
     Unresolved,
 )
+from rebsync.reverse.rclcpp_vocabulary import MAKERS
 from rebsync.reverse.roscpp_vocabulary import Ask
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-from rebsync.reverse.values.cpp_flow import declaration_of, made_of
+from rebsync.reverse.values.cpp_flow import climb, declaration_of, made_of
 from rebsync.reverse.values.cpp_values_names import one_of
 from rebsync.reverse.values.cpp_values_plain import Frame
 
@@ -75,8 +76,21 @@ def objects_of(node: Node, above: Node) -> Iterator[tuple[Node, tuple[Node, ...]
         case "new_expression":
             arguments = above.child_by_field_name("arguments")
             yield above, tuple(named(arguments)) if arguments is not None else ()
+        case "type_descriptor" if (call := _maker_of(above)) is not None:
+            yield call, tuple(named(part(call, "arguments")))
         case _:
             return
+
+
+def _maker_of(type_: Node) -> Node | None:
+    """The call of `make_shared<T>(...)` that a type stands in."""
+    maker = type_.parent.parent if type_.parent is not None else None
+    if maker is None or maker.type != "template_function":
+        return None
+    if text_of(part(maker, "name")) not in MAKERS:
+        return None
+    call = climb(maker, lambda n: n.type != "qualified_identifier")
+    return call if call is not None and call.type == "call_expression" else None
 
 
 def nodelets_of(asked: Asked) -> Iterator[Fact]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
 
 from tree_sitter import Node
@@ -36,8 +36,13 @@ _THREE = re.compile(
 )
 
 
-def units_of(values: Values, graph: Graph, is_people: Callable[[Fact], bool]) -> list[PyUnit]:
-    """The classes and modules that talk to ROS."""
+def units_of(
+    values: Values,
+    graph: Graph,
+    is_people: Callable[[Fact], bool],
+    taken: Collection[str] = (),
+) -> list[PyUnit]:
+    """The classes and modules that talk to ROS, under names that are not `taken`."""
     code = values.code
     facts = [(f, scope_of(code, f)) for f in graph.facts if is_people(f)]
     grouped: dict[Scope, list[Fact]] = {}
@@ -46,7 +51,7 @@ def units_of(values: Values, graph: Graph, is_people: Callable[[Fact], bool]) ->
     owners = [o for o, own in grouped.items() if any(isinstance(f, _CONNECTS) for f in own)]
     families = {o: _family(values, o) for o in owners}
     below = {above for o in owners for above in families[o][1:]}
-    names = Names.beside(())
+    names = Names.beside(taken)
     found = []
     for owner in owners:
         if owner in below:
@@ -80,13 +85,14 @@ def _unit(
     wish = owner.name if family else node
     if family:
         together = [*together, *_rates_beside(facts, owner, together)]
-    unit = Unit(names.give(wish), None, (), (), tuple(together), Code())
     calls = {
         (f.site.place.source.path, f.site.call.id): number for number, f in enumerate(together)
     }
     text = module.py.source.text
+    is_rclpy = "rclpy" in text
+    unit = Unit(names.give(wish), None, (), (), tuple(together), Code(), rclpy=is_rclpy)
     version = 3 if _THREE.search(text) else (2 if _PRINTS.search(text) else 0)
-    return PyUnit(unit, family, module, node, calls, version, "rclpy" in text)
+    return PyUnit(unit, family, module, node, calls, version, is_rclpy)
 
 
 def _rates_beside(

@@ -22,7 +22,9 @@ from rebsync.reverse.graph import (
     TimerFact,
 )
 from rebsync.reverse.launch.launched import Launch
+from rebsync.reverse.nodes.node_joined import Part
 from rebsync.reverse.nodes.node_system import unit_of_time
+from rebsync.reverse.python.body_started import Started, scripts_of
 from rebsync.reverse.python.body_system import PyNodes, PySystem
 from rebsync.reverse.python.model_classes import Classes, is_runtime_file
 from rebsync.reverse.python.model_roles import parameter_read
@@ -73,11 +75,14 @@ def read_python(
     files: Mapping[str, Source] | None = None,
     package: str = "",
     launch: Launch | None = None,
+    beside: Part | None = None,
+    programs: Collection[str] = (),
 ) -> PythonPart:
     """What some files say; each callback whose body is not in the model is listed.
 
     With `only` the classes of that file; `messages` are the fields of the
-    package's message types, `files` all that it has, and `launch` what starts its nodes.
+    package's message types, `files` all that it has, and `launch` what starts its nodes. `beside`
+    are its nodes in C++, whose `programs` are none of Python's.
     """
     trees = [parse(source) for _, source in sorted(sources.items())]
     findings.all += [f for py in trees for f in unparsed(py)]
@@ -91,7 +96,10 @@ def read_python(
     known, unit = MessageTypes.of(files or {}, package), unit_of_time(files or {})
     own = {(o.name, o.py.source.path) for o in classes.owners}
     is_people = partial(_is_people, own=own)
-    nodes = PySystem(values, graph, known, unit, findings, is_people, path, launch).read()
+    started = Started(launch, package, scripts_of(files or {}), frozenset(programs))
+    system = PySystem(values, graph, known, unit, findings, is_people, path, started)
+    system.beside = beside if beside is not None else Part.empty()
+    nodes = system.read()
     _list_callbacks(graph, own, findings, path, nodes)
     _list_hooks(values, own, findings, path)
     used = tuple((e.key, (e.type, e.name, constant(e.default))) for e in classes.env())

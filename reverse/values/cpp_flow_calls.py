@@ -198,10 +198,12 @@ class Calls:
         if key not in self._made:
             self._made[key] = []
             found: list[Use] = []
-            for cpp, place in self.texts.everywhere(class_.name):
-                if self.texts.class_near(class_.name, cpp) is class_:
-                    found += self._makes(cpp, place, class_)
-            self._made[key] = found
+            for name in self.texts.names(class_):
+                for cpp, place in self.texts.everywhere(name):
+                    if self.texts.class_near(name, cpp) is class_:
+                        found += self._makes(cpp, place, class_)
+            same = {(u.node.id, *(a.id for a in u.arguments)): u for u in found}
+            self._made[key] = list(same.values())
         return self._made[key]
 
     def _makes(self, cpp: Cpp, place: Node, class_: CppClass) -> Iterator[Use]:

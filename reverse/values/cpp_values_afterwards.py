@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from rebsync.records import dataclass
 from rebsync.reverse.roscpp_vocabulary import ENTRIES
+from rebsync.reverse.syntax.cpp_declarations import unscoped
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.values.cpp_flow_types import Variable
 from rebsync.reverse.values.cpp_flow_writes import Key, key_of
@@ -52,7 +53,7 @@ class Afterwards:
         """As `value`; `own` is the function that asks, before it gives a value itself."""
         writers = [w for w in self.variables.writes.writing(variable, path) if w.node.id != own]
         owner = variable.owner.name if variable.owner is not None else ""
-        makers = self._makers(variable)
+        makers = self._makers(variable, writers)
         others = [w for w in writers if not owner or w.name != w.owner]
         called = [w for w in others if self._is_called(w)]
         at_first = self._after(makers, variable, path)[0] if makers else Nothing()
@@ -63,12 +64,17 @@ class Afterwards:
         later, sure = self._after(called or others, variable, path)
         return choice([later]) if sure else choice([later, at_first])
 
-    def _makers(self, variable: Variable) -> list[CppFunction]:
-        """The constructors of the class of a member: those that are used, if some are."""
+    def _makers(self, variable: Variable, writers: list[CppFunction]) -> list[CppFunction]:
+        """The constructors of the class of a member: those that are used, if some are.
+
+        One that leaves all to another of them says nothing of a member that it does not name.
+        """
         if variable.owner is None:
             return []
         calls = self.variables.values.calls
+        own = {w.node.id for w in writers}
         found = calls.bodies(variable.owner, variable.owner.name)
+        found = [f for f in found if f.node.id in own or not _delegates(f)] or found
         return [f for f in found if calls.uses(f)] or found
 
     def _after(
@@ -99,3 +105,12 @@ class Afterwards:
             or not function.parameters
             or any(not u.handed for u in self.variables.values.calls.uses(function))
         )
+
+
+def _delegates(constructor: CppFunction) -> bool:
+    """Whether a constructor calls another one of its class first."""
+    listed = constructor.initialisers
+    if listed is None:
+        return False
+    given = [n for n in listed.named_children if n.type == "field_initializer"]
+    return any(unscoped(n.named_children[0]) == constructor.owner for n in given)

@@ -19,19 +19,22 @@ if TYPE_CHECKING:
 
 def listed(values: Values, type_: str, definition: Definition, frame: Frame) -> Value:
     """The elements of an array or vector that is made of them."""
-    given = definition.arguments
-    found = [converted(values.value(g, frame), type_) for g in given]
+    given = [values.value(g, frame) for g in definition.arguments]
+    found = [converted(value, type_) for value in given]
     holder = part(definition.node, "value") if definition.node.type == "init_declarator" else None
     braces = holder is not None and holder.type == "initializer_list"
     match found:
         case [tuple() as copied]:
             return copied
-        case [int() as count, (bool() | int() | float() | str()) as element] if not braces:
-            return (element,) * count if 0 <= count < MOST else Nothing()
+        case [_, (bool() | int() | float() | str()) as element] if not braces:
+            count = given[0]
+            if type(count) is int and 0 <= count < MOST:
+                return (element,) * count
         case _ if braces and all(isinstance(v, (bool, int, float, str)) for v in found):
             return tuple(v for v in found if isinstance(v, (bool, int, float, str)))
         case _:
-            return values.unknown("a list that is not known", definition.place, frame)
+            pass
+    return values.unknown("a list that is not known", definition.place, frame)
 
 
 def with_default(value: Value, default: Value) -> Value:

@@ -76,7 +76,19 @@ def made(values: Values, type_: str, use: Use, frame: Frame) -> Value | None:
         return each(lambda v: _times(v, UNITS["nanoseconds"]), values.value(given[0], frame))
     if name in VALUES and len(given) == 1:
         return values.value(given[0], frame)
+    if name == "duration" and type_ == "std::chrono::duration":
+        return span(values, name, _declared_types(use.node), given, frame)
     return None
+
+
+def _declared_types(declarator: Node) -> tuple[Node, ...]:
+    """The arguments of the template that a declared variable is an object of."""
+    type_ = declarator.parent.child_by_field_name("type") if declarator.parent else None
+    while type_ is not None and type_.type == "qualified_identifier":
+        type_ = part(type_, "name")
+    if type_ is None or type_.type != "template_type":
+        return ()
+    return tuple(named(part(type_, "arguments")))
 
 
 def unset(type_: str) -> Quality | None:
@@ -243,4 +255,4 @@ def declared(values: Values, name: Node, frame: Frame) -> Value:
 
 def uses_rclcpp(values: Values) -> bool:
     """Whether some file of the code is for ROS 2."""
-    return any(MARK in values.texts.data(cpp) for cpp in values.code.files)
+    return any(MARK in cpp.original for cpp in values.code.files)

@@ -28,6 +28,7 @@ from rebsync.reverse.values.cpp_flow_writes import (
 from rebsync.reverse.values.cpp_values_afterwards import Afterwards
 from rebsync.reverse.values.cpp_values_calls import from_parameter
 from rebsync.reverse.values.cpp_values_kept import is_pointer, listed, on_this, with_default
+from rebsync.reverse.values.cpp_values_lambdas import arguments_of
 from rebsync.reverse.values.cpp_values_made import constructed, default_of
 from rebsync.reverse.values.cpp_values_names import name_under, resolved
 from rebsync.reverse.values.cpp_values_numbers import added, converted
@@ -308,6 +309,8 @@ class Variables:
             case "parameter":
                 return self._argument(variable, path, frame)
             case "lambda":
+                if not path and (given := arguments_of(self.values.texts, variable)):
+                    return choice(self.values.value(argument, frame) for argument in given)
                 place = node if node is not None else variable.name
                 return self.values.unknown("comes when it is called", place, frame)
             case "member" if variable.owner is not None:

@@ -8,12 +8,13 @@ names in camelCase and in snake_case.
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Iterable, Iterator
 
 from rebsync.records import dataclass
 from tests.reverse.corpus.compare import KINDS
-from tests.reverse.corpus.values import Json, same, tidied
+from tests.reverse.corpus.values import Json, same, spelt, tidied
 
 _DETAILS = {
     "publisher": ("depth", "latched"),
@@ -42,18 +43,31 @@ class Entity:
     @property
     def shown(self) -> str:
         """What it is, for people."""
-        type_ = f" {self.type}" if self.type is not None else ""
-        return f"{self.kind} {self.name}{type_} ({self.place})"
+        return f"{self.label} ({self.place})"
+
+    @property
+    def label(self) -> str:
+        """What it is, wherever it is."""
+        type_ = f" {_text(self.type)}" if self.type is not None else ""
+        return f"{self.kind} {_text(self.name)}{type_}"
+
+
+def _text(value: Json) -> str:
+    """A name, period or type on one line."""
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    return value if isinstance(value, str) else json.dumps(value)
 
 
 def entities(graph: dict[str, list[Json]], below: str) -> list[Entity]:
     """Those in the file or folder `below`; each parameter once, whatever is done with it."""
     at = len(below) - len(below.rstrip("/").rpartition("/")[2])
     kept = [
-        _entity({**item, "file": item["file"][at:]}, kind)
+        _entity({**one, "file": item["file"][at:]}, kind)
         for name, kind in KINDS.items()
         for item in graph[name]
         if item["file"].startswith(below)
+        for one in (_each(item) if kind == "parameter" else [item])
     ]
     return [*(e for e in kept if e.kind != "parameter"), *_parameters(kept)]
 
@@ -71,7 +85,16 @@ def _entity(item: Json, kind: str) -> Entity:
     name = plain(item.get("topic", item.get("name")))
     if kind == "parameter":
         name = _group(name)
+    if item.get("nodelet"):
+        name = {"nodelet": item["nodelet"].rpartition("::")[2]}
     return Entity(kind, name, plain(item.get("type")), details, place)
+
+
+def _each(item: Json) -> list[Json]:
+    """The parameters that one call asks for, after which of several calls it is."""
+    name = item["name"]
+    several = isinstance(name, dict) and "one_of" in name
+    return [{**item, "name": n} for n in name["one_of"]] if several else [item]
 
 
 def _parameters(found: Iterable[Entity]) -> Iterator[Entity]:
@@ -95,9 +118,8 @@ def plain(value: Json) -> Json:
             return {"one_of": sorted((plain(v) for v in values), key=repr)}
         case {"parameter": name}:
             default = {"default": plain(value["default"])} if "default" in value else {}
-            use = {"expression": value["expression"]} if "expression" in value else {}
-            named = _parameter(name) if isinstance(name, str) else plain(name)
-            return {"parameter": named, **default, **use}
+            use = {"expression": spelt(value["expression"])} if "expression" in value else {}
+            return {"parameter": _parameter_named(plain(name)), **default, **use}
         case {"unknown": _}:
             return {"unknown": value.get("partial", "*")}
         case {"relative": name}:
@@ -110,11 +132,26 @@ def plain(value: Json) -> Json:
             return value
 
 
+def _parameter_named(name: Json) -> Json:
+    """The name of a parameter, as far as it is known."""
+    match name:
+        case {"unknown": str(partial)}:
+            return {"unknown": _parameter(partial)}
+        case {"one_of": names}:
+            return {"one_of": [_parameter_named(n) for n in names]}
+        case str():
+            return _parameter(name)
+        case _:
+            return name
+
+
 def _group(name: Json) -> Json:
     """The name of a parameter; of all below a name, which in ROS 1 are one, that name."""
     partial = name["unknown"] if isinstance(name, dict) and "unknown" in name else name
-    if not isinstance(partial, str) or "*" in partial[:-1] or partial == "*":
+    if not isinstance(partial, str) or partial == "*":
         return name
+    if "*" in partial[:-1]:
+        return {"unknown": _parameter(partial)}
     return _parameter(partial.removesuffix("*").rstrip("./"))
 
 

@@ -26,6 +26,11 @@ PACKAGES = {
     "urg_node": (".",),
     "usb_cam": (".",),
     "autorally": ("autorally_core", "autorally_control"),
+    "turtlebot3-ros1": ("turtlebot3_bringup", "turtlebot3_slam"),
+    "turtlebot3_simulations-ros1": ("turtlebot3_fake", "turtlebot3_gazebo"),
+    "twist_mux-ros1": (".",),
+    "depthimage_to_laserscan-ros1": (".",),
+    "robot_localization-ros1": (".",),
 }
 
 # Those for ROS 2 whose nodes in C++ the facts cover: the folder of the checkout, and the packages
@@ -45,6 +50,14 @@ ROS2 = {
     "teleop_twist_joy-ros2": ("teleop_twist_joy-ros2", (".",)),
     "urg_node2": ("urg_node2", (".",)),
     "usb_cam-ros2": ("usb_cam-ros2", (".",)),
+    "turtlebot3-cpp": ("turtlebot3", ("turtlebot3_node",)),
+    "turtlebot3_simulations-ros2": (
+        "turtlebot3_simulations-ros2",
+        ("turtlebot3_fake_node", "turtlebot3_gazebo"),
+    ),
+    "cmd_vel_mux": ("cmd_vel_mux", (".",)),
+    "depthimage_to_laserscan-ros2": ("depthimage_to_laserscan-ros2", (".",)),
+    "robot_localization-ros2": ("robot_localization-ros2", (".",)),
 }
 
 _TELEOP_TOOLS = ("joy_teleop", "key_teleop", "mouse_teleop")

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
@@ -24,11 +25,13 @@ from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
 from tests.reverse.corpus.compare import share
 from tests.reverse.corpus.generations import Entity, agree, entities
+from tests.reverse.corpus.reasons import Sides, reason_of, unlike
 from tests.reverse.corpus.values import Json
 
 _TB3 = "turtlebot3_example"
 _TB3_1, _TB3_2 = f"turtlebot3-ros1/{_TB3}/nodes", f"turtlebot3/{_TB3}/{_TB3}"
 _ROSPY, _DEMO = "ros_tutorials/rospy_tutorials", "demos/demo_nodes_py/demo_nodes_py"
+_SIM_1, _SIM_2 = "turtlebot3_simulations-ros1", "turtlebot3_simulations-ros2"
 _TOOLS_1, _TOOLS_2 = "teleop_tools-ros1", "teleop_tools-ros2"
 # Nodes ported from one generation to the other, counterparts that were written anew, C++.
 PORTS = {
@@ -97,6 +100,14 @@ IN_CPP = {
     "pointcloud_to_laserscan": ("pointcloud_to_laserscan/src", "pointcloud_to_laserscan-ros2/src"),
     "teleop_twist_joy": ("teleop_twist_joy/src", "teleop_twist_joy-ros2/src"),
     "usb_cam": ("usb_cam/src", "usb_cam-ros2/src"),
+    "robot_localization": ("robot_localization-ros1/src", "robot_localization-ros2/src"),
+    "depthimage_to_laserscan": (
+        "depthimage_to_laserscan-ros1/src",
+        "depthimage_to_laserscan-ros2/src",
+    ),
+    "turtlebot3 fake": (f"{_SIM_1}/turtlebot3_fake/src", f"{_SIM_2}/turtlebot3_fake_node/src"),
+    "turtlebot3 drive": (f"{_SIM_1}/turtlebot3_gazebo/src", f"{_SIM_2}/turtlebot3_gazebo/src"),
+    "cmd_vel_mux": ("yujin_ocs/yocs_cmd_vel_mux/src", "cmd_vel_mux/src"),
 }
 PAIRS = {**PORTS, **REWRITTEN, **IN_CPP}
 
@@ -116,14 +127,20 @@ class Alike:
     @property
     def shared(self) -> int:
         """Pairs with one name and one type."""
-        return sum(not _differs(a, b) for a, b in self.pairs)
+        return sum(not unlike(a, b) for a, b in self.pairs)
 
     @property
     def details(self) -> tuple[int, int]:
         """Further keys of the shared that say the same, and all of them."""
-        shared = [(a, b) for a, b in self.pairs if not _differs(a, b)]
+        shared = [(a, b) for a, b in self.pairs if not unlike(a, b)]
         every = [agree(a.details[k], b.details.get(k)) for a, b in shared for k in a.details]
         return sum(every), len(every)
+
+    @property
+    def unlike(self) -> list[Sides]:
+        """The differences as the list of reasons has them."""
+        found: list[Sides] = [(a.label, b.label) for a, b in self.pairs if unlike(a, b)]
+        return found + [(e.label, None) if w == "1" else (None, e.label) for w, e in self.only]
 
 
 # --- reading ------------------------------------------------------------------------------------
@@ -175,19 +192,22 @@ def _agreement(a: Entity, b: Entity) -> int:
     return 1 + 100 * named + 10 * agree(a.type, b.type) + details
 
 
-def _differs(a: Entity, b: Entity) -> bool:
-    return not (agree(a.name, b.name) and agree(a.type, b.type))
+def differences(found: Alike, pair: str = "") -> Iterator[str]:
+    """Every difference, on one line each, with its reason where there is one for the pair."""
 
+    def why(one: str | None, other: str | None) -> str:
+        reason = reason_of(pair, (one, other))
+        return f" [{reason}]" if reason is not None else ""
 
-def differences(found: Alike) -> Iterator[str]:
-    """Every difference, on one line each."""
     for a, b in found.pairs:
-        if _differs(a, b):
-            yield f"differs: {a.shown}, {b.shown}"
+        if unlike(a, b):
+            yield f"differs: {a.shown}, {b.shown}{why(a.label, b.label)}"
         else:
             for key in (k for k in a.details if not agree(a.details[k], b.details.get(k))):
                 yield f"{key}: {a.details[key]}, {b.details.get(key)} of {a.shown}"
-    yield from (f"only in ROS {which}: {entity.shown}" for which, entity in found.only)
+    for which, entity in found.only:
+        reason = why(entity.label, None) if which == "1" else why(None, entity.label)
+        yield f"only in ROS {which}: {entity.shown}{reason}"
 
 
 # --- printing -----------------------------------------------------------------------------------
@@ -201,8 +221,12 @@ def table(found: Iterable[tuple[str, Alike]], short: bool) -> Iterator[str]:
         right, keys = alike.details
         part = f"{alike.shared}/{alike.total}"
         yield f"{name:28}{part:>9}{share(alike.shared, alike.total):8.1%}{right:>5}/{keys}"
+    reasons = Counter(
+        reason_of(name, sides) or "no reason" for name, alike in every for sides in alike.unlike
+    )
+    yield ", ".join(f"{reason} {count}" for reason, count in reasons.most_common())
     for name, alike in () if short else every:
-        yield from ("", f"{name}:", *(f"  {line}" for line in differences(alike)))
+        yield from ("", f"{name}:", *(f"  {line}" for line in differences(alike, name)))
 
 
 def _together(found: Iterable[Alike]) -> Alike:

@@ -33,7 +33,7 @@ OF_KIND = {
 def answer_to(fact: Json) -> Json:
     """The answer that says what a fact says."""
     said = dict(fact)
-    for key in ("name", "period", "depth"):
+    for key in ("name", "period", "depth", "latched"):
         if said.get(key, "") is None and "nodelet" not in fact:
             said[key] = {"unknown": fact.get("why"), "partial": fact.get("partial")}
     if fact["kind"] in TYPED and fact["type"] is None:

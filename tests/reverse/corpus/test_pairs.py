@@ -69,7 +69,9 @@ def test_what_the_generations_write_differently_is_the_same(pair: tuple[Path, Pa
 
 def test_the_command(pair: tuple[Path, Path], capsys: pytest.CaptureFixture[str]) -> None:
     assert main([*map(str, pair), "--short"]) == 0
-    assert capsys.readouterr().out.splitlines()[-1].split()[:3] == ["all", "4/7", "57.1%"]
+    *_, figures, reasons = capsys.readouterr().out.splitlines()
+    assert figures.split()[:3] == ["all", "4/7", "57.1%"]
+    assert reasons == "no reason 3"
     assert main([str(pair[0].parent)]) == 1
     assert "no pair" in capsys.readouterr().err
 

@@ -208,6 +208,15 @@ _OPERATORS: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
 }
 
 
+def spelt(expression: str) -> str:
+    """An expression in one spelling: `1.f/value` and `1/value` as `1.0 / value`."""
+    try:
+        plain = ast.unparse(ast.parse(_SUFFIX.sub(r"\1", expression), mode="eval"))
+    except SyntaxError:
+        return expression
+    return re.sub(r"(?<![\w.])(\d+) / ", r"\1.0 / ", plain)
+
+
 _SUFFIX = re.compile(r"(\b\d+\.?\d*)[fFlLuU]+\b")
 
 
