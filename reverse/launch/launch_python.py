@@ -200,10 +200,12 @@ class _File:
     def _condition(self, value: ast.expr) -> Condition:
         found = self._values.resolved(value)
         text = self._values.shown(found)
-        if isinstance(found, ast.Call) and found.args:
-            kind, first = called(found), found.args[0]
-            if kind in ("IfCondition", "UnlessCondition"):
-                return Condition(self._values.words(first), kind == "IfCondition", text)
+        if isinstance(found, ast.Call):
+            kind = called(found)
+            if kind in ("IfCondition", "UnlessCondition") and found.args:
+                return Condition(self._values.words(found.args[0]), kind == "IfCondition", text)
+            if (same := self._values.compared(found)) is not None:
+                return Condition(same, not kind.endswith("NotEquals"), text)
         return Condition(self._values.computed(value), True, text)
 
     def _span(self, call: ast.expr) -> Span:

@@ -26,7 +26,9 @@ from rebsync.reverse.launch.ros2_words import (
     Variable,
     Word,
     Words,
+    Worked,
 )
+from rebsync.reverse.launch.ros2_worked import CLASSES
 from rebsync.source import Source, Span
 
 COMPUTED = Computed("it is computed when the file runs")
@@ -102,8 +104,29 @@ class PythonValues:
                 return self._parts(inner, depth + 1)
             case ast.Call():
                 return [self._substituted(value, depth)]
+            case ast.Attribute(value=ast.Name(id="os"), attr="sep"):
+                return ["/"]
+            case ast.Attribute(attr="parent") | ast.Name(id="__file__"):
+                return [self._place(value)]
             case _:
                 return [COMPUTED]
+
+    def _place(self, value: ast.expr) -> Word:
+        """The launch file, `Path(__file__).resolve()`, or its folder, `dirname(__file__)`."""
+        match self.resolved(value):
+            case ast.Name(id="__file__"):
+                return Here(False)
+            case ast.Attribute(value=inner, attr="parent") if self._place(inner) == Here(False):
+                return Here(True)
+            case ast.Call(args=[inner]) as call:
+                found = self._place(inner)
+                if called(call) == "dirname":
+                    return Here(True) if found == Here(False) else COMPUTED
+                return found if called(call) in ("Path", "realpath", "abspath", "str") else COMPUTED
+            case ast.Call(func=ast.Attribute(value=inner, attr="resolve" | "absolute"), args=[]):
+                return self._place(inner)
+            case _:
+                return COMPUTED
 
     def _substituted(self, call: ast.Call, depth: int) -> Word:
         name, args, given = called(call), call.args, keywords(call)
@@ -131,10 +154,17 @@ class PythonValues:
                 return self._joined(getattr(listed, "elts", [listed]), depth)
             case "join" if args:
                 return self._joined(args, depth)
+            case "dirname" | "resolve" | "realpath" | "abspath" | "absolute":
+                return self._place(call)
+            case _ if name in CLASSES:
+                given_ = [*args, *given.values()]
+                return Worked(CLASSES[name], tuple(w for a in given_ if (w := inner(a))))
             case "str" if not args:
                 return ""
             case "str" if isinstance(first, ast.Constant) and isinstance(first.value, int | float):
                 return str(first.value)
+            case "Path" | "str" if len(args) == 1 and (place := self._place(call)) != COMPUTED:
+                return place
             case "Path" | "str" if len(args) == 1:
                 return self._single(inner(first))
             case _ if name in _FOLDERS:
@@ -142,6 +172,17 @@ class PythonValues:
                 return Share(package) if package else COMPUTED
             case _:
                 return COMPUTED
+
+    def compared(self, call: ast.Call) -> Words | None:
+        """What `LaunchConfigurationEquals(name, text)` and its contrary compare."""
+        by_name = dict(zip(("name", "value"), call.args, strict=False)) | keywords(call)
+        names = {"launch_configuration_name": "name", "expected_value": "value"}
+        given = {names.get(key, key): value for key, value in by_name.items()}
+        known = called(call) in ("LaunchConfigurationEquals", "LaunchConfigurationNotEquals")
+        if not known or "name" not in given or "value" not in given:
+            return None
+        variable = Words((Variable(self.words(given["name"])),), self.span(call))
+        return Words((Worked("same", (variable, self.words(given["value"]))),), self.span(call))
 
     def _single(self, words: Words | None) -> Word:
         """A text as one of its parts."""
@@ -179,6 +220,8 @@ class PythonValues:
                 return self._substituted(value, 0) != COMPUTED
             case ast.Constant(value=str()) | ast.BinOp() | ast.List() | ast.JoinedStr():
                 return True
+            case ast.Attribute(attr="parent"):
+                return self._place(value) != COMPUTED
             case _:
                 return False
 

@@ -28,6 +28,7 @@ from rebsync.reverse.launch.ros2_actions import (
     Unlisted,
 )
 from rebsync.reverse.launch.ros2_words import Known, Words, below_share, evaluated
+from rebsync.reverse.launch.ros2_worked import FALSE, TRUE
 from rebsync.reverse.unknowns import Open, Text, Unknown
 from rebsync.source import Source, Span
 from rebsync.unions import assert_never
@@ -37,7 +38,6 @@ Actions = Callable[[Source], "tuple[Action, ...] | Unknown"]
 
 _WILDCARD = "/**/ros__parameters/"
 _MIDDLE = "/ros__parameters/"
-_TRUE, _FALSE = ("true", "1"), ("false", "0")
 _DEEPEST = 20
 _COMPUTED = "it is computed when the file runs"
 
@@ -144,9 +144,9 @@ class Reader:
     def _only(self, condition: Condition, action: Action, scope: _Scope, depth: int) -> None:
         value = scope.text(condition.words)
         word = value.strip().lower() if isinstance(value, str) else ""
-        if word in (_FALSE if condition.holds else _TRUE):
+        if word in (FALSE if condition.holds else TRUE):
             return
-        decided = word in (*_TRUE, *_FALSE)
+        decided = word in (*TRUE, *FALSE)
         # what is set only perhaps is set: a node with it is said to depend on the condition
         inner = scope.inner(False, () if decided else (condition.text,))
         self._action(action, inner, depth)

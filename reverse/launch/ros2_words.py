@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from typing import TypeAlias
 
 from rebsync.records import dataclass
+from rebsync.reverse.launch.ros2_worked import worked_out
 from rebsync.reverse.unknowns import Open, Text
 from rebsync.source import Span
 from rebsync.unions import assert_never
@@ -63,7 +64,15 @@ class Computed:
     why: str
 
 
-Word: TypeAlias = "str | Variable | Environment | Share | Here | Path | Computed"
+@dataclass(frozen=True, slots=True)
+class Worked:
+    """What a substitution works out of other texts; `name` is its word in `ros2_worked`."""
+
+    name: str
+    parts: tuple[Words, ...]
+
+
+Word: TypeAlias = "str | Variable | Environment | Share | Here | Path | Computed | Worked"
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,6 +120,11 @@ def _part(word: Word, known: Known) -> Text:
             return _path(parts, known)
         case Computed(why):
             return Open(why)
+        case Worked(name, parts):
+            texts = [evaluated(part, known) for part in parts]
+            return next((t for t in texts if isinstance(t, Open)), None) or worked_out(
+                name, [t for t in texts if isinstance(t, str)]
+            )
         case _:
             assert_never(word)
 

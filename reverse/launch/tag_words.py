@@ -12,11 +12,14 @@ from rebsync.reverse.launch.ros2_words import (
     Variable,
     Word,
     Words,
+    Worked,
 )
+from rebsync.reverse.launch.ros2_worked import WORDS
 from rebsync.source import Span
 
 _NAME = re.compile(r"\s*([\w-]+)\s*")
 _DEEPEST = 30
+_ESCAPED = re.compile(r"\\(['\"\\])")
 
 
 def tag_words(text: str, span: Span) -> Words:
@@ -68,8 +71,27 @@ def _word(name: str, inner: list[Word], span: Span) -> Word:
             return Here(True)
         case "filename":
             return Here(False)
+        case "eval":
+            return Worked(name, (Words(tuple(_unquoted(inner)), span),))
+        case _ if name in WORDS and arguments:
+            return Worked(name, tuple(arguments))
         case _:
             return Computed(f"`$({name} ...)` is worked out when the file runs")
+
+
+def _unquoted(inner: list[Word]) -> list[Word]:
+    """An expression without the quotes around it, those within as they are meant."""
+    first, last = (inner[0], inner[-1]) if inner else ("", "")
+    if not isinstance(first, str) or not isinstance(last, str):
+        return inner
+    quote = first.lstrip()[:1]
+    if quote not in ("'", '"') or not last.rstrip().endswith(quote):
+        return inner
+    parts = [*inner]
+    parts[0] = first.lstrip()[1:]
+    end = parts[-1]
+    parts[-1] = end.rstrip()[:-1] if isinstance(end, str) else end
+    return [_ESCAPED.sub(r"\1", p) if isinstance(p, str) else p for p in parts]
 
 
 def _split(inner: list[Word], span: Span) -> list[Words]:

@@ -135,7 +135,51 @@ CASES: dict[str, tuple[dict[str, str], list[str], list[str]]] = {
             XML: '<node pkg="p" exec="e" name="n" if="$(eval 1 &lt; 2)"/>',
             YAML: "- node: {pkg: p, exec: e, name: n, if: $(eval 1 < 2)}",
         },
-        ["/n p e {} [] if"],
+        ["/n p e {} []"],
+        [],
+    ),
+    "expressions over arguments": (
+        {
+            PYTHON: "DeclareLaunchArgument('k', 'sim'), DeclareLaunchArgument('z'),"
+            "Node(package='p', executable='e', name='a', condition=IfCondition("
+            """PythonExpression(["'", LaunchConfiguration('k'), "' == 'sim'"]))),"""
+            "Node(package='p', executable='e', name='b', condition=UnlessCondition("
+            """PythonExpression(["'", LaunchConfiguration('k'), "' == 'sim'"]))),"""
+            "Node(package='p', executable='e', name='c', condition=IfCondition("
+            """PythonExpression(["'", LaunchConfiguration('z'), "' == 'sim'"]))),"""
+            "Node(package='p', executable='e', name='d', condition=IfCondition("
+            "PythonExpression(['true'])))",
+            XML: '<arg name="k" default="sim"/><arg name="z"/>'
+            """<node pkg="p" exec="e" name="a" if="$(eval '\\'$(var k)\\' == \\'sim\\'')"/>"""
+            """<node pkg="p" exec="e" name="b" unless="$(eval '\'$(var k)\' == \'sim\'')"/>"""
+            """<node pkg="p" exec="e" name="c" if="$(eval '\'$(var z)\' == \'sim\'')"/>"""
+            '<node pkg="p" exec="e" name="d" if="$(eval true)"/>',
+            YAML: "- arg: {name: k, default: sim}\n- arg: {name: z}\n"
+            '- node: {pkg: p, exec: e, name: a, if: $(eval \'"$(var k)" == "sim"\')}\n'
+            '- node: {pkg: p, exec: e, name: b, unless: $(eval \'"$(var k)" == "sim"\')}\n'
+            '- node: {pkg: p, exec: e, name: c, if: $(eval \'"$(var z)" == "sim"\')}\n'
+            "- node: {pkg: p, exec: e, name: d, if: $(eval true)}",
+        },
+        ["/a p e {} []", "/c p e {} [] if", "/d p e {} [] if"],
+        [],
+    ),
+    "comparisons": (
+        {
+            PYTHON: "DeclareLaunchArgument('k', '1.0'), Node(package='p', executable='e', name='a',"
+            " condition=IfCondition(EqualsSubstitution(LaunchConfiguration('k'), '1'))),"
+            "Node(package='p', executable='e', name=IfElseSubstitution("
+            "AndSubstitution('true', NotSubstitution('false')), 'b', 'c'),"
+            " condition=IfCondition(NotEqualsSubstitution(LaunchConfiguration('k'), 'x')))",
+            XML: '<arg name="k" default="1.0"/>'
+            '<node pkg="p" exec="e" name="a" if="$(equals $(var k) 1)"/>'
+            '<node pkg="p" exec="e" name="$(if $(and true $(not false)) b c)"'
+            ' if="$(not-equals $(var k) x)"/>',
+            YAML: "- arg: {name: k, default: '1.0'}\n"
+            "- node: {pkg: p, exec: e, name: a, if: $(equals $(var k) 1)}\n"
+            "- node: {pkg: p, exec: e, name: $(if $(and true $(not false)) b c),"
+            " if: $(not-equals $(var k) x)}",
+        },
+        ["/a p e {} []", "/b p e {} []"],
         [],
     ),
 }
@@ -174,6 +218,29 @@ ONLY_PYTHON = {
         " name=f'n{1}', parameters=[{'a': LaunchConfiguration('k')}])",
         ["? p e {a: 0} []"],
         ["the name of a node: it is computed when the file runs"],
+    ),
+    "an argument that equals": (
+        "DeclareLaunchArgument('k', 'x'), Node(package='p', executable='e', name='a', condition="
+        "LaunchConfigurationEquals('k', 'x')), Node(package='p', executable='e', name='b',"
+        " condition=LaunchConfigurationNotEquals(launch_configuration_name='k',"
+        " expected_value='x'))",
+        ["/a p e {} []"],
+        [],
+    ),
+    "neither true nor false": (
+        "Node(package='p', executable='e', name='n', condition=IfCondition("
+        "OrSubstitution('maybe', 'true'))), Node(package='p', executable='e', name='m',"
+        " condition=IfCondition(EqualsSubstitution('one')))",
+        ["/n p e {} [] if", "/m p e {} [] if"],
+        [],
+    ),
+    "files beside the launch file": (
+        "Node(package='p', executable='e', name='n', parameters=["
+        "os.path.dirname(os.path.realpath(__file__)) + '/config/p.yaml',"
+        " Path(__file__).resolve().parent / 'config' / 'p.yaml',"
+        " [ThisLaunchFileDir(), os.sep, 'config/p.yaml'], Path(__file__).parent.parent])",
+        ["/n p e {own/x: 2} []", "{/all: 1}"],
+        ["parameters of a node: it is computed when the file runs"],
     ),
     "a text of YAML": (
         "Node(package='p', executable='e', name='n', parameters=[{'a': ParameterValue("
@@ -251,7 +318,7 @@ def test_actions_that_are_added_one_by_one() -> None:
 def test_unknowns_have_their_place() -> None:
     text = '<launch>\n <node pkg="p" exec="$(eval x)" name="n"/>\n <odd/>\n</launch>'
     assert [str(u) for u in _read(XML, text).unknowns] == [
-        "a.launch.xml:2:22: the program of a node: `$(eval ...)` is worked out when the file runs",
+        "a.launch.xml:2:22: the program of a node: `x` has no value",
         "a.launch.xml:3:2: the tag <odd>: launch does not know it, or it lacks what it needs",
     ]
 
