@@ -27,6 +27,7 @@ from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
 from rebsync.roundtrip.units import manifest_of
 from rebsync.roundtrip.wiring_facts import (
+    CONSTANT,
     NOT_GIVEN,
     PLAYED,
     PROGRAM,
@@ -43,7 +44,7 @@ from rebsync.source import NOWHERE, Source
 
 _WIRED = (
     *(".cpp", ".h", ".hpp", ".launch", ".py", ".msg"),
-    *("CMakeLists.txt", "config/params.yaml", "setup.cfg"),
+    *("CMakeLists.txt", "config/params.yaml", "package.xml", "setup.cfg"),
 )
 _JOINING = frozenset(
     {
@@ -100,7 +101,7 @@ def odd_facts(kept: Kept, record: Record, now: Standing, of_code: Comparison) ->
     own = package_name(listed.get(manifest_of(listed), ""))
     before = facts_of({n: old_paths[n] for n in touched}, old)
     after = facts_of({n: listed[n] for n in [*touched, *new] if n in listed}, own)
-    if _values(before) == _values(after):
+    if _values(before) == _values(after) and old == own:
         return ()
     today = facts_of({n: p for n, p in listed.items() if _is_wiring(n)}, own)
     base, free = replaced(facts_of(old_paths, old), today)
@@ -217,7 +218,7 @@ class _Excuses:
     def hold(self, key: tuple[str, str, str]) -> bool:
         """Whether the facts of a key need not be as they were."""
         first = (self.base.get(key) or self.today[key])[0]
-        if first.kind in _HELPING:
+        if first.kind in _HELPING or (first.kind == CONSTANT and key not in self.today):
             return True
         if key not in self.base and not self._is_unwanted(first):
             return True

@@ -21,6 +21,7 @@ from rebsync.roundtrip import wiring_ros2
 from rebsync.source import Source, Span
 
 PROGRAM, PLAYED, TYPE, SPACE = "program", "played sensor", "type of a node", "space of parameters"
+CONSTANT = "type of the constant"
 NOT_GIVEN, OWN = "not given", "this package"
 _PACKAGE = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
 
@@ -48,6 +49,13 @@ _BEARING = {
 _PROGRAM = re.compile(r"\b(add_executable|set_target_properties)\s*\(\s*(\S+)\s+([^)]*)\)")
 _SCRIPT = re.compile(r"^[ \t]*scripts/(\w+)[ \t]*$", re.MULTILINE)
 _MODULES = re.compile(r"\bcatkin_python_setup\s*\(\s*\)")
+_GENERATED = re.compile(r"\bgenerate_messages\s*\(")
+_FOLDERS = re.compile(r"\bDIRECTORY\s+([\w\s]+?)\s+DESTINATION\b")
+_TYPES = {
+    "a whole number": re.compile(r"[+-]?(?:0x[\da-fA-F]+|\d[\d_]*)"),
+    "a fraction": re.compile(r"[+-]?(?:\d+\.\d*|\.\d+)(?:[eE][+-]?\d+)?"),
+    "a truth": re.compile(r"true|false|yes|no|on|off", re.IGNORECASE),
+}
 _FOLDER = re.compile(r"^(script_dir|install_scripts)[ \t]*=[ \t]*(\S+)", re.MULTILINE)
 _COMPILED = re.compile(
     r"\b(?:add|target)_(?:compile_\w+|definitions)\s*\(([^)]*)\)|_FLAGS\s+([^)]*)\)"
@@ -107,6 +115,8 @@ def _of_file(name: str, source: Source, package: str) -> Iterable[Fact]:
         return _fields(source, package)
     if name.endswith(".yaml"):
         return _settings(source)
+    if name.endswith("package.xml"):
+        return _other_package(source, package)
     if name.endswith(".cfg"):
         return _folders(source)
     if name.endswith(".txt"):
@@ -245,19 +255,34 @@ def _fields(source: Source, package: str) -> Iterator[Fact]:
 
 
 def _settings(source: Source) -> Iterator[Fact]:
-    """What in the parameters of the run-time part has a bearing on what nodes do."""
+    """What in the parameters has a bearing on what nodes do, but for the values of constants."""
     section = ""
     for m in _ENTRY.finditer(source.text):
+        if m[3] and (not m[1] or section == "env"):
+            yield Fact(CONSTANT, "", m[2], _type_of(m[3]), source, Span(*m.span(2)))
         if not m[1] or not m[3]:
             section = m[2]
         elif m[2] in _BEARING.get(section, ()):
             yield Fact("parameter", "", f"{section}/{m[2]}", m[3], source, Span(*m.span(2)))
 
 
+def _type_of(value: str) -> str:
+    """The type that a value has in YAML, as ROS tells them apart."""
+    return next((name for name, pattern in _TYPES.items() if pattern.fullmatch(value)), "a text")
+
+
 def _folders(source: Source) -> Iterator[Fact]:
     """Where a `setup.cfg` has programs installed, from where launch files start them."""
     for m in _FOLDER.finditer(source.text):
         yield Fact("folder of programs", "", m[1], m[2], source, Span(*m.span()))
+
+
+def _other_package(source: Source, package: str) -> Iterator[Fact]:
+    """The name of a package of messages beside the one of the nodes, `package`."""
+    found = _PACKAGE.search(source.text)
+    if found is not None and package and found[1] != package:
+        value = found[1].replace(package, OWN)
+        yield Fact("name of the package", "", "messages", value, source, Span(*found.span(1)))
 
 
 def _has_bearing(name: str) -> bool:
@@ -272,6 +297,11 @@ def _programs(source: Source) -> Iterator[Fact]:
             yield Fact("compiler option", "", _squeezed(option), "given", source, Span(*m.span()))
     for m in _SCRIPT.finditer(source.text):
         yield Fact("installed program", "", m[1], "there", source, Span(*m.span()))
+    for m in _FOLDERS.finditer(source.text):
+        for folder in m[1].split():
+            yield Fact("installed folder", "", folder, "there", source, Span(*m.span(1)))
+    for m in _GENERATED.finditer(_HASH.sub(lambda m: " " * len(m[0]), source.text)):
+        yield Fact("code of the messages", "", "", "generated", source, Span(*m.span()))
     for m in _MODULES.finditer(_HASH.sub(lambda m: " " * len(m[0]), source.text)):
         yield Fact("Python package", "", "", "built", source, Span(*m.span()))
     for m in _PROGRAM.finditer(source.text):

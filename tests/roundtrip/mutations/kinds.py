@@ -21,6 +21,7 @@ from tests.roundtrip.mutations import (
     rclcpp,
     roscpp,
     sending,
+    slips,
     spelling,
     surroundings,
 )
@@ -35,21 +36,34 @@ _CPP_NEUTRAL = (
     *layout.KINDS,
 )
 
-_PY = (*py_bodies.KINDS, *py_sending.KINDS, *py_joints.KINDS, *py_surroundings.KINDS)
-_PY_NEUTRAL = (*py_neutral.KINDS, *surroundings.NEUTRAL, *layout.KINDS)
-_ALL = surroundings.KINDS
+_PY = (
+    *py_bodies.KINDS,
+    *py_sending.KINDS,
+    *py_joints.KINDS,
+    *py_surroundings.KINDS,
+    *slips.PYTHON,
+)
+_PY_NEUTRAL = (
+    *py_neutral.KINDS,
+    *slips.PYTHON_NEUTRAL,
+    *surroundings.NEUTRAL,
+    *layout.KINDS,
+)
+_ALL = (*surroundings.KINDS, *slips.ANY)
+_XML, _LAUNCH_PY = (*launch_xml.KINDS, *slips.LAUNCH_XML), (*launch_py.KINDS, *slips.LAUNCH_PY)
+_LAUNCH_PY_NEUTRAL = (*launch_py.NEUTRAL, *slips.LAUNCH_PY_NEUTRAL)
 
 BEHAVIOUR: Mapping[str, tuple[Kind, ...]] = {
-    "ros1-cpp": (*_CPP, *_ALL, *roscpp.KINDS, *launch_xml.KINDS),
-    "ros2-cpp": (*_CPP, *_ALL, *rclcpp.KINDS, *launch_py.KINDS),
-    "ros1-py": (*_PY, *_ALL, *py_surroundings.ROSPY, *launch_xml.KINDS),
-    "ros2-py": (*_PY, *_ALL, *py_surroundings.RCLPY, *launch_py.KINDS),
+    "ros1-cpp": (*_CPP, *_ALL, *roscpp.KINDS, *_XML),
+    "ros2-cpp": (*_CPP, *_ALL, *rclcpp.KINDS, *slips.RCLCPP, *_LAUNCH_PY),
+    "ros1-py": (*_PY, *_ALL, *py_surroundings.ROSPY, *_XML),
+    "ros2-py": (*_PY, *_ALL, *py_surroundings.RCLPY, *slips.RCLPY, *_LAUNCH_PY),
 }
 NEUTRAL: Mapping[str, tuple[Kind, ...]] = {
     "ros1-cpp": (*_CPP_NEUTRAL, *roscpp.NEUTRAL, *launch_xml.NEUTRAL),
-    "ros2-cpp": (*_CPP_NEUTRAL, *rclcpp.NEUTRAL, *launch_py.NEUTRAL),
+    "ros2-cpp": (*_CPP_NEUTRAL, *rclcpp.NEUTRAL, *_LAUNCH_PY_NEUTRAL),
     "ros1-py": (*_PY_NEUTRAL, *py_neutral.ROSPY, *launch_xml.NEUTRAL),
-    "ros2-py": (*_PY_NEUTRAL, *py_neutral.RCLPY, *launch_py.NEUTRAL),
+    "ros2-py": (*_PY_NEUTRAL, *py_neutral.RCLPY, *_LAUNCH_PY_NEUTRAL),
 }
 
 
