@@ -8,6 +8,7 @@ from dataclasses import field, replace
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.bodies import cpp_roots, known_functions
 from rebsync.reverse.bodies.cpp_kinds import LEAVES, LOOKED_AT, PLAIN, REPEATED
 from rebsync.reverse.bodies.cpp_macros import is_harmless
 from rebsync.reverse.bodies.cpp_misread import first_of, is_misread
@@ -220,13 +221,7 @@ class Effects:
             self._declare(target)
 
     def _declare(self, declarator: Node) -> None:
-        waiting = [declarator]
-        while waiting:
-            current = waiting.pop()
-            if current.type == "identifier":
-                self._inner.add(text_of(current))
-            elif current.type != "parameter_list":
-                waiting += current.named_children
+        self._inner.update(cpp_roots.declared_in(declarator))
 
     def _range(self, node: Node) -> None:
         declarator = node.children_by_field_name("declarator")[0]
@@ -266,7 +261,7 @@ class Effects:
         self._arguments(call.arguments)
 
     def _function(self, node: Node, name: str) -> bool:
-        """Whether a function of the code is known to do nothing; `Touches` if it is not."""
+        """Whether a function of the code only looks; `Touches` if it acts on more than it gets."""
         match self.scope.functions.get(name):
             case None if hides(name):
                 if is_harmless(self, name):
@@ -275,7 +270,7 @@ class Effects:
             case None | Ignored():
                 return False
             case Inline(f) | Called(function=f) if f is not None and self._is_calm(f):
-                return True
+                return not any(known_functions.may_change(p) for p in f.parameters)
         raise self._touches(node, f'"{name}" may change what the model has')
 
     def _held(self, node: Node, name: str, call: CppCall) -> bool:
@@ -294,7 +289,7 @@ class Effects:
 
     def _is_calm(self, function: CppFunction) -> bool:
         """Whether a body touches nothing but what it declares, or gets."""
-        if function.body is None or any(p.may_change for p in function.parameters):
+        if function.body is None:
             return False
         key = function.body.id
         if key not in self.scope.calm:

@@ -84,6 +84,17 @@ def identifiers_in(node: Node) -> Iterator[Node]:
         waiting += current.named_children
 
 
+def declared_in(declarator: Node) -> Iterator[str]:
+    """The names that a declarator declares."""
+    waiting = [declarator]
+    while waiting:
+        current = waiting.pop()
+        if current.type == "identifier":
+            yield text_of(current)
+        elif current.type != "parameter_list":
+            waiting += current.named_children
+
+
 def is_element(node: Node) -> bool:
     """Whether a call gives a part of an array, which may be changed there."""
     call = call_of(node)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 
 from rebsync.reverse.syntax.cpp_calls import CppCall
+from rebsync.reverse.syntax.cpp_declarations import CppParameter
+from rebsync.reverse.syntax.cpp_tree import text_of
 
 LOGGING = (
     *("ROS_DEBUG", "ROS_INFO", "ROS_WARN", "ROS_ERROR", "ROS_FATAL", "NODELET_", "ROS_LOG"),
@@ -73,6 +75,7 @@ _VALUES = frozenset(
         *("static_cast", "narrow_cast", "numeric_cast", "normalize_angle", "from_degrees"),
         *("shortest_angular_distance", "to_degrees", "createQuaternionMsgFromYaw"),
         *("createQuaternionFromYaw", "createQuaternionFromRPY", "getYaw", "quatToRPY"),
+        "to_yaml",
         *("setRPY", "setOrigin", "setRotation", "setX", "setY", "setZ", "setValue"),
     }
 )
@@ -86,7 +89,15 @@ _COPIES = frozenset(
 _CONVERSION = re.compile(
     r"(?:::)?(?:u?int(?:8|16|32|64)?(?:_t)?|float|double|bool|char|long|short|unsigned|size_t)\Z"
 )
-_LIBRARIES = re.compile(r"(?:::)?(?:std|boost|ros|tf2?|tf2_ros|Eigen|cv|pcl|\w+_msgs|\w+_srvs)::")
+_LIBRARIES = re.compile(
+    r"(?:::)?(?:std|boost|ros|tf2?|tf2_ros|Eigen|cv|pcl|diagnostic_updater|\w+_msgs|\w+_srvs)::"
+)
+# Pointers to what is not constant.
+_SHARED = re.compile(
+    r"(?<!Const)(?<!ConstShared)(?<!ConstUnique)(?:Shared|Unique)?Ptr\b|\w+_ptr<(?!\s*const\b)"
+)
+# What makes an object of a type.
+_MAKES = re.compile(r"(?:std|boost)::make_(?:shared|unique)<\s*(?:const\s+)?([\w:]+)")
 # Types whose objects, when they are called, give an element of themselves.
 _MATRIX = re.compile(
     r"(?:const\s+)?(?:::)?Eigen::(?:Matrix|(?:Row)?Vector|Array)(?:X?\d?X?[dfi]|<.*>)\Z", re.DOTALL
@@ -108,12 +119,19 @@ def acts(call: CppCall) -> str | None:
 
 def takes_values(call: CppCall) -> bool:
     """Whether a function is known to change none of its arguments."""
-    plain = call.name.rpartition("::")[2].partition("<")[0]
+    made = _MAKES.match(call.name)
+    name = made[1] if made is not None else call.name.partition("<")[0]
+    plain = name.rpartition("::")[2]
     if call.name.startswith(LOGGING) or plain in _VALUES or _CONVERSION.match(call.name):
         return True
     if call.target is not None and plain in _COPIES:
         return True
-    return call.target is None and plain[:1].isupper() and type_takes_values(call.name)
+    return call.target is None and plain[:1].isupper() and type_takes_values(name)
+
+
+def may_change(parameter: CppParameter) -> bool:
+    """Whether a function may change what it gets for a parameter: also through a pointer."""
+    return parameter.may_change or _SHARED.search(text_of(parameter.type)) is not None
 
 
 def type_takes_values(name: str) -> bool:

@@ -143,6 +143,10 @@ def list_wiring(wiring: Wiring, wanted: Collection[str], findings: Findings) -> 
     """Topics that are not known, and those with nobody at their other end."""
     for instance in wiring.instances:
         name = instance.start.unit.name
+        launched = instance.launched
+        if launched is not None and launched.only_if and name in wanted:
+            why = f"it is started only `{launched.only_if[-1]}`: in the model it always is"
+            findings.approximated(launched.source, launched.span, why)
         for fact in instance.start.unit.facts if name in wanted else ():
             if isinstance(fact, PublisherFact | SubscriptionFact):
                 topic, place = instance.topic(fact.topic), fact.site.place

@@ -13,6 +13,12 @@ MACROS = (
     "#define STORE(x, y) library::out() << y; x = y",
     "#define LEAVE_IF(x) if ((x) > 3) return",
     "#define GUARDED(x) if (library::ready()) { SHOW(x) } else { RAISE(x); }",
+    "void spread(int& to, int by) { to = by; }",
+    "bool looked(int of, int* found) {",
+    "  *found = of;",
+    "  return of > 2;",
+    "}",
+    "void noted(const int& of, double& seen) { seen = of; }",
     "",
 )
 
@@ -32,7 +38,18 @@ def library_statement(body: Body) -> list[str]:
         f"{{ Eigen::MatrixXd m_(2, 2); m_(0, {other}) = {target}; {target} = {number}; }}",
         f"{{ Eigen::MatrixXd m_(2, 2); if (m_({other}, 1) > 0.5) {target} = {number}; }}",
     ]
+    calm += [
+        f"{{ double seen_; noted({target}, seen_); if (seen_ > 2.0) {target} = {number}; }}",
+        f"{{ int got_; if (looked({other}, &got_)) {target} = {number}; }}",
+        f"{{ int got_; looked({other} * 2, &got_); {target} = got_; }}",
+        f"{{ double seen_ = 0; noted(library::level(), seen_); {target} = {number}; }}",
+        f"spread(library::table().cell, {target});",
+    ]
     acting = [
+        f"spread({target}, {other});",
+        f"looked({other}++, &{target});",
+        f"if (looked({number}, &{target})) {other} = 1;",
+        f"looked({target}, &library::table().row({target}++).cell);",
         f"SHOW({target}++);",
         f"SHOW_BOTH({other}, ({target} = {number}));",
         f"RAISE({target});",

@@ -59,3 +59,31 @@ void Node::onMatrices(const std_msgs::Int32::ConstPtr& msg) {
   std::function<int(int)> f = given();
   f(count_);
 }
+void fillAll(std::vector<double>& to, int& found, const double* from) {
+  for (int i = 0; i < 3; ++i) to[i] = from[i];
+  found = 3;
+}
+bool looksUp(const std::string& frame, tf2::Transform& found, std::string* why) {
+  if (frame.empty()) { *why = "none"; return false; }
+  found.setIdentity();
+  return true;
+}
+void counts(int& other) { other = 1; count_ = other; }
+void spoils(std_msgs::Int32::Ptr other) { other->data = 1; }
+void Node::onHelpers(const std_msgs::Int32::ConstPtr& msg) {
+  fillAll(values_, found_, &range_);
+  tf2::Transform at;
+  std::string why;
+  if (looksUp("map", at, &why)) on_ = true;
+  int many;
+  fillAll(values_, many, nullptr);
+  if (many > 2) on_ = false;
+  fillAll(values_, count_, nullptr);
+  looksUp(label_, at, names_[++limit_]);
+  counts(found_);
+  spoils(kept_);
+  spoils(other_);
+  broadcaster_ = std::make_shared<tf2_ros::TransformBroadcaster>(this);
+  broadcaster_ = std::make_shared<others::Helper>(this);
+  ROS_INFO("%s", std_msgs::msg::to_yaml(*msg).c_str());
+}

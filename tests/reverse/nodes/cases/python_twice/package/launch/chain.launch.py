@@ -1,9 +1,13 @@
 from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.conditions import IfCondition
+from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
 
 def generate_launch_description():
     return LaunchDescription([
+        DeclareLaunchArgument("short"),
         Node(package="python_twice", executable="source"),
         Node(package="python_twice", executable="relay", name="one",
              remappings=[("in", "numbers"), ("out", "between")]),
@@ -11,7 +15,7 @@ def generate_launch_description():
              remappings=[("in", "between"), ("out", "done")]),
         Node(package="python_twice", executable="relay", namespace="left", name="one",
              remappings=[("in", "/numbers"), ("out", "/done")],
-             parameters=[{"most": 2}]),
+             parameters=[{"most": 2}], condition=IfCondition(LaunchConfiguration("short"))),
         Node(package="elsewhere", executable="relay", name="three",
              remappings=[("in", "numbers")]),
     ])
