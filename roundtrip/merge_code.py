@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from rebsync.roundtrip.merge_models import Favour
 from rebsync.roundtrip.text_merge import merged_text
 from rebsync.source import NOWHERE, Source
 
+_STAND_IN = re.compile(r"(?:.*/)?\w+_stand_in(?:\.cpp|\.py)?")
 LABELS = ("as edited", "as generated now")
 
 
@@ -38,12 +40,17 @@ class MergedCode:
 
 
 def merged_code(
-    root: str, base: Mapping[str, str], theirs: Mapping[str, str], favour: Favour
+    root: str,
+    base: Mapping[str, str],
+    theirs: Mapping[str, str],
+    favour: Favour,
+    moved: Mapping[str, str],
 ) -> MergedCode:
     """The files of a package with what is generated now for today's model.
 
     `base` is what would be generated for what the files say now, so that only what the model has
-    changed is different from it; the files are as people have left them.
+    changed is different from it; the files are as people have left them, some of them `moved` to
+    another path.
     """
     texts: dict[str, str | None] = {}
     conflicts: dict[str, Stages] = {}
@@ -51,16 +58,17 @@ def merged_code(
     for path in sorted({*base, *theirs}):
         if base.get(path) == theirs.get(path):
             continue
-        merged = _file(Path(root, path), base.get(path), theirs.get(path), favour)
+        here = moved.get(path, path)
+        merged = _file(Path(root, here), base.get(path), theirs.get(path), favour)
         match merged:
             case Findings():
                 refused.append(merged)
             case (str() as text, stages):
-                texts[path] = text
+                texts[here] = text
                 if isinstance(stages, Stages):
-                    conflicts[path] = stages
+                    conflicts[here] = stages
             case _:
-                texts[path] = None
+                texts[here] = None
     return MergedCode(texts, conflicts, tuple(refused))
 
 
@@ -109,7 +117,8 @@ def ancestors(
 
     `recorded` was generated last time, `before` is today's generation of the model of last time,
     and `now` that of the model with the changes of the code. Where the first two differ, rebsync
-    or the settings have changed since: that is to come into the code as well.
+    or the settings have changed since: that is to come into the code as well. So is what changes
+    in a stand-in of a sensor, which nobody reads: it plays as often as the class looks.
     """
     return dict(_ancestors(recorded, before, now))
 
@@ -119,7 +128,9 @@ def _ancestors(
 ) -> Iterator[tuple[str, str]]:
     for path in sorted({*recorded, *now}):
         old, new = recorded.get(path), now.get(path)
-        if old is None or old == before.get(path):
+        if old is not None and new is not None and _STAND_IN.fullmatch(path):
+            yield path, old
+        elif old is None or old == before.get(path):
             if new is not None:
                 yield path, new
         elif new is None or new == before.get(path):

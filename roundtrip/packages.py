@@ -117,7 +117,10 @@ def _is_kept(folder: Path) -> bool:
 
 
 def _below(path: str) -> Iterator[Kept]:
-    """The packages in a directory, in the order of their names; links are not followed."""
+    """The packages in a directory, in the order of their names.
+
+    Of links only those are followed that lead to a package at once, as in a workspace.
+    """
     waiting = [path]
     settings: list[str] = []
     roots: list[str] = []
@@ -135,6 +138,11 @@ def _below(path: str) -> Iterator[Kept]:
     yield from sorted(kept, key=lambda k: k.root)
 
 
+def _is_link_to_package(entry: os.DirEntry[str]) -> bool:
+    """Whether it is a link to a package that is kept in step; what is in this is not looked at."""
+    return entry.is_symlink() and _is_kept(Path(entry.path))
+
+
 def _entries(folder: str, top: bool) -> tuple[list[str], list[str]]:
     """The files of a directory, and the directories in it that may hold packages."""
     try:
@@ -147,7 +155,7 @@ def _entries(folder: str, top: bool) -> tuple[list[str], list[str]]:
     folders, names = [], []
     for entry in every:
         try:
-            is_folder = entry.is_dir(follow_symlinks=False)
+            is_folder = entry.is_dir(follow_symlinks=False) or _is_link_to_package(entry)
         except OSError:
             continue
         if not is_folder:

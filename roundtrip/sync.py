@@ -27,6 +27,7 @@ from rebsync.roundtrip.gone import Gone, is_of_file
 from rebsync.roundtrip.manifest import BASE, BASE_MODEL, FOLDER, MANIFEST, with_manifest
 from rebsync.roundtrip.merge_check import finding, read_with, wrongly_merged
 from rebsync.roundtrip.merge_code import Stages, ancestors, merged_code, recorded_base
+from rebsync.roundtrip.merge_files import moved_files
 from rebsync.roundtrip.merge_models import Compared, Favour, as_code_says, merged_model
 from rebsync.roundtrip.models import code_given, model_given, parsed
 from rebsync.roundtrip.packages import SETTINGS
@@ -181,7 +182,8 @@ class _Syncing:
         is_as_base = told.source.text == base.source.text
         of_code = before if is_as_base else self._generated(told, options)
         last = ancestors(recorded, before, of_code)
-        merged = merged_code(self.checked.kept.root, last, now, self.favour)
+        moved = moved_files(self.checked.standing, self.record)
+        merged = merged_code(self.checked.kept.root, last, now, self.favour, moved)
         findings = tuple(f for f in self.checked.findings if not _is_settled(f))
         if merged.refused:
             return Sync(self.checked, findings=findings, refused=merged.refused)

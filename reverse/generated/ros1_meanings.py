@@ -27,7 +27,8 @@ _DECLARATORS = (
 )
 _NAME = re.compile(r"[A-Za-z_]\w*")
 _WORD = re.compile(r"\w+\Z")
-_RUNTIME = re.compile(rf"(?:^|/)(?:{'|'.join(RUNTIME_HEADERS)})\.h\Z")
+_RUNTIME = re.compile(rf"(?:^|/)(?:{'|'.join(RUNTIME_HEADERS)})\.h(?:pp)?\Z")
+_HEADER = re.compile(r"\.(?:h|hh|hpp|hxx|inl|ipp|tpp)\Z", re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +65,7 @@ def in_files_of(code: Code, owner: CppClass, meaning: Meaning) -> bool:
     files = {owner.cpp.source.path: owner.cpp}
     files |= {f.cpp.source.path: f.cpp for f in code.functions_of(owner)}
     place = meaning.cpp.source.path
-    if not place.endswith(".h") and place not in files:
+    if not _HEADER.search(place) and place not in files:
         return False
     word = re.compile(rf"\b{meaning.name}\b")
     return any(word.search(cpp.source.text) for cpp in files.values())

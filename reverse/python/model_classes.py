@@ -107,7 +107,8 @@ class Classes:
         bases = owner.node.child_by_field_name("superclasses")
         names = {text_of(b) for b in named(bases)} if bases is not None else set()
         functions = self._of(owner).functions.values()
-        return names <= {"ABC"} and not owner.attributes and all(map(_is_abstract, functions))
+        is_plain = names <= {"ABC"} and not owner.attributes and (functions or names)
+        return bool(is_plain) and all(map(_is_abstract, functions))
 
     def _has_mailbox(self, owner: Scope) -> bool:
         return any(self._of(c).has_mailbox for c in self.line(owner))
