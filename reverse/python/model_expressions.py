@@ -354,11 +354,18 @@ class Expressions:
             return {}
         called = text_of(field(node, "function")) if node.type == "call" else ""
         given = named(field(node, "arguments")) if called == "When" else []
-        if called != "When" or any(g.type != "keyword_argument" for g in given):
+        is_spread = any(g.type in ("list_splat", "dictionary_splat") for g in given)
+        if called != "When" or is_spread or len(given) > len(_TIMES):
             raise self.unread(node, "this is no time of a send")
-        times = {text_of(field(g, "name")): field(g, "value") for g in given}
+        times = dict(zip(_TIMES, given, strict=False))
+        by_name = [g for g in given if g.type == "keyword_argument"]
+        times = {k: g for k, g in times.items() if g not in by_name}
+        times |= {text_of(field(g, "name")): field(g, "value") for g in by_name}
         is_without = text_of(times["deadline"]) == "None" if "deadline" in times else False
         return {k: self.read(v) for k, v in times.items() if k != "deadline" or not is_without}
+
+
+_TIMES = ("after", "deadline")  # in the order of the parameters of When
 
 
 def _in_double_quotes(text: str) -> str:
