@@ -119,7 +119,8 @@ def times(reader: Expressions, node: Node) -> dict[str, m.Expression]:
         return {}
     called = text_of(field(node, "function")) if node.type == "call" else ""
     given = named(field(node, "arguments")) if called == "When" else []
-    if called != "When" or len(given) > 2:
+    is_spread = any(g.type in ("list_splat", "dictionary_splat") for g in given)
+    if called != "When" or is_spread or len(given) > 2:
         raise reader.unread(node, "this is no time of a send")
     said: dict[str, Node] = {}
     for name, each in zip(("after", "deadline"), given, strict=False):

@@ -5,29 +5,15 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from tests.roundtrip.mutations.choices import edits, other_member, other_rebec, stepped, swapped
 from tests.roundtrip.mutations.package import Edit, Kind, Package, Part, at_start, within
 
 _BLOCK = r"((?:\1  [^\n]*\n)+)"
 _PLAIN = r"[^\n{};]+(?:\{[^{}\n]*\}[^\n{};]*)?;\n"
 
 
-def _more(package: Package, part: Part, found: re.Match[str]) -> str:
-    """A number that is one greater."""
-    return str(int(found[0]) + 1)
-
-
 def _flipped(package: Package, part: Part, found: re.Match[str]) -> str:
     return "false" if found[0] == "true" else "true"
-
-
-def _other_member(package: Package, part: Part, found: re.Match[str]) -> str | None:
-    """Another state variable of the same type."""
-    members = package.members_of(part.owner)
-    own = next((m for m in members if m.name == found["name"]), None)
-    if own is None:
-        return None
-    others = [m for m in members if m.type == own.type and m != own]
-    return found[0].replace(own.name, others[0].name, 1) if others else None
 
 
 def _other_result(package: Package, part: Part, found: re.Match[str]) -> str | None:
@@ -36,19 +22,6 @@ def _other_result(package: Package, part: Part, found: re.Match[str]) -> str | N
     if head.startswith("bool "):
         return f"return !({found[1]});"
     return f"return ({found[1]}) + 1;" if head.startswith("int32_t ") else None
-
-
-def _other_rebec(package: Package, part: Part, found: re.Match[str]) -> str | None:
-    """Another rebec that is given in the same body."""
-    names = sorted(set(re.findall(r"return (\w+_);", package.files[part.path])))
-    others = [n for n in names if n != found[1]]
-    return f"return {others[0]};" if found[1] in names and others else None
-
-
-def _swapped(package: Package, part: Part, found: re.Match[str]) -> str | None:
-    """Two statements in the other order, where that makes a difference."""
-    first, second = found["first"], found["second"]
-    return found["indent"] + second + found["indent"] + first if _depend(first, second) else None
 
 
 def _depend(first: str, second: str) -> bool:
@@ -69,17 +42,13 @@ def _depend(first: str, second: str) -> bool:
 
 def _dropped_branch(package: Package) -> Iterator[Edit]:
     """The last `else` of a chain of conditions."""
-    yield from _edits(package, rf"^( *)\}} else \{{\n{_BLOCK}\1\}}\n", r"\1}\n")
+    yield from edits(package, rf"^( *)\}} else \{{\n{_BLOCK}\1\}}\n", r"\1}\n")
 
 
 def _swapped_branches(package: Package) -> Iterator[Edit]:
     pattern = rf"^( *)(if \([^\n]*\) \{{\n){_BLOCK.replace('(', '(?P<then>', 1)}\1\}} else \{{\n"
     pattern += r"(?P<other>(?:\1  [^\n]*\n)+)\1\}\n"
-    yield from _edits(package, pattern, r"\1\2\g<other>\1} else {\n\g<then>\1}\n")
-
-
-def _edits(package: Package, pattern: str, text: str) -> Iterator[Edit]:
-    yield from (e for e in within(pattern, text)(package) if isinstance(e, Edit))
+    yield from edits(package, pattern, r"\1\2\g<other>\1} else {\n\g<then>\1}\n")
 
 
 def _narrowed(package: Package, part: Part, found: re.Match[str]) -> str | None:
@@ -88,11 +57,6 @@ def _narrowed(package: Package, part: Part, found: re.Match[str]) -> str | None:
     if not own or own[0].type != "int32_t" or found[3].isdigit():
         return None
     return f"{found[1]} = static_cast<int8_t>({found[3]});"
-
-
-def _later(package: Package, part: Part, found: re.Match[str]) -> str | None:
-    """The label of a case that nothing has."""
-    return f"case {int(found[1]) + 50}:"
 
 
 KINDS = (
@@ -107,18 +71,18 @@ KINDS = (
     Kind("condition negated", within(r"\bif \((.*)\) \{$", r"if (!(\1)) {")),
     Kind("condition made true", within(r"\bif \((.*)\) \{$", r"if (true) {")),
     Kind("conjunct removed", within(r"if \(([^\n()]*?) && [^\n()]*?\) \{$", r"if (\1) {")),
-    Kind("constant one greater", within(r"(?<!case )(?<![\w.\[])\d+\b(?!_)", _more)),
-    Kind("index one greater", within(r"(?<=\[)\d+(?=\])", _more)),
+    Kind("constant one greater", within(r"(?<!case )(?<![\w.\[])\d+\b(?!_)", stepped(1))),
+    Kind("index one greater", within(r"(?<=\[)\d+(?=\])", stepped(1))),
     Kind("truth value flipped", within(r"\b(?:true|false)\b", _flipped)),
     Kind("+ made -", within(r" \+ ", " - ")),
     Kind("- made +", within(r" - ", " + ")),
     Kind("% made /", within(r" % ", " / ")),
-    Kind("label of a case", within(r"\bcase (\d+):", _later)),
+    Kind("label of a case", within(r"\bcase (\d+):", stepped(50, shown="case {}:"))),
     Kind("break removed", within(r"^ *break;\n", "")),
     Kind("default removed", within(rf"^( *)default: \{{\n{_BLOCK}\1\}}\n", "")),
     Kind("assignment removed", within(r"^ *(?:this->)?\w+_[\w.\[\]()]* = [^\n]*;\n", "")),
-    Kind("assignment to another", within(r"(?:this->)?\b(?P<name>\w+_)(?= = )", _other_member)),
-    Kind("read of another", within(r"(?<= )(?P<name>\w+_)\b(?! =)(?![\w.(])", _other_member)),
+    Kind("assignment to another", within(r"(?:this->)?\b(?P<name>\w+_)(?= = )", other_member)),
+    Kind("read of another", within(r"(?<= )(?P<name>\w+_)\b(?! =)(?![\w.(])", other_member)),
     Kind("= made +=", within(r"(?<=_ )= (?!true|false|!|mailbox|\w+_;$)(?=[^\n]*;$)", "+= ")),
     Kind("narrowed", within(r"((?:this->)?(?P<name>\w+_)) = ([^\n;]*);", _narrowed)),
     Kind("else dropped", _dropped_branch),
@@ -126,7 +90,9 @@ KINDS = (
     Kind("branches swapped", _swapped_branches),
     Kind(
         "statements swapped",
-        within(rf"^(?P<indent> *)(?P<first>{_PLAIN})(?P=indent)(?P<second>{_PLAIN})", _swapped),
+        within(
+            rf"^(?P<indent> *)(?P<first>{_PLAIN})(?P=indent)(?P<second>{_PLAIN})", swapped(_depend)
+        ),
     ),
     Kind("return at the start", at_start("  return;\n", "constructor", "msgsrv")),
     Kind("return in a branch", within(r"(if \(.*\) \{\n)( *)", r"\1\2return;\n\2", "msgsrv")),
@@ -136,7 +102,10 @@ KINDS = (
     Kind("loop in greater steps", within(r"(for \(.*; )(\w+)\+\+\)", r"\1\2 += 2)")),
     Kind("body of a loop once", within(r"for \((.*?;) (.*?); .*\) \{$", r"\1 if (\2) {")),
     Kind("another result", within(r"return ([^\n;]+);", _other_result, "method")),
-    Kind("another rebec as result", within(r"return (\w+_);", _other_rebec, "method")),
+    Kind(
+        "another rebec as result",
+        within(r"return (\w+_);", other_rebec(r"return (\w+_);"), "method"),
+    ),
     Kind("assertion removed", within(r"^ *mailbox_\.assertion\([^\n]*\n", "")),
     Kind("delay one longer", within(r"mailbox_\.delay\((.*)\);", r"mailbox_.delay((\1) + 1);")),
     Kind("delay removed", within(r"^ *mailbox_\.delay\([^\n]*\n", "")),

@@ -5,30 +5,16 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from tests.roundtrip.mutations.package import Edit, Kind, Package, Part, Texts, at_start, within
+from tests.roundtrip.mutations.choices import edits, other_member, other_rebec, stepped, swapped
+from tests.roundtrip.mutations.package import Edit, Kind, Package, Part, at_start, within
 
 _BLOCK = r"((?:\1    [^\n]*\n)+)"
 _IF = r"\b((?:el)?if) (?!case_)(.*):$"
 _SIMPLE = r"(?:self\.|int32)[^\n]*\n"
 
 
-def _more(package: Package, part: Part, found: re.Match[str]) -> str:
-    """A number that is one greater."""
-    return str(int(found[0]) + 1)
-
-
 def _flipped(package: Package, part: Part, found: re.Match[str]) -> str:
     return "False" if found[0] == "True" else "True"
-
-
-def _other_member(package: Package, part: Part, found: re.Match[str]) -> str | None:
-    """Another state variable of the same type."""
-    members = package.members_of(part.owner)
-    own = next((m for m in members if m.name == found[0]), None)
-    if own is None:
-        return None
-    others = [m for m in members if m.type == own.type and m != own]
-    return others[0].name if others else None
 
 
 def _type_of(package: Package, part: Part) -> str:
@@ -43,19 +29,6 @@ def _other_result(package: Package, part: Part, found: re.Match[str]) -> str | N
     if type_ == "bool":
         return f"return not ({found[1]})"
     return f"return int32(({found[1]}) + 1)" if type_ == "int" else None
-
-
-def _other_rebec(package: Package, part: Part, found: re.Match[str]) -> str | None:
-    """Another rebec that is given in the same body."""
-    names = sorted(set(re.findall(r"return (self\._\w+)$", package.files[part.path], re.M)))
-    others = [n for n in names if n != found[1]]
-    return f"return {others[0]}" if found[1] in names and others else None
-
-
-def _swapped(package: Package, part: Part, found: re.Match[str]) -> str | None:
-    """Two statements in the other order, where that makes a difference."""
-    first, second = found["first"], found["second"]
-    return found["indent"] + second + found["indent"] + first if _depend(first, second) else None
 
 
 def _depend(first: str, second: str) -> bool:
@@ -76,11 +49,7 @@ def _depend(first: str, second: str) -> bool:
 def _swapped_branches(package: Package) -> Iterator[Edit]:
     pattern = rf"^( *)(if [^\n]*:\n){_BLOCK.replace('(', '(?P<then>', 1)}\1else:\n"
     pattern += r"(?P<other>(?:\1    [^\n]*\n)+)"
-    yield from _edits(package, pattern, r"\1\2\g<other>\1else:\n\g<then>")
-
-
-def _edits(package: Package, pattern: str, text: Texts) -> Iterator[Edit]:
-    yield from (e for e in within(pattern, text)(package) if isinstance(e, Edit))
+    yield from edits(package, pattern, r"\1\2\g<other>\1else:\n\g<then>")
 
 
 def _narrowed(package: Package, part: Part, found: re.Match[str]) -> str | None:
@@ -89,11 +58,6 @@ def _narrowed(package: Package, part: Part, found: re.Match[str]) -> str | None:
     if not own or own[0].type != "int" or found["value"].isdigit():
         return None
     return f"{found['name']} = ({found['value']}) & 127"
-
-
-def _later(package: Package, part: Part, found: re.Match[str]) -> str:
-    """The label of a case that nothing has."""
-    return f"case_({int(found[1]) + 50})"
 
 
 _CHOOSE = r"self\._mailbox\.choose\(\[([^,\]]*), [^\]]*\](?:, self\._\w+\.seen\(\w+\))?\)"
@@ -110,29 +74,35 @@ KINDS = (
     Kind("condition negated", within(_IF, r"\1 not (\2):")),
     Kind("condition made true", within(_IF, r"\1 True:")),
     Kind("conjunct removed", within(r"if ([^\n()]*?) and [^\n()]*?:$", r"if \1:")),
-    Kind("constant one greater", within(r"(?<!case_\()(?<![\w.\[])\d+\b", _more)),
-    Kind("index one greater", within(r"(?<=\[)\d+(?=\])", _more)),
+    Kind("constant one greater", within(r"(?<!case_\()(?<![\w.\[])\d+\b", stepped(1))),
+    Kind("index one greater", within(r"(?<=\[)\d+(?=\])", stepped(1))),
     Kind("truth value flipped", within(r"\b(?:True|False)\b", _flipped)),
     Kind("+ made -", within(r" \+ ", " - ")),
     Kind("- made +", within(r" - ", " + ")),
     Kind("remainder made quotient", within(r"\bremainder\(", "divide(")),
     Kind("int32 left out", within(r"\bint32(?=\()", "")),
     Kind("// for divide", within(r"\bremainder\((\w+), (\d+)\)", r"(\1 // \2)")),
-    Kind("label of a case", within(r"\bcase_\((\d+)\)", _later)),
+    Kind("label of a case", within(r"\bcase_\((\d+)\)", stepped(50, shown="case_({})"))),
     Kind("break removed", within(r"^( *)break\n", r"\1pass\n")),
     Kind("case removed", within(rf"^( *)if case_\(\d+\):\n{_BLOCK}", "")),
     Kind("default removed", within(rf"^( *)if case_\.default\(\):\n{_BLOCK}", "")),
     Kind("assignment removed", within(r"^( *)self\._[\w.\[\]()]* = [^\n]*\n", r"\1pass\n")),
-    Kind("assignment to another", within(r"\bself\._\w+(?= = )", _other_member)),
-    Kind("read of another", within(r"(?<=[ (])self\._\w+\b(?! =)(?![\w.(\[])", _other_member)),
+    Kind("assignment to another", within(r"(?P<name>\bself\._\w+)(?= = )", other_member)),
+    Kind(
+        "read of another",
+        within(r"(?<=[ (])(?P<name>self\._\w+)\b(?! =)(?![\w.(\[])", other_member),
+    ),
     Kind("= made +=", within(r"(?<= )(self\._\w+) = (?=[^\n]*int32|\d)", r"\1 += ")),
     Kind("narrowed", within(r"(?P<name>self\._\w+) = (?P<value>[^\n]*)$", _narrowed)),
-    Kind("else dropped", lambda p: _edits(p, rf"^( *)else:\n{_BLOCK}", "")),
+    Kind("else dropped", lambda p: edits(p, rf"^( *)else:\n{_BLOCK}", "")),
     Kind("elif made if", within(r"\belif ", "if ")),
     Kind("branches swapped", _swapped_branches),
     Kind(
         "statements swapped",
-        within(rf"^(?P<indent> *)(?P<first>{_SIMPLE})(?P=indent)(?P<second>{_SIMPLE})", _swapped),
+        within(
+            rf"^(?P<indent> *)(?P<first>{_SIMPLE})(?P=indent)(?P<second>{_SIMPLE})",
+            swapped(_depend),
+        ),
     ),
     Kind(
         "statement taken into a branch",
@@ -151,7 +121,10 @@ KINDS = (
     Kind("loop in greater steps", within(r"int32\.add\((\w+), 1\)", r"int32.add(\1, 2)")),
     Kind("loop ends earlier", within(r"(if not \(\w+ < )(\d+)\):", r"\g<1>1):")),
     Kind("another result", within(r"return ([^\n]+)$", _other_result, "method")),
-    Kind("another rebec as result", within(r"return (self\._\w+)$", _other_rebec, "method")),
+    Kind(
+        "another rebec as result",
+        within(r"return (self\._\w+)$", other_rebec(r"return (self\._\w+)$"), "method"),
+    ),
     Kind("assertion removed", within(r"^( *)self\._mailbox\.assertion\([^\n]*\n", r"\1pass\n")),
     Kind(
         "assertion of Python",

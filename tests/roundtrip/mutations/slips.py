@@ -8,13 +8,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from tests.roundtrip.mutations.choices import stepped
 from tests.roundtrip.mutations.package import (
     Edit,
     Kind,
     Maker,
     Mutant,
     Package,
-    Part,
     Texts,
     anywhere,
     in_files,
@@ -23,11 +23,6 @@ from tests.roundtrip.mutations.package import (
 from tests.roundtrip.mutations.surroundings import constants, run_time
 
 _S = "setup"
-
-
-def _less(package: Package, part: Part, found: re.Match[str]) -> str:
-    """A number that is one smaller."""
-    return str(int(found[0]) - 1)
 
 
 def _constant(text: str) -> Maker:
@@ -76,7 +71,7 @@ def _in_bodies(pattern: str, text: Texts) -> Maker:
 
 
 PYTHON = (
-    Kind("constant one smaller", _in_bodies(r"(?<!case_\()(?<![\w.\[])[1-9]\d*\b", _less)),
+    Kind("constant one smaller", _in_bodies(r"(?<!case_\()(?<![\w.\[])[1-9]\d*\b", stepped(-1))),
     Kind("self dropped where it is set", _in_bodies(r"\bself\.(?=_\w+ = )", "")),
     Kind("self dropped where it is read", _in_bodies(r"(?<=[ (])self\.(?=_\w+\b(?! =)(?!\.))", "")),
     Kind("self dropped from a send", _in_bodies(r"\bself\.(?=send_)", "")),
