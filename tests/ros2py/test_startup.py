@@ -56,4 +56,4 @@ def test_a_foreign_subscription_that_never_matches_is_not_waited_for(
     rebecs = {"a": Rebec(constructor=START, plain=("send b plain 1",)), "b": Rebec()}
     recording = play(listened, tmp_path, rebecs, Clock(until=9, quiet=2))
     assert recording.order("b") == ["plain(1)@0"]
-    assert recording.problems() == ()
+    assert recording.reports() == ()
