@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from rebsync.forward.class_names import publisher_place
 from rebsync.forward.cpp_class import CppClass, Piece, braced
 from rebsync.forward.cpp_layout import call_lines
-from rebsync.forward.cpp_names import publisher_place
 from rebsync.forward.cpp_types import cpp_type, parameter_type
 from rebsync.forward.lineage import descendants
 from rebsync.model import Parameter

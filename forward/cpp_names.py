@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import field
 
+from rebsync.forward.class_names import ClassNames, alike, bases_first, publisher_place
 from rebsync.forward.cpp_types import stored_type
 from rebsync.forward.topics import Signature, signature
 from rebsync.model import Parameter
@@ -21,23 +22,10 @@ from rebsync.reserved import (
 
 
 @dataclass(slots=True)
-class CppNames:
-    """The names of one class, those of its ancestors included."""
+class CppNames(ClassNames):
+    """The names of one class in C++, where servers and what a sensor saw are members as well."""
 
-    members: dict[str, str] = field(default_factory=dict)
-    env: dict[str, str] = field(default_factory=dict)
-    sends: dict[tuple[str, str], str] = field(default_factory=dict)
-    publishers: dict[tuple[str, str], str] = field(default_factory=dict)
-    self_sends: dict[str, str] = field(default_factory=dict)
-    servers: dict[str, str] = field(default_factory=dict)
-    shims: dict[str, str] = field(default_factory=dict)
-    subscribers: dict[str, str] = field(default_factory=dict)
-    sensors: dict[str, str] = field(default_factory=dict)
-    seen: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    used: set[str] = field(default_factory=set)
     callable: set[str] = field(default_factory=set)
-    types: frozenset[str] = frozenset()
-    apart: Mapping[Signature, str] = field(default_factory=dict)
 
     def local(self, name: str) -> str:
         """A local variable or parameter: the model's own name where it hides nothing."""
@@ -61,20 +49,13 @@ class CppNames:
         return self.sends[(f"any {class_name}", key)]
 
 
-def publisher_place(publisher: Publisher) -> tuple[str, str]:
-    """The key of a publisher in `CppNames`."""
-    if publisher.known is not None:
-        return f"known {publisher.known}", publisher.key
-    return f"any {publisher.target}", publisher.key
-
-
 def class_names(package: Package, class_types: Mapping[str, str]) -> dict[str, CppNames]:
     """The names of every class of a package."""
     found: dict[str, CppNames] = {}
     types = {m.name for m in package.messages} | {c.state.name for c in package.classes}
     types |= set(class_types.values())
     apart = _apart(package)
-    for node in sorted(package.classes, key=lambda c: _depth(package, c)):
+    for node in bases_first(package):
         names = CppNames(used=set(RUNTIME_CONSTANTS), types=frozenset(types), apart=apart)
         for base in node.bases:
             _inherit(names, found[base])
@@ -85,37 +66,17 @@ def class_names(package: Package, class_types: Mapping[str, str]) -> dict[str, C
 
 def _apart(package: Package) -> dict[Signature, str]:
     """Names for overloads that differ only in classes of rebecs, which are all text in C++."""
-    groups: dict[tuple[str, tuple[str, ...]], dict[Signature, None]] = {}
-    for node in package.classes:
-        declared = [(s.server, s.parameters) for s in node.subscriptions]
-        declared += [(f.name, f.parameters) for f in node.functions]
-        for name, parameters in declared:
-            same = name, tuple(stored_type(p.type) for p in parameters)
-            groups.setdefault(same, {})[signature(name, parameters)] = None
+    same = alike(package, lambda name, given: (name, *(stored_type(p.type) for p in given)))
     return {
         wanted: f"{wanted[0]}_{'_'.join(wanted[1])}".replace("[", "_").replace("]", "")
-        for group in groups.values()
-        if len(group) > 1
-        for wanted in group
+        for wanted in same
     }
 
 
-def _depth(package: Package, node: NodeClass) -> int:
-    return 1 + max((_depth(package, package.node_class(b)) for b in node.bases), default=0)
-
-
 def _inherit(names: CppNames, base: CppNames) -> None:
-    names.members.update(base.members)
-    names.env.update(base.env)
-    names.sends.update(base.sends)
-    names.publishers.update(base.publishers)
-    names.self_sends.update(base.self_sends)
+    names.inherit(base)
     names.servers.update(base.servers)
-    names.shims.update(base.shims)
-    names.subscribers.update(base.subscribers)
-    names.sensors.update(base.sensors)
     names.seen.update(base.seen)
-    names.used |= base.used
     names.callable |= base.callable
 
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from rebsync.forward.class_names import publisher_place
 from rebsync.forward.cpp_class import CppClass
 from rebsync.forward.cpp_layout import indented, statement_lines, with_trailing_comments
 from rebsync.forward.cpp_messages import own_subscriptions, stored_in
-from rebsync.forward.cpp_names import publisher_place
 from rebsync.forward.cpp_types import cpp_type, cpp_value
 from rebsync.model import Type
 from rebsync.package import Draw, Sensor

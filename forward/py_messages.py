@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from rebsync.forward.class_names import publisher_place
 from rebsync.forward.py_class import PyClass, parameters_of
 from rebsync.forward.py_layout import call_lines, indented
-from rebsync.forward.py_names import publisher_place, server_constant
+from rebsync.forward.py_names import server_constant
 from rebsync.forward.py_types import from_message, py_type
 from rebsync.model import Parameter, Type
 from rebsync.package import Field, NodeClass, Publisher, SelfSend, Subscription

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import field
 
+from rebsync.forward.class_names import ClassNames, alike, bases_first, publisher_place
 from rebsync.forward.topics import Signature, signature
 from rebsync.model import Parameter
 from rebsync.names import carry, graph_name, unique
@@ -12,27 +13,12 @@ from rebsync.package import NodeClass, Package, Publisher, Subscription
 from rebsync.records import dataclass
 from rebsync.reserved import PYTHON_MEMBERS, PYTHON_RESERVED, carry_local
 
-Place = tuple[str, str]
-
 
 @dataclass(slots=True)
-class PyNames:
-    """The names of one class, those of its ancestors included; `used` are its attributes."""
+class PyNames(ClassNames):
+    """The names of one class in Python: `used` of its attributes, `globals` of its module."""
 
-    members: dict[str, str] = field(default_factory=dict)
-    env: dict[str, str] = field(default_factory=dict)
-    sends: dict[Place, str] = field(default_factory=dict)
-    publishers: dict[Place, str] = field(default_factory=dict)
-    self_sends: dict[str, str] = field(default_factory=dict)
-    servers: dict[str, str] = field(default_factory=dict)
-    shims: dict[str, str] = field(default_factory=dict)
-    subscribers: dict[str, str] = field(default_factory=dict)
-    sensors: dict[str, str] = field(default_factory=dict)
-    seen: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    used: set[str] = field(default_factory=set)
     globals: set[str] = field(default_factory=set)
-    types: frozenset[str] = frozenset()
-    apart: Mapping[Signature, str] = field(default_factory=dict)
 
     def local(self, name: str) -> str:
         """A local variable or parameter: the model's own name where it hides nothing."""
@@ -46,13 +32,6 @@ class PyNames:
         return carried if suffix is None else f"{carried}__{suffix}"
 
 
-def publisher_place(publisher: Publisher) -> Place:
-    """The key of a publisher in `PyNames`."""
-    if publisher.known is not None:
-        return f"known {publisher.known}", publisher.key
-    return f"any {publisher.target}", publisher.key
-
-
 def class_names(package: Package, class_types: Mapping[str, str]) -> dict[str, PyNames]:
     """The names of every class of a package."""
     found: dict[str, PyNames] = {}
@@ -60,10 +39,10 @@ def class_names(package: Package, class_types: Mapping[str, str]) -> dict[str, P
     types |= {s.type.rpartition("/")[2] for c in package.classes for s in c.sensors}
     types |= set(class_types.values())
     apart = _apart(package)
-    for node in sorted(package.classes, key=lambda c: _depth(package, c)):
+    for node in bases_first(package):
         names = PyNames(types=frozenset(types), apart=apart)
         for base in node.bases:
-            _inherit(names, found[base])
+            names.inherit(found[base])
         _own(names, node)
         found[node.name] = names
     return found
@@ -71,39 +50,13 @@ def class_names(package: Package, class_types: Mapping[str, str]) -> dict[str, P
 
 def _apart(package: Package) -> dict[Signature, str]:
     """What tells overloads apart, of which Python has none: the types of their parameters."""
-    groups: dict[str, dict[Signature, None]] = {}
-    for node in package.classes:
-        declared = [(s.server, s.parameters) for s in node.subscriptions]
-        declared += [(f.name, f.parameters) for f in node.functions]
-        for name, parameters in declared:
-            groups.setdefault(name, {})[signature(name, parameters)] = None
-    return {
-        wanted: "_".join(_word(t) for t in wanted[1]) or "void"
-        for group in groups.values()
-        if len(group) > 1
-        for wanted in group
-    }
+    same = alike(package, lambda name, _: name)
+    return {wanted: "_".join(_word(t) for t in wanted[1]) or "void" for wanted in same}
 
 
 def _word(type_: str) -> str:
     name, _, lengths = type_.partition("[")
     return "_".join([graph_name(name), *lengths.replace("]", "").split("[")]).rstrip("_")
-
-
-def _depth(package: Package, node: NodeClass) -> int:
-    return 1 + max((_depth(package, package.node_class(b)) for b in node.bases), default=0)
-
-
-def _inherit(names: PyNames, base: PyNames) -> None:
-    names.members.update(base.members)
-    names.env.update(base.env)
-    names.sends.update(base.sends)
-    names.publishers.update(base.publishers)
-    names.self_sends.update(base.self_sends)
-    names.shims.update(base.shims)
-    names.subscribers.update(base.subscribers)
-    names.sensors.update(base.sensors)
-    names.used |= base.used
 
 
 def _own(names: PyNames, node: NodeClass) -> None:

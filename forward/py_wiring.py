@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from rebsync.forward.class_names import publisher_place
 from rebsync.forward.lineage import base_of
 from rebsync.forward.py_class import PyClass
 from rebsync.forward.py_layout import call_lines, indented
 from rebsync.forward.py_messages import own_subscriptions, to_message
-from rebsync.forward.py_names import publisher_place
 from rebsync.forward.py_types import py_type, unset_value
 from rebsync.model import Type
 from rebsync.names import graph_name

@@ -5,7 +5,6 @@ from __future__ import annotations
 from rebsync.forward import ros1_words
 from rebsync.forward.cpp_classes import classes
 from rebsync.forward.cpp_files import header, sensor_header, source
-from rebsync.forward.cpp_types import cpp_choices
 from rebsync.forward.message_files import message_files
 from rebsync.forward.readme import readme
 from rebsync.forward.remarks import Remarks
@@ -21,10 +20,10 @@ from rebsync.forward.ros1_package import (
     manifest,
     parameters,
 )
-from rebsync.forward.sensors import played_sensors
+from rebsync.forward.runtime_part import cpp_runtime, cpp_stand_in
 from rebsync.forward.templating import fill
 from rebsync.forward.topics import Topics
-from rebsync.package import NodeClass, Package
+from rebsync.package import Package
 from rebsync.static import Analysis
 
 _SENSORS = "include/{package}/{file}_sensors.h"
@@ -43,7 +42,7 @@ def render(
         "config/params.yaml": parameters(package),
     }
     files.update(message_files(package))
-    files.update(_runtime(package))
+    files.update(cpp_runtime(package, ros1_words))
     for c in classes(package, analysis, topics, remarks, ros1_words).values():
         include = f"include/{package.name}/{c.node.file}"
         files[f"{include}.h"] = header(c, model_name, constructor_declarations(c), access(c))
@@ -55,28 +54,5 @@ def render(
         if any(s.draws for s in c.node.sensors):
             files[f"{include}_sensors.h"] = sensor_header(c)
         if any(s.stands_in for s in c.node.sensors):
-            files[f"src/{c.node.file}_stand_in.cpp"] = _stand_in(package, c.node)
+            files[f"src/{c.node.file}_stand_in.cpp"] = cpp_stand_in(package, c.node, ros1_words)
     return dict(sorted(files.items()))
-
-
-def _runtime(package: Package) -> dict[str, str]:
-    names = ["mailbox", "startup", "values"]
-    if any(c.moves for c in package.classes):
-        names.append("drive")
-    if any(c.sensors for c in package.classes):
-        names.append("sensor")
-    return {
-        f"include/{package.name}/{n}.h": fill(f"ros1_cpp/{n}.h.j2", package=package.name)
-        for n in names
-    }
-
-
-def _stand_in(package: Package, node: NodeClass) -> str:
-    sensors = played_sensors(node, cpp_choices)
-    return fill(
-        "ros1_cpp/stand_in.cpp.j2",
-        package=package.name,
-        node=node,
-        sensors=sensors,
-        includes=sorted(ros1_words.message_header(package.name, s.type) for s in sensors),
-    )

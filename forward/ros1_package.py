@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from rebsync.forward.message_files import FIELD_TYPES, message_names
+from rebsync.forward.runtime_part import message_packages
 from rebsync.forward.templating import fill
 from rebsync.forward.yaml_values import yaml_name, yaml_value
 from rebsync.package import Instance, NodeClass, NodeParameter, Package, Remap
@@ -17,12 +18,7 @@ _PARAMETER_TYPES = {"byte": "int", "short": "int", "int": "int", "boolean": "boo
 
 def depends_of(package: Package) -> list[str]:
     """The packages that the nodes need."""
-    found = {"roscpp", "std_msgs"}
-    if any(c.moves for c in package.classes):
-        found.add("geometry_msgs")
-    for node in package.classes:
-        found |= {s.type.partition("/")[0] for s in node.sensors if "/" in s.type}
-    return sorted(found - {package.name})
+    return sorted({"roscpp"} | message_packages(package))
 
 
 def manifest(package: Package) -> str:

@@ -13,6 +13,7 @@ from rebsync.forward.py_wiring import constructor_of
 from rebsync.forward.readme import readme
 from rebsync.forward.remarks import Remarks
 from rebsync.forward.ros1_package import launch_file, parameters
+from rebsync.forward.runtime_part import message_packages, python_runtime
 from rebsync.forward.sensors import played_sensors
 from rebsync.forward.templating import fill
 from rebsync.forward.topics import Topics
@@ -82,7 +83,7 @@ def render(
         f"{source}/__init__.py": f'"""The rebecs of {model_name} as ROS nodes."""\n',
     }
     files.update(message_files(package))
-    files.update(_runtime(package))
+    files.update(python_runtime(package, _FOLDER, source))
     for c in classes(package, analysis, topics, remarks).values():
         files[f"{source}/{c.node.file}.py"] = class_module(c, words, model_name, _ROS)
         if c.node.executable:
@@ -96,26 +97,9 @@ def render(
     return dict(sorted(files.items()))
 
 
-def _runtime(package: Package) -> dict[str, str]:
-    names = ["mailbox", "startup"]
-    if any(c.moves for c in package.classes):
-        names.append("drive")
-    if any(c.sensors for c in package.classes):
-        names.append("sensor")
-    paths = {n: f"{_FOLDER}/{n}.py.j2" for n in names} | {"values": "py/values.py.j2"}
-    return {
-        f"src/{package.name}/{n}.py": fill(path, package=package.name) for n, path in paths.items()
-    }
-
-
 def depends_of(package: Package) -> list[str]:
     """The packages that the nodes need."""
-    found = {"rosgraph_msgs", "rospy", "std_msgs"}
-    if any(c.moves for c in package.classes):
-        found.add("geometry_msgs")
-    for node in package.classes:
-        found |= {s.type.partition("/")[0] for s in node.sensors if "/" in s.type}
-    return sorted(found - {package.name})
+    return sorted({"rosgraph_msgs", "rospy"} | message_packages(package))
 
 
 def _cmake_lists(package: Package, scripts: list[str]) -> str:

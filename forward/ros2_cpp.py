@@ -6,7 +6,6 @@ from rebsync.forward import ros2_words
 from rebsync.forward.cpp_class import CppClass
 from rebsync.forward.cpp_classes import classes
 from rebsync.forward.cpp_files import header, sensor_header, source
-from rebsync.forward.cpp_types import cpp_choices
 from rebsync.forward.message_files import message_files
 from rebsync.forward.readme import readme
 from rebsync.forward.remarks import Remarks
@@ -19,10 +18,10 @@ from rebsync.forward.ros2_constructors import (
     registration,
 )
 from rebsync.forward.ros2_package import cmake_lists, launch_file, manifest, parameters
-from rebsync.forward.sensors import played_sensors
+from rebsync.forward.runtime_part import cpp_runtime, cpp_stand_in
 from rebsync.forward.templating import fill
 from rebsync.forward.topics import Topics
-from rebsync.package import NodeClass, Package
+from rebsync.package import Package
 from rebsync.static import Analysis
 
 _SENSORS = "include/{package}/{file}_sensors.hpp"
@@ -42,22 +41,10 @@ def render(
         "config/params.yaml": parameters(package),
     }
     files.update(message_files(package))
-    files.update(_runtime(package))
+    files.update(cpp_runtime(package, ros2_words))
     for c in found:
         files.update(_class_files(c, model_name))
     return dict(sorted(files.items()))
-
-
-def _runtime(package: Package) -> dict[str, str]:
-    names = ["mailbox", "startup", "values"]
-    if any(c.moves for c in package.classes):
-        names.append("drive")
-    if any(c.sensors for c in package.classes):
-        names.append("sensor")
-    return {
-        f"include/{package.name}/{n}.hpp": fill(f"ros2_cpp/{n}.hpp.j2", package=package.name)
-        for n in names
-    }
 
 
 def _class_files(c: CppClass, model_name: str) -> dict[str, str]:
@@ -72,16 +59,5 @@ def _class_files(c: CppClass, model_name: str) -> dict[str, str]:
     if any(s.draws for s in c.node.sensors):
         files[f"{include}_sensors.hpp"] = sensor_header(c)
     if any(s.stands_in for s in c.node.sensors):
-        files[f"src/{c.node.file}_stand_in.cpp"] = _stand_in(c.package, c.node)
+        files[f"src/{c.node.file}_stand_in.cpp"] = cpp_stand_in(c.package, c.node, ros2_words)
     return files
-
-
-def _stand_in(package: Package, node: NodeClass) -> str:
-    sensors = played_sensors(node, cpp_choices)
-    return fill(
-        "ros2_cpp/stand_in.cpp.j2",
-        package=package.name,
-        node=node,
-        sensors=sensors,
-        includes=sorted(ros2_words.message_header(package.name, s.type) for s in sensors),
-    )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from rebsync.forward.cpp_class import CppClass
 from rebsync.forward.message_files import message_names
+from rebsync.forward.runtime_part import message_packages
 from rebsync.forward.templating import fill
 from rebsync.forward.yaml_values import is_yaml_word, yaml_name, yaml_value
 from rebsync.package import Instance, Package, Remap, StandIn, Value
@@ -14,12 +15,7 @@ _LINE_LENGTH = 100
 
 
 def _message_packages(package: Package) -> list[str]:
-    found = {"rcl_interfaces", "std_msgs"}
-    if any(c.moves for c in package.classes):
-        found.add("geometry_msgs")
-    for node in package.classes:
-        found |= {s.type.partition("/")[0] for s in node.sensors if "/" in s.type}
-    return sorted(found - {package.name})
+    return sorted({"rcl_interfaces"} | message_packages(package))
 
 
 def _depends(package: Package) -> list[str]:

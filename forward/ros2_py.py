@@ -15,6 +15,7 @@ from rebsync.forward.py_wiring import constructor_of
 from rebsync.forward.readme import readme
 from rebsync.forward.remarks import Remarks
 from rebsync.forward.ros2_package import launch_file, parameters
+from rebsync.forward.runtime_part import message_packages, python_runtime
 from rebsync.forward.sensors import played_sensors
 from rebsync.forward.templating import fill
 from rebsync.forward.topics import Topics
@@ -95,7 +96,7 @@ def render(
         f"{name}/{name}/__init__.py": f'"""The rebecs of {model_name} as ROS nodes."""\n',
     }
     files.update(_interfaces(package))
-    files.update(_runtime(package))
+    files.update(python_runtime(package, _FOLDER, f"{name}/{name}"))
     for c in classes(package, analysis, topics, remarks).values():
         module = f"{name}/{name}/{c.node.file}"
         files[f"{module}.py"] = class_module(c, words, model_name, _ROS)
@@ -122,24 +123,9 @@ def _interfaces(package: Package) -> dict[str, str]:
     return {f"{own.name}/{path}": text for path, text in files.items()}
 
 
-def _runtime(package: Package) -> dict[str, str]:
-    names = ["mailbox", "startup"]
-    if any(c.moves for c in package.classes):
-        names.append("drive")
-    if any(c.sensors for c in package.classes):
-        names.append("sensor")
-    paths = {n: f"{_FOLDER}/{n}.py.j2" for n in names} | {"values": "py/values.py.j2"}
-    own = f"{package.name}/{package.name}"
-    return {f"{own}/{n}.py": fill(path, package=package.name) for n, path in paths.items()}
-
-
 def _depends(package: Package) -> list[str]:
-    found = {"rcl_interfaces", "rclpy", "std_msgs", interfaces(package.name)}
-    if any(c.moves for c in package.classes):
-        found.add("geometry_msgs")
-    for node in package.classes:
-        found |= {s.type.partition("/")[0] for s in node.sensors if "/" in s.type}
-    return sorted(found)
+    own = {"rcl_interfaces", "rclpy", interfaces(package.name)}
+    return sorted(own | message_packages(package))
 
 
 def _setup(package: Package, paths: list[str]) -> str:
@@ -156,10 +142,10 @@ def _node(c: PyClass) -> str:
     package = c.package.name
     modules: dict[str, tuple[str, ...]] = {
         f"{package}.{c.node.file}": (c.type_name,),
-        f"{package}.startup": ("declared",),
+        f"{package}.startup": ("declared", "stoppable"),
         f"{package}.values": VALUES,
     }
-    used = words_of([*arguments, c.type_name])
+    used = words_of([*arguments, c.type_name, "stoppable"])
     return fill(
         f"{_FOLDER}/node.py.j2",
         c=c,
@@ -183,5 +169,10 @@ def _stand_in(package: Package, node: NodeClass) -> str:
     types = sorted({s.type for s in sensors})
     messages = interfaces(package.name)
     return fill(
-        f"{_FOLDER}/stand_in.py.j2", messages=messages, node=node, sensors=sensors, types=types
+        f"{_FOLDER}/stand_in.py.j2",
+        package=package.name,
+        messages=messages,
+        node=node,
+        sensors=sensors,
+        types=types,
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -45,7 +46,9 @@ def read_bytes(path: str) -> bytes:
     try:
         if path != STANDARD_INPUT:
             with Path(path).open("rb") as file:
-                data = file.read(_LARGEST + 1)
+                size = os.fstat(file.fileno()).st_size
+                # To ask for so much takes long: only where the size is not known.
+                data = file.read() if 0 < size <= _LARGEST else file.read(_LARGEST + 1)
         elif sys.stdin is not None:
             data = sys.stdin.buffer.read(_LARGEST + 1)
         else:

@@ -106,5 +106,5 @@ PYTHON_RESERVED = (
     | {"ABC", "abstractmethod", "block", "construct", "mailbox", "msg", "node", "self"}
     | {"KEPT", "Node", "declare_array", "declared", "when"}
 )
-NO_PYTHON_CLASSES = NO_CLASSES | PYTHON_RESERVED
+NO_PYTHON_CLASSES = NO_CLASSES | PYTHON_RESERVED | {"stoppable"}
 PYTHON_MEMBERS = frozenset({"drive", "mailbox", "node", "publish_state", "state_pub", "wire"})

@@ -6,11 +6,9 @@ namespace of a node handle, and what waits in a queue is part of a quality of se
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
-
 from rebsync.reverse.graph import Access
 from rebsync.reverse.roscpp_vocabulary import Ask, Kind
+from rebsync.reverse.syntax.cpp_words import places_of
 
 
 def _asks(
@@ -145,11 +143,13 @@ COMPONENT = "RCLCPP_COMPONENTS_REGISTER_NODE"
 MARK = b"rclcpp"
 
 _NAMES = frozenset({*NODE, *(name for _, name in FUNCTIONS), *NODE_CLASSES, *TIMERS})
-_PLAIN = tuple(name.encode() for name in sorted(_NAMES))
-_WORDS = re.compile(rb"\b(?:" + b"|".join(sorted(_PLAIN, reverse=True)) + rb")\b")
+_PLAIN = frozenset(name.encode() for name in _NAMES)
 
 
-def words_in(data: bytes) -> Iterator[tuple[int, int, str]]:
-    """The places of words of the vocabulary, from the first: start, end, and the word."""
-    for match in _WORDS.finditer(data):
-        yield *match.span(), match[0].decode()
+def words_in(data: bytes, words: frozenset[bytes]) -> list[tuple[int, int, str]]:
+    """The places of words of the vocabulary in a text whose words are known, from the first.
+
+    Start, end, and the word.
+    """
+    found = [(at, word) for word in _PLAIN & words for at in places_of(data, word)]
+    return [(at, at + len(word), word.decode()) for at, word in sorted(found)]

@@ -18,7 +18,7 @@ from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.build.manifests import read_manifest
 from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.files.packages import CODE
-from rebsync.reverse.files.python_files import is_python
+from rebsync.reverse.files.python_files import SETUP, is_python
 from rebsync.reverse.findings import Finding, Findings
 from rebsync.reverse.generated.env_values import (
     as_type,
@@ -35,6 +35,8 @@ from rebsync.reverse.generated.ros1_names import variable_name
 from rebsync.reverse.generated.ros2_words import made_in
 from rebsync.reverse.graph import Graph
 from rebsync.reverse.launch.launched import Launch, LaunchedNode
+from rebsync.reverse.nodes.node_components import executables
+from rebsync.reverse.nodes.node_joined import Joined, Part
 from rebsync.reverse.nodes.node_launch import is_launch, system_of
 from rebsync.reverse.nodes.node_presence import is_generated, may_have_nodes
 from rebsync.reverse.nodes.node_programs import Program, programs, with_nodes
@@ -99,18 +101,24 @@ def extract(
     classes = Classes(code, findings, own_messages(files), _unit_of_time(launch))
     wanted = _classes_in(code, files[only].path) if only is not None else None
     read = classes.read(wanted) if memory is None else read_with(memory, classes, wanted)
-    nodes = Nodes((), (), False)
     generated = is_generated(code)
+    of_cpp = None
     if not generated or may_have_nodes(code, asking, started):
         graph = asking.graph
         found = with_nodes(started, graph)
         of_nodes = launch if system is not None and system.starts else None
-        nodes = NodeSystem(
-            code, graph, files, of_nodes, package, found, findings, only, generated
-        ).read()
+        of_cpp = NodeSystem(code, graph, files, of_nodes, package, found, findings, only, generated)
+    people = of_cpp.find() if of_cpp is not None else None
+    part = people.part if people is not None else Part.empty()
+    listed = Findings()
+    python = _python(files, listed, only, package, launch, part, started)
+    joined = python.nodes.joined if python is not None else None
+    nodes = Nodes((), (), False)
+    if of_cpp is not None and people is not None:
+        nodes = of_cpp.read(people, joined if joined is not None else Joined.of([part]))
     if system is not None and only is None and (read or nodes.classes):
         system.note(findings)
-    python = _python(files, findings, only, package, launch)
+    findings.take(listed)
     if python is not None:
         read = (*read, *python.classes)
         nodes = nodes.beside(python.nodes.classes, python.nodes.rebecs)
@@ -128,15 +136,20 @@ def _python(
     only: str | None,
     package: str,
     launch: Launch | None,
+    beside: Part,
+    programs: tuple[Program, ...],
 ) -> PythonPart | None:
     """What the files of Python say; what of them is not in the model is listed."""
-    sources = {path: source for path, source in files.items() if is_python(path, source)}
+    code = ((path, source) for path, source in files.items() if path != SETUP)
+    sources = {path: source for path, source in code if is_python(path, source)}
     if not sources:
         return None
     from rebsync.reverse.python.recovery import read_python
 
     messages = {t.rpartition("/")[2]: tuple(f) for t, f in own_messages(files).items()}
-    return read_python(sources, findings, only, messages, files, package, launch)
+    names = {name for p in programs for name in (p.name, p.stem)}
+    names = names.union(*executables(files).values())
+    return read_python(sources, findings, only, messages, files, package, launch, beside, names)
 
 
 def _main(generated: _System, nodes: Nodes, is_part: bool) -> m.Main | None:

@@ -5,12 +5,11 @@ Each entry names a call, the kind of thing it asks for, and what its arguments a
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
 from enum import Enum
 
 from rebsync.records import dataclass
 from rebsync.reverse.graph import Access
+from rebsync.reverse.syntax.cpp_words import places_of
 
 
 class Kind(Enum):
@@ -212,21 +211,24 @@ _NAMES = frozenset(
         *NODELETS,
     }
 )
-_FUNCTIONS = frozenset(name for _, name in FUNCTIONS) - _NAMES
-_PLAIN = tuple(name.encode() for name in sorted(_NAMES))
-# What is part of each of them: a text without these has none.
-_STEMS = tuple(n for n in _PLAIN if not any(o in n and o != n for o in _PLAIN))
-_WORDS = re.compile(rb"(?:" + b"|".join(sorted(_PLAIN, reverse=True)) + rb")\b")
-_SCOPED = re.compile(rb"::\s*(" + "|".join(sorted(_FUNCTIONS)).encode() + rb")\b")
-_WORD = re.compile(rb"\w")
+_PLAIN = frozenset(name.encode() for name in _NAMES)
+_FUNCTIONS = frozenset(name.encode() for _, name in FUNCTIONS) - _PLAIN
+_WHITE = frozenset(b" \t\n\r\f\v")
 
 
-def words_in(data: bytes) -> Iterator[tuple[int, int, str]]:
-    """The places of words of the vocabulary, from the first: start, end, and the word."""
-    found = [(m.start(1), m.end(1)) for m in _SCOPED.finditer(data)]
-    if any(stem in data for stem in _STEMS):
-        matches = (m.span() for m in _WORDS.finditer(data))
-        found += (m for m in matches if not _WORD.match(data, m[0] - 1, m[0]))
-        found.sort()
-    for start, end in found:
-        yield start, end, data[start:end].decode()
+def words_in(data: bytes, words: frozenset[bytes]) -> list[tuple[int, int, str]]:
+    """The places of words of the vocabulary in a text whose words are known, from the first.
+
+    Start, end, and the word.
+    """
+    found = [(at, word) for word in _PLAIN & words for at in places_of(data, word)]
+    for word in _FUNCTIONS & words:
+        found += ((at, word) for at in places_of(data, word) if _is_scoped(data, at))
+    return [(at, at + len(word), word.decode()) for at, word in sorted(found)]
+
+
+def _is_scoped(data: bytes, at: int) -> bool:
+    """Whether a scope stands before a place: `::`, and maybe white space."""
+    while at > 0 and data[at - 1] in _WHITE:
+        at -= 1
+    return data.endswith(b"::", 0, at)

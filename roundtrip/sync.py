@@ -19,11 +19,11 @@ from rebsync.roundtrip.checked import Checked
 from rebsync.roundtrip.difference import (
     Comparison,
     Place,
-    Removed,
     Undetermined,
 )
 from rebsync.roundtrip.differences import compare
 from rebsync.roundtrip.digests import is_base_whole, is_text_of
+from rebsync.roundtrip.gone import Gone, is_of_file
 from rebsync.roundtrip.manifest import BASE, BASE_MODEL, FOLDER, MANIFEST, with_manifest
 from rebsync.roundtrip.merge_check import finding, read_with, wrongly_merged
 from rebsync.roundtrip.merge_code import Stages, ancestors, merged_code, recorded_base
@@ -87,8 +87,12 @@ class _Syncing:
             raise RebsyncError(left)
         base = self._base(today)
         apart = self.compared(today, code.given)
-        if refused := (*self._unread(apart, code.given), *self._nowhere(apart)):
-            causes = (*filter(_is_of_file, self.checked.findings), *self._lost())
+        gone = Gone(self.checked, self.record)
+        if refused := (
+            *self._unread(apart, code.given),
+            *gone.without_cause(apart, code.given.model),
+        ):
+            causes = (*filter(is_of_file, self.checked.findings), *gone.files())
             return Sync(self.checked, refused=causes or refused, is_undetermined=True)
         merged = merged_model(base, today, code.given, self.favour, self.compared)
         told = self._of_code(base or today, code.given)
@@ -147,18 +151,6 @@ class _Syncing:
                     f" model: {difference.why}"
                 )
                 yield finding(place, "RS959", message, "write this in a way that extract reads")
-
-    def _nowhere(self, apart: Comparison) -> Iterator[Findings]:
-        """Launch files that are gone, and with them rebecs that somebody may want to keep."""
-        if any(isinstance(d, Removed) and d.element.kind == "rebec" for d in apart.differences):
-            yield from (f for f in self._lost() if f.source.path.endswith(".launch"))
-
-    def _lost(self) -> Iterator[Findings]:
-        """Generated files that are gone, which is why elements are not whole."""
-        for name in self.checked.standing.missing:
-            place = Place(Source(f"{self.checked.kept.root}/{name}", ""), NOWHERE)
-            hint = "`rebsync generate` writes it anew"
-            yield finding(place, "RS969", "this generated file is not there", hint)
 
     # --- results --------------------------------------------------------------------------------
 
@@ -312,11 +304,6 @@ _FIELDS = frozenset(Config.__dataclass_fields__)
 def _is_settled(found: Findings) -> bool:
     """Whether a finding is about what is put right by this."""
     return all(d.code in ("RS955", "RS964") for d in found.diagnostics)
-
-
-def _is_of_file(found: Findings) -> bool:
-    """Whether a finding is about a file that cannot be read at all."""
-    return all(d.code == "RS941" and d.span == NOWHERE for d in found.diagnostics)
 
 
 def _is_of_records(found: Findings) -> bool:

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from rebsync.diagnostics import RebsyncError
-from rebsync.files import read_source
+from rebsync.files import BOM, read_bytes, read_source
 from rebsync.records import dataclass
 from rebsync.reverse.files.python_files import is_python
 from rebsync.reverse.launch.launch_files_ros2 import read_ros2_launch
@@ -91,10 +91,15 @@ def facts_of(paths: Mapping[str, str], package: str = "") -> Facts:
     found: Facts = {}
     for name, path in sorted(paths.items()):
         with suppress(RebsyncError):  # what cannot be read, extraction lists
-            source = read_source(path)
+            source = Source(path, _text(read_bytes(path)))
             for fact in _of_file(name, source, package):
                 found.setdefault(fact.key, []).append(fact)
     return found
+
+
+def _text(data: bytes) -> str:
+    """The text of a file; an odd byte, which extraction lists, changes only what it is in."""
+    return data.removeprefix(BOM).decode("utf-8", "replace").replace("\r\n", "\n")
 
 
 def _of_file(name: str, source: Source, package: str) -> Iterable[Fact]:

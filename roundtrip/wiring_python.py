@@ -143,6 +143,7 @@ class _Class:
         names |= {name: f"_local{i}" for i, name in enumerate(dict.fromkeys(stored))}
         names |= {name: f"server_{self.server(ast.Name(name))}" for name in self.servers}
         text = plain(function, names)
+        text = re.sub(r"\b(?:functools\.)?partial\((self\.\w+)(?:, )?", r"lambda: \1(", text)
         for handler, server in self.handlers.items():
             text = re.sub(rf"\bself\.{handler}\b(?=\(|\))", f"self.<{server}>", text)
         text = re.sub(r"\blambda: (self\.[\w<>]+)\(\)", r"\1", text)
@@ -200,7 +201,7 @@ class _Class:
             value = f'advertiseAll<{message}>("{topic}", "{_text(arguments[1])}")'
             yield self.fact("publisher", message, value, at)
         elif method in _CONNECTING and len(arguments) == 3:
-            shim = ast.unparse(arguments[2]).removeprefix("self.")
+            shim = _handler(arguments[2])
             on_bridge = method == "subscribe_on_bridge"
             is_own = _is_private(topic) or on_bridge
             word = _CONNECTING[method] if is_own else "subscribe_elsewhere"
@@ -298,8 +299,13 @@ def _is_stored(node: ast.AST) -> bool:
 
 
 def _handler(served: ast.expr) -> str:
-    if isinstance(served, ast.Lambda):
-        served = served.body.func if isinstance(served.body, ast.Call) else served.body
+    match served:
+        case ast.Lambda(body=ast.Call(function)) | ast.Call(_, [function, *_]):
+            served = function
+        case ast.Lambda(body=body):
+            served = body
+        case _:
+            pass
     return ast.unparse(served).removeprefix("self.")
 
 

@@ -25,3 +25,6 @@ def ranges_in(function: ast.FunctionDef) -> Iterator[tuple[str, str, ast.expr]]:
     for node in ast.walk(function):
         if isinstance(node, ast.BinOp) and isinstance(node.op, _GROWING):
             yield ast.unparse(node), cut.get(id(node), ANY), node
+        elif isinstance(node, ast.AugAssign) and isinstance(node.op, _GROWING):
+            whole = ast.BinOp(node.target, node.op, node.value)
+            yield ast.unparse(whole), ANY, ast.copy_location(whole, node)

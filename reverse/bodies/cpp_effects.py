@@ -9,6 +9,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_kinds import LEAVES, LOOKED_AT, PLAIN, REPEATED
+from rebsync.reverse.bodies.cpp_macros import is_harmless
 from rebsync.reverse.bodies.cpp_misread import first_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this
 from rebsync.reverse.bodies.cpp_roots import identifiers_in, is_element, is_modelled, path_in, root
@@ -31,7 +32,7 @@ from rebsync.reverse.bodies.scope import (
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_declarations import CppFunction
-from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.syntax.macros import hides
 
 
@@ -107,9 +108,8 @@ class Effects:
                 self._inside(node)
 
     def _inside(self, node: Node) -> None:
-        for child in node.named_children:
-            if child.type not in PLAIN:
-                self.check(child)
+        for child in (c for c in node.named_children if c.type not in PLAIN):
+            self.check(child)
 
     def _touches(self, node: Node, why: str, hint: str = "") -> Touches:
         touches = Touches(self.cpp.span(node), why, hint)
@@ -157,10 +157,8 @@ class Effects:
         left, right = (node.children_by_field_name(side)[0] for side in ("left", "right"))
         operator = text_of(node.children_by_field_name("operator")[0])
         self.check(left)
-        if operator in (">>", "&") and not self._is_number(left):
-            self._arguments((right,))
-        else:
-            self.check(right)
+        is_object = operator in (">>", "&") and not self._is_number(left)
+        self._arguments((right,)) if is_object else self.check(right)
 
     def _misread(self, node: Node) -> None:
         first = first_of(self.cpp, self.scope, node)
@@ -168,8 +166,7 @@ class Effects:
             replace(self, cpp=first.cpp).check(first.node)
         except Touches as touches:
             raise self._touches(node, touches.why) from None
-        value = node.children_by_field_name("value")[0]
-        self.check(value.children_by_field_name("argument")[0])
+        self.check(part(part(node, "value"), "argument"))
 
     def _is_number(self, node: Node) -> bool:
         """Whether it is a literal or a variable of the model: no object with functions."""
@@ -179,9 +176,9 @@ class Effects:
 
     def _subscripts(self, node: Node) -> None:
         """What is evaluated to find the place that is written."""
-        if node.type == "subscript_expression":
-            for child in node.children_by_field_name("indices"):
-                self.check(child)
+        indices = node.children_by_field_name("indices")
+        for part_ in [node] if node.type == "call_expression" else indices:
+            self.check(part_)
         if node.type in ("subscript_expression", "field_expression", "pointer_expression"):
             self._subscripts(node.children_by_field_name("argument")[0])
 
@@ -257,7 +254,7 @@ class Effects:
         own = call.target is not None and isinstance(self._root(call.target)[1], Itself)
         if call.target is None or own:
             known = self._function(node, name)
-            self._held(node, name, call)
+            known = self._held(node, name, call) or known
         else:
             self._method(call, name)
         if (does := acts(call)) is not None:
@@ -265,31 +262,35 @@ class Effects:
         if known or takes_values(call):
             for argument in call.arguments:
                 self.check(argument)
-        else:
-            self._arguments(call.arguments)
+            return
+        self._arguments(call.arguments)
 
     def _function(self, node: Node, name: str) -> bool:
         """Whether a function of the code is known to do nothing; `Touches` if it is not."""
         match self.scope.functions.get(name):
             case None if hides(name):
+                if is_harmless(self, name):
+                    return True
                 raise self._touches(node, f'"{name}" may be a macro that hides statements')
             case None | Ignored():
                 return False
-            case Inline(function) | Called(function=function):
-                if function is not None and self._is_calm(function):
-                    return True
+            case Inline(f) | Called(function=f) if f is not None and self._is_calm(f):
+                return True
         raise self._touches(node, f'"{name}" may change what the model has')
 
-    def _held(self, node: Node, name: str, call: CppCall) -> None:
-        """A variable that is called: a function that somebody has put there may do anything.
+    def _held(self, node: Node, name: str, call: CppCall) -> bool:
+        """Whether a matrix is called; a function that somebody has put there may do anything.
 
         But for one that only gets an object that is outside, as a distribution gets a generator.
         """
         meaning = None if name in self._inner else self.scope.meaning(name)
+        if isinstance(meaning, Outside) and meaning.indexed:
+            return True
         objects = [self._root(a)[1] for a in call.arguments]
         drawn = len(objects) == 1 and isinstance(objects[0], Outside)
         if meaning is not None and not (isinstance(meaning, Outside) and drawn):
             raise self._touches(node, f'"{name}" may change what the model has')
+        return False
 
     def _is_calm(self, function: CppFunction) -> bool:
         """Whether a body touches nothing but what it declares, or gets."""

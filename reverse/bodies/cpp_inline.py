@@ -17,6 +17,7 @@ from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_types import carried
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.cpp_widths import place_of
+from rebsync.reverse.bodies.known_functions import is_matrix
 from rebsync.reverse.bodies.scope import (
     Inline,
     Itself,
@@ -217,7 +218,7 @@ def _bound(
         effects.check(argument)
         if refers and not constant:
             effects.refers(argument)
-        inside.meaning(name, Outside())
+        inside.meaning(name, Outside(indexed=is_matrix(text_of(parameter.type))))
         return
     yield from _valued(reader, inside, name, place_of("", kept), argument, once)
 

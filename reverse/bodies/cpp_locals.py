@@ -18,7 +18,7 @@ from rebsync.reverse.bodies.cpp_effects import Effects, Touches
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_types import Carried, carried
 from rebsync.reverse.bodies.cpp_widths import place_of, wide_of
-from rebsync.reverse.bodies.known_functions import type_takes_values
+from rebsync.reverse.bodies.known_functions import is_matrix, type_takes_values
 from rebsync.reverse.bodies.scope import Itself, Lambda, Meaning, Outside, Record, Variable
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_tree import markers_in, named, part, text_of
@@ -109,12 +109,12 @@ def _static(reader: CppStatements, declared: _Declared) -> None:
     if not reader.scope.open:
         why = "this local keeps its value from call to call"
         raise reader.unread(declared.node, why, "make it a member")
-    reader.meaning(declared.name, Outside(_type(reader, declared)))
+    reader.meaning(declared.name, _hidden(reader, declared))
 
 
-def _type(reader: CppStatements, declared: _Declared) -> m.Type | None:
+def _hidden(reader: CppStatements, declared: _Declared) -> Outside:
     kept = carried(declared.type, reader.scope.enums)
-    return kept.type if kept is not None else None
+    return Outside(kept.type if kept is not None else None, indexed=is_matrix(declared.text))
 
 
 def _outside(reader: CppStatements, declared: _Declared, unread: Unread) -> None:
@@ -125,13 +125,13 @@ def _outside(reader: CppStatements, declared: _Declared, unread: Unread) -> None
             _check_value(reader, effects, declared)
             reader.demote(effects.written, unread)
     except Touches as touches:
-        reader.meaning(declared.name, Outside(_type(reader, declared)))
+        reader.meaning(declared.name, _hidden(reader, declared))
         raise touches from None
     if declared.kind == "structured_binding_declarator":
         for name in re.findall(r"\w+", declared.name):
             reader.meaning(name, Outside())
         return
-    reader.meaning(declared.name, Outside(_type(reader, declared)))
+    reader.meaning(declared.name, _hidden(reader, declared))
 
 
 def _check_value(reader: CppStatements, effects: Effects, declared: _Declared) -> None:

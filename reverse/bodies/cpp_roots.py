@@ -38,6 +38,9 @@ def root(scope: Scope, inner: Collection[str], node: Node) -> tuple[str, Meaning
             target = node.children_by_field_name("function")[0]
             if target.type == "field_expression":
                 return root(scope, inner, target)
+            of = root(scope, inner, target) if target.type == "identifier" else ("", None)
+            if isinstance(of[1], Outside) and of[1].indexed:
+                return of
     return "", None
 
 

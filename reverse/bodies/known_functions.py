@@ -47,6 +47,8 @@ LOOKS = frozenset(
         *("get_subscription_count", "get_publisher_count", "get_topic_name", "get_logger"),
         *("is_canceled", "time_until_trigger", "service_is_ready", "nanoseconds", "seconds"),
         *("toSec", "c_str", "str", "cbegin", "cend"),
+        *("is_activated", "assert_liveliness", "get_network_flow_endpoints", "get_actual_qos"),
+        *("can_loan_messages", "get_content_filter", "is_cft_enabled", "get_gid"),
         *("now", "self", "sender", "arrival", "expiry", "waitingTime"),
     }
 )
@@ -85,6 +87,15 @@ _CONVERSION = re.compile(
     r"(?:::)?(?:u?int(?:8|16|32|64)?(?:_t)?|float|double|bool|char|long|short|unsigned|size_t)\Z"
 )
 _LIBRARIES = re.compile(r"(?:::)?(?:std|boost|ros|tf2?|tf2_ros|Eigen|cv|pcl|\w+_msgs|\w+_srvs)::")
+# Types whose objects, when they are called, give an element of themselves.
+_MATRIX = re.compile(
+    r"(?:const\s+)?(?:::)?Eigen::(?:Matrix|(?:Row)?Vector|Array)(?:X?\d?X?[dfi]|<.*>)\Z", re.DOTALL
+)
+
+
+def is_matrix(type_: str) -> bool:
+    """Whether to call an object of a type only gives an element of it."""
+    return _MATRIX.match(type_) is not None
 
 
 def acts(call: CppCall) -> str | None:

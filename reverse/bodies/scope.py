@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import field, fields, replace
 from fractions import Fraction
 from operator import attrgetter
@@ -56,11 +56,13 @@ class Outside:
     """What the model does not have: reading it gives a value that the model cannot know.
 
     Writing it changes nothing of the model. `type` is what its values would be in the model, if
-    that is known. `reaches` says that its member functions may act on what the model has.
+    that is known. `reaches` says that its member functions may act on what the model has;
+    `indexed` that to call it gives an element of it, as of a matrix.
     """
 
     type: Type | None = None
     reaches: bool = False
+    indexed: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -272,6 +274,8 @@ class Scope:
     wide: dict[str, int] = field(default_factory=dict, compare=False, repr=False)
     # Whether functions, by the ids of their bodies, touch nothing: what has been found out.
     calm: dict[int, bool] = field(default_factory=dict, compare=False, repr=False)
+    # The definitions of macros with parameters, by their names.
+    macros: Mapping[str, Sequence[Node]] = field(default_factory=dict, compare=False, repr=False)
 
     def width(self, type_: str, path: str) -> int:
         """The width of a field of a message type; 0 where it is that of the model's type."""

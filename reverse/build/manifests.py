@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from rebsync.package import Maintainer
 from rebsync.records import dataclass
 from rebsync.reverse.launch.xml_tree import Element, read_xml
@@ -37,6 +39,7 @@ class Manifest:
     span: Span
 
 
+@lru_cache(maxsize=4)  # several ask for that of a package while it is read
 def read_manifest(source: Source) -> Manifest:
     """What a package.xml says."""
     root = read_xml(source)

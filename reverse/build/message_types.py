@@ -27,7 +27,6 @@ _DEEPEST = 8
 # The namespace of messages in ROS 2: `std_msgs::msg::String`.
 _SPACE = re.compile(r"::(?:msg|srv|action)::(?=\w+\Z)")
 _POINTERS = re.compile(r"(::)?(Const)?(Shared|Unique|Weak)?Ptr$")
-_WORD = re.compile(r"[A-Z]\w*")
 _MESSAGE = re.compile(r"/?msg/([^/]+)\.msg\Z")
 
 Fields = Mapping[str, Type | None]
@@ -67,6 +66,12 @@ class MessageTypes:
         """The whole numbers that messages of the package give names, as the code has them."""
         return self._constants
 
+    def has_field(self, name: str) -> bool:
+        """Whether a type of the package, or one that comes with ROS, has a field of this name."""
+        own = (field for fields in self.own.values() for field, _, _ in fields)
+        common = (part.partition(" ")[0] for text in COMMON.values() for part in text.split(", "))
+        return name in own or name in common
+
     def fields(self, type_: str) -> Fields | None:
         """The fields of a type by their paths, inner ones too; None for a type that is not known.
 
@@ -93,8 +98,8 @@ class MessageTypes:
 
     def mentioned(self, files: Iterable[Cpp]) -> set[str]:
         """The types that some code may use: of each the name stands in it."""
-        words = {w for cpp in files for w in set(_WORD.findall(cpp.source.text))}
-        return {t for t in (*self.own, *COMMON) if t.partition("/")[2] in words}
+        words = frozenset[bytes]().union(*(cpp.words for cpp in files))
+        return {t for t in (*self.own, *COMMON) if t.partition("/")[2].encode() in words}
 
     def named(self, text: str) -> str | None:
         """The message type of a type of C++: `const std_msgs::Int32::ConstPtr&` is one."""

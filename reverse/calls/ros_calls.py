@@ -81,10 +81,9 @@ def _calls_in(code: Code, values: Values, without: Collection[str]) -> Iterator[
     """The calls but for those in functions of some classes, or of that name."""
     ros2 = uses_rclcpp(values)
     for cpp in code.files:
-        data = values.texts.data(cpp)
-        for start, end, word in words_in(data):
+        for start, end, word in words_in(cpp.original, cpp.words):
             yield from _at(values, cpp, (start, end, word), without, _asked)
-        for start, end, word in words_of_ros2(data) if ros2 else ():
+        for start, end, word in words_of_ros2(cpp.original, cpp.words) if ros2 else ():
             yield from _at(values, cpp, (start, end, word), without, asked_of_ros2)
 
 

@@ -83,7 +83,7 @@ class MessageTypes:
         for candidate in (name, plain):
             if package := self._package(cpp, candidate):
                 return f"{package}/{candidate}"
-        used = {p.decode() for p in _USED.findall(self.values.texts.data(cpp))}
+        used = {p.decode() for p in _USED.findall(cpp.original)}
         used = {p for p in used if f"{p}/{plain}" in COMMON} or used
         if len(used) == 1:
             return f"{used.pop()}/{plain}"
@@ -92,7 +92,7 @@ class MessageTypes:
     def _space(self, cpp: Cpp, name: str) -> str:
         """The namespace that another name for one stands for."""
         if id(cpp) not in self._spaces:
-            found = _SPACE.findall(self.values.texts.data(cpp))
+            found = _SPACE.findall(cpp.original)
             self._spaces[id(cpp)] = {k.decode(): f.decode().rpartition("::")[2] for k, f in found}
         return self._spaces[id(cpp)].get(name, name)
 
@@ -108,7 +108,7 @@ class MessageTypes:
 
     def _included(self, cpp: Cpp) -> dict[str, str]:
         if id(cpp) not in self._includes:
-            data = self.values.texts.data(cpp)
+            data = cpp.original
             found = [(p, _camel(n)) for p, n in _HEADER.findall(data)]
             found += [*_INCLUDE.findall(data), *_USING.findall(data)]
             self._includes[id(cpp)] = {n.decode(): p.decode() for p, n in found}

@@ -8,6 +8,8 @@ from collections.abc import Iterator, Mapping
 from rebsync.source import Source
 
 SUFFIX = ".py"
+# What says which programs a package of Python installs; no code of nodes.
+SETUP = "setup.py"
 # Where none of these is, nothing is asked of ROS; `rebsync:` is in generated code.
 _WORDS = (b"rospy", b"rclpy", b"message_filters", b"rebsync:")
 # How the names of launch files end, and what they import.
@@ -15,9 +17,7 @@ LAUNCHES = (".launch.py", "_launch.py", "-launch.py")
 _LAUNCH = b"launch_ros"
 _SCRIPT = re.compile(rb"#![^\n]*\bpython")
 _HEAD = 80  # bytes, in which the first line of a script says who runs it
-_IMPORT = re.compile(
-    rb"^[ \t]*(?:from[ \t]+([\w.]+)[ \t]+import[ \t]+|import[ \t]+)([^#\n]*)", re.M
-)
+_IMPORT = re.compile(rb"\n[ \t]*(?:from[ \t]+([\w.]+)[ \t]+import[ \t]+|import[ \t]+)([^#\n]*)")
 _NAME = re.compile(rb"\w+")
 
 
@@ -44,6 +44,8 @@ def relevant_python(code: Mapping[str, bytes], only: str | None = None) -> set[s
     """Those of some files of Python that can matter: those of ROS, and what they import."""
     kept = {name for name, data in code.items() if name == only or _of_ros(data)}
     kept |= {n for n, data in code.items() if n.endswith(LAUNCHES) and _LAUNCH in data}
+    if kept and SETUP in code and b"console_scripts" in code[SETUP]:
+        kept.add(SETUP)
     if not kept or len(kept) == len(code):
         return kept
     by_name: dict[bytes, list[str]] = {}
@@ -70,6 +72,6 @@ def _module(path: str) -> str:
 
 def _imported(data: bytes) -> Iterator[bytes]:
     """All names in imports: of modules, and of what may be modules."""
-    for source, names in _IMPORT.findall(data):
+    for source, names in _IMPORT.findall(b"\n" + data):
         yield from _NAME.findall(source)
         yield from _NAME.findall(names)

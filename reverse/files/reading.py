@@ -168,7 +168,7 @@ codecs.register_error(_LATIN, _latin)
 
 
 def _listed(listing: Listing, name: str, why: str) -> Finding:
-    path = shown(str(Path(listing.root) / name))
+    path = shown(listing.files.get(name) or str(Path(listing.root) / name))
     return Finding(Grade.UNREADABLE, Source(path, ""), NOWHERE, why)
 
 

@@ -25,16 +25,16 @@ def own_messages(files: Mapping[str, Source]) -> dict[str, dict[str, Type | None
 
     None for what the model has no type for.
     """
-    manifest = files.get("package.xml")
+    declared = {path: s for path, s in sorted(files.items()) if path.endswith(".msg")}
+    manifest = files.get("package.xml") if declared else None
     package = read_manifest(manifest).name if manifest is not None else None
     found = {}
-    for path, source in sorted(files.items()):
+    for path, source in declared.items():
         name = path.rpartition("/")[2].removesuffix(".msg")
-        if path.endswith(".msg"):
-            read = read_message(source, "", name)
-            found[f"{package or ''}/{name}"] = {
-                f.name: _type(f) for f in read.fields if f.name not in RUNTIME_FIELDS
-            }
+        read = read_message(source, "", name)
+        found[f"{package or ''}/{name}"] = {
+            f.name: _type(f) for f in read.fields if f.name not in RUNTIME_FIELDS
+        }
     return found
 
 

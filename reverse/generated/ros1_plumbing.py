@@ -24,7 +24,7 @@ from rebsync.reverse.generated.ros1_roles import (
     number_of,
     odd_priorities,
 )
-from rebsync.reverse.generated.ros1_timers import timers_of
+from rebsync.reverse.generated.ros1_timers import MAKES, timers_of
 from rebsync.reverse.generated.ros2_words import SETS_UP, arguments_in
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
@@ -146,7 +146,7 @@ def _sets_up(statement: Node, function: CppFunction, roles: Roles, timers: Conta
     if call is None:
         return False
     match call.name:
-        case "createTimer" | "createWallTimer" | "createSteadyTimer":
+        case name if name in MAKES:
             return call.node.id in timers
         case "onServed":
             return _hands_on(call, "publishState", None)

@@ -6,6 +6,7 @@ does. Anything else that a callback does, it does while a body may run: that is 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 
@@ -22,13 +23,26 @@ from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, text_of
 
-_MAKES = frozenset({"createTimer", "createWallTimer", "createSteadyTimer"})
+MAKES = frozenset(
+    {"createTimer", "createWallTimer", "createSteadyTimer", "create_timer", "create_wall_timer"}
+)
 _DURATIONS = frozenset({"ros::Duration", "ros::WallDuration", "ros::SteadyDuration"})
+_SPANS = {
+    "minutes": Fraction(60),
+    "seconds": Fraction(1),
+    "milliseconds": Fraction(1, 1000),
+    "min": Fraction(60),
+    "s": Fraction(1),
+    "ms": Fraction(1, 1000),
+}
+_SPAN = re.compile(r"(?:std::)?(?:chrono::)?(minutes|seconds|milliseconds)\Z")
+_LITERAL = re.compile(r"([\d.']+)(min|s|ms)\Z")
 
 
 @dataclass(frozen=True, slots=True)
 class Timer:
-    """A call that makes a timer: `function` has the call, `seconds` is the period.
+    """A call that makes a timer: `function` has the call, `seconds` is the period, or, times
+    `scale`, as many seconds.
 
     The callback is a function of the class, or a lambda; `posts` is the server to which it posts a
     message and does nothing else.
@@ -41,6 +55,7 @@ class Timer:
     callback: str
     lambda_: Node | None
     posts: str | None
+    scale: Fraction = Fraction(1)
 
     @property
     def at_start(self) -> bool:
@@ -52,7 +67,7 @@ def timers_of(code: Code, owner: CppClass, roles: Roles) -> Iterator[Timer]:
     """The timers that the functions of a class make, but for those of which that is not plain."""
     for function in code.functions_of(owner):
         for call in code.calls_of(function):
-            if call.name in _MAKES and (timer := _timer(code, owner, roles, function, call)):
+            if call.name in MAKES and (timer := _timer(code, owner, roles, function, call)):
                 yield timer
 
 
@@ -62,8 +77,8 @@ def _timer(
     if len(call.arguments) < 2:
         return None
     period, callback, *flags = call.arguments
-    given = call_of(period)
-    if given is None or given.name not in _DURATIONS or len(given.arguments) != 1:
+    lasts = _lasting(period)
+    if lasts is None or (flags and call.name.startswith("create_")):
         return None
     name, lambda_ = "", None
     if callback.type == "lambda_expression":
@@ -78,7 +93,22 @@ def _timer(
         return None
     body = lambda_ or (own.body if own is not None else None)
     posts = _posts(roles, body) if body is not None else None
-    return Timer(call, function, given.arguments[0], one_shot == "true", name, lambda_, posts)
+    seconds, scale = lasts
+    return Timer(call, function, seconds, one_shot == "true", name, lambda_, posts, scale)
+
+
+def _lasting(period: Node) -> tuple[Node, Fraction] | None:
+    """The number that says how long something lasts, and how many seconds its unit has."""
+    given = call_of(period)
+    if given is None:
+        literal = _LITERAL.match(text_of(period))
+        return (period, _SPANS[literal[2]]) if literal is not None else None
+    if len(given.arguments) != 1:
+        return None
+    span = _SPAN.match(given.name)
+    if span is not None:
+        return given.arguments[0], _SPANS[span[1]]
+    return (given.arguments[0], Fraction(1)) if given.name in _DURATIONS else None
 
 
 def _posts(roles: Roles, body: Node) -> str | None:
@@ -125,13 +155,15 @@ def sent_later(timer: Timer, server: str, scope: Scope) -> m.Statement:
 
 def _time(timer: Timer, scope: Scope) -> m.Expression:
     cpp, node = timer.function.cpp, timer.seconds
-    if node.type == "number_literal":
-        units = Fraction(text_of(node).rstrip("fFlLuU")) / scope.unit
+    literal = _LITERAL.match(text_of(node))
+    if node.type == "number_literal" or literal is not None:
+        number = literal[1].replace("'", "") if literal else text_of(node).rstrip("fFlLuU")
+        units = Fraction(number) * timer.scale / scope.unit
         if units.denominator != 1:
             why = f"{text_of(node)} s is no multiple of the model's unit of time"
             raise Unread(cpp.span(node), why, "change `time_unit`")
         return m.IntLiteral(int(units), cpp.span(node))
-    if scope.unit != 1:
+    if scope.unit != timer.scale:
         raise Unread(cpp.span(node), "this time is in seconds, which are no units of the model")
     return CppExpressions(cpp, scope).read(node)
 

@@ -23,6 +23,7 @@ _ROS = frozenset(
     }
 )
 _MADE = re.compile(r"std::make_shared<\s*([\w:]+)\s*>\Z")
+_WORD = re.compile(r"\w+")
 _KNOWN, _ENV = "knownrebecs.", "env."
 
 
@@ -60,14 +61,22 @@ def declared_array(call: CppCall) -> tuple[str, Node] | None:
 
 def arguments_in(constructor: CppFunction) -> Iterator[tuple[str, str]]:
     """The arguments of the model's constructor: the local variable, and the parameter it is of."""
+    handed = _handed_on(constructor)
     for statement in named(constructor.body) if constructor.body is not None else []:
         declarator = statement.child_by_field_name("declarator")
         if statement.type != "declaration" or declarator is None:
             continue
         for call in calls_in(declarator.child_by_field_name("value")):
             key = string_of(call.arguments[0]) if call.arguments else None
-            if call.name == DECLARES and key is not None:
-                yield text_of(part(declarator, "declarator")), key
+            name = text_of(part(declarator, "declarator"))
+            if call.name == DECLARES and key is not None and name in handed:
+                yield name, key
+
+
+def _handed_on(constructor: CppFunction) -> set[str]:
+    """What stands in the call of `mailbox_.construct`."""
+    made = (c for c in calls_in(constructor.body) if c.name == "construct" and c.arguments)
+    return {word for call in made for a in call.arguments for word in _WORD.findall(text_of(a))}
 
 
 def made_in(code: Code, main: CppFunction) -> Iterator[tuple[str, list[str]]]:

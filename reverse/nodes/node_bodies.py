@@ -94,7 +94,8 @@ class Bodies:
             if isinstance(fact, PublisherFact) and kept.isidentifier():
                 type_ = fact.type if isinstance(fact.type, str) else ""
                 made = Publishes(self.targets.get(number, ()), type_)
-                same = published.setdefault(kept, made) == made
+                first = published.setdefault(kept, made)
+                same = first is made or first == made
                 members[kept] = made if same else Outside()  # one of several
             elif isinstance(fact, TimerFact) and kept:
                 server = next((s for s in self.servers if fact in s.timers), None)
@@ -123,6 +124,7 @@ class Bodies:
             overflowing=self.overflowing,
             regions=self._regions(cpp).of,
             wide=self.wide,
+            macros=self.code.macros,
             timers=self.setup.timers,
             instead=self.setup.instead,
             values=self.setup.values,

@@ -17,6 +17,7 @@ from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import SubscriptionFact, TimerFact
 from rebsync.reverse.nodes.node_bodies import Bodies, repeated, takes_time
 from rebsync.reverse.nodes.node_functions import Functions
+from rebsync.reverse.nodes.node_lifecycle import is_transition
 from rebsync.reverse.nodes.node_reach import unreached
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_setup import send
@@ -142,6 +143,8 @@ class NodeClass:
         for function in unreached(bodies.code, bodies.unit, bodies.setup.first, bodies.servers):
             assert function.body is not None
             if any(h.function == function.name for h in bodies.held()):
+                continue
+            if is_transition(bodies.unit, function):
                 continue
             scope = bodies.scope(function.cpp, function)
             if not is_outside(function.cpp, scope, function.body):

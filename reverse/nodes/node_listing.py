@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import field
 
 from tree_sitter import Node
@@ -53,6 +53,7 @@ class Listing:
     _known: int = 0
     _unreadable: set[tuple[int, Span]] = field(default_factory=set)
     _reasons: set[tuple[Span, str]] = field(default_factory=set)
+    _odd: dict[int, frozenset[str]] = field(default_factory=dict)
 
     def unit(self, unit: Unit, servers: Iterable[Server]) -> None:
         """What a unit has that its reactive class has not."""
@@ -100,9 +101,7 @@ class Listing:
                     self._approximated(fact.site.place, why, f"{unit.name}.{server.name}")
 
     def _words(self, unit: Unit, cpp: Cpp, body: Node) -> None:
-        if _ANY.search(body.text or b"") is None:
-            return
-        for node in _words(body):
+        for node in reversed(unit.code.named(cpp, body, self._listed(cpp))):
             name = text_of(node)
             place = Place(cpp.source, cpp.span(node))
             if _THREADS.match(name):
@@ -111,21 +110,30 @@ class Listing:
                 why = f'"{name}" calls functions of the node in ways that the model does not have'
                 self._unread(place, why, unit.name)
 
+    def _listed(self, cpp: Cpp) -> frozenset[str]:
+        """The words of a file that are listed wherever the code names them."""
+        if id(cpp) not in self._odd:
+            words = (w.decode() for w in cpp.words if _ANY.search(w))
+            found = (w for w in words if _THREADS.match(w) or _ENTRIES.fullmatch(w))
+            self._odd[id(cpp)] = frozenset(found)
+        return self._odd[id(cpp)]
+
     # --- wiring ---------------------------------------------------------------------------------
 
     def wiring(self, wiring: Wiring, units: list[Unit]) -> None:
         """Topics of some units that are not known, and those with nobody at their other end."""
-        wanted = [i for i in wiring.instances if i.start.unit in units]
+        asked = {id(unit) for unit in units}
+        wanted = [i for i in wiring.instances if id(i.start.unit) in asked]
         for instance in wanted:
             self._topics(instance)
         for instance, fact in unheard(wiring):
             topic = instance.topic(fact.topic)
-            if isinstance(topic, str) and instance in wanted:
+            if isinstance(topic, str) and id(instance.start.unit) in asked:
                 why = f'nobody in these files subscribes to "{topic}": it is not sent in the model'
                 self._approximated(fact.site.place, why, instance.start.unit.name, _OPEN)
         for instance, heard in unfed(wiring):
             topic = instance.topic(heard.topic)
-            if isinstance(topic, str) and instance in wanted:
+            if isinstance(topic, str) and id(instance.start.unit) in asked:
                 why = f'nobody in these files publishes "{topic}": the model gets no such message'
                 self._approximated(heard.site.place, why, instance.start.unit.name, _CLOSE)
         self._services(wiring, wanted)
@@ -178,10 +186,10 @@ class Listing:
         """Variables outside of classes that several rebecs of one program use."""
         if len(units) < 2 or not units[0].code.variables:
             return
-        uses = [{text_of(n) for _, body in bodies(u) for n in _words(body)} for u in units]
-        for name, variables in units[0].code.variables.items():
-            constant = any((v.cpp.source.path, name) in units[0].code.constants for v in variables)
-            if sum(name in words for words in uses) > 1 and not constant:
+        code = units[0].code
+        for name, variables in code.variables.items():
+            constant = any((v.cpp.source.path, name) in code.constants for v in variables)
+            if not constant and sum(_uses(unit, name) for unit in units) > 1:
                 place = Place(variables[0].cpp.source, variables[0].cpp.span(variables[0].node))
                 why = f'several rebecs of one program share "{name}": in the model each has its own'
                 self._unread(place, why, units[0].name)
@@ -234,10 +242,7 @@ def _is_lost(fact: SubscriptionFact | TimerFact) -> bool:
     return not single and above is not None and above.type == "expression_statement"
 
 
-def _words(node: Node) -> Iterator[Node]:
-    waiting = [node]
-    while waiting:
-        current = waiting.pop()
-        if current.type in ("identifier", "type_identifier", "field_identifier"):
-            yield current
-        waiting += current.named_children
+def _uses(unit: Unit, name: str) -> bool:
+    """Whether functions of a unit name something."""
+    names = frozenset({name})
+    return any(unit.code.named(cpp, body, names) for cpp, body in bodies(unit))

@@ -108,6 +108,7 @@ class Objects:
     code: Code
     wanted: Collection[str]
     _seen: set[str] = field(default_factory=set)
+    _named: dict[int, frozenset[str]] = field(default_factory=dict)
 
     def made_by(self, program: Program) -> list[Made]:
         """The objects that `main` makes, and those that functions and classes it uses make."""
@@ -135,13 +136,24 @@ class Objects:
         return first + list(self._members(owner, entry))
 
     def _in(self, function: CppFunction, in_main: bool) -> Iterator[Made]:
-        for node in self.code.inside(function.cpp, function.body, "type_identifier"):
+        for node in self._types_in(function):
             name = text_of(node)
             if name in self.wanted and (made := _made(node, name, in_main)) is not None:
                 yield made
             if name in self.code.classes and name not in self._seen and _makes(node):
                 self._seen.add(name)
                 yield from self._members(self.code.classes[name])
+
+    def _types_in(self, function: CppFunction) -> list[Node]:
+        """Where a function names classes."""
+        cpp, body = function.cpp, function.body
+        if body is None:
+            return []
+        if id(cpp) not in self._named:
+            known = {*self.wanted, *self.code.classes}
+            self._named[id(cpp)] = frozenset(n for n in known if n.encode() in cpp.words)
+        found = self.code.named(cpp, body, self._named[id(cpp)])
+        return [n for n in found if n.type == "type_identifier"]
 
     def _members(self, owner: CppClass, entry: CppFunction | None = None) -> Iterator[Made]:
         """The objects that are members of another, or made by its functions."""

@@ -29,7 +29,7 @@ def unreached(
         and not function.name.startswith(("~", "operator"))
     ]
     if left:
-        called = code.handed_on() | _overridden(code, unit)
+        called = code.handed_on({f.name for f in left}) | _overridden(code, unit)
         yield from (f for f in left if f.name in called)
 
 

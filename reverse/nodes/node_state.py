@@ -13,6 +13,7 @@ from rebsync.reverse.bodies.cpp_messages import zero_of
 from rebsync.reverse.bodies.cpp_types import Carried, carried, is_time, wider
 from rebsync.reverse.bodies.cpp_unknowns import domain_near
 from rebsync.reverse.bodies.cpp_widths import place_of
+from rebsync.reverse.bodies.known_functions import is_matrix
 from rebsync.reverse.bodies.scope import Member, Outside, Record, Stores, Variable
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings
@@ -170,13 +171,16 @@ class State:
         if shape == "array_declarator" and declarator is not None:
             return self._array(wish, name, type_, declarator, cpp, taken)
         if shape not in ("identifier", "field_identifier", "init_declarator"):
-            return Outside(reaches=text_of(type_).rpartition("::")[2] in self.units)
+            reaches = text_of(type_).rpartition("::")[2] in self.units
+            return Outside(reaches=reaches, indexed=is_matrix(text_of(type_)))
         kept = carried(type_, self.enums)
         if kept is not None:
             free = [w for w in (wish, name, f"{wish}_") if w not in taken] or [f"{wish}_"]
             given, domain = self._new(free, kept.type), domain_near(type_) or ()
             self._note_wide(given, kept, cpp, type_)
             return Variable(given, kept.type, kept.bits, domain, kept.wide)
+        if is_matrix(text_of(type_)):
+            return Outside(indexed=True)
         return self._struct(text_of(type_).rpartition("::")[2], wish)
 
     def _new(self, wishes: list[str], type_: m.Type) -> str:
@@ -244,6 +248,8 @@ class State:
 
         Those that are declared `within` a loop live for one round only.
         """
+        if only_static and b"static" not in function.cpp.words:
+            return {}
         key = function.node.id, frozenset(names), only_static
         if key not in self._outlived:
             self._outlived[key] = self._outlive(function, names, only_static, within)

@@ -20,6 +20,8 @@ from rebsync.reverse.nodes.node_bodies import Bodies, Common
 from rebsync.reverse.nodes.node_bound import note_bound, note_helpers
 from rebsync.reverse.nodes.node_classes import NodeClass, too_deep
 from rebsync.reverse.nodes.node_components import executables
+from rebsync.reverse.nodes.node_joined import Joined, Part
+from rebsync.reverse.nodes.node_lifecycle import note_life_cycle
 from rebsync.reverse.nodes.node_listing import Listing
 from rebsync.reverse.nodes.node_names import Names, class_word
 from rebsync.reverse.nodes.node_parameters import Given
@@ -59,6 +61,19 @@ def unit_of_time(files: Mapping[str, Source]) -> Fraction:
     return Fraction(repr(parse_config(files[FILE_NAME]).time_unit))
 
 
+@dataclass(frozen=True, slots=True)
+class Found:
+    """The nodes of a package's C++ before their bodies are read; `rebecs` are those that start."""
+
+    programs: tuple[Program, ...]
+    units: tuple[Unit, ...]
+    starts: tuple[Start, ...]
+    types: MessageTypes
+    common: Common
+    rebecs: tuple[Instance, ...]
+    part: Part
+
+
 @dataclass(slots=True)
 class NodeSystem:
     """Reads the hand-written nodes of a package; `only` is the path of the one file asked for.
@@ -77,15 +92,14 @@ class NodeSystem:
     generated: bool = False
     _states: dict[str, State] = field(default_factory=dict)
 
-    def read(self) -> Nodes:
-        """All of them. What has no place in the model is listed."""
+    def find(self) -> Found | None:
+        """The nodes without their bodies, to be wired with those of other languages."""
         found = self.programs
         if self.generated:
             found = tuple(p for p in found if not p.name.endswith(STAND_IN))
-        reading = Units(self.code, Facts.of(self.graph), found, self.generated)
         units, starts = all_units(self.code, self.graph, found, self.generated)
         if not units:
-            return Nodes((), (), False)
+            return None
         types = MessageTypes.of(self.files, self.package)
         common = self._common(types, units)
         owners = frozenset(u.owner.name for u in units if u.owner is not None)
@@ -97,19 +111,28 @@ class NodeSystem:
         classes = {u.name: names.give(_class(u)) for u in units}
         known_as = executables(self.files)
         rebecs = instances(starts, self.launch, self.package, names, known_as)
-        wiring = Wiring((*rebecs, *idle(units, starts, rebecs, names)), served)
-        reader = _Reader(self, reading, types, common, wiring, classes, names, starts)
+        all_of = (*rebecs, *idle(units, starts, rebecs, names))
+        part = Part(names, classes, all_of, served)
+        return Found(tuple(found), tuple(units), tuple(starts), types, common, rebecs, part)
+
+    def read(self, found: Found, joined: Joined) -> Nodes:
+        """All of them, with whom they are `joined`; what has no place in the model is listed."""
+        units, served = found.units, found.part.servers
+        reading = Units(self.code, Facts.of(self.graph), found.programs, self.generated)
+        reader = _Reader(self, found, reading, joined)
         read = tuple(c for u in units if self._is_wanted(u) for c in reader.classes_of(u))
-        listing = Listing(self.findings, types)
-        others = [p for p in found if not (self.generated and makes_generated(self.code, p))]
+        listing = Listing(self.findings, found.types)
+        others = found.programs
+        if self.generated:
+            others = tuple(p for p in others if not makes_generated(self.code, p))
         for program in others:
             if not any(u.program is program for u in units) and self.only is None:
                 listing.unit(reading.of_program(program), ())
         for unit in units:
             if self._is_wanted(unit):
                 listing.unit(unit, served[unit.name])
-        listing.wiring(wiring, [u for u in units if self._is_wanted(u)])
-        return Nodes(read, tuple(map(reader.rebec, rebecs)), bool(starts))
+        listing.wiring(joined.wiring, [u for u in units if self._is_wanted(u)])
+        return Nodes(read, tuple(map(reader.rebec, found.rebecs)), bool(found.starts))
 
     def _is_wanted(self, unit: Unit) -> bool:
         if self.only is None:
@@ -146,25 +169,22 @@ class _Reader:
     """Reads the classes of units, for each kind of their rebecs one."""
 
     system: NodeSystem
+    found: Found
     reading: Units
-    types: MessageTypes
-    common: Common
-    wiring: Wiring
-    classes: Mapping[str, str]
-    names: Names
-    starts: Sequence[Start]
-    kinds: dict[int, str] = field(default_factory=dict)
+    joined: Joined
     times: Times = field(default_factory=lambda: Times(Fraction(1), Fraction(1)))
     _parameters: dict[str, tuple[list[Given], int]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        for unit_name, class_ in self.classes.items():
-            of_unit = [i for i in self.wiring.instances if i.start.unit.name == unit_name]
-            for number, kind in enumerate(
-                dict.fromkeys(self.wiring.kinds[i.name] for i in of_unit)
-            ):
-                self.kinds[kind] = class_ if not number else self.names.give(class_)
         self.times = Times.of(unit_of_time(self.system.files), self.wiring.instances)
+
+    @property
+    def wiring(self) -> Wiring:
+        return self.joined.wiring
+
+    def _name(self, unit: Unit, alike: Sequence[Instance]) -> str:
+        """The name of the class that some rebecs of a unit are of."""
+        return self.joined.class_of(alike[0]) if alike else self.found.part.classes[unit.name]
 
     def classes_of(self, unit: Unit) -> Iterator[m.ReactiveClass]:
         """The classes that a unit becomes: one, or more if its rebecs are wired differently."""
@@ -177,14 +197,14 @@ class _Reader:
                 findings.back_to(listed)
                 read = self._too_deep(unit, alike, findings)
             yield read
-            known = {(f.span, f.why) for f in self.system.findings.all}
             if number:
+                known = {(f.span, f.why) for f in self.system.findings.all}
                 new = [f for f in findings.all if (f.span, f.why) not in known]
                 self.system.findings.all += new
 
     def _too_deep(self, unit: Unit, alike: list[Instance], findings: Findings) -> m.ReactiveClass:
         """The class of a unit that leads deeper than it can be read: others can still name it."""
-        name = self.kinds[self.wiring.kinds[alike[0].name]] if alike else self.classes[unit.name]
+        name = self._name(unit, alike)
         served = self.wiring.servers[unit.name]
         known = self._known(unit, alike, Names.beside({s.name for s in served}))
         return too_deep(name, unit, served, [(n, c) for n, c, _ in known], findings)
@@ -200,8 +220,9 @@ class _Reader:
             findings.back_to(listed)
         state = self.system.state(unit)
         state.note(broken | node.overflowing.counted, findings, unit.name)
+        note_life_cycle(unit, findings)
         note_bound(node.bodies)
-        note_helpers(node.bodies, self.classes)
+        note_helpers(node.bodies, self.found.part.classes)
         return read
 
     def _read(
@@ -219,13 +240,13 @@ class _Reader:
             self.wiring.servers[unit.name],
             state,
             setup,
-            self.common,
+            self.found.common,
             self._targets(alike, known),
-            opening(unit, state, start, self.starts),
+            opening(unit, state, start, self.found.starts),
             findings,
             overflowing=broken,
         )
-        name = self.kinds[self.wiring.kinds[alike[0].name]] if alike else self.classes[unit.name]
+        name = self._name(unit, alike)
         node = NodeClass(name, bodies, [(n, c) for n, c, _ in known])
         read = node.read()
         state.names = before
@@ -236,7 +257,7 @@ class _Reader:
     def _setup(self, unit: Unit, alike: list[Instance], state: State, findings: Findings) -> Setup:
         """What sets up the rebecs of one kind."""
         start = alike[0].start if alike else None
-        first = first_functions(unit.code, unit, self.starts)
+        first = first_functions(unit.code, unit, self.found.starts)
         facts = unit.facts
         if start is not None and start.entry is not None and self._is_alone(start):
             first = [*first, start.entry]
@@ -261,7 +282,7 @@ class _Reader:
 
     def _is_alone(self, start: Start) -> bool:
         """Whether an object is all that its program or nodelet has to do with ROS."""
-        together = [s for s in self.starts if s.process == start.process]
+        together = [s for s in self.found.starts if s.process == start.process]
         return start.made is not None and len(together) == 1
 
     def _facts_at(self, start: Start) -> tuple[Fact, ...]:
@@ -274,19 +295,12 @@ class _Reader:
 
     def _known(self, unit: Unit, alike: list[Instance], names: Names) -> list[tuple[str, str, int]]:
         """Name, class and place among the slots of the rebecs that a class sends to."""
-        slots = [self.wiring.known(i) for i in alike]
+        if not any(self.wiring.known(i) for i in alike):
+            return []
         bodies = [(f.cpp, f.body) for f in unit.functions if f.body is not None]
         taken = {n for cpp, body in bodies for n in declared(unit.code, cpp, body)}
         taken |= {p.name for s in self.wiring.servers[unit.name] for p in s.parameters}
-        found = []
-        for slot, several in enumerate(zip(*slots, strict=True)):
-            to = [self.wiring.instances[n] for n in several]
-            class_ = self.kinds[self.wiring.kinds[to[0].name]]
-            wish = to[0].name if len(set(several)) == 1 else class_[:1].lower() + class_[1:]
-            if wish in taken:
-                wish = f"{wish}_rebec"
-            found.append((names.give(wish), class_, slot))
-        return found
+        return self.joined.known(alike, taken.__contains__, names)
 
     def _targets(
         self, alike: list[Instance], known: list[tuple[str, str, int]]
@@ -302,7 +316,9 @@ class _Reader:
             unit = self.wiring.instances[to].start.unit.name
             server = next(s for s in self.wiring.servers[unit] if s.name == name)
             receiver = None if to == own else known[slots.index(to)][0]
-            found.setdefault(number, []).append(Target(receiver, name, server.fields))
+            found.setdefault(number, []).append(
+                Target(receiver, name, self.joined.taken(unit, server))
+            )
         return {n: tuple(t) for n, t in found.items()}
 
     # --- main -----------------------------------------------------------------------------------
@@ -312,7 +328,7 @@ class _Reader:
         bindings = [m.Name(self.wiring.instances[n].name) for n in self.wiring.known(instance)]
         parameters, index = self._parameters.get(instance.name, ([], 0))
         arguments = [literal_of(_value(p, index)) for p in parameters]
-        class_ = self.kinds[self.wiring.kinds[instance.name]]
+        class_ = self.joined.class_of(instance)
         known, given = tuple(bindings), tuple(arguments)
         node = instance.launched
         span = node.source.within(node.span) if node is not None else NOWHERE

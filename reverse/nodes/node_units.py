@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import field
+from functools import cached_property
 
 from tree_sitter import Node
 
@@ -31,12 +32,13 @@ from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 _CONNECTS = (PublisherFact, SubscriptionFact, TimerFact, ServiceFact)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Unit:
     """What becomes a reactive class.
 
     `functions` are its functions with bodies, of overridden ones the last; `owner` is None for
-    what a program does outside of classes. `code` is what its functions can name.
+    what a program does outside of classes. `code` is what its functions can name. `rclpy` says
+    that it is Python for ROS 2.
     """
 
     name: str
@@ -46,8 +48,9 @@ class Unit:
     facts: tuple[Fact, ...]
     code: Code
     program: Program | None = None
+    rclpy: bool = False
 
-    @property
+    @cached_property
     def names(self) -> frozenset[str]:
         """The classes that its functions belong to."""
         return frozenset(c.name for c in self.lineage)
@@ -56,12 +59,14 @@ class Unit:
         """The constructors, with bodies, of one of its classes."""
         return [f for f in self.functions if f.owner == of.name == f.name]
 
-    @property
+    @cached_property
     def flat(self) -> bool:
         """Whether it is for ROS 2, where parameters are the node's own."""
-        return any(MARK in f.cpp.data for f in self.functions) or any(c.roots for c in self.lineage)
+        if self.rclpy or any(c.roots for c in self.lineage):
+            return True
+        return any(MARK in f.cpp.data for f in self.functions)
 
-    @property
+    @cached_property
     def files(self) -> frozenset[str]:
         """The paths of the files that its functions stand in."""
         return frozenset({f.cpp.source.path for f in self.functions})

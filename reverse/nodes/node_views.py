@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
+from dataclasses import field, replace
 
+from rebsync.records import dataclass
 from rebsync.reverse.files.packages import HEADERS
 from rebsync.reverse.graph import Graph
 from rebsync.reverse.nodes.node_programs import Program
@@ -26,8 +27,9 @@ def all_units(
         return _renamed(*Units(code, facts, programs, generated).all())
     units: list[Unit] = []
     starts: list[Start] = []
+    included = _Included(code)
     for program in programs:
-        seen = _seen_by(code, program)
+        seen = included.seen_by(program)
         view = code.view(cpp for cpp in code.files if cpp.source.path in seen)
         of_program, started = Units(view, facts, (program,), generated).all()
         known = {id(u): _same(u, units) for u in of_program}
@@ -40,20 +42,35 @@ def all_units(
     return _renamed(units, [*starts, *(s for s in more if s.unit in units)])
 
 
-def _seen_by(code: Code, program: Program) -> set[str]:
-    """The paths of a program's sources, and of the headers that they include, however deep."""
-    headers: dict[bytes, list[Cpp]] = {}
-    for cpp in filter(is_header, code.files):
-        name = cpp.source.path.rpartition("/")[2].encode()
-        headers.setdefault(name, []).append(cpp)
-    waiting = [cpp for cpp in code.files if program.has(cpp)]
-    found = {cpp.source.path for cpp in waiting}
-    while waiting:
-        for name in _INCLUDE.findall(waiting.pop().data):
-            fresh = [h for h in headers.get(name, ()) if h.source.path not in found]
-            found |= {h.source.path for h in fresh}
-            waiting += fresh
-    return found
+@dataclass(slots=True)
+class _Included:
+    """Follows what files include to the headers of some code."""
+
+    code: Code
+    headers: dict[bytes, list[Cpp]] = field(default_factory=dict)
+    _included: dict[int, list[bytes]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for cpp in filter(is_header, self.code.files):
+            name = cpp.source.path.rpartition("/")[2].encode()
+            self.headers.setdefault(name, []).append(cpp)
+
+    def seen_by(self, program: Program) -> set[str]:
+        """The paths of a program's sources, and of the headers that they include, however deep."""
+        waiting = [cpp for cpp in self.code.files if program.has(cpp)]
+        found = {cpp.source.path for cpp in waiting}
+        while waiting:
+            for name in self._names(waiting.pop()):
+                fresh = [h for h in self.headers.get(name, ()) if h.source.path not in found]
+                found |= {h.source.path for h in fresh}
+                waiting += fresh
+        return found
+
+    def _names(self, cpp: Cpp) -> list[bytes]:
+        """The names of the files that a file includes."""
+        if id(cpp) not in self._included:
+            self._included[id(cpp)] = _INCLUDE.findall(cpp.data)
+        return self._included[id(cpp)]
 
 
 def is_header(cpp: Cpp) -> bool:

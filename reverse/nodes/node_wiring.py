@@ -132,6 +132,7 @@ class Wiring:
 
     instances: tuple[Instance, ...]
     servers: Mapping[str, tuple[Server, ...]]
+    apart: Mapping[str, object] = field(default_factory=dict)
     edges: dict[str, tuple[Edge, ...]] = field(default_factory=dict)
     kinds: dict[str, int] = field(default_factory=dict)
     _places: dict[str, int] = field(default_factory=dict)
@@ -168,9 +169,13 @@ class Wiring:
     def _sort(self) -> None:
         """Rebecs of a unit are of one kind if they send alike to rebecs of equal kinds.
 
-        Their timers have the same periods, and the same parameters are set.
+        Their timers have the same periods, the same parameters are set, and nothing else sets
+        them `apart`.
         """
-        apart = {i.name: (i.start.unit.name, *_settings(i)) for i in self.instances}
+        apart = {
+            i.name: (i.start.unit.name, self.apart.get(i.name), *_settings(i))
+            for i in self.instances
+        }
         first = {mark: n for n, mark in enumerate(dict.fromkeys(apart.values()))}
         self.kinds = {name: first[mark] for name, mark in apart.items()}
         while True:

@@ -64,9 +64,11 @@ class PyClass:
     constructor: tuple[m.Statement, ...] = ()
     served: list[Served] = with_default(default_factory=list)
     loops: list[Loop] = with_default(default_factory=list)
+    types: dict[str, m.Type] = with_default(default_factory=dict)
+    _proof: Proved | None = None
 
-    def read(self) -> Proved:
-        """All bodies; what following them shows."""
+    def read(self) -> None:
+        """All bodies."""
         reading = self.reading
         self.constructor = constructor(reading, self.loops)
         done: set[str] = set()
@@ -77,14 +79,21 @@ class PyClass:
         for loop in self.loops:
             self.served.append(self._loop(loop))
         self.constructor = (*declared(reading), *self.constructor)
-        return proved(self._bodies())
+        self.types = self._types()
+
+    @property
+    def proof(self) -> Proved:
+        """What following all bodies shows, once they are read."""
+        if self._proof is None:
+            self._proof = proved(self._bodies())
+        return self._proof
 
     def _within(self, name: str) -> str:
         return f"{self.reading.unit.name}.{name}"
 
     def _bodies(self) -> Bodies:
         reading = self.reading
-        types = {n: t for n, t in self._types().items() if n not in reading.wide}
+        types = {n: t for n, t in self.types.items() if n not in reading.wide}
         for served in self.served:
             types |= {c.name: c.type for c in served.parameters}
         return Bodies(
@@ -100,7 +109,7 @@ class PyClass:
         """The state variables with their types."""
         found = {}
         for name, key in self.reading.state.items():
-            kind = self.reading.learnt.kinds.get(key, "")
+            kind = self.reading.learnt.kind(key)
             if kind in TYPES:
                 found[name] = TYPES[kind]
         return found
@@ -137,10 +146,11 @@ class PyClass:
 
     def _carried(self, server: Server) -> Iterator[Carried]:
         """The fields that the body reads, in the order of the message."""
-        used = self.reading.learnt.used.get((self.reading.unit.name, server.name), set())
+        used = self.reading.learnt.used_of(self.reading.unit.name, server.name)
         for path, type_ in (self.reading.types.fields(server.type or "") or {}).items():
-            is_open = (self.reading.unit.name, server.name, path) in self.reading.learnt.open
-            if path in used and type_ is not None and not is_open:
+            if path not in used or type_ is None:
+                continue
+            if not self.reading.learnt.is_open(self.reading.unit.name, server.name, path):
                 yield Carried(path, self.reading.parameter(path), type_)
 
     def _ranges(self, server: Server, carried: Sequence[Carried]) -> Iterator[tuple[str, Interval]]:
@@ -168,7 +178,7 @@ class PyClass:
 
     def reactive(self, name: str, known: Sequence[tuple[str, str]]) -> m.ReactiveClass:
         """The class of the model, of known rebecs by their names and classes."""
-        variables = self._types()
+        variables = dict(self.types)
         names = Names(set(variables) | {s.name for s in self.served} | {n for n, _ in known})
         begun = m.Block(tidied(_shown(self.constructor), self.reading.made))
         body, late, more = started_late(tidy(begun, variables), (), names)

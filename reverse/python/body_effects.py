@@ -7,11 +7,12 @@ from collections.abc import Iterator
 
 from tree_sitter import Node
 
+from rebsync.reverse.graph import Unresolved
 from rebsync.reverse.python.body_reading import Reading, nonlocals
 from rebsync.reverse.python.body_scope import Frame, Message, Own, Var
 from rebsync.reverse.python.py_index import Scope, last_name
 from rebsync.reverse.python.py_tree import field, text_of
-from rebsync.reverse.python.py_worth import Class, Function, Value
+from rebsync.reverse.python.py_worth import Class, Function, Value, Ways
 
 # Calls that wait, end the node, or lead to its callbacks: by the last word of what is called.
 _ACTS = re.compile(
@@ -24,7 +25,7 @@ _PLAIN = frozenset(
     | {"range", "list", "tuple", "dict", "set", "sorted", "reversed", "zip", "map", "filter"}
     | {"enumerate", "any", "all", "isinstance", "type", "format", "pow", "chr", "ord", "hasattr"}
     | {"getattr", "append", "join", "strip", "split", "replace", "lower", "upper", "startswith"}
-    | {"endswith", "encode", "decode"}
+    | {"endswith", "encode", "decode", "deepcopy"}
 )
 LOG = re.compile(
     r"(rospy\.)?(log(debug|info|warn|err|fatal)(_once|_throttle|_throttle_identical)?)\Z"
@@ -63,7 +64,8 @@ def _is_one(reading: Reading, node: Node, frame: Frame) -> bool:
         from rebsync.reverse.python.body_methods import is_still
 
         return is_still(reading, own)
-    if not all(is_quiet(reading, w) for w in reading.values.ways(function, frame.scope)):
+    ways = reading.values.ways(function, frame.scope)
+    if not (all(is_quiet(reading, w) for w in ways) and _are_quiet(reading, name, function, ways)):
         return False
     return name in _PLAIN or (bool(name) and _ACTS.match(name) is None and _ends(name))
 
@@ -85,8 +87,31 @@ def is_quiet(reading: Reading, way: Value, depth: int = 0) -> bool:
             return True
 
 
+def _are_quiet(reading: Reading, name: str, called: Node, ways: Ways, depth: int = 0) -> bool:
+    """Whether all methods of a name are quiet, if that of an object is called that is not known."""
+    if called.type != "attribute" or any(not isinstance(w, Unresolved) for w in ways):
+        return True
+    others = (s for s in reading.code.methods.get(name, ()) if not _stands_in(called, s.node))
+    return all(is_quiet(reading, Function(scope), depth) for scope in others)
+
+
+def _stands_in(node: Node, outer: Node) -> bool:
+    at = node.parent
+    while at is not None and at != outer:
+        at = at.parent
+    return at is not None
+
+
 def is_quiet_body(reading: Reading, scope: Scope, depth: int) -> bool:
     """Whether the statements of a function are all so."""
+    key = scope.node.id, depth
+    found = reading.unit.quiet.get(key)
+    if found is None:
+        found = reading.unit.quiet[key] = _is_quiet(reading, scope, depth)
+    return found
+
+
+def _is_quiet(reading: Reading, scope: Scope, depth: int) -> bool:
     if depth > _DEEPEST or scope.outer or nonlocals(scope):
         return False
     return all(_is_quiet_node(reading, n, scope, depth) for n in _all(scope.node))
@@ -105,8 +130,11 @@ def _is_quiet_node(reading: Reading, node: Node, scope: Scope, depth: int) -> bo
     name = last_name(field(node, "function"))
     if not name or (_ACTS.match(name) is not None and name not in _PLAIN) or not _ends(name):
         return False
-    ways = reading.values.ways(field(node, "function"), scope)
-    return all(is_quiet(reading, w, depth + 1) for w in ways)
+    function = field(node, "function")
+    ways = reading.values.ways(function, scope)
+    return all(is_quiet(reading, w, depth + 1) for w in ways) and _are_quiet(
+        reading, name, function, ways, depth + 1
+    )
 
 
 def _may_divide_by_zero(reading: Reading, node: Node, frame: Frame) -> bool:
@@ -117,6 +145,8 @@ def _may_divide_by_zero(reading: Reading, node: Node, frame: Frame) -> bool:
         return False
     while right.type == "parenthesized_expression" and right.named_children:
         right = right.named_children[0]
+    if _is_never_zero(reading, right, frame):
+        return False
     if right.type == "attribute" and field(right, "object").type == "identifier":
         holder = field(right, "object")
         meaning = reading.name(text_of(holder), holder, frame)
@@ -126,6 +156,12 @@ def _may_divide_by_zero(reading: Reading, node: Node, frame: Frame) -> bool:
     if right.type == "identifier":
         return isinstance(reading.name(text_of(right), right, frame), Var)
     return False
+
+
+def _is_never_zero(reading: Reading, node: Node, frame: Frame) -> bool:
+    """Whether all that an expression may be worth are other numbers than 0."""
+    ways = reading.values.ways(node, frame.scope)
+    return bool(ways) and all(isinstance(w, int | float) and w for w in ways)
 
 
 def _is_parameter(name: str) -> bool:
@@ -143,11 +179,7 @@ def _is_safe_name(reading: Reading, node: Node, frame: Frame) -> bool:
     above = node.parent
     if node.type not in ("identifier", "attribute") or above is None:
         return True
-    if above.type in ("attribute", "call") and node in (
-        above.child_by_field_name("object"),
-        above.child_by_field_name("function"),
-        above.child_by_field_name("attribute"),
-    ):
+    if above.type in ("attribute", "call"):  # what it is of, its own name, or what is called
         return True
     if above.type == "keyword_argument" and above.child_by_field_name("name") == node:
         return True

@@ -142,13 +142,13 @@ class PyExpressions:
                 raise unknown(self.frame, node, f'"{short(node)}"')
 
     def _variable(self, variable: Var, node: Node) -> Value:
-        kind = self.reading.learnt.kinds.get(variable.key)
+        kind = self.reading.learnt.kind(variable.key)
         if kind is None:
             self.reading.learnt.pending.add(variable.key)
             raise Pending(self._span(node), f'nothing that is read gives "{short(node)}" a value')
         if not variable.is_state and text_of(node) not in self.frame.assigned:
             raise Unread(self._span(node), f'"{short(node)}" may have no value yet')
-        mixed = variable.key in self.reading.learnt.mixed
+        mixed = self.reading.learnt.is_mixed(variable.key)
         return Value(m.Name(variable.name, self._span(node)), kind, mixed=mixed)
 
     # --- operators ------------------------------------------------------------------------------
@@ -346,7 +346,7 @@ class PyExpressions:
 
     def _is_refused(self, node: Node, what: str) -> bool:
         mark = (self.frame.py.source.path, node.start_byte, node.end_byte, what)
-        return mark in self.reading.learnt.refused
+        return self.reading.learnt.is_refused(mark)
 
     def _span(self, node: Node) -> Span:
         return self.frame.span(node)

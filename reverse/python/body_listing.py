@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
+from tree_sitter import Node
+
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import (
     ClientFact,
@@ -20,7 +22,7 @@ from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import Key, PyUnit
 from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_index import Scope
-from rebsync.reverse.python.py_tree import field
+from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import Instance as Object
 from rebsync.reverse.python.py_worth import Value
 from rebsync.reverse.unknowns import Open
@@ -105,8 +107,22 @@ def _set_elsewhere(unit: PyUnit, reading: Reading) -> Iterator[tuple[Scope, Bind
                 target = field(binding.node, "left")
                 holder = target.child_by_field_name("object")
                 ways = reading.values.ways(holder, scope) if holder is not None else ()
-                if any(_is_object(w, unit) for w in ways):
+                if any(_is_object(w, unit) for w in ways) and not _is_field(reading, holder):
                     yield scope, binding
+
+
+def _is_field(reading: Reading, holder: Node | None) -> bool:
+    """Whether what an expression names is a field of a message: no class of the files has it."""
+    if holder is None or holder.type != "attribute":
+        return False
+    name = text_of(field(holder, "attribute"))
+    code = reading.code
+    for scope in (*code.scopes.values(), *code.modules.values()):
+        if name in scope.names or name in scope.attributes:
+            return False
+        if any(name == stored for _, stored in scope.stores):
+            return False
+    return reading.types.has_field(name)
 
 
 def _is_object(way: Value, unit: PyUnit) -> bool:

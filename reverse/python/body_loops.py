@@ -12,14 +12,18 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import bare, binary
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.python.body_effects import is_log
+from rebsync.reverse.python.body_rounds import leaves_nothing
 from rebsync.reverse.python.body_scope import WHOLE, Frame, Key, Value
-from rebsync.reverse.python.py_index import arguments_of
-from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.reverse.python.py_index import arguments_of, last_name
+from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.static.types import INT
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.body_statements import PyStatements
 
+_RANGES = ("builtins.range", "builtins.xrange")
+_ONLY_AWAKE = re.compile(r"\(?(not(?=[(\w])\(?rospy\.is_shutdown\(\)\)?|rclpy\.ok\(\)|True|1)\)?")
 _AWAKE = re.compile(r"is_shutdown\(\)|\bok\(\)|^\(?(True|1)\)?$")
 
 
@@ -46,6 +50,9 @@ def while_(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
     span = reader.frame.span(node)
     if node.child_by_field_name("alternative") is not None:
         raise Unread(span, "a loop with an else branch is not read")
+    if reader.frame.is_start and _spins(reader, node):
+        reader.is_over = True
+        return
     if reader.frame.is_start and forever(node):
         if reader.frame.depth:
             raise Unread(span, "it depends on a condition whether this loop keeps the node running")
@@ -56,6 +63,21 @@ def while_(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
     body = reader.block(field(node, "body"))
     reader.frame.assigned = before
     yield m.While(condition, body, (), span)
+
+
+def _spins(reader: PyStatements, node: Node) -> bool:
+    """Whether a loop does nothing but to serve, as `spin` does: for as long as the node runs."""
+    if _ONLY_AWAKE.fullmatch("".join(text_of(field(node, "condition")).split())) is None:
+        return False
+    called = [c for s in named(field(node, "body")) for c in named(s)]
+    if not all(c.type == "call" for c in called):
+        return False
+    serving = [c for c in called if not is_log(c)]
+    names = [last_name(field(c, "function")) for c in serving]
+    known = [reader.reading.external(field(c, "function"), reader.frame) for c in serving]
+    return bool(names) and all(
+        n == "spin_once" and k in ("", "rclpy.spin_once") for n, k in zip(names, known, strict=True)
+    )
 
 
 def _started(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
@@ -77,7 +99,9 @@ def for_(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
     )
     if node.child_by_field_name("alternative") is not None:
         raise Unread(span, "a loop with an else branch is not read")
-    if name not in ("builtins.range", "builtins.xrange") or target.type != "identifier":
+    if name not in _RANGES and leaves_nothing(reader, node):
+        return
+    if name not in _RANGES or target.type != "identifier":
         raise Unread(span, "what this loop goes through is not in the model")
     variable = text_of(target)
     if not _only_here(reader, node, variable):

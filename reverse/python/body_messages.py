@@ -239,9 +239,9 @@ def made(reader: PyStatements, message: Message, node: Node | None) -> Iterator[
         if type_ is None or type_.dimensions:
             continue
         key, is_given = field_key(message, path), path.partition(".")[0] in given
-        if not is_given and key not in reader.reading.learnt.kinds:
+        if not is_given and reader.reading.learnt.kind(key) is None:
             continue
-        if is_given and reader.reading.learnt.kinds.get(key) != OTHER:
+        if is_given and reader.reading.learnt.kind(key) != OTHER:
             try:
                 value = field_of(reader.expressions, node, message.type, path)
                 as_field(reader.expressions, value, message.type, path, node or reader.root)
@@ -262,7 +262,7 @@ def set_field(
     assert type_ is not None
     kind = field_kind(type_)
     reader.reading.learnt.join(key, kind)
-    if reader.reading.learnt.kinds[key] == OTHER:
+    if reader.reading.learnt.kind(key) == OTHER:
         return
     name = reader.reading.field_name(message, path, reader.frame)
     stored = reader.expressions.real(value, node) if kind == REAL else value.expression

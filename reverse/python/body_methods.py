@@ -36,7 +36,7 @@ def inlined(reader: PyStatements, own: Scope, call: Node) -> Iterator[m.Statemen
     if not set(own.decorators) <= _KNOWN or text_of(own.node).startswith("async"):
         raise Unread(span, "what decorates this function is not known")
     frame = Frame(own, is_start=reader.frame.is_start, server=reader.frame.server)
-    frame.kept = kept_names(own) if frame.is_start else frozenset()
+    frame.kept = kept_names(reader.reading, own) if frame.is_start else frozenset()
     inner = type(reader)(
         reader.reading, frame, reader.within, own.node, (*reader.running, own.node.id), reader.loops
     )
@@ -52,9 +52,16 @@ def inlined(reader: PyStatements, own: Scope, call: Node) -> Iterator[m.Statemen
     yield from plain
 
 
-def kept_names(own: Scope) -> frozenset[str]:
+def kept_names(reading: Reading, own: Scope) -> frozenset[str]:
     """The names that are used both in a loop that keeps the node running, or a function inside, and
     outside of it."""
+    kept = reading.unit.kept
+    if own.node.id not in kept:
+        kept[own.node.id] = _kept_names(own)
+    return kept[own.node.id]
+
+
+def _kept_names(own: Scope) -> frozenset[str]:
     from rebsync.reverse.python.body_loops import forever
 
     inside: set[str] = set()

@@ -16,6 +16,7 @@ from rebsync.reverse.graph import Fact
 from rebsync.reverse.nodes.node_names import model_word
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_values import Instance
+from rebsync.reverse.python.body_learnt import Learnt
 from rebsync.reverse.python.body_scope import (
     OTHER,
     REAL,
@@ -23,7 +24,6 @@ from rebsync.reverse.python.body_scope import (
     WHOLE,
     Frame,
     Key,
-    Learnt,
     Meaning,
     Message,
     Need,
@@ -81,6 +81,12 @@ class Reading:
     @property
     def code(self) -> PyCode:
         return self.values.code
+
+    @property
+    def extent(self) -> tuple[int, ...]:
+        """How much reading has left so far of what the model or the report shows."""
+        left = self.findings.all, self.learnt.pending, self.state, self.used_names
+        return tuple(map(len, left))
 
     # --- names ----------------------------------------------------------------------------------
 
@@ -150,12 +156,10 @@ class Reading:
         return found
 
     def _typed(self, key: Key, name: str, is_state: bool) -> Meaning:
-        kind = self.learnt.kinds.get(key)
-        if kind == OTHER:
+        shape = self.learnt.shape(key)
+        if shape == OTHER:
             return Nobody()
-        if kind is not None and "/" in kind:
-            return Message(key, name, kind, is_state)
-        return Var(key, name, is_state)
+        return Message(key, name, shape, is_state) if shape else Var(key, name, is_state)
 
     def constant(self, ways: Ways) -> Value | None:
         """The value of what is always the same number."""
@@ -180,9 +184,8 @@ class Reading:
         """A name for a local that nothing else in the class has."""
         plain = model_word(wish.lstrip("_") or wish)
         found, number = plain, 2
-        others = self.used_names | set(self.state) | (self.taken if key is None else set())
-        others |= {self.parameter(p) for used in self.learnt.used.values() for p in used}
-        while found in others:
+        others = (self.used_names, self.state, self.taken if key is None else ())
+        while any(found in of for of in others) or self.learnt.is_carried(found, self.parameter):
             found, number = f"{plain}_{number}", number + 1
         self.used_names.add(found)
         if key is not None:
@@ -266,12 +269,12 @@ class Reading:
             raise unknown(frame, node, f'"{text_of(node)}"')
         if message.server:
             self.learnt.use(self.unit.name, message.server, path)
-            if (self.unit.name, message.server, path) in self.learnt.open:
+            if self.learnt.is_open(self.unit.name, message.server, path):
                 raise unknown(frame, node, f'"{text_of(node)}"')
             name = m.Name(self.parameter(path), frame.span(node))
             return Value(name, field_kind(type_), type_.name == "float")
         key = field_key(message, path)
-        match self.learnt.kinds.get(key):
+        match self.learnt.kind(key):
             case None:
                 return zero(field_kind(type_))
             case "other":

@@ -1,4 +1,4 @@
-"""What reading the bodies of a package's Python learns, and what names in them stand for."""
+"""What names in the bodies of a package's Python stand for."""
 
 from __future__ import annotations
 
@@ -58,60 +58,6 @@ class Need:
     mark: Mark
 
 
-@dataclass(slots=True)
-class Learnt:
-    """What is known of all bodies of a package so far: each round of reading adds to it.
-
-    `kinds` are those of variables; `mixed` those of floats that also get whole numbers; `used` are
-    the fields that servers read, `open` those whose values nobody knows; `refused` are expressions
-    that may leave the model's `int`; on `pending` variables something stood in the last round.
-    """
-
-    kinds: dict[Key, Kind] = with_default(default_factory=dict)
-    mixed: set[Key] = with_default(default_factory=set)
-    used: dict[tuple[str, str], set[str]] = with_default(default_factory=dict)
-    open: set[tuple[str, str, str]] = with_default(default_factory=set)
-    refused: set[Mark] = with_default(default_factory=set)
-    pending: set[Key] = with_default(default_factory=set)
-    changes: int = 0
-
-    def join(self, key: Key, kind: Kind) -> None:
-        """A variable gets a value of a kind."""
-        known = self.kinds.get(key)
-        both = {known, kind}
-        if known is None or known == kind:
-            found = kind
-        elif both == {WHOLE, REAL}:
-            found = REAL
-            if key not in self.mixed:
-                self.mixed.add(key)
-                self.changes += 1
-        else:
-            found = OTHER
-        if found != known:
-            self.kinds[key] = found
-            self.changes += 1
-
-    def use(self, unit: str, server: str, path: str) -> None:
-        """A server reads a field of its message."""
-        fields = self.used.setdefault((unit, server), set())
-        if path not in fields:
-            fields.add(path)
-            self.changes += 1
-
-    def leave_open(self, unit: str, server: str, path: str) -> None:
-        """A server gets a field of which nobody knows the value."""
-        if (unit, server, path) not in self.open:
-            self.open.add((unit, server, path))
-            self.changes += 1
-
-    def refuse(self, mark: Mark) -> None:
-        """An expression may leave the numbers of the model."""
-        if mark not in self.refused:
-            self.refused.add(mark)
-            self.changes += 1
-
-
 # --- meanings -----------------------------------------------------------------------------------
 
 
@@ -162,7 +108,8 @@ class PyUnit:
     """What of Python becomes a reactive class: a class with those above it, or a module.
 
     `lineage` is empty for a module; `calls` are the numbers of its facts by the ids of their calls.
-    `version` is that of the language, 0 where it may be 2 or 3.
+    `version` is that of the language, 0 where it may be 2 or 3. What was found of functions, by the
+    ids of their nodes: whether they are `quiet`, also from how deep, and names to be `kept`.
     """
 
     unit: Unit
@@ -172,6 +119,8 @@ class PyUnit:
     calls: Mapping[tuple[str, int], int]
     version: int
     is_rclpy: bool
+    quiet: dict[tuple[int, int], bool] = with_default(default_factory=dict)
+    kept: dict[int, frozenset[str]] = with_default(default_factory=dict)
 
     @property
     def name(self) -> str:

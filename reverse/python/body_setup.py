@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 _SLEEPS = frozenset({"rospy.sleep", "time.sleep", "rospy.rostime.sleep"})
 _SPINS = frozenset({"rospy.spin", "rclpy.spin", "rclpy.spin_until_future_complete"})
 _STARTS = frozenset({"rclpy.init", "rclpy.shutdown", "rospy.on_shutdown", "rospy.signal_shutdown"})
+_EXITS = frozenset({"sys.exit", "builtins.exit", "builtins.quit"})
 _ENDS = frozenset({"destroy_node", "spin", "add_node", "shutdown"})
 
 
@@ -86,6 +87,8 @@ def _started(reader: PyStatements, call: Node, name: str) -> Iterator[m.Statemen
         plain, _ = arguments_of(call)
         made = [a for a in plain if a.type == "call"]
         return asked(reader, made[0]) if made else iter(())
+    if name in _EXITS and len(plain := arguments_of(call)[0]) <= 1 and not reader.frame.depth:
+        return _exit(reader, plain)
     if name in _STARTS or (last in _ENDS and not name):
         return iter(())
     lineage = reader.reading.unit.lineage
@@ -101,6 +104,13 @@ def _started(reader: PyStatements, call: Node, name: str) -> Iterator[m.Statemen
     if any(isinstance(w, Class) and w.scope.kind == CLASS for w in ways):
         return iter(())
     return None
+
+
+def _exit(reader: PyStatements, given: list[Node]) -> Iterator[m.Statement]:
+    """`sys.exit(main())`: what it is given runs, and nothing after it."""
+    for node in given:
+        yield from reader.expression(node)
+    reader.is_over = True
 
 
 def _bind_object(reader: PyStatements, call: Node) -> None:

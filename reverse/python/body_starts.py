@@ -51,7 +51,7 @@ def _read(
     loops: list[Loop],
     only: tuple[str, ...] = (),
 ) -> tuple[m.Statement, ...]:
-    kept = kept_names(scope) if scope.kind != MODULE else frozenset()
+    kept = kept_names(reading, scope) if scope.kind != MODULE else frozenset()
     frame = Frame(scope, is_start=True, kept=kept)
     for number, parameter in enumerate(scope.parameters if scope.kind != MODULE else ()):
         if number or scope.self_name is None:
@@ -101,8 +101,8 @@ def declared(reading: Reading) -> Iterator[m.Statement]:
         value = reading.constant(reading.values.ways(binding.value, scope))
         kind = value.kind if value is not None and len(bindings) == 1 else OTHER
         reading.learnt.join(reading.state[name], kind)
-        found = reading.learnt.kinds[reading.state[name]]
-        if value is None or found not in TYPES:
+        found = reading.learnt.kind(reading.state[name])
+        if value is None or found is None or found not in TYPES:
             continue
         if found == WHOLE:
             reading.wide.add(name)

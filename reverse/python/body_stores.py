@@ -57,25 +57,37 @@ def _assigned(reader: PyStatements, target: Node, value: Node, node: Node) -> It
     if target.type not in ("identifier", "attribute"):
         outside(reader, value, node)
         return
+    learnt = reader.reading.learnt
+    since = len(learnt.answers)
     meaning, path = reader.expressions.meaning(target)
     type_ = reader.reading.message_type(value, reader.frame)
     match meaning:
         case Var(key) | Message(key, _, _, _, "") if not path and type_ is not None:
-            reader.reading.learnt.join(key, type_)
+            learnt.join(key, type_)
+            learnt.settle(key, since)
+            meaning, _ = reader.expressions.meaning(target)
             reader.frame.assigned.add(text_of(target))
             if isinstance(meaning, Message):
                 yield from body_messages.made(reader, meaning, value)
         case Var():
-            yield from _variable(reader, meaning, target, value, node)
+            yield from _variable(reader, meaning, target, value, node, since)
         case Message(server="") if path:
             yield from _field(reader, meaning, path, value, node)
+        case Message() if path:
+            outside(reader, value, node)
+            _change(reader, meaning, path)
         case Message(key):
-            if path:
-                raise Unread(reader.frame.span(node), "a message that came in is changed")
-            reader.reading.learnt.join(key, OTHER)
+            learnt.join(key, OTHER)
             outside(reader, value, node)
         case _:
             outside(reader, value, node)
+
+
+def _change(reader: PyStatements, message: Message, path: str) -> None:
+    """A field of a message that came in is set: from its start nobody knows what it holds."""
+    for each in reader.reading.types.fields(message.type) or {}:
+        if each == path or each.startswith(f"{path}."):
+            reader.reading.learnt.leave_open(reader.reading.unit.name, message.server, each)
 
 
 def outside(reader: PyStatements, value: Node, node: Node) -> None:
@@ -86,12 +98,15 @@ def outside(reader: PyStatements, value: Node, node: Node) -> None:
 
 
 def _variable(
-    reader: PyStatements, variable: Var, target: Node, value: Node, node: Node
+    reader: PyStatements, variable: Var, target: Node, value: Node, node: Node, since: int
 ) -> Iterator[m.Statement]:
+    before = reader.reading.extent
     try:
         read = reader.expressions.read(value)
     except Unknown:
         reader.reading.learnt.join(variable.key, OTHER)
+        if reader.reading.extent == before:  # else trying to read the value has left something
+            reader.reading.learnt.settle(variable.key, since)
         outside(reader, value, node)
         return
     yield from give(reader, variable, text_of(target), read, node)
@@ -102,11 +117,10 @@ def give(
 ) -> Iterator[m.Statement]:
     """A variable gets a value."""
     reader.reading.learnt.join(variable.key, read.kind)
-    if read.mixed and variable.key not in reader.reading.learnt.mixed:
-        reader.reading.learnt.mixed.add(variable.key)
-        reader.reading.learnt.changes += 1
-    kind = reader.reading.learnt.kinds[variable.key]
-    if kind == OTHER:
+    if read.mixed:
+        reader.reading.learnt.mix(variable.key)
+    kind = reader.reading.learnt.kind(variable.key)
+    if kind is None or kind == OTHER:
         if not is_calm(read.expression):
             raise Unread(reader.frame.span(node), "its value has effects, and it is of no type")
         return
@@ -191,7 +205,8 @@ def augmented(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
     if isinstance(meaning, Var):
         yield from give(reader, meaning, text_of(target), read, node)
     elif meaning.server:
-        raise Unread(reader.frame.span(node), "a message that came in is changed")
+        outside(reader, value, node)
+        _change(reader, meaning, path)
     else:
         body_messages.as_field(reader.expressions, read, meaning.type, path, node)
         yield from body_messages.set_field(reader, meaning, path, read, node)
@@ -203,14 +218,18 @@ def forget(reader: PyStatements, target: Node) -> None:
         for inner in named(target) if target.type.endswith(("list", "tuple", "pattern")) else []:
             forget(reader, inner)
         return
+    since = len(reader.reading.learnt.answers)
     meaning, path = reader.expressions.meaning(target)
     match meaning:
         case Var(key):
             reader.reading.learnt.join(key, OTHER)
+            reader.reading.learnt.settle(key, since)
         case Message(key, _, type_, _, "") if path:
             for each in reader.reading.types.fields(type_) or {}:
                 if each == path or each.startswith(f"{path}."):
                     reader.reading.learnt.join(field_key(meaning, each), OTHER)
+        case Message() if path:
+            _change(reader, meaning, path)
         case Message(key):
             reader.reading.learnt.join(key, OTHER)
         case _:

@@ -8,180 +8,209 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field as with_default
+from dataclasses import replace
 from fractions import Fraction
+from typing import TypeAlias
 
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.scope import Target
 from rebsync.reverse.build.message_types import MessageTypes
-from rebsync.reverse.findings import Findings, Unread
-from rebsync.reverse.graph import Fact, Graph, RateFact, TimerFact
-from rebsync.reverse.launch.launched import Launch
+from rebsync.reverse.findings import Findings
+from rebsync.reverse.graph import Fact, Graph, ParameterFact, RateFact, TimerFact
+from rebsync.reverse.nodes.node_joined import Joined, Part
 from rebsync.reverse.nodes.node_names import Names, class_word
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_times import Times
-from rebsync.reverse.nodes.node_units import Start
 from rebsync.reverse.nodes.node_values import Instance
-from rebsync.reverse.nodes.node_wiring import Wiring
 from rebsync.reverse.python.body_classes import PyClass
+from rebsync.reverse.python.body_learnt import Asked, Learnt
 from rebsync.reverse.python.body_listing import list_shared, list_unit, list_wiring
-from rebsync.reverse.python.body_proof import Proved
 from rebsync.reverse.python.body_reading import Reading
-from rebsync.reverse.python.body_scope import OTHER, Learnt, PyTarget, PyUnit
-from rebsync.reverse.python.body_units import names_of, servers_of, units_of, words_of
-from rebsync.reverse.python.py_index import PyCode
+from rebsync.reverse.python.body_scope import OTHER, Key, PyTarget, PyUnit
+from rebsync.reverse.python.body_started import NOTHING, Started, settings
+from rebsync.reverse.python.body_units import has_word, names_of, servers_of, units_of
 from rebsync.reverse.python.py_values import Values
 
 _MOST_ROUNDS = 60
+# Rebecs of a unit that are read alike, by their number.
+_Kind: TypeAlias = tuple[PyUnit, int]
 
 
 @dataclass(frozen=True, slots=True)
 class PyNodes:
-    """The reactive classes of hand-written Python, and their rebecs."""
+    """The reactive classes of hand-written Python, and their rebecs.
+
+    `joined` is how these and the nodes `beside` them are wired.
+    """
 
     classes: tuple[m.ReactiveClass, ...] = ()
     rebecs: tuple[m.Rebec, ...] = ()
     units: tuple[PyUnit, ...] = ()
     servers: Mapping[str, Mapping[int, Server]] = with_default(default_factory=dict)
+    joined: Joined | None = None
 
 
 @dataclass(eq=False, slots=True)
 class PySystem:
     """Reads the nodes of a package; `second` are the model's units of time in one second."""
 
-    code: PyCode
+    values: Values
     graph: Graph
     types: MessageTypes
     unit_of_time: Fraction
     findings: Findings
     is_people: Callable[[Fact], bool]
     only: str | None = None
-    launch: Launch | None = None
+    started: Started = NOTHING
+    beside: Part = with_default(default_factory=Part.empty)
 
     def read(self) -> PyNodes:
         """All of them; what has no place in the model is listed."""
-        values = Values(self.code)
-        units = units_of(values, self.graph, self.is_people)
+        values = self.values
+        units = units_of(values, self.graph, self.is_people, self.beside.classes)
         if not units:
-            return PyNodes()
-        names = Names.beside(())
+            return PyNodes(joined=Joined.of([self.beside]))
+        names = self.beside.names
         classes = {u.name: names.give(u.name if u.lineage else class_word(u.name)) for u in units}
-        instances = [self._instance(u, units, names) for u in units]
-        servers = {u.name: servers_of(self.code, u, Names.beside(())) for u in units}
-        wiring = Wiring(
-            tuple(instances),
-            {n: tuple({s.name: s for s in of.values()}.values()) for n, of in servers.items()},
-        )
-        times = Times.of(self.unit_of_time, instances)
-        round_ = _Round(self, values, units, wiring, servers, classes, times)
+        asked = [f for f in self.graph.facts if isinstance(f, ParameterFact)]
+        instances = tuple(i for u in units for i in self.started.instances(u, units, names))
+        served = {u.name: servers_of(values.code, u, Names.beside(())) for u in units}
+        servers = {n: tuple({s.name: s for s in of.values()}.values()) for n, of in served.items()}
+        apart = {i.name: settings(i, asked) for i in instances}
+        joined = Joined.of([self.beside, Part(names, classes, instances, servers, apart)])
+        times = Times.of(self.unit_of_time, joined.wiring.instances)
+        round_ = _Round(self, values, units, joined, served, times)
         read = round_.settled()
         wanted = [u for u in units if self._is_wanted(u)]
-        found = []
+        found: list[m.ReactiveClass] = []
         for unit in wanted:
-            read[unit.name].note()
-            found.append(read[unit.name].reactive(classes[unit.name], round_.known(unit)))
-            self.findings.take(read[unit.name].reading.findings)
-            list_unit(unit, servers[unit.name], len(read[unit.name].loops), self.findings)
-        readings = {u.name: read[u.name].reading for u in wanted}
+            found += self._classes(unit, round_, read)
+            loops = max(len(each.loops) for each in _of(unit, read))
+            list_unit(unit, served[unit.name], loops, self.findings)
+        readings = {u.name: _of(u, read)[0].reading for u in wanted}
         list_shared(wanted, readings, self.findings)
-        list_wiring(wiring, {u.name for u in wanted}, self.findings)
-        rebecs = tuple(round_.rebec(u) for u in units)
-        return PyNodes(tuple(found), rebecs, tuple(units), servers)
+        list_wiring(joined.wiring, {u.name for u in wanted}, self.findings)
+        rebecs = tuple(round_.rebec(i) for i in instances)
+        return PyNodes(tuple(found), rebecs, tuple(units), served, round_.said())
 
-    def _instance(self, unit: PyUnit, units: Sequence[PyUnit], names: Names) -> Instance:
-        """The rebec of a unit, as a launch file starts it or by itself."""
-        path = unit.module.py.source.path.rpartition("/")[2]
-        launched = self.launch.nodes if self.launch is not None else ()
-        nodes = [n for n in launched if n.type in (path, path.removesuffix(".py"))]
-        for other in nodes[1:]:
-            why = "the same program is started again: the model has one of its rebecs"
-            self.findings.unreadable(other.source, Unread(other.span, why), unit.name)
-        node = next((n.name for n in nodes[:1] if isinstance(n.name, str)), unit.node)
-        alone = sum(u.module is unit.module for u in units) == 1 or not unit.lineage
-        wish = node if alone else unit.lineage[0].name
-        name = names.give(wish[:1].lower() + wish[1:])
-        start = Start(unit.unit, None, None)
-        return Instance(start, name, node, nodes[0] if nodes else None, self.launch)
+    def _classes(
+        self, unit: PyUnit, round_: _Round, read: Mapping[_Kind, PyClass]
+    ) -> Iterator[m.ReactiveClass]:
+        """The classes of a unit: several have what is listed once."""
+        for number, (kind, class_) in enumerate((k, c) for k, c in read.items() if k[0] is unit):
+            class_.note()
+            alike = round_.alike[kind]
+            yield class_.reactive(round_.joined.class_of(alike[0]), round_.known(kind))
+            new = class_.reading.findings
+            if number:
+                known = {(id(f.source), f.span, f.why) for f in self.findings.all}
+                new.all = [f for f in new.all if (id(f.source), f.span, f.why) not in known]
+                new.statements.clear()
+            self.findings.take(new)
 
     def _is_wanted(self, unit: PyUnit) -> bool:
         return self.only in (None, unit.module.py.source.path)
 
 
+def _of(unit: PyUnit, read: Mapping[_Kind, PyClass]) -> list[PyClass]:
+    return [class_ for (of, _), class_ in read.items() if of is unit]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Read:
+    """A unit as it was read last: what it asked for, and on which variables it waits."""
+
+    class_: PyClass
+    answers: dict[Asked, object]
+    pending: set[Key]
+
+
 @dataclass(eq=False, slots=True)
 class _Round:
-    """Reads all units over and over."""
+    """Reads units, each once for every kind of its rebecs, until nothing is learnt any more."""
 
     system: PySystem
     values: Values
     units: Sequence[PyUnit]
-    wiring: Wiring
+    joined: Joined
     servers: Mapping[str, dict[int, Server]]
-    classes: Mapping[str, str]
     times: Times
+    alike: dict[_Kind, list[Instance]] = with_default(default_factory=dict)
     learnt: Learnt = with_default(default_factory=Learnt)
     before: int = 0
-    # By unit, as no round changes them: the names of variables, and all known rebecs.
+    _read: dict[_Kind, _Read] = with_default(default_factory=dict)
+    # As no round changes them: by unit the names of variables, by kind all known rebecs.
     _names: dict[str, set[str]] = with_default(default_factory=dict)
-    _known: dict[str, list[tuple[str, str]]] = with_default(default_factory=dict)
+    _known: dict[_Kind, list[tuple[str, str]]] = with_default(default_factory=dict)
 
-    def settled(self) -> dict[str, PyClass]:
+    def __post_init__(self) -> None:
+        for unit in self.units:
+            for number, alike in enumerate(self.joined.wiring.alike(unit.unit)):
+                self.alike[unit, number] = alike
+
+    def settled(self) -> dict[_Kind, PyClass]:
         """The units as they are read when nothing changes any more."""
         for _ in range(_MOST_ROUNDS):
-            read = self._all()
+            self._all()
             if self.learnt.changes != self.before:
                 continue
-            waiting = {k for k in self.learnt.pending if k not in self.learnt.kinds}
+            pending = {k for read in self._read.values() for k in read.pending}
+            waiting = {k for k in pending if k not in self.learnt.kinds}
             for key in waiting:
                 self.learnt.join(key, OTHER)
-            if not waiting and not proved_otherwise(self.learnt, read.values()):
+            classes = [read.class_ for read in self._read.values()]
+            if not waiting and not proved_otherwise(self.learnt, classes):
                 break
         else:
-            read = self._all()
-        for class_, proof in read.values():
-            self._note_counted(class_, proof)
-        return {name: class_ for name, (class_, _) in read.items()}
+            self._all()
+        for read in self._read.values():
+            self._note_counted(read.class_)
+        return {kind: read.class_ for kind, read in self._read.items()}
 
-    def _all(self) -> dict[str, tuple[PyClass, Proved]]:
+    def _all(self) -> None:
+        """Reads the units of which something is known now that they asked for."""
         self.before = self.learnt.changes
-        self.learnt.pending.clear()
-        return {u.name: self._read(u, Findings()) for u in self.units}
+        for kind in self.alike:
+            read = self._read.get(kind)
+            if read is None or not self.learnt.is_same(read.answers):
+                self.learnt.start()
+                class_ = PyClass(self._reading(kind, Findings()))
+                class_.read()
+                learnt = self.learnt
+                self._read[kind] = _Read(class_, learnt.answers, learnt.pending)
 
-    def _read(self, unit: PyUnit, findings: Findings) -> tuple[PyClass, Proved]:
-        reading = self._reading(unit, findings)
-        class_ = PyClass(reading)
-        return class_, class_.read()
-
-    def _reading(self, unit: PyUnit, findings: Findings) -> Reading:
-        known = self.known(unit)
+    def _reading(self, kind: _Kind, findings: Findings) -> Reading:
+        unit, alike = kind[0], self.alike[kind]
+        known = self.known(kind)
         own = self.servers[unit.name]
         if unit.name not in self._names:
             self._names[unit.name] = names_of(self.values.code, unit)
-        instance = self._instance(unit)
         return Reading(
             unit,
             self.values,
             self.learnt,
             self.system.types,
-            instance,
+            alike[0],
             own,
-            self._targets(unit, instance, known),
+            self._targets(alike[0], known),
             findings,
             self._names[unit.name],
-            dict(self._periods(unit, instance, findings)),
+            dict(self._periods(unit, alike, findings)),
             self.system.unit_of_time,
             frozenset(s for u in self.units for s in u.lineage),
             used_names={n for n, _ in known} | {s.name for s in own.values()},
         )
 
     def _periods(
-        self, unit: PyUnit, instance: Instance, findings: Findings
+        self, unit: PyUnit, alike: Sequence[Instance], findings: Findings
     ) -> Iterator[tuple[int, int | None]]:
         for number, fact in enumerate(unit.unit.facts):
             if isinstance(fact, TimerFact | RateFact):
-                yield number, self.times.units(fact, [instance], findings, unit.name)
+                yield number, self.times.units(fact, alike, findings, unit.name)
 
-    def _note_counted(self, class_: PyClass, proof: Proved) -> None:
-        for name in sorted(proof.counted):
+    def _note_counted(self, class_: PyClass) -> None:
+        for name in sorted(class_.proof.counted):
             if name in class_.reading.places:
                 source, span = class_.reading.places[name]
                 why = f'"{name}" counts on without end; the model\'s int ends at 2147483647'
@@ -191,62 +220,70 @@ class _Round:
 
     # --- wiring ---------------------------------------------------------------------------------
 
-    def _instance(self, unit: PyUnit) -> Instance:
-        return next(i for i in self.wiring.instances if i.start.unit is unit.unit)
-
-    def known(self, unit: PyUnit) -> list[tuple[str, str]]:
+    def known(self, kind: _Kind) -> list[tuple[str, str]]:
         """Names and classes of the rebecs that a class sends to."""
-        if unit.name not in self._known:
-            self._known[unit.name] = self._rebecs_of(unit)
-        return self._known[unit.name]
-
-    def _rebecs_of(self, unit: PyUnit) -> list[tuple[str, str]]:
-        taken = words_of(unit) | {s.name for s in self.servers[unit.name].values()}
-        names = Names.beside(())
-        found = []
-        for place in self.wiring.known(self._instance(unit)):
-            to = self.wiring.instances[place]
-            wish = to.name if to.name not in taken else f"{to.name}_rebec"
-            found.append((names.give(wish), self.classes[to.start.unit.name]))
-        return found
+        if kind not in self._known:
+            unit = kind[0]
+            servers = {s.name for s in self.servers[unit.name].values()}
+            found = self.joined.known(
+                self.alike[kind],
+                lambda word: word in servers or has_word(unit, word),
+                Names.beside(()),
+            )
+            self._known[kind] = [(name, class_) for name, class_, _ in found]
+        return self._known[kind]
 
     def _targets(
-        self, unit: PyUnit, instance: Instance, known: Sequence[tuple[str, str]]
+        self, instance: Instance, known: Sequence[tuple[str, str]]
     ) -> dict[int, tuple[PyTarget, ...]]:
-        own = self.wiring.place(instance)
-        slots = self.wiring.known(instance)
+        wiring = self.joined.wiring
+        own = wiring.place(instance)
+        slots = wiring.known(instance)
         found: dict[int, list[PyTarget]] = {}
-        for number, to, name in self.wiring.edges[instance.name]:
-            other = self.wiring.instances[to].start.unit.name
-            server = next(s for s in self.servers[other].values() if s.name == name)
-            types = self.system.types.fields(server.type or "") or {}
-            used = self.learnt.used.get((other, name), set())
-            paths = tuple(
-                p
-                for p, t in types.items()
-                if p in used and t is not None and (other, name, p) not in self.learnt.open
-            )
+        for number, to, name in wiring.edges[instance.name]:
+            other = wiring.instances[to].start.unit.name
+            server = next(s for s in wiring.servers[other] if s.name == name)
             receiver = None if to == own else known[slots.index(to)][0]
-            target = Target(receiver, name, paths)
+            target = Target(receiver, name, self._fields(other, server))
             found.setdefault(number, []).append(PyTarget(other, target, {}))
         return {n: tuple(t) for n, t in found.items()}
 
-    def rebec(self, unit: PyUnit) -> m.Rebec:
-        """The rebec of a unit."""
-        instance = self._instance(unit)
-        bindings = [m.Name(self.wiring.instances[n].name) for n in self.wiring.known(instance)]
-        return m.Rebec(m.Type(self.classes[unit.name]), instance.name, tuple(bindings), ())
+    def _fields(self, unit: str, server: Server) -> tuple[str, ...]:
+        """The fields that a server gets, as far as the bodies say so by now."""
+        if unit not in self.servers:
+            return server.fields
+        types = self.system.types.fields(server.type or "") or {}
+        used = self.learnt.used_of(unit, server.name)
+        return tuple(
+            p
+            for p, t in types.items()
+            if p in used and t is not None and not self.learnt.is_open(unit, server.name, p)
+        )
+
+    def said(self) -> Joined:
+        """The wiring with the fields that the bodies take."""
+        fields = {
+            (unit, server.name): self._fields(unit, server)
+            for unit, served in self.servers.items()
+            for server in served.values()
+        }
+        return replace(self.joined, fields=fields)
+
+    def rebec(self, instance: Instance) -> m.Rebec:
+        """The rebec of a node."""
+        wiring = self.joined.wiring
+        bindings = [m.Name(wiring.instances[n].name) for n in wiring.known(instance)]
+        return m.Rebec(m.Type(self.joined.class_of(instance)), instance.name, tuple(bindings), ())
 
 
-def proved_otherwise(learnt: Learnt, read: Iterable[tuple[PyClass, Proved]]) -> bool:
+def proved_otherwise(learnt: Learnt, classes: Iterable[PyClass]) -> bool:
     """Takes note of what may leave the model's `int`; whether there is anything new."""
     before = learnt.changes
-    for class_, proof in read:
-        for mark in proof.failed:
+    for class_ in classes:
+        for mark in class_.proof.failed:
             learnt.refuse(mark)
-        for name in proof.broken:
-            reading = class_.reading
-            key = reading.state.get(name) or reading.keys.get(name)
+        for name in class_.proof.broken:
+            key = class_.reading.state.get(name) or class_.reading.keys.get(name)
             if key is not None:
                 learnt.join(key, OTHER)
     return learnt.changes != before

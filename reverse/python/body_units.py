@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
 
 from tree_sitter import Node
@@ -25,7 +25,6 @@ from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.python.body_scope import PyUnit
 from rebsync.reverse.python.py_index import CLASS, LAMBDA, PyCode, Scope
 from rebsync.reverse.python.py_lookup import lineage
-from rebsync.reverse.python.py_tree import text_of
 from rebsync.reverse.python.py_values import Values
 from rebsync.reverse.syntax.cpp_index import Code
 
@@ -37,8 +36,13 @@ _THREE = re.compile(
 )
 
 
-def units_of(values: Values, graph: Graph, is_people: Callable[[Fact], bool]) -> list[PyUnit]:
-    """The classes and modules that talk to ROS."""
+def units_of(
+    values: Values,
+    graph: Graph,
+    is_people: Callable[[Fact], bool],
+    taken: Collection[str] = (),
+) -> list[PyUnit]:
+    """The classes and modules that talk to ROS, under names that are not `taken`."""
     code = values.code
     facts = [(f, scope_of(code, f)) for f in graph.facts if is_people(f)]
     grouped: dict[Scope, list[Fact]] = {}
@@ -47,7 +51,7 @@ def units_of(values: Values, graph: Graph, is_people: Callable[[Fact], bool]) ->
     owners = [o for o, own in grouped.items() if any(isinstance(f, _CONNECTS) for f in own)]
     families = {o: _family(values, o) for o in owners}
     below = {above for o in owners for above in families[o][1:]}
-    names = Names.beside(())
+    names = Names.beside(taken)
     found = []
     for owner in owners:
         if owner in below:
@@ -81,13 +85,14 @@ def _unit(
     wish = owner.name if family else node
     if family:
         together = [*together, *_rates_beside(facts, owner, together)]
-    unit = Unit(names.give(wish), None, (), (), tuple(together), Code())
     calls = {
         (f.site.place.source.path, f.site.call.id): number for number, f in enumerate(together)
     }
     text = module.py.source.text
+    is_rclpy = "rclpy" in text
+    unit = Unit(names.give(wish), None, (), (), tuple(together), Code(), rclpy=is_rclpy)
     version = 3 if _THREE.search(text) else (2 if _PRINTS.search(text) else 0)
-    return PyUnit(unit, family, module, node, calls, version, "rclpy" in text)
+    return PyUnit(unit, family, module, node, calls, version, is_rclpy)
 
 
 def _rates_beside(
@@ -199,13 +204,14 @@ def names_of(code: PyCode, unit: PyUnit) -> set[str]:
     return found
 
 
-def words_of(unit: PyUnit) -> set[str]:
-    """The names that the code of a unit uses: known rebecs get others."""
-    found: set[str] = set()
+def has_word(unit: PyUnit, word: str) -> bool:
+    """Whether the code of a unit uses a name: known rebecs get others."""
     waiting = [s.node for s in unit.lineage] or [unit.module.node]
+    bytes_ = word.encode()
     while waiting:
         node = waiting.pop()
-        if node.type == "identifier":
-            found.add(text_of(node))
-        waiting += node.named_children
-    return found
+        if node.type == "identifier" and node.text == bytes_:
+            return True
+        if bytes_ in (node.text or b""):
+            waiting += node.named_children
+    return False

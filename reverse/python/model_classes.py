@@ -13,7 +13,7 @@ from rebsync.names import original
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
-from rebsync.reverse.python.model_constants import constants_of
+from rebsync.reverse.python.model_constants import constants_of, enumerations_of
 from rebsync.reverse.python.model_expressions import Expressions, Names
 from rebsync.reverse.python.model_plumbing import Plumbing, odd_at_top
 from rebsync.reverse.python.model_roles import EnvUse, Roles, Sends, plain_name, roles_of
@@ -26,13 +26,13 @@ from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.python.py_values import Values
 from rebsync.source import Source
 
-# The modules of the run-time part, and a class that each has.
+# The modules of the run-time part, and what each has that people's of that name lack.
 _RUNTIME = {
-    "mailbox": "Mailbox",
-    "startup": "Startup",
-    "values": "Violation",
-    "drive": "Drive",
-    "sensor": "Sensor",
+    "mailbox": ("\nclass Mailbox",),
+    "startup": ("\nclass Startup",),
+    "values": ("\nclass Violation",),
+    "drive": ("\nclass Drive", "def move("),
+    "sensor": ("\nclass Sensor", "def seen("),
 }
 
 
@@ -218,9 +218,8 @@ class Classes:
     def _method(self, owner: Scope, function: Scope) -> m.Method:
         name = plain_name(function)
         within = f"{class_name(owner.name)}.{name}"
-        result = type_of(function.node.child_by_field_name("return_type"))
         return m.Method(
-            result or m.Type("void"),
+            _result(function),
             name,
             self._parameters(owner, function, within),
             self._body(owner, function, within),
@@ -231,15 +230,34 @@ class Classes:
 
     def _constructors(self, owner: Scope) -> Iterator[m.Constructor]:
         name = class_name(owner.name)
-        for function in self._of(owner).functions.values():
-            if _is_constructor(function.name):
-                yield m.Constructor(
-                    name,
-                    self._parameters(owner, function, name),
-                    self._body(owner, function, name),
-                    _annotations(function),
-                    function.py.span(function.node),
-                )
+        roles = self._of(owner)
+        found = [f for f in roles.functions.values() if _is_constructor(f.name)]
+        for function in found:
+            first = self._initial(owner, function, name)
+            body = self._body(owner, function, name)
+            if first and body is not None:
+                body = replace(body, statements=(*first, *body.statements))
+            yield m.Constructor(
+                name,
+                self._parameters(owner, function, name),
+                body,
+                _annotations(function),
+                function.py.span(function.node),
+            )
+        if not found and roles.initial:
+            first = self._initial(owner, roles.functions["__init__"], name)
+            yield m.Constructor(name, (), m.Block(first), (), owner.py.span(owner.node))
+
+    def _initial(self, owner: Scope, function: Scope, within: str) -> tuple[m.Statement, ...]:
+        """What variables hold before the constructor of the model runs."""
+        reader, roles = self._reader(owner, function, within).expressions, self._of(owner)
+        return tuple(
+            m.ExpressionStatement(
+                m.Assign("=", m.Name(roles.state[attribute][0]), reader.read(value)),
+                span=owner.py.span(value),
+            )
+            for attribute, value in roles.initial
+        )
 
     # --- bodies ---------------------------------------------------------------------------------
 
@@ -262,6 +280,10 @@ class Classes:
         reader = self._reader(owner, function, within)
         for parameter in function.parameters[1:]:
             reader.expressions.locals[parameter.name] = reader.local(parameter.name)
+        for node in named(field(function.node, "parameters"))[1:]:
+            type_ = type_of(node.child_by_field_name("type"))
+            if type_ is not None:
+                reader.expressions.types[reader.local(text_of(named(node)[0]))] = type_
         self.findings.statements[within] += 0
         return reader.block(body_of(function), field(function.node, "body"))
 
@@ -274,11 +296,16 @@ class Classes:
         sends: dict[str, Sends] = {}
         functions: dict[str, str] = {}
         servers: set[str] = set()
-        constants = constants_of(owner.module)
+        types: dict[str, m.Type] = {}
+        results: dict[str, m.Type] = {}
+        properties: set[str] = set()
+        constants = constants_of(owner.module) | enumerations_of(owner.module)
         for above in reversed(self.line(owner)):
             roles = self._of(above)
             variables |= {a: v[0] for a, v in (roles.state | roles.known).items()}
             variables |= {a: e.name for a, e in roles.env.items()}
+            types |= {v[0]: v[1] for v in (roles.state | roles.known).values()}
+            types |= {e.name: e.type for e in roles.env.values()}
             sends |= {f: self._resolved(s) for f, s in roles.sends.items()}
             own = {n: v for n, v in constants_of(above).items() if n not in above.attributes}
             constants |= {f"self.{name}": value for name, value in own.items()}
@@ -287,7 +314,18 @@ class Classes:
                     served = self._served(above, function)
                     functions[name] = served or plain_name(function)
                     servers |= {name} if served is not None else set()
-        return Names(variables, sends, functions, frozenset(servers), constants)
+                    properties |= {name} if "property" in function.decorators else set()
+                    results[functions[name]] = _result(function)
+        return Names(
+            variables,
+            sends,
+            functions,
+            frozenset(servers),
+            constants,
+            types,
+            results,
+            frozenset(properties),
+        )
 
     def _resolved(self, sends: Sends) -> Sends:
         """A send by the name that the server has in the model, which its message type tells."""
@@ -301,7 +339,7 @@ class Classes:
 def is_runtime_file(source: Source) -> bool:
     """Whether a file is a module of the run-time part, which is the same in all packages."""
     stem = source.path.rpartition("/")[2].removesuffix(".py")
-    return stem in _RUNTIME and f"\nclass {_RUNTIME[stem]}" in source.text
+    return stem in _RUNTIME and all(text in source.text for text in _RUNTIME[stem])
 
 
 def _messages_of(owners: list[Scope]) -> Iterator[str]:
@@ -328,6 +366,10 @@ def _is_marked(owner: Scope) -> bool:
 
 def _is_constructor(name: str) -> bool:
     return name == "construct" or name.startswith("construct__")
+
+
+def _result(function: Scope) -> m.Type:
+    return type_of(function.node.child_by_field_name("return_type")) or m.Type("void")
 
 
 def _is_abstract(function: Scope) -> bool:

@@ -23,6 +23,26 @@ def constants_of(scope: Scope) -> dict[str, Node]:
     return found
 
 
+def enumerations_of(module: Scope) -> dict[str, Node]:
+    """The members of the module's enumerations of integers, `Command.STOP`, as what they are."""
+    found = {}
+    for node in named(module.node):
+        bases = node.child_by_field_name("superclasses")
+        if node.type != "class_definition" or bases is None:
+            continue
+        if [text_of(b).removeprefix("enum.") for b in named(bases)] != ["IntEnum"]:
+            continue
+        name = text_of(field(node, "name"))
+        for statement in named(field(node, "body")):
+            inner = named(statement)[0] if statement.type == "expression_statement" else None
+            if inner is None or inner.type != "assignment" or not _is_new(module, name):
+                continue
+            value = inner.child_by_field_name("right")
+            if value is not None and value.type == "integer":
+                found[f"{name}.{text_of(field(inner, 'left'))}"] = value
+    return found
+
+
 def is_quiet(scope: Scope, statement: Node) -> bool:
     """Whether a statement of a module or a class only names a constant or defines a function.
 

@@ -13,6 +13,8 @@ from rebsync.names import original
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import binary
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.python import model_idioms as idioms
+from rebsync.reverse.python.model_kinds import kind_of
 from rebsync.reverse.python.model_roles import Sends
 from rebsync.reverse.python.model_types import call_parts, string_value
 from rebsync.reverse.python.py_tree import Py, field, named, text_of
@@ -55,8 +57,8 @@ _UPDATES = {
 }
 _WORDS = {"and": "&&", "or": "||"}
 _LEVELS = {"or": 2, "and": 3, "|": 6, "^": 7, "&": 8, "<<": 9, ">>": 9, "+": 10, "-": 10}
-_LEVELS |= dict.fromkeys("*/%", 11)
-_NOT, _COMPARISON, _UNARY = 4, 5, 12
+_LEVELS |= dict.fromkeys(("*", "/", "%", "//"), 11)
+_NOT, _COMPARISON, _PRODUCT, _UNARY = 4, 5, 11, 12
 _TEMPORARY = re.compile(r"op\d+_\Z")
 
 
@@ -65,7 +67,8 @@ class Names:
     """What the names of a class stand for: attributes, sends and functions, ancestors included.
 
     `servers` are those of the functions that serve messages; `constants` what names of the module,
-    and those of the class behind `self.`, are bound to.
+    and those of the class behind `self.`, are bound to. `types` are those of variables, `results`
+    those of functions, by their names in the model; `properties` functions that are read.
     """
 
     variables: Mapping[str, str]
@@ -73,16 +76,23 @@ class Names:
     functions: Mapping[str, str]
     servers: frozenset[str] = frozenset()
     constants: Mapping[str, Node] = with_default(default_factory=dict)
+    types: Mapping[str, m.Type] = with_default(default_factory=dict)
+    results: Mapping[str, m.Type] = with_default(default_factory=dict)
+    properties: frozenset[str] = frozenset()
 
 
 @dataclass(eq=False, slots=True)
 class Expressions:
-    """Reads the expressions of one body; `locals` are its variables by their names in Python."""
+    """Reads the expressions of one body; `locals` are its variables by their names in Python.
+
+    `types` are those of the locals, by their names in the model.
+    """
 
     py: Py
     names: Names
     locals: dict[str, str] = with_default(default_factory=dict)
     kept: dict[str, Node] = with_default(default_factory=dict)
+    types: dict[str, m.Type] = with_default(default_factory=dict)
 
     def read(self, node: Node) -> m.Expression:
         """An expression. Unread: the model has none for it."""
@@ -114,11 +124,25 @@ class Expressions:
     def unread(self, node: Node, why: str) -> Unread:
         return Unread(self.py.span(node), why)
 
+    def kind(self, read: m.Expression) -> m.Type | None:
+        """The widest type of the kind of an expression's value, if it can be told."""
+        return kind_of(
+            read, lambda n: self.types.get(n, self.names.types.get(n)), self.names.results
+        )
+
+    def condition(self, node: Node) -> m.Expression:
+        """What must hold."""
+        return idioms.truth(self, self.read(node))
+
     def _operation(self, node: Node) -> m.Expression:
         span = self.py.span(node)
         match node.type:
             case "not_operator":
-                return m.Unary("!", self._operand(field(node, "argument"), _NOT), span)
+                asked = self._operand(field(node, "argument"), _NOT)
+                kind = self.kind(asked)
+                if kind is not None and kind.name == "int":
+                    return binary("==", asked, m.IntLiteral(0), span)
+                return m.Unary("!", asked, span)
             case "unary_operator":
                 operator = text_of(field(node, "operator"))
                 return m.Unary(operator, self._operand(field(node, "argument"), _UNARY), span)
@@ -129,12 +153,19 @@ class Expressions:
                     raise self.unread(node, f'the model has no operator "{operator}"')
                 left = self._operand(field(node, "left"), level)
                 right = self._operand(field(node, "right"), level + 1)
-                return m.Binary(_WORDS.get(operator, operator), left, right, span)
+                if operator in _WORDS:
+                    left, right = idioms.truth(self, left), idioms.truth(self, right)
+                read = m.Binary(_WORDS.get(operator, operator), left, right, span)
+                return (
+                    idioms.divided(self, node, read)
+                    if level == _PRODUCT and operator != "*"
+                    else read
+                )
             case "comparison_operator":
                 return self._comparison(node)
             case "conditional_expression":
                 then, condition, otherwise = named(node)
-                parts = self.read(condition), self.read(then), self.read(otherwise)
+                parts = self.condition(condition), self.read(then), self.read(otherwise)
                 return m.Conditional(*parts, span)
             case "named_expression":
                 target = self._name(field(node, "name"))
@@ -146,7 +177,7 @@ class Expressions:
         operands = named(node)
         operators = [text_of(c) for c in node.children_by_field_name("operators")]
         if len(operands) != 2 or operators[0] not in ("<", "<=", ">", ">=", "==", "!="):
-            raise self.unread(node, "the model has no such comparison")
+            return idioms.comparison(self, node)
         level = _COMPARISON + 1
         left, right = (self._operand(o, level) for o in operands)
         return m.Binary(operators[0], left, right, self.py.span(node))
@@ -192,6 +223,8 @@ class Expressions:
         variable = self.names.variables.get(name)
         if text_of(node) in self.names.constants:
             return self.read(self.names.constants[text_of(node)])
+        if text_of(field(node, "object")) == "self" and name in self.names.properties:
+            return m.Call(None, self.names.functions[name], span=span)
         if text_of(field(node, "object")) != "self" or variable is None:
             raise self.unread(node, f'the model has no variable "{text_of(node)}"')
         if variable in self.locals.values():
@@ -333,6 +366,7 @@ class Expressions:
     def _send(self, node: Node, sends: Sends, arguments: list[Node]) -> m.Expression:
         span = self.py.span(node)
         expected = sends.arguments + (sends.known is None)
+        arguments = idioms.in_order(self, node, arguments, sends.parameters)
         if not expected <= len(arguments) <= expected + 1:
             raise self.unread(node, f"this sends with {expected} arguments")
         target: m.Expression
@@ -341,24 +375,13 @@ class Expressions:
         else:
             target = m.Self(span) if sends.known == "self" else m.Name(sends.known, span)
         values = tuple(map(self.read, arguments[expected - sends.arguments : expected]))
-        times = self._times(arguments[expected]) if len(arguments) > expected else {}
+        times = idioms.times(self, arguments[expected]) if len(arguments) > expected else {}
         return m.Call(target, sends.server, values, times.get("after"), times.get("deadline"), span)
 
     def _receiver(self, node: Node) -> m.Expression:
         """Who gets a message: what is no name or call stands in parentheses."""
         found = self.read(node)
         return m.Paren(found) if isinstance(found, (m.Cast, m.Conditional, m.Choice)) else found
-
-    def _times(self, node: Node) -> dict[str, m.Expression]:
-        if node.type == "identifier" and text_of(node) == "AT_ONCE":
-            return {}
-        called = text_of(field(node, "function")) if node.type == "call" else ""
-        given = named(field(node, "arguments")) if called == "When" else []
-        if called != "When" or any(g.type != "keyword_argument" for g in given):
-            raise self.unread(node, "this is no time of a send")
-        times = {text_of(field(g, "name")): field(g, "value") for g in given}
-        is_without = text_of(times["deadline"]) == "None" if "deadline" in times else False
-        return {k: self.read(v) for k, v in times.items() if k != "deadline" or not is_without}
 
 
 def _in_double_quotes(text: str) -> str:

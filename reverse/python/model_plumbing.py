@@ -15,7 +15,13 @@ from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python.model_constants import is_quiet
 from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_roles import Roles
-from rebsync.reverse.python.model_types import call_parts, type_made, type_of
+from rebsync.reverse.python.model_types import (
+    call_parts,
+    handed_over,
+    passed_on,
+    type_made,
+    type_of,
+)
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_tree import Py, field, named, text_of
@@ -23,6 +29,7 @@ from rebsync.reverse.python.py_tree import Py, field, named, text_of
 _MADE = frozenset({"Mailbox", "Drive", "Sensor"})
 _PUBLISHERS = frozenset({"rospy.Publisher", "self.create_publisher", "node.create_publisher"})
 _CONNECTING = frozenset({"advertise", "advertise_all", "subscribe", "subscribe_on_bridge"})
+_NAMED = frozenset({"Server", "logging.getLogger", "getLogger", "rclpy.logging.get_logger"})
 _CALLED = ("self._wire", "super()._wire", "super().__init__", "self._mailbox.on_served")
 _AT_TOP = frozenset(
     {
@@ -123,7 +130,7 @@ class Plumbing:
 
     def _is_connected(self, member: str, arguments: list[Node]) -> bool:
         """Whether topics are called after the servers they lead to."""
-        shim = text_of(arguments[-1]).removeprefix("self.")
+        shim = handed_over(arguments[-1]).removeprefix("self.")
         if shim in self.roles.topics:
             key = self.roles.topics[shim].removeprefix("port/")
             server = self.roles.served_by(shim)
@@ -142,10 +149,7 @@ class Plumbing:
         message = function.parameters[-1].name
         if type_ is None or text_of(arguments[1]) != f"{message}.timing":
             return False
-        served = arguments[4]
-        _, values = (
-            call_parts(field(served, "body")) or ("", []) if served.type == "lambda" else ("", [])
-        )
+        _, values = passed_on(arguments[4]) or ("", [])
         given = [_field_read(v, message) for v in values]
         wanted = self.fields.get(text_of(type_))
         if wanted is not None:
@@ -191,7 +195,7 @@ def odd_at_top(module: Scope) -> Iterator[Node]:
         inner = _inner(statement)
         called, _ = call_parts(inner.child_by_field_name("right") if inner else None) or ("", [])
         definition = statement.child_by_field_name("definition")
-        if statement.type in _AT_TOP or called == "Server" or _is_text(statement):
+        if statement.type in _AT_TOP or called in _NAMED or _is_text(statement):
             continue
         if is_quiet(module, statement):
             continue
@@ -213,8 +217,7 @@ def _posts(arguments: list[Node], passed: list[str]) -> bool:
     """Whether a message to oneself has all that the function was given."""
     if len(arguments) != 4 or text_of(arguments[1]) != "when":
         return False
-    served = arguments[3]
-    _, values = (call_parts(field(served, "body")) if served.type == "lambda" else None) or ("", [])
+    _, values = passed_on(arguments[3]) or ("", [])
     return [text_of(v) for v in values] == passed
 
 

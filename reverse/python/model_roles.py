@@ -18,9 +18,12 @@ from rebsync.records import dataclass
 from rebsync.reserved import OWN_TOPICS, PYTHON_MEMBERS, PYTHON_RESERVED
 from rebsync.reverse.python.model_types import (
     call_parts,
+    handed_over,
     is_unset,
+    literal_type,
     markers_above,
     markers_beside,
+    passed_on,
     string_value,
     type_made,
     type_of,
@@ -39,11 +42,15 @@ _READS = frozenset({"rospy.get_param", "declared", "read_array", "declare_array"
 
 @dataclass(frozen=True, slots=True)
 class Sends:
-    """A function that sends: `known` as in the model, "self", or None for any rebec of a class."""
+    """A function that sends: `known` as in the model, "self", or None for any rebec of a class.
+
+    `parameters` are the names of all that it is given, the time among them.
+    """
 
     known: str | None
     server: str
     arguments: int
+    parameters: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +70,7 @@ class Roles:
     owner: Scope
     functions: dict[str, Scope] = with_default(default_factory=dict)
     state: dict[str, tuple[str, m.Type, Node]] = with_default(default_factory=dict)
+    initial: list[tuple[str, Node]] = with_default(default_factory=list)
     known: dict[str, tuple[str, m.Type, Node]] = with_default(default_factory=dict)
     env: dict[str, EnvUse] = with_default(default_factory=dict)
     publishers: dict[str, tuple[str | None, str, str]] = with_default(default_factory=dict)
@@ -171,7 +179,7 @@ def _called(roles: Roles, call: Node) -> None:
 def _member(roles: Roles, function: Scope, name: str, statement: Node, value: Node) -> None:
     called, arguments = call_parts(value) or ("", [])
     said = statement.child_by_field_name("type")
-    type_ = type_of(said) if said is not None else type_made(value)
+    type_ = type_of(said) if said is not None else type_made(value) or literal_type(value)
     if called == "Mailbox":
         roles.has_mailbox = True
         lengths = [int(text_of(a)) for a in arguments if text_of(a).isdecimal()]
@@ -200,7 +208,7 @@ def _connected(roles: Roles, member: str, method: str, arguments: list[Node]) ->
         roles.publishers[member] = None, key, text_of(arguments[2])
     elif method in ("subscribe", "subscribe_on_bridge") and len(arguments) == 3:
         roles.on_bridge = roles.on_bridge or method == "subscribe_on_bridge"
-        roles.topics[text_of(arguments[2]).removeprefix("self.")] = topic
+        roles.topics[handed_over(arguments[2]).removeprefix("self.")] = topic
 
 
 def _variable(
@@ -209,8 +217,10 @@ def _variable(
     markers = markers_beside(function.py, statement)
     name = variable_name(attribute, markers)
     read = parameter_read(value)
-    if is_unset(value):
+    if is_unset(value) or literal_type(value) is not None:
         roles.state[attribute] = name, type_, statement
+        if not is_unset(value):
+            roles.initial.append((attribute, value))
     elif read is not None and read[0].startswith("knownrebecs/"):
         known = original(read[0].partition("/")[2])
         roles.known[attribute] = known, type_, statement
@@ -260,7 +270,7 @@ def _does(
             _received(roles, function, arguments, servers)
         elif called == "self._mailbox.post" and arguments and "when" in passed:
             server = servers.get(text_of(arguments[0]), ("", ()))[0]
-            roles.sends[function.name] = Sends("self", server, len(passed) - 1)
+            roles.sends[function.name] = Sends("self", server, len(passed) - 1, tuple(passed))
         elif called == "self._mailbox.publish" and len(arguments) == 3 and "when" in passed:
             _published(roles, function, arguments[0], passed)
 
@@ -272,10 +282,7 @@ def _received(
     servers: dict[str, tuple[str, tuple[m.Annotation, ...]]],
 ) -> None:
     server, annotations = servers.get(text_of(arguments[0]), ("", ()))
-    served = arguments[4]
-    if served.type == "lambda":
-        served = field(field(served, "body"), "function")
-    handler = text_of(served).removeprefix("self.")
+    handler = (passed_on(arguments[4]) or ("", []))[0].removeprefix("self.")
     if not server or not handler.isidentifier():
         return
     roles.shims.add(function.name)
@@ -297,7 +304,7 @@ def _published(roles: Roles, function: Scope, publisher: Node, passed: list[str]
     if found is not None:
         known, key, message = found
         count = len(passed) - 1 - (known is None)
-        roles.sends[function.name] = Sends(known, f"{message} {key}", count)
+        roles.sends[function.name] = Sends(known, f"{message} {key}", count, tuple(passed))
 
 
 def plain_name(function: Scope) -> str:

@@ -15,6 +15,9 @@ from rebsync.records import dataclass
 from rebsync.reserved import PYTHON_RESERVED
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.python import model_idioms as idioms
+from rebsync.reverse.python import model_loops as loops
+from rebsync.reverse.python import model_users as users
 from rebsync.reverse.python.model_expressions import Expressions
 from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_types import (
@@ -35,7 +38,7 @@ class Statements:
     """Reads the bodies of one function; `within` names it where something is listed.
 
     `hoisted` are the locals that a switch declares before it, `cases` the names of the switches
-    around a statement, innermost last.
+    around a statement, innermost last. `implied` are the locals of a block without a type.
     """
 
     expressions: Expressions
@@ -44,6 +47,7 @@ class Statements:
     types: frozenset[str] = frozenset()
     hoisted: dict[str, m.Type] = with_default(default_factory=dict)
     cases: list[str] = with_default(default_factory=list)
+    implied: set[str] = with_default(default_factory=set)
 
     def block(self, nodes: list[Node], span_of: Node) -> m.Block:
         """The statements of a suite."""
@@ -61,6 +65,9 @@ class Statements:
             if only_logs(node):
                 continue
             try:
+                if users.is_users(self.expressions, node):
+                    users.check(self.expressions, node)
+                    continue
                 if self._goes_on(node, waiting):
                     found.append(m.Continue(span=self.expressions.py.span(node)))
                     waiting.pop(0)
@@ -104,13 +111,15 @@ class Statements:
                 return self._effect(node)
             case "if_statement":
                 return self._if(node)
-            case "while_statement":
-                condition = self.expressions.read(field(node, "condition"))
-                return [m.While(condition, self._suite(field(node, "body")), span=span)]
+            case "match_statement":
+                return loops.match(self, node)
+            case "while_statement" if node.child_by_field_name("alternative") is None:
+                condition = self.expressions.condition(field(node, "condition"))
+                return [m.While(condition, self.suite(field(node, "body")), span=span)]
             case "for_statement":
                 return self._for(node, before)
             case "with_statement" if "block()" in text_of(node).partition(":")[0]:
-                return [self._suite(field(node, "body"))]
+                return [self.suite(field(node, "body"))]
             case "return_statement":
                 return self._return(node)
             case "break_statement":
@@ -120,14 +129,21 @@ class Statements:
             case _:
                 raise Unread(span, "the model has no such statement")
 
-    def _suite(self, node: Node) -> m.Block:
+    def suite(self, node: Node) -> m.Block:
         outer, self.cases = self.cases, []
-        found = self.block(named(node), node)
+        found = self.branch(node)
         self.cases = outer
         return found
 
-    def _branch(self, node: Node) -> m.Block:
-        return self.block(named(node), node)
+    def branch(self, node: Node) -> m.Block:
+        """A block. What it names first nobody knows behind it."""
+        outer = self.implied
+        self.implied = set()
+        found = self.block(named(node), node)
+        for name in self.implied:
+            del self.expressions.locals[name]
+        self.implied = outer
+        return found
 
     def _return(self, node: Node) -> list[m.Statement]:
         values = named(node)
@@ -146,6 +162,9 @@ class Statements:
             return []
         if inner.type == "assignment":
             return self._assigned(inner)
+        if inner.type == "augmented_assignment":
+            stored = idioms.augmented(self.expressions, inner)
+            return [m.ExpressionStatement(stored, span=span)]
         called, arguments = call_parts(inner) or ("", [])
         if called == "self._drive.move" and len(arguments) == 2:
             cells = tuple(map(self._cell, ("X", "Y"), arguments))
@@ -174,6 +193,10 @@ class Statements:
             return [self._declared(name, type_, value, node)]
         if name in self.hoisted:
             return [self._declared(name, self.hoisted.pop(name), value, node)]
+        if left.type in ("pattern_list", "tuple_pattern"):
+            return idioms.one_by_one(self.expressions, node)
+        if left.type == "identifier" and name not in self.expressions.locals:
+            return [self._implied(name, value, node)]
         target = self.expressions.read(left)
         stored = self.expressions.stored(target, left, value, node, statement=True)
         return [m.ExpressionStatement(stored, span=span)]
@@ -184,8 +207,19 @@ class Statements:
         again = _AGAIN.match(name)
         plain = self.local(again[1] if again is not None else name)
         self.expressions.locals[name] = plain
+        self.expressions.types[plain] = type_
         declarator = m.Declarator(plain, initial, span)
         return m.Local(m.Declaration(type_, (declarator,), span=span), span=span)
+
+    def _implied(self, name: str, value: Node, node: Node) -> m.Local:
+        """A local without a type, which is that of its value."""
+        if name in self.expressions.names.constants:
+            raise self.expressions.unread(node, f'"{name}" is a constant elsewhere')
+        type_ = self.expressions.kind(self.expressions.read(value))
+        if type_ is None:
+            raise self.expressions.unread(node, f'say the type of "{name}" where it is first set')
+        self.implied.add(name)
+        return self._declared(name, type_, value, node)
 
     def _initial(self, value: Node) -> m.Initializer | None:
         if is_unset(value):
@@ -204,12 +238,14 @@ class Statements:
         parts = [node, *node.children_by_field_name("alternative")]
         otherwise: m.Statement | None = None
         conditions = [
-            self.expressions.read(field(p, "condition")) for p in parts if p.type != "else_clause"
+            self.expressions.condition(field(p, "condition"))
+            for p in parts
+            if p.type != "else_clause"
         ]
         bodies = []
         for part in parts:
             name = "body" if part.type == "else_clause" else "consequence"
-            bodies.append(self._branch(field(part, name)))
+            bodies.append(self.branch(field(part, name)))
         if parts[-1].type == "else_clause":
             otherwise = bodies.pop()
         for condition, body, part in reversed(list(zip(conditions, bodies, parts, strict=False))):
@@ -224,11 +260,15 @@ class Statements:
     def _for(self, node: Node, before: list[m.Statement]) -> list[m.Statement]:
         called, arguments = call_parts(field(node, "right")) or ("", [])
         name = text_of(field(node, "left"))
+        if node.child_by_field_name("alternative") is not None:
+            raise self.expressions.unread(node, "the model has no such loop")
         if called == "switch" and len(arguments) == 1:
             return [self._switch(node, name, arguments[0])]
-        if called != "rounds":
-            raise Unread(self.expressions.py.span(node), "the model has no such loop")
-        return [self._rounds(node, name, before)]
+        if called == "rounds":
+            return [self._rounds(node, name, before)]
+        if called == "range":
+            return [loops.counted(self, node, name)]
+        return [loops.each(self, node, name)]
 
     def _rounds(self, node: Node, name: str, before: list[m.Statement]) -> m.For:
         """`for again_ in rounds():` with its step and its condition first."""
@@ -236,7 +276,7 @@ class Statements:
         updates: tuple[m.Expression, ...] = ()
         condition: m.Expression | None = None
         if nodes and nodes[0].type == "if_statement" and _asks(nodes[0]) == name:
-            steps = self._branch(field(nodes.pop(0), "consequence")).statements
+            steps = self.branch(field(nodes.pop(0), "consequence")).statements
             updates = tuple(s.expression for s in steps if isinstance(s, m.ExpressionStatement))
         if nodes and nodes[0].type == "if_statement" and _ends(nodes[0]):
             asked = field(nodes.pop(0), "condition")
@@ -252,15 +292,19 @@ class Statements:
     def _switch(self, node: Node, name: str, subject: Node) -> m.Switch:
         read = self.expressions.read(subject)
         self.cases.append(name)
-        cases = [self._case(c) for c in named(field(node, "body")) if c.type == "if_statement"]
+        cases = [self._case(c) for c in named(field(node, "body")) if not only_logs(c)]
         self.cases.pop()
         return m.Switch(read, tuple(cases), span=self.expressions.py.span(node))
 
     def _case(self, node: Node) -> m.Case:
-        called, arguments = call_parts(field(node, "condition")) or ("", [])
+        asked = node.child_by_field_name("condition")
+        called, arguments = call_parts(asked) or ("", [])
+        is_case = called in (self.cases[-1], f"{self.cases[-1]}.default")
+        if not is_case or node.child_by_field_name("alternative") is not None:
+            raise self.expressions.unread(node, "only cases stand in a switch")
         is_default = called.endswith(".default")
         value = None if is_default else self.expressions.read(arguments[0])
-        body = self._branch(field(node, "consequence"))
+        body = self.branch(field(node, "consequence"))
         return m.Case(value, body.statements, span=self.expressions.py.span(node))
 
 

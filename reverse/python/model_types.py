@@ -100,6 +100,36 @@ def markers_beside(py: Py, node: Node) -> list[str]:
     return [match[1]] if match is not None else []
 
 
+def literal_type(node: Node) -> m.Type | None:
+    """The type of a variable that starts as a number or a truth value."""
+    if node.type == "unary_operator" and text_of(field(node, "operator")) == "-":
+        inner = literal_type(field(node, "argument"))
+        return inner if inner != m.Type("boolean") else None
+    kinds = {"integer": "int", "float": "double", "true": "boolean", "false": "boolean"}
+    return m.Type(kinds[node.type]) if node.type in kinds else None
+
+
+def passed_on(node: Node) -> tuple[str, list[Node]] | None:
+    """What a callback calls, and with what: `lambda: f(x)`, `partial(f, x)`, or `f` itself."""
+    if node.type == "lambda":
+        return call_parts(field(node, "body"))
+    called, arguments = call_parts(node) or ("", [])
+    if called in ("partial", "functools.partial") and arguments:
+        return text_of(arguments[0]), arguments[1:]
+    return None if called else (text_of(node), [])
+
+
+def handed_over(node: Node) -> str:
+    """The function that takes a message: `f`, or `lambda msg: f(msg)`."""
+    if node.type == "lambda":
+        called, arguments = call_parts(field(node, "body")) or ("", [])
+        parameters = node.child_by_field_name("parameters")
+        names = [text_of(p) for p in named(parameters)] if parameters is not None else []
+        if called and len(names) == 1 and [text_of(a) for a in arguments] == names:
+            return called
+    return text_of(node)
+
+
 def string_value(node: Node | None) -> str | None:
     """The text of a plain string."""
     if node is None or node.type != "string":

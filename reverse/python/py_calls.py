@@ -48,19 +48,13 @@ from rebsync.reverse.python.vocabulary import FILTER, Kind, interface_of
 
 def graph_of(code: PyCode) -> Graph:
     """All that some files ask of ROS."""
-    return PyAsking(code).graph
+    return graph_with(Values(code))
 
 
-@dataclass(eq=False)
-class PyAsking:
-    """The calls to ROS of some files, of which the graph is made when it is asked for."""
-
-    code: PyCode
-
-    @property
-    def graph(self) -> Graph:
-        facts = _Facts(Values(self.code))
-        return Graph(tuple(f for asked in asked_in(facts.values) for f in facts.of(asked)))
+def graph_with(values: Values) -> Graph:
+    """The same of files some of whose values may be known."""
+    facts = _Facts(values)
+    return Graph(tuple(f for asked in asked_in(values) for f in facts.of(asked)))
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -13,7 +13,7 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.graph import Callback, Callbacks, Place
 from rebsync.reverse.python.py_callbacks import callback_name, callbacks_of
-from rebsync.reverse.python.py_index import CLASS, PyCode, Scope, arguments_of
+from rebsync.reverse.python.py_index import CLASS, Scope, arguments_of
 from rebsync.reverse.python.py_lookup import lineage
 from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_values import Values
@@ -99,10 +99,10 @@ class Hook:
         return ", ".join(named)
 
 
-def hooks_in(code: PyCode) -> Iterator[Hook]:
+def hooks_in(values: Values) -> Iterator[Hook]:
     """All such calls that hand over something, and changes of state: in the order of the text."""
+    code = values.code
     calls = [(call, scope) for name in ENTRIES for call, scope in code.by_callee.get(name, ())]
-    values = Values(code)
     found = [hook for call, scope in calls if (hook := _hook(values, call, scope)) is not None]
     found += (hook for scope in code.scopes.values() for hook in _changes(values, scope))
     yield from sorted(found, key=lambda h: (h.place.source.path, h.place.span.start))

@@ -62,6 +62,13 @@ def _module_of(node: Node) -> str:
 
 def module_named(code: PyCode, dotted: str, of: Scope) -> Scope | None:
     """The file that a module's name stands for, seen from another file."""
+    key = dotted, of.py.source.path
+    if key not in code.found:
+        code.found[key] = _module_named(code, dotted, of)
+    return code.found[key]
+
+
+def _module_named(code: PyCode, dotted: str, of: Scope) -> Scope | None:
     here = PurePosixPath(of.py.source.path).parent
     if dotted.startswith("."):
         rest = dotted.lstrip(".")

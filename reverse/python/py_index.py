@@ -32,6 +32,9 @@ class Scope:
     stores: dict[tuple[str, str], list[Binding]] = with_default(default_factory=dict)
     outer: set[str] = with_default(default_factory=set)
     returns: list[Node] = with_default(default_factory=list)
+    # What the text says does not change: it is read once.
+    _decorators: list[str] | None = None
+    _parameters: list[Parameter] | None = None
 
     @property
     def owner(self) -> Scope | None:
@@ -70,6 +73,11 @@ class Scope:
 
     @property
     def decorators(self) -> list[str]:
+        if self._decorators is None:
+            self._decorators = self._read_decorators()
+        return self._decorators
+
+    def _read_decorators(self) -> list[str]:
         above = self.node.parent
         if above is None or above.type != "decorated_definition":
             return []
@@ -78,6 +86,11 @@ class Scope:
     @property
     def parameters(self) -> list[Parameter]:
         """The parameters of a function; of a method, with its object."""
+        if self._parameters is None:
+            self._parameters = self._read_parameters()
+        return self._parameters
+
+    def _read_parameters(self) -> list[Parameter]:
         node = self.node.child_by_field_name("parameters")
         return [p for c in named(node) if (p := _parameter(c))] if node is not None else []
 
@@ -123,12 +136,14 @@ class PyCode:
     """Some files of Python together.
 
     `calls` are all calls with the scope they stand in, in the order of the text; `by_callee` the
-    same by the last name of what is called.
+    same by the last name of what is called; `found` are the modules that imports name, by
+    the path of the file that imports them, as far as they were looked for.
     """
 
     modules: dict[str, Scope] = with_default(default_factory=dict)
     scopes: dict[tuple[str, int], Scope] = with_default(default_factory=dict)
     calls: list[tuple[Node, Scope]] = with_default(default_factory=list)
+    found: dict[tuple[str, str], Scope | None] = with_default(default_factory=dict)
     by_callee: dict[str, list[tuple[Node, Scope]]] = with_default(default_factory=dict)
     methods: dict[str, list[Scope]] = with_default(default_factory=dict)
 

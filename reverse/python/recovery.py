@@ -22,15 +22,18 @@ from rebsync.reverse.graph import (
     TimerFact,
 )
 from rebsync.reverse.launch.launched import Launch
+from rebsync.reverse.nodes.node_joined import Part
 from rebsync.reverse.nodes.node_system import unit_of_time
+from rebsync.reverse.python.body_started import Started, scripts_of
 from rebsync.reverse.python.body_system import PyNodes, PySystem
 from rebsync.reverse.python.model_classes import Classes, is_runtime_file
 from rebsync.reverse.python.model_roles import parameter_read
 from rebsync.reverse.python.model_types import call_parts, class_name
-from rebsync.reverse.python.py_calls import graph_of, owner_of
+from rebsync.reverse.python.py_calls import graph_with, owner_of
 from rebsync.reverse.python.py_hooks import hooks_in
 from rebsync.reverse.python.py_index import PyCode
 from rebsync.reverse.python.py_tree import field, named, number_of, parse, text_of, unparsed
+from rebsync.reverse.python.py_values import Values
 from rebsync.source import Source
 
 _WHY = "what this belongs to is no node of the model: only what it asks of ROS is read"
@@ -72,16 +75,20 @@ def read_python(
     files: Mapping[str, Source] | None = None,
     package: str = "",
     launch: Launch | None = None,
+    beside: Part | None = None,
+    programs: Collection[str] = (),
 ) -> PythonPart:
     """What some files say; each callback whose body is not in the model is listed.
 
     With `only` the classes of that file; `messages` are the fields of the
-    package's message types, `files` all that it has, and `launch` what starts its nodes.
+    package's message types, `files` all that it has, and `launch` what starts its nodes. `beside`
+    are its nodes in C++, whose `programs` are none of Python's.
     """
     trees = [parse(source) for _, source in sorted(sources.items())]
     findings.all += [f for py in trees for f in unparsed(py)]
     code = PyCode.of(trees)
-    graph = graph_of(code)
+    values = Values(code)
+    graph = graph_with(values)
     asked = sources.get(only) if only is not None else None
     path = asked.path if asked is not None else None
     classes = Classes(code, findings, messages or {})
@@ -89,9 +96,12 @@ def read_python(
     known, unit = MessageTypes.of(files or {}, package), unit_of_time(files or {})
     own = {(o.name, o.py.source.path) for o in classes.owners}
     is_people = partial(_is_people, own=own)
-    nodes = PySystem(code, graph, known, unit, findings, is_people, path, launch).read()
+    started = Started(launch, package, scripts_of(files or {}), frozenset(programs))
+    system = PySystem(values, graph, known, unit, findings, is_people, path, started)
+    system.beside = beside if beside is not None else Part.empty()
+    nodes = system.read()
     _list_callbacks(graph, own, findings, path, nodes)
-    _list_hooks(code, own, findings, path)
+    _list_hooks(values, own, findings, path)
     used = tuple((e.key, (e.type, e.name, constant(e.default))) for e in classes.env())
     return PythonPart(graph, read, used, code, nodes)
 
@@ -142,9 +152,9 @@ def _list_callbacks(
 
 
 def _list_hooks(
-    code: PyCode, own: Collection[tuple[str, str]], findings: Findings, path: str | None
+    values: Values, own: Collection[tuple[str, str]], findings: Findings, path: str | None
 ) -> None:
-    for hook in hooks_in(code):
+    for hook in hooks_in(values):
         source = hook.place.source
         if path in (None, source.path) and not _is_made(owner_of(hook.within), source, own):
             why = f'"{hook.name}" calls functions of the node in ways that the model does not have'

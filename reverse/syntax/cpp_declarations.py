@@ -17,7 +17,8 @@ WRAPPERS = frozenset(
     }
 )
 TYPES = frozenset({"class_specifier", "struct_specifier", "enum_specifier"})
-_DECLARATORS = frozenset({"pointer_declarator", "reference_declarator", "array_declarator"})
+_REFERRING = frozenset({"pointer_declarator", "reference_declarator"})
+_DECLARATORS = _REFERRING | {"array_declarator"}
 # What every node of rclcpp is.
 _ROOTS = frozenset({"rclcpp::Node", "rclcpp_lifecycle::LifecycleNode"})
 
@@ -125,13 +126,11 @@ class CppClass:
 
 def function_of(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
     """The function that a node declares or defines, if it is one; `owner` is the class around."""
-    if node.type not in ("function_definition", "field_declaration", "declaration"):
+    kind = node.type
+    if kind not in ("function_definition", "field_declaration", "declaration"):
         return None
     declarator = node.child_by_field_name("declarator")
-    while declarator is not None and declarator.type in (
-        "reference_declarator",
-        "pointer_declarator",
-    ):
+    while declarator is not None and declarator.type in _REFERRING:
         declarator = declarator.named_children[-1] if declarator.named_children else None
     body = node.child_by_field_name("body")
     if declarator is not None and only_braces(node):
@@ -143,15 +142,15 @@ def function_of(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
         scope = name.child_by_field_name("scope")
         owner, name = unscoped(scope) if scope is not None else owner, part(name, "name")
     value = node.child_by_field_name("default_value")
-    lists = [c for c in node.named_children if c.type == "field_initializer_list"]
+    lists = (c for c in node.named_children if c.type == "field_initializer_list")
     return CppFunction(
         text_of(name),
         owner,
         tuple(parameters_in(part(declarator, "parameters"))),
         node.child_by_field_name("type"),
         body,
-        lists[0] if lists else None,
-        markers_above(node),
+        next(lists, None) if kind == "function_definition" else None,
+        markers_above(node) if cpp.has_markers else (),
         cpp,
         node,
         pure=value is not None and text_of(value) == "0",
@@ -217,8 +216,8 @@ def _with_values(node: Node) -> list[tuple[Node, Node | None]]:
 
 def only_braces(node: Node) -> bool:
     """Whether it is `void f() { {} }`, which the grammar takes for a variable."""
-    declarator = node.child_by_field_name("declarator")
-    if node.type != "declaration" or declarator is None or declarator.type != "init_declarator":
+    declarator = node.child_by_field_name("declarator") if node.type == "declaration" else None
+    if declarator is None or declarator.type != "init_declarator":
         return False
     function, value = part(declarator, "declarator"), part(declarator, "value")
     return function.type == "function_declarator" and value.type == "initializer_list"
@@ -230,7 +229,7 @@ def parameters_in(node: Node) -> Iterator[CppParameter]:
         if parameter.type not in ("parameter_declaration", "optional_parameter_declaration"):
             continue
         name = parameter.child_by_field_name("declarator")
-        while name is not None and name.type in ("reference_declarator", "pointer_declarator"):
+        while name is not None and name.type in _REFERRING:
             name = name.named_children[-1] if name.named_children else None
         yield CppParameter(text_of(name) if name else "", part(parameter, "type"), parameter)
 
@@ -252,7 +251,7 @@ def valued(node: Node) -> Iterator[tuple[Node, Node]]:
 def plain_fields(cpp: Cpp, node: Node) -> Iterator[CppField]:
     for declarator, value in _with_values(node):
         if declarator.type == "field_identifier":
-            markers = (*markers_above(node), *markers_beside(node))
+            markers = (*markers_above(node), *markers_beside(node)) if cpp.has_markers else ()
             yield CppField(text_of(declarator), part(node, "type"), value, markers, cpp, node)
 
 

@@ -20,6 +20,8 @@ _CONTAINERS = frozenset(
     }
 )
 _NO_LINE_END = re.compile(rb"[^\r\n]")
+# The comments that a file begins with, which say who may copy it, often between lines of stars.
+_HEAD = re.compile(rb"(?:\s*(?:/\*.*?\*/|//[^\n]*\n))*", re.DOTALL)
 _BRACKETS = b"(){}[]"
 _NO_BRACKETS = bytes(set(range(256)) - set(_BRACKETS))
 _STATEMENTS = bytes.maketrans(b"{}", b";;")
@@ -31,6 +33,7 @@ _Path: TypeAlias = "tuple[Node, _Path | None, int]"
 
 def may_be_deep(data: bytes) -> bool:
     """Whether a text needs a closer look: it nests, or has long statements or chains of `else`."""
+    data = _HEAD.sub(b"", data, count=1)
     depth = 0
     for bracket in data.translate(None, _NO_BRACKETS):
         if bracket in b"({[":

@@ -5,7 +5,7 @@ Header and source are read together: a function's body is looked for wherever it
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable
 from dataclasses import field
 from typing import TypeVar
 
@@ -67,7 +67,8 @@ class Code:
     """All declarations of some files.
 
     `classes` has the first class of each name; `all_classes` has all of them, those inside of
-    classes too. `statics` are static members with the values that stand outside of their class.
+    classes too. `statics` are static members with the values that stand outside of their class;
+    `macros` those that take something.
     """
 
     files: list[Cpp] = field(default_factory=list)
@@ -79,10 +80,12 @@ class Code:
     classes: dict[str, CppClass] = field(default_factory=dict)
     definitions: dict[tuple[str, str], list[CppFunction]] = field(default_factory=dict)
     constants: dict[tuple[str, str], tuple[Cpp, Node]] = field(default_factory=dict)
+    macros: dict[str, list[Node]] = field(default_factory=dict)
     _types: dict[int, tuple[str, ...]] = field(default_factory=dict)
     _visible: dict[str, dict[str, tuple[Cpp, Node]]] = field(default_factory=dict)
     _searches: Searches = field(default_factory=Searches)
     _parts: dict[int, Code] = field(default_factory=dict)
+    _functions: dict[int, tuple[CppFunction, ...]] = field(default_factory=dict)
 
     @staticmethod
     def of(files: Iterable[Cpp]) -> Code:
@@ -108,6 +111,7 @@ class Code:
         _append(self.enumerators, one.enumerators)
         _append(self.aliases, one.aliases)
         _append(self.variables, one.variables)
+        _append(self.macros, one.macros)
         _append(self.definitions, one.definitions)
         self.constants |= one.constants
         for name, class_ in one.classes.items():
@@ -126,10 +130,12 @@ class Code:
                 waiting += current.bases
         return list(found.values())
 
-    def functions_of(self, owner: CppClass) -> Iterator[CppFunction]:
+    def functions_of(self, owner: CppClass) -> tuple[CppFunction, ...]:
         """The functions of a class, with their bodies where these are known."""
-        for declared in owner.functions:
-            yield self._defined(declared) or declared
+        if owner.node.id not in self._functions:
+            found = tuple(self._defined(declared) or declared for declared in owner.functions)
+            self._functions[owner.node.id] = found
+        return self._functions[owner.node.id]
 
     def inside(self, cpp: Cpp, node: Node | None, *types: str) -> list[Node]:
         """The nodes of some types in a node of a file: see `Searches`."""
@@ -148,9 +154,14 @@ class Code:
         body = function.body
         return self._searches.names_called(function.cpp, body) if body is not None else frozenset()
 
-    def handed_on(self) -> frozenset[str]:
-        """The names of functions that some code calls on an object, or hands on."""
-        return frozenset().union(*map(self._searches.handed_on, self.files))
+    def named(self, cpp: Cpp, node: Node, names: Collection[str]) -> list[Node]:
+        """The nodes in a node of a file that are some words, in the order of the text."""
+        return self._searches.named(cpp, node, names)
+
+    def handed_on(self, wanted: Collection[str]) -> frozenset[str]:
+        """The names of functions that some code calls on an object, or hands on: the wanted."""
+        files = (self._searches.handed_on(cpp, wanted) for cpp in self.files)
+        return frozenset(wanted).intersection(*[frozenset[str]().union(*files)])
 
     def constant(self, cpp: Cpp, name: str) -> tuple[Cpp, Node] | None:
         """The value of a constant of a file."""
@@ -196,6 +207,9 @@ class Code:
                     self._add_class(cpp, child)
                 case "preproc_def":
                     self._add_macro(cpp, child)
+                case "preproc_function_def":
+                    name = text_of(child.children_by_field_name("name")[0])
+                    self.macros.setdefault(name, []).append(child)
                 case "enum_specifier":
                     self._add_enum(cpp, child, "")
                 case "type_definition" | "alias_declaration":
@@ -241,7 +255,7 @@ class Code:
             tuple(bases_of(node)),
             tuple(fields),
             tuple(functions),
-            markers_above(node),
+            markers_above(node) if cpp.has_markers else (),
             cpp,
             node,
             tuple(others),

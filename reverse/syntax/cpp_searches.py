@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_left
+from collections.abc import Collection
 from dataclasses import field
 
 from tree_sitter import Node
@@ -11,14 +12,16 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in, name_called
 from rebsync.reverse.syntax.cpp_tree import Cpp, by_types, in_text_order
+from rebsync.reverse.syntax.cpp_words import places_of
 
 # The types of nodes that are looked for.
 SOUGHT = (
     *("call_expression", "declaration", "for_range_loop", "init_declarator"),
-    *("lambda_expression", "parameter_declaration", "type_identifier"),
+    *("lambda_expression", "parameter_declaration"),
 )
 # The first character is one of three: so most of a text is passed over quickly.
 _HANDED = re.compile(r"[.>&](?:(?:(?<=\.)|(?<=->))\s*(\w+)\s*\(|(?<=&)\s*(?:\w+::)*(\w+))")
+_NAMES = frozenset({"identifier", "type_identifier", "field_identifier"})
 _MANY = 300  # nodes, from which on searching a file once is quicker than going through them
 
 
@@ -30,6 +33,7 @@ class Searches:
     _names: dict[int, frozenset[str]] = field(default_factory=dict)
     _handed: dict[int, frozenset[str]] = field(default_factory=dict)
     _nodes: dict[int, dict[str, list[Node]]] = field(default_factory=dict)
+    _words: dict[tuple[int, str], tuple[list[int], list[Node]]] = field(default_factory=dict)
     _sorted: dict[tuple[int, tuple[str, ...]], tuple[list[int], list[Node]]] = field(
         default_factory=dict
     )
@@ -54,6 +58,29 @@ class Searches:
         first, behind = bisect_left(starts, node.start_byte), bisect_left(starts, end)
         return [n for n in nodes[first:behind] if n.end_byte <= end]
 
+    def named(self, cpp: Cpp, node: Node, names: Collection[str]) -> list[Node]:
+        """The nodes in a node of a file that are some words, in the order of the text."""
+        found: list[Node] = []
+        start, end = node.start_byte, node.end_byte
+        for name in names:
+            if name.encode() in cpp.words:
+                starts, nodes = self._named(cpp, name)
+                found += nodes[bisect_left(starts, start) : bisect_left(starts, end)]
+        return in_text_order(found) if len(names) > 1 else found
+
+    def _named(self, cpp: Cpp, name: str) -> tuple[list[int], list[Node]]:
+        """All places of a file where a name stands in the code: bytes, and nodes."""
+        key = id(cpp), name
+        if key not in self._words:
+            word = name.encode()
+            nodes = []
+            for at in places_of(cpp.original, word):
+                node = cpp.root.descendant_for_byte_range(at, at + len(word))
+                if node is not None and node.type in _NAMES and node.start_byte == at:
+                    nodes.append(node)
+            self._words[key] = [n.start_byte for n in nodes], nodes
+        return self._words[key]
+
     def calls_in(self, cpp: Cpp, body: Node) -> tuple[CppCall, ...]:
         """The calls in a body, outer ones first, in the order of the text."""
         if body.id not in self._calls:
@@ -71,8 +98,13 @@ class Searches:
             self._names[body.id] = frozenset(map(name_called, calls))
         return self._names[body.id]
 
-    def handed_on(self, cpp: Cpp) -> frozenset[str]:
-        """The names of functions that a file calls on an object, or hands on."""
+    def handed_on(self, cpp: Cpp, wanted: Collection[str]) -> frozenset[str]:
+        """The names of functions that a file calls on an object, or hands on.
+
+        Empty where none of those that are wanted is among its words.
+        """
+        if cpp.words.isdisjoint(name.encode() for name in wanted):
+            return frozenset()
         if id(cpp) not in self._handed:
             found = _HANDED.findall(cpp.source.text)
             self._handed[id(cpp)] = frozenset(one or other for one, other in found)

@@ -14,6 +14,7 @@ from tree_sitter import Language, Node, Parser, Query, QueryCursor
 from rebsync.records import dataclass
 from rebsync.reverse.syntax.cpp_depth import deep_parts, may_be_deep, without
 from rebsync.reverse.syntax.cpp_text import readable
+from rebsync.reverse.syntax.cpp_words import words_of
 from rebsync.source import Source, SourceSpan, Span
 
 _MOST_COMMENTS = 60  # each is looked for from the start of what is around it
@@ -46,6 +47,21 @@ class Cpp:
     def data(self) -> bytes:
         """The text as it was parsed."""
         return self.root.text or b""
+
+    @cached_property
+    def original(self) -> bytes:
+        """The text as it was read; places are the same."""
+        return self.source.text.encode("utf-8", "surrogatepass")
+
+    @cached_property
+    def words(self) -> frozenset[bytes]:
+        """All words of the text: what is not among them stands nowhere in it."""
+        return words_of(self.original)
+
+    @property
+    def has_markers(self) -> bool:
+        """Whether there may be markers in its comments."""
+        return b"rebsync" in self.words
 
     def operator(self, node: Node) -> str:
         """The operator of an operation."""

@@ -16,6 +16,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.syntax.cpp_declarations import unscoped
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction, function_of
 from rebsync.reverse.syntax.cpp_tree import Cpp, part, text_of
+from rebsync.reverse.syntax.cpp_words import places_of
 
 # Macros of tests that make a member function of the class they name first.
 FIXTURES = frozenset({"TEST_F", "TEST_P", "TYPED_TEST"})
@@ -24,7 +25,6 @@ _NESTED = 12
 _NAMES = frozenset(
     {"identifier", "field_identifier", "type_identifier", "namespace_identifier", "this"}
 )
-_WORD = frozenset(b"abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_")
 _DECLARATORS = frozenset(
     {
         *("pointer_declarator", "reference_declarator", "array_declarator"),
@@ -66,7 +66,6 @@ class Texts:
     """Finds names in the files of some code, and the functions and classes around places."""
 
     code: Code
-    _bytes: dict[int, bytes] = field(default_factory=dict)
     _found: dict[tuple[int, str], list[Node]] = field(default_factory=dict)
     _everywhere: dict[str, list[tuple[Cpp, Node]]] = field(default_factory=dict)
     _functions: dict[int, CppFunction] | None = None
@@ -76,13 +75,6 @@ class Texts:
     _descendants: dict[int, list[CppClass]] = field(default_factory=dict)
     _homes: dict[int, CppFunction | None] = field(default_factory=dict)
     _other_names: dict[str, list[str]] | None = None
-
-    def data(self, cpp: Cpp) -> bytes:
-        """The text of a file as the tree counts it."""
-        key = id(cpp)
-        if key not in self._bytes:
-            self._bytes[key] = cpp.source.text.encode("utf-8", "surrogatepass")
-        return self._bytes[key]
 
     def named(self, cpp: Cpp, name: str) -> list[Node]:
         """All places of a file where a name stands in the code."""
@@ -102,21 +94,15 @@ class Texts:
         """All places of all files where a name stands."""
         if name not in self._everywhere:
             word = name.encode()
-            holders = [c for c in self.code.files if word in self.data(c)]
+            holders = [c for c in self.code.files if word in c.words or not name.isascii()]
             self._everywhere[name] = [(c, n) for c in holders for n in self.named(c, name)]
         return self._everywhere[name]
 
     def _search(self, cpp: Cpp, name: bytes) -> Iterator[Node]:
-        data = self.data(cpp)
-        at = data.find(name) if name else -1
-        while at >= 0:
-            end = at + len(name)
-            before, after = data[at - 1 : at], data[end : end + 1]
-            if not (before and before[0] in _WORD) and not (after and after[0] in _WORD):
-                node = cpp.root.descendant_for_byte_range(at, end)
-                if node is not None and node.type in _NAMES and node.start_byte == at:
-                    yield node
-            at = data.find(name, end)
+        for at in places_of(cpp.original, name):
+            node = cpp.root.descendant_for_byte_range(at, at + len(name))
+            if node is not None and node.type in _NAMES and node.start_byte == at:
+                yield node
 
     # --- around a place -------------------------------------------------------------------------
 

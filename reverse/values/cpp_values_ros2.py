@@ -255,4 +255,4 @@ def declared(values: Values, name: Node, frame: Frame) -> Value:
 
 def uses_rclcpp(values: Values) -> bool:
     """Whether some file of the code is for ROS 2."""
-    return any(MARK in values.texts.data(cpp) for cpp in values.code.files)
+    return any(MARK in cpp.original for cpp in values.code.files)

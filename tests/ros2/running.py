@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -20,10 +20,18 @@ class RunError(Exception):
     """The run did not come to its end; the text is what it printed."""
 
 
-def run(package: Path, driver: Path, directory: Path, until: float) -> Recording:
-    """Run the package's launch file for that many seconds of its clock."""
+def run(
+    package: Path, driver: Path, directory: Path, until: float, foreign: Sequence[str] = ()
+) -> Recording:
+    """Run the package's launch file for that many seconds of its clock.
+
+    A tool has subscribed to the `foreign` topics and asks for what was sent before, which rebecs do
+    not keep.
+    """
     system = directory / "system.txt"
-    system.write_text("".join(f"{line}\n" for n in launched(package) for line in _lines(n)))
+    listened = [f"foreign\t{topic}" for topic in foreign]
+    lines = [*listened, *(line for node in launched(package) for line in _lines(node))]
+    system.write_text("".join(f"{line}\n" for line in lines))
     done = subprocess.run(
         [str(driver), str(system), str(until)], capture_output=True, text=True, timeout=120
     )

@@ -52,7 +52,9 @@ def recording(headers: Path, tmp_path_factory: pytest.TempPathFactory) -> Record
     directory, config = tmp_path_factory.mktemp("mailbox"), Config(target="ros2-cpp")
     package = written(generated(MODEL, "office", config), directory, "office", config)
     make_messages([package], headers)
-    return run(package, build_driver(package, headers, directory / "build"), directory, 90)
+    driver = build_driver(package, headers, directory / "build")
+    # The start may not wait for a subscription that never matches.
+    return run(package, driver, directory, 90, foreign=["/s/plain"])
 
 
 def _between(recording: Recording, start: int, end: int) -> list[str]:

@@ -5,8 +5,10 @@ from __future__ import annotations
 import shutil
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from importlib import import_module
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -15,6 +17,7 @@ from tests.ros1.conftest import rendered
 from tests.ros1.probes import Player, Rebec
 from tests.ros1.recording import Recording
 from tests.ros1.run import Clock
+from tests.ros2py.messages import Message
 from tests.ros2py.playing import installed, recorded
 from tests.ros2py.world import Launched, World
 
@@ -29,9 +32,13 @@ _SERVERS = ("plain", "low", "high")
 
 @dataclass(frozen=True)
 class _InProcess:
-    """Plays with the package in a folder."""
+    """Plays with the package in a folder; `foreign` are topics to which no rebec subscribes.
+
+    That subscription asks for what was sent before it, which rebecs do not keep.
+    """
 
     folder: Path
+    foreign: tuple[str, ...] = ()
 
     def play(
         self,
@@ -46,8 +53,17 @@ class _InProcess:
         with installed(world, self.folder, self.folder / "probe_interfaces"):
             main = import_module("probe.script").main
             mains = [(node, main) for node in nodes]
-            world.run(mains, clock.until, clock.quiet)
+            listeners = [(Launched("tool"), partial(_listen, world, t)) for t in self.foreign]
+            world.run([*listeners, *mains], clock.until, clock.quiet)
         return recorded(world)
+
+
+def _listen(world: World, topic: str) -> None:
+    """A node that is no rebec and asks for what was sent before it came."""
+    node = world.node("tool")
+    kept = SimpleNamespace(depth=1, durability=True)
+    node.create_subscription(Message, topic, lambda message: None, kept)
+    world.spin(node)
 
 
 def probe_nodes(

@@ -41,7 +41,9 @@ def test_every_node_of_the_launch_file_is_an_entry_point(folder: Path) -> None:
     for name in ("carrier_node", "dispatcher_node", "lifter_node", "lifter_stand_in"):
         assert f'executable="{name}"' in launch
         assert f'"{name} = {_NAME}.{name}:main"' in setup
-        assert "def main() -> None:" in (folder / _NAME / _NAME / f"{name}.py").read_text()
+        assert (
+            "@stoppable\ndef main() -> None:" in (folder / _NAME / _NAME / f"{name}.py").read_text()
+        )
 
 
 @pytest.mark.parametrize("package", [_NAME, f"{_NAME}_interfaces"])

@@ -2,17 +2,58 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from importlib import import_module
+from pathlib import Path
+from typing import Any, cast
+
+import pytest
+
+from tests.ros1.probes import Player, Rebec, play
+from tests.ros1.run import Clock
 from tests.ros1.test_startup import (
+    START,
     test_a_rebec_without_a_list_runs_alone,
     test_nothing_is_lost_however_late_nodes_start,
     test_stopping_in_a_long_delay_is_quick_and_sends_nothing,
     test_time_0_is_when_the_last_is_ready,
 )
+from tests.ros2py.playing import installed
+from tests.ros2py.world import World
 
 # What is waited for in real time, restarts and namespaces need a real ROS.
 __all__ = [
+    "test_a_foreign_subscription_that_never_matches_is_not_waited_for",
     "test_a_rebec_without_a_list_runs_alone",
     "test_nothing_is_lost_however_late_nodes_start",
     "test_stopping_in_a_long_delay_is_quick_and_sends_nothing",
     "test_time_0_is_when_the_last_is_ready",
 ]
+
+
+def test_a_program_that_is_interrupted_while_it_starts_ends_without_complaint(
+    probe: Player,
+) -> None:
+    def interrupted() -> None:
+        raise KeyboardInterrupt
+
+    def broken() -> None:
+        raise RuntimeError("of the user's code")
+
+    folder = cast(Any, probe).folder
+    with installed(World(), folder, folder / "probe_interfaces"):
+        stoppable = import_module("probe.startup").stoppable
+        stoppable(interrupted)()
+        with pytest.raises(RuntimeError):
+            stoppable(broken)()
+
+
+def test_a_foreign_subscription_that_never_matches_is_not_waited_for(
+    probe: Player, tmp_path: Path
+) -> None:
+    """The probe is a dataclass with the topics that a foreign node listens to."""
+    listened = replace(cast(Any, probe), foreign=("/b/plain",))
+    rebecs = {"a": Rebec(constructor=START, plain=("send b plain 1",)), "b": Rebec()}
+    recording = play(listened, tmp_path, rebecs, Clock(until=9, quiet=2))
+    assert recording.order("b") == ["plain(1)@0"]
+    assert recording.problems() == ()

@@ -82,7 +82,11 @@ class Publisher:
         self.node.world.deliver(self, copy.deepcopy(message))
 
     def get_subscription_count(self) -> int:
-        return len(self.node.world.subscribers(self.topic_name))
+        return sum(map(self.matches, self.node.world.subscribers(self.topic_name)))
+
+    def matches(self, subscription: Subscription) -> bool:
+        """Whether a subscription asks for no more than there is: it hears nothing otherwise."""
+        return self.keeps or not subscription.kept
 
 
 class Node:
@@ -237,7 +241,7 @@ class World:
             if publisher.keeps:
                 publisher.kept = [*publisher.kept, message][-publisher.depth :]
             for subscription in self.subscribers(publisher.topic_name):
-                if publisher.keeps or not subscription.kept:
+                if publisher.matches(subscription):
                     self._send(subscription, message)
 
     def _send(self, subscription: Subscription, message: Message) -> None:

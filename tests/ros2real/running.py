@@ -35,7 +35,19 @@ def run(
     wrapper = directory / "wrapper.launch.py"
     simulated = clock.rate is not None
     wrapper.write_text(_WRAPPER.format(launch=str(launch), simulated=simulated))
+    return run_command(workspace, ["ros2", "launch", str(wrapper)], nodes, rebecs, directory, clock)
+
+
+def run_command(
+    workspace: Workspace,
+    command: Sequence[str],
+    nodes: Sequence[str],
+    rebecs: Sequence[str],
+    directory: Path,
+    clock: Clock,
+) -> Recording:
+    """Run what starts nodes to the end of `clock`, then interrupt it, as Ctrl-C does."""
     environment = workspace.environment(directory)
     facts = {"nodes": list(nodes), "rebecs": list(rebecs)}
-    with launched(["ros2", "launch", str(wrapper)], directory, environment) as stop:
+    with launched(command, directory, environment) as stop:
         return record(_RECORDER, facts, clock, directory, environment, stop)

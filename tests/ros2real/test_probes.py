@@ -39,10 +39,13 @@ __all__ = [
 
 _DIALECT = "ros2-py"
 _MESSAGES = ("Note", "ScriptState", "Timing")
+_NODE = Path(__file__).parent / "nodes" / "listener.py"
+_LISTENER = "        ExecuteProcess(cmd=['/usr/bin/python3', *{topics!r}], output='screen'),\n"
 _MODEL = "reactiveclass Script(3) { Script() { } } main { Script s():(); }"
 _MAIN = "from probe.script import main\n\n__all__ = ['main']\n"
 _HEAD = """
 from launch import LaunchDescription
+from launch.actions import ExecuteProcess
 from launch_ros.actions import Node
 
 
@@ -57,6 +60,7 @@ class _Real:
 
     workspace: Workspace
     factory: pytest.TempPathFactory
+    foreign: tuple[str, ...] = ()
 
     def play(
         self,
@@ -69,7 +73,8 @@ class _Real:
         folder = self.factory.mktemp("play")
         nodes = probe_nodes(rebecs, parameters, names)
         launch = folder / "probe.launch.py"
-        texts = [_node(node, rebecs[node.name], folder) for node in nodes]
+        texts = [_LISTENER.format(topics=[str(_NODE), *self.foreign])] if self.foreign else []
+        texts += [_node(node, rebecs[node.name], folder) for node in nodes]
         launch.write_text(f"{_HEAD}{''.join(texts)}    ])\n")
         told = nodes[0].parameters["mailbox.rebecs"]
         assert isinstance(told, list)

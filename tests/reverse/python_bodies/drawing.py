@@ -22,6 +22,8 @@ _WHOLES = (
     "LIMIT",
 )
 _REALS = ("self.r", "0.5", "2.0", "-1.25", "1e3")
+# By what a message holds, what a callback may put into it.
+_CHANGES = {"whole": ("3", "self.b", "-1"), "truth": ("True", "self.f"), "real": ("0.5", "self.r")}
 _SIGNS = ("<", "<=", ">", ">=", "==", "!=")
 _SINK = """
 class Sink:
@@ -40,10 +42,32 @@ class Body:
         self.field = field
         self.locals: list[str] = []
         self.count = 0
+        self.beside = Random(f"{random.getstate()[1][:3]} {field}")  # draws nothing of the others
 
     def lines(self, depth: int, most: int) -> list[str]:
-        found = [line for _ in range(self.random.randint(1, most)) for line in self.one(depth)]
+        found: list[str] = []
+        for _ in range(self.random.randint(1, most)):
+            found += self.unknown() if depth == 0 else []
+            found += self.one(depth)
         return found or ["pass"]
+
+    def unknown(self) -> list[str]:
+        """Statements on what the model does not have, or not any more."""
+        match self.beside.randint(0, 19):
+            case 0:
+                return ["for each in self.names:", "    self.d = each + self.d"]
+            case 1:
+                return ["if self.d > 3:", f"    self.a = {self.beside.randint(0, 9)}"]
+            case 2:
+                return ["for each in self.names:", "    if each > 1:", "        self.settle(each)"]
+            case 3:
+                return ["self.names.append(2)"]
+            case 4 | 5 if self.field in _CHANGES:
+                return [f"msg.data = {self.beside.choice(_CHANGES[self.field])}"]
+            case 6 if self.field in _CHANGES:
+                return ["msg.data += 1" if self.field != "truth" else "msg.data = not msg.data"]
+            case _:
+                return []
 
     def one(self, depth: int) -> list[str]:
         draw = self.random.randint(0, 13 if depth < 3 else 7)
@@ -185,6 +209,8 @@ def draw_node(seed: int) -> str:
         f"        self.f = {random.choice(('True', 'False'))}",
         "        self.r = 0.5",
         "        self.w = 0",
+        "        self.d = 0",
+        "        self.names = [1, 2]",
     ]
     for kind, type_ in OUT.items():
         lines += [f"        self.{kind}_pub = rospy.Publisher('out/{kind}', {type_}, queue_size=9)"]

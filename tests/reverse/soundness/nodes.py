@@ -18,6 +18,7 @@ from tests.reverse.soundness.drawing import (
     Variable,
 )
 from tests.reverse.soundness.odd import odd_statement
+from tests.reverse.soundness.odd_library import MACROS, library_statement
 from tests.reverse.soundness.shapes import SHAPES, Function, Parts, Subscription, files_of
 
 # Message types with their fields by paths.
@@ -52,6 +53,8 @@ INSTEAD: tuple[dict[str, str], ...] = (
 )
 # Of those that have wider numbers than models.
 WIDE_FROM = 1000
+# Of those that use macros of their own and objects of libraries.
+LIBRARY_FROM = 2000
 WIDE_INSTEAD: tuple[dict[str, str], ...] = (
     {"std_msgs::Int32": "std_msgs::Int64", "std_msgs::Int16": "std_msgs::UInt32"},
     {"std_msgs::Bool": "std_msgs::UInt64", "std_msgs::Int32": "std_msgs::UInt32"},
@@ -115,10 +118,13 @@ class DrawnNode:
 
 
 def draw_node(seed: int) -> DrawnNode:
-    """The node of a seed, always the same; from `WIDE_FROM` on with wider numbers than models'."""
+    """The node of a seed, always the same; from `WIDE_FROM` on with wider numbers than models'.
+
+    From `LIBRARY_FROM` on macros stand before the code instead.
+    """
     random = Random(seed)
     name = f"N{seed}"
-    all_members = (*MEMBERS, *WIDE_MEMBERS) if seed >= WIDE_FROM else MEMBERS
+    all_members = (*MEMBERS, *WIDE_MEMBERS) if _is_wide(seed) else MEMBERS
     members = tuple(m for m in all_members if random.randrange(100) < 70)
     publishers = tuple(
         Publisher(f"pub{i}_", message, MESSAGES[message])
@@ -132,9 +138,10 @@ def draw_node(seed: int) -> DrawnNode:
     once = (Callback("later", None),) if random.random() < 0.4 else ()
     callbacks = (*taken, *ticks, *once)
     shape = random.choice(SHAPES)
-    wide = WIDE if seed >= WIDE_FROM else ()
-    integers = (*INTEGERS, *wide)
-    parts = _Writer(random, name, members, publishers, callbacks, shape, integers).parts()
+    integers = (*INTEGERS, *(WIDE if _is_wide(seed) else ()))
+    writer = _Writer(random, name, members, publishers, callbacks, shape, integers)
+    writer.is_of_library = seed >= LIBRARY_FROM
+    parts = writer.parts()
     sources = files_of(parts, shape, random)
     files = {
         **{f"src/{path}": text for path, text in sources.items()},
@@ -146,10 +153,14 @@ def draw_node(seed: int) -> DrawnNode:
     return DrawnNode(name, files, sources, shape, callbacks, members, publishers)
 
 
+def _is_wide(seed: int) -> bool:
+    return WIDE_FROM <= seed < LIBRARY_FROM
+
+
 def _drawn(random: Random, messages: tuple[str, ...], seed: int) -> list[str]:
     """One to three types of messages."""
     instead = INSTEAD[seed % len(INSTEAD)]
-    if seed >= WIDE_FROM:
+    if _is_wide(seed):
         instead = WIDE_INSTEAD[seed % len(WIDE_INSTEAD)]
     drawn = random.sample(messages, random.randint(1, 3))
     return list(dict.fromkeys(instead.get(m, m) for m in drawn))
@@ -165,6 +176,7 @@ class _Writer:
     shape: str
     integers: tuple[str, ...]
     odd: bool = False
+    is_of_library: bool = False
 
     def parts(self) -> Parts:
         opaque = self.random.random() < 0.6
@@ -172,12 +184,13 @@ class _Writer:
         helpers, free = self._helpers()
         called = [h for h, _ in helpers]
         made = {c.name: self._callback(c, called, opaque) for c in self.callbacks}
+        macros = MACROS if self.is_of_library else ()
         mode = ["enum Mode { IDLE, RUN, STOP };", ""]
         low = self.name.lower()
         return Parts(
             self.name,
             ("#include <ros/ros.h>", *(f"#include <{_path(m)}.h>" for m in sorted(MESSAGES))),
-            ("#include <library.h>", "", *(mode if self._has("Mode") else []), *free),
+            ("#include <library.h>", "", *macros, *(mode if self._has("Mode") else []), *free),
             tuple(f for h, f in helpers if h.member),
             tuple(made[c.name] for c in self.callbacks if c.message is None),
             tuple(
@@ -248,6 +261,8 @@ class _Writer:
         body.timers = [timer] if once and self.shape != "base" else []
         body.handle = "ros::NodeHandle()" if free else "nh_"
         body.odd = odd_statement if self.odd else None
+        if self.is_of_library:
+            body.odd = library_statement
         body.integers = self.integers
         return body
 

@@ -120,6 +120,21 @@ int level() { return drawn() % 6; }
 bool ready() { return drawn() % 2; }
 double ratio() { return (drawn() % 100) / 100.0; }
 void record(int) {}
+std::ostream& out() {
+  static std::ostringstream stream;
+  return stream;
+}
+int& Table::at(int) { return cell; }
+int& Table::operator()(int, int) { return cell; }
+Table& Table::row(int) { return *this; }
+Table& table() {
+  static Table only;
+  return only;
+}
+}
+namespace Eigen {
+MatrixXd::MatrixXd(int, int) : cell(library::ratio()) {}
+double& MatrixXd::operator()(int, int) { return cell; }
 }
 static void tell(const std::string& text) { std::cerr << text << std::endl; }
 """

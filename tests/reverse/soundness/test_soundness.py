@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 
 from rebsync import model as m
-from rebsync.reverse.bodies import cpp_widths
+from rebsync.reverse.bodies import cpp_effects, cpp_widths
 from tests.reverse.soundness.comparing import CALLS, recovered, tallied
 from tests.reverse.soundness.effects import compare
-from tests.reverse.soundness.nodes import WIDE_FROM, draw_node
+from tests.reverse.soundness.nodes import LIBRARY_FROM, WIDE_FROM, draw_node
 from tests.reverse.soundness.programs import inputs, run
 
 DRAWN = int(os.environ.get("REBSYNC_DRAWN_NODES", "24"))
@@ -41,6 +41,19 @@ def test_models_of_wide_numbers_can_do_what_the_code_does(first: int, tmp_path: 
     assert tally.unsound == []
     assert tally.inexact == []
     assert tally.exact + tally.approximated > 0
+
+
+def test_models_of_what_uses_macros_can_do_what_the_code_does(tmp_path: Path) -> None:
+    tally = tallied(tmp_path, range(LIBRARY_FROM, LIBRARY_FROM + DRAWN // 4))
+    assert tally.refused == []
+    assert tally.unsound == []
+    assert tally.inexact == []
+    assert tally.exact > tally.unreadable
+
+
+def test_macros_that_do_more_are_found_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cpp_effects, "is_harmless", lambda *_: True)
+    assert tallied(tmp_path, (LIBRARY_FROM + 9, LIBRARY_FROM + 16)).unsound
 
 
 def test_numbers_that_wrap_are_found_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

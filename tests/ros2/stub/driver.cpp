@@ -1,7 +1,8 @@
 // Runs the executables of a package, each as a thread, under a clock that jumps from timer to timer.
 //
 // Usage: driver SYSTEM UNTIL, where SYSTEM has lines of fields set apart by tabs: `node EXECUTABLE
-// NAME`, followed by the `param NAME TYPE VALUE...` and `remap FROM TO` of that node; and UNTIL is
+// NAME`, followed by the `param NAME TYPE VALUE...` and `remap FROM TO` of that node, and
+// `foreign TOPIC` for a subscription of a tool that asks for what was sent before it; and UNTIL is
 // the time of the end in seconds. What happens goes to standard output, one line each.
 #include <chrono>
 #include <cstdlib>
@@ -9,6 +10,7 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <memory>
 #include <rclcpp/rclcpp.hpp>
 #include <sstream>
 #include <string>
@@ -57,6 +59,15 @@ rclcpp::ParameterValue value(const std::vector<std::string>& line) {
   return ParameterValue(first);
 }
 
+// A subscription that no rebec has, and that hears nothing of writers that keep nothing.
+void listen(const std::string& topic) {
+  static std::vector<std::shared_ptr<rclcpp::fake::Reader>> readers;
+  readers.push_back(std::make_shared<rclcpp::fake::Reader>(topic, "tool",
+      rclcpp::QoS(1).transient_local(), std::make_shared<rclcpp::fake::Executor>(),
+      [](const rclcpp::fake::Data&) {}));
+  rclcpp::fake::middleware().add(readers.back());
+}
+
 std::vector<Process> read(const char* path) {
   std::vector<Process> processes;
   std::ifstream in(path);
@@ -64,6 +75,8 @@ std::vector<Process> read(const char* path) {
     const std::vector<std::string> line = fields(text);
     if (line[0] == "node") {
       processes.push_back({mains().at(line[1]), {line[2], {}, {}}});
+    } else if (line[0] == "foreign") {
+      listen(line[1]);
     } else if (line[0] == "param") {
       processes.back().arguments.overrides.emplace(line[1], value(line));
     } else {
@@ -113,6 +126,15 @@ std::size_t countRebecs(const std::vector<Process>& processes) {
   return count;
 }
 
+// Whether programs end without complaint that are told to stop while they make their nodes.
+bool endsEarly(const std::vector<Process>& processes) {
+  for (const Process& process : processes) {
+    rclcpp::fake::arguments() = process.arguments;
+    if (process.main(0, nullptr) != 0) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -136,5 +158,5 @@ int main(int argc, char** argv) {
   middleware.record("end", "");
   middleware.shut_down();
   for (std::thread& thread : running) thread.join();
-  return 0;
+  return endsEarly(processes) ? 0 : 1;
 }

@@ -8,7 +8,7 @@ import rclpy
 from probe.drive import Drive
 from probe.mailbox import KEPT, Mailbox, Served, to
 from probe.sensor import Sensor
-from probe.startup import declared
+from probe.startup import declared, stoppable
 from probe.values import Array, Server, When, divide, priority, text
 from probe_interfaces.msg import Note, ScriptState
 from rclpy.node import Node
@@ -121,6 +121,7 @@ class Script:
         self.state.publish(msg)
 
 
+@stoppable
 def main() -> None:
     """The node, until it is told to stop."""
     rclpy.init()

@@ -1,4 +1,4 @@
-"""python -m tests.roundtrip.faults [--step N]"""
+"""python -m tests.roundtrip.faults [--dialect D] [--action WORD] [--step N]"""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from tests.roundtrip.faults.faults import FAULTS, outcome
-from tests.roundtrip.faults.interruptions import Stop, operations, tried
-from tests.roundtrip.faults.package import copied, prepare, run, snapshot
+from tests.roundtrip.faults.faults import faults, outcome
+from tests.roundtrip.faults.interruptions import ACTIONS, Action, Stop, operations, tried, whole
+from tests.roundtrip.faults.package import PATROLS, Patrol, copied, prepare, run
 
 _MANY = 10_000
 
@@ -20,15 +20,23 @@ _MANY = 10_000
 def main(arguments: Sequence[str]) -> int:
     """0 where each fault is told of, and nothing is lost by any."""
     parser = argparse.ArgumentParser(prog="python -m tests.roundtrip.faults")
+    parser.add_argument("--dialect", choices=PATROLS, default="ros1-cpp")
+    parser.add_argument("--action", default="", help="stop only what has this in its name")
     parser.add_argument("--step", type=int, default=1, help="every so many operations")
     given = parser.parse_args(arguments)
+    patrol = PATROLS[given.dialect]
     with TemporaryDirectory() as folder:
         made = Path(folder, "made")
         made.mkdir()
         Path(folder).chmod(0o755)
-        prepare(made)
-        _large(made)
-        return int(_faults(made) + _stops(made, given.step) > 0)
+        prepare(made, patrol)
+        wrong = 0
+        if not given.action:
+            _large(made)
+            wrong += _faults(made, patrol)
+        for action in (a for a in ACTIONS if given.action in a.name):
+            wrong += _stops(made, action, given.step)
+        return int(wrong > 0)
 
 
 def _large(made: Path) -> None:
@@ -48,11 +56,11 @@ def _large(made: Path) -> None:
         print(f"{_MANY} files in {where}: sync {times[0]:.2f} s, nothing to do {times[1]:.2f} s")
 
 
-def _faults(made: Path) -> int:
+def _faults(made: Path, patrol: Patrol) -> int:
     wrong = 0
     print(f"{'fault':44} status  told")
-    for fault in FAULTS:
-        ended, broken = outcome(fault, made, made.parent / "tried")
+    for fault in faults(patrol):
+        ended, broken = outcome(fault, made, made.parent / "tried", patrol)
         first = next((x for x in ended.told.split("\n") if " RS" in x or "RS" in x), "")
         print(f"{fault.name:44} {ended.status:>6}  {first[:110]}")
         print("".join(f"    {each}\n" for each in broken), end="")
@@ -60,22 +68,21 @@ def _faults(made: Path) -> int:
     return wrong
 
 
-def _stops(made: Path, step: int) -> int:
+def _stops(made: Path, action: Action, step: int) -> int:
     folder = made.parent / "tried"
-    copied(made, folder)
-    assert run(folder, "sync").status == 0
-    wanted = snapshot(folder)
-    count = operations(made, folder)
+    wanted, _ = whole(action, made, folder)
+    count = operations(action, made, folder)
     ends: Counter[tuple[str, int]] = Counter()
     wrong = 0
     for is_killed in (True, False):
+        how = "killed" if is_killed else "failed"
         for number in range(1, count + 1, step):
-            done = tried(made, wanted, folder, Stop(number, is_killed))
-            ends["killed" if is_killed else "failed", done.ended.status] += 1
+            done = tried(made, wanted, folder, Stop(number, is_killed, action))
+            ends[how, done.ended.status] += 1
             for each in done.wrong:
-                print(f"operation {number}, {'killed' if is_killed else 'failed'}: {each}")
+                print(f"{action.name}, operation {number}, {how}: {each}")
             wrong += bool(done.wrong)
-    print(f"{count} operations that write; stopped at {sum(ends.values())}, {wrong} wrong")
+    print(f"{action.name}: {count} operations that write; stopped {ends.total()}, {wrong} wrong")
     for (how, status), number in sorted(ends.items()):
         print(f"  {how}, exit status {status}: {number}")
     return wrong

@@ -7,17 +7,17 @@ import json
 import os
 import re
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from rebsync.roundtrip.text_merge import decided
 from tests.roundtrip.faults.package import (
-    EDITS,
     MANIFEST,
     MODEL_FILE,
-    SOURCE,
+    PATROLS,
     Ended,
+    Patrol,
     copied,
     run,
     snapshot,
@@ -44,7 +44,9 @@ class Fault:
     is_user: bool = False
 
 
-def outcome(fault: Fault, made: Path, folder: Path) -> tuple[Ended, list[str]]:
+def outcome(
+    fault: Fault, made: Path, folder: Path, patrol: Patrol = PATROLS["ros1-cpp"]
+) -> tuple[Ended, list[str]]:
     """How sync ends with a fault, and all that is not as it should be."""
     copied(made, folder)
     fault.make(folder)
@@ -55,7 +57,7 @@ def outcome(fault: Fault, made: Path, folder: Path) -> tuple[Ended, list[str]]:
         wrong.append(f"status {ended.status}: {ended.told}")
     if "wrote" not in ended.told and snapshot(folder) != before:
         wrong.append("something was written")
-    wrong += _lost(folder, before)
+    wrong += _lost(folder, before, patrol)
     if fault.mend is not None or fault.arguments:
         if fault.mend is not None:
             fault.mend(folder)
@@ -65,11 +67,11 @@ def outcome(fault: Fault, made: Path, folder: Path) -> tuple[Ended, list[str]]:
     return ended, wrong
 
 
-def _lost(folder: Path, before: dict[str, bytes]) -> list[str]:
+def _lost(folder: Path, before: dict[str, bytes], patrol: Patrol) -> list[str]:
     """The edits of users that are nowhere any more."""
     after = b"\n".join(data for name, data in snapshot(folder).items() if "/.rebsync/" not in name)
     there = b"\n".join(before.values())
-    edits = [new for _, _, new in EDITS]
+    edits = [new for _, _, new in patrol.edits]
     return [f"lost: {e}" for e in edits if e.encode() in there and e.encode() not in after]
 
 
@@ -146,6 +148,11 @@ def linked(path: str, is_out: bool) -> Callable[[Path], None]:
     return make
 
 
+def entry(path: str, make: Callable[[Path], None]) -> Callable[[Path], None]:
+    """Puts something where nothing is."""
+    return lambda folder: make(folder / path)
+
+
 def _newer(manifest: str) -> str:
     return json.dumps({**json.loads(manifest), "format": 99, "rebsync": "9.0.0"})
 
@@ -175,7 +182,8 @@ _OURS = ("--conflict", "ours")
 _MODEL_HERE = ("--model", MODEL_FILE)
 _SYNTAX = text(MODEL_FILE, lambda t: t.replace("main {", "main"))
 
-FAULTS = (
+# Those of what is the same in all dialects.
+ALIKE = (
     Fault("no fault", _nothing, 0),
     Fault("manifest damaged", text(MANIFEST, lambda t: t.replace('"model"', '"mod')), 2, "RS962"),
     Fault("manifest half written", text(MANIFEST, _half), 2, "RS962"),
@@ -184,14 +192,22 @@ FAULTS = (
     Fault("manifest of a newer rebsync", text(MANIFEST, _newer), 2, "RS963"),
     Fault("manifest deleted", gone(MANIFEST), 2, "RS961"),
     Fault("manifest with conflict markers", text(MANIFEST, lambda t: _CONFLICT + t), 2, "RS966"),
-    Fault("all records deleted", gone("patrol/.rebsync"), 2, "RS960"),
+    Fault("all records deleted", gone("patrol/.rebsync"), 2, "RS96"),
+    Fault(
+        "all records and settings deleted",
+        all_of(gone("patrol/.rebsync"), gone("rebsync.toml")),
+        2,
+        "RS960",
+    ),
     Fault("base model deleted", gone(_BASE), 1, "RS964", _OURS, text(MODEL_FILE, _decided)),
     Fault("base model damaged", text(_BASE, _half), 1, "RS964", _OURS, text(MODEL_FILE, _decided)),
     Fault("base texts deleted", gone("patrol/.rebsync/base"), 0, mend=_nothing),
     Fault("model deleted", gone(MODEL_FILE), 2, "RS965"),
     Fault(
         "model moved",
-        moved(MODEL_FILE, "deep/er/other.rebeca"),
+        all_of(
+            moved(MODEL_FILE, "deep/er/other.rebeca"), moved("rebsync.toml", "deep/er/rebsync.toml")
+        ),
         2,
         "RS965",
         ("--model", "deep/er/other.rebeca"),
@@ -201,49 +217,61 @@ FAULTS = (
     Fault("model that is not UTF-8", text(MODEL_FILE, lambda t: f"// \udcff\n{t}"), 2, "RS804"),
     Fault("package moved", moved("patrol", "src/robots/patrol"), 2, "RS965", _MODEL_HERE),
     Fault("package renamed", moved("patrol", "patrol_two"), 0),
-    Fault("code with conflict markers", text(SOURCE, lambda t: t + _CONFLICT), 2, "RS966"),
-    Fault(
-        "code with conflict markers, decided",
-        text(SOURCE, lambda t: t + _CONFLICT),
-        2,
-        "RS966",
-        mend=text(SOURCE, _without_conflict),
-    ),
-    Fault("code that is not UTF-8", text(SOURCE, lambda t: f"// \udcff\n{t}"), 2, "RS804"),
-    Fault("a source deleted", gone(SOURCE), 4, "RS969"),
-    Fault("the launch file deleted", gone("patrol/launch/patrol.launch"), 4, "RS969"),
-    Fault("files with CRLF", all_of(text(SOURCE, _crlf), text(MODEL_FILE, _crlf)), 0),
     Fault(
         "settings with mistakes", lambda f: _write(f / "rebsync.toml", "package = ["), 2, "RS807"
     ),
     Fault(
         "settings with another package",
-        lambda f: _write(f / "rebsync.toml", 'package = "other"\n'),
+        text("rebsync.toml", lambda t: f'package = "other"\n{t}'),
         1,
         "RS955",
     ),
     Fault("a model that is read-only", mode(MODEL_FILE, 0o444), 2, "RS803", is_user=True),
-    Fault("a source that is read-only", mode(SOURCE, 0o444), 2, "RS803", is_user=True),
-    Fault("a directory that is read-only", mode("patrol/src", 0o555), 2, "RS803", is_user=True),
     Fault("records that are read-only", mode("patrol/.rebsync", 0o555), 2, "RS803", is_user=True),
-    Fault("a source that may not be read", mode(SOURCE, 0), 4, "RS941", is_user=True),
     Fault("a manifest that may not be read", mode(MANIFEST, 0), 2, "RS803", is_user=True),
-    Fault("a link in the tree", linked(SOURCE, is_out=False), 0),
-    Fault("a link out of the tree", linked(SOURCE, is_out=True), 4, "RS941"),
     Fault("a model that is a link out of the tree", linked(MODEL_FILE, is_out=True), 2, "RS806"),
-    Fault(
-        "a link that leads nowhere",
-        lambda f: (f / "patrol/src/x.cpp").symlink_to("nowhere"),
-        4,
-        "RS941",
-    ),
-    Fault("a link to itself", lambda f: (f / "patrol/src/loop").symlink_to("."), 0),
-    Fault(
-        "what a killed sync left",
-        lambda f: _write(f / "patrol/src/.robot.cpp.0123abcd.rebsync.tmp", "x"),
-        0,
-    ),
 )
+
+
+def faults(patrol: Patrol) -> tuple[Fault, ...]:
+    """All faults of the package in a dialect."""
+    return (*ALIKE, *_of_texts(patrol), *_of_entries(patrol))
+
+
+def _of_texts(patrol: Patrol) -> Iterator[Fault]:
+    """What can be wrong with what a source says."""
+    source, written = patrol.source, patrol.edits[0][0]
+    marked = text(source, lambda t: t + _CONFLICT)
+    odd = text(written, lambda t: f"{patrol.comment} \udcff\n{t}")
+    yield Fault("code with conflict markers", marked, 2, "RS966")
+    decided = text(source, _without_conflict)
+    yield Fault("code with conflict markers, decided", marked, 2, "RS966", mend=decided)
+    yield Fault("code that is not UTF-8", odd, 2, "RS804")
+    yield Fault("a source emptied", text(source, lambda t: ""), 4, "RS959")
+    yield Fault("a launch file emptied", text(patrol.launch, lambda t: ""), 4, "RS959")
+    is_python = source.endswith(".py")
+    status, code = (1, "RS967") if is_python else (4, "RS959")
+    yield Fault("a source half written", text(source, _half), status, code)
+    yield Fault("files with CRLF", all_of(text(source, _crlf), text(MODEL_FILE, _crlf)), 0)
+
+
+def _of_entries(patrol: Patrol) -> Iterator[Fault]:
+    """What can be wrong with the entries of directories: gone, of another's, links."""
+    source, written = patrol.source, patrol.edits[0][0]
+    folder, _, name = source.rpartition("/")
+    suffix, above = name.rpartition(".")[2], written.rpartition("/")[0]
+    yield Fault("a source deleted", gone(source), 4, "RS969")
+    yield Fault("the launch file deleted", gone(patrol.launch), 4, "RS969")
+    yield Fault("a source that is read-only", mode(written, 0o444), 2, "RS803", is_user=True)
+    yield Fault("a directory that is read-only", mode(above, 0o555), 2, "RS803", is_user=True)
+    yield Fault("a source that may not be read", mode(source, 0), 4, "RS941", is_user=True)
+    yield Fault("a link in the tree", linked(source, is_out=False), 0)
+    yield Fault("a link out of the tree", linked(source, is_out=True), 4, "RS941")
+    nowhere = entry(f"{folder}/x.{suffix}", lambda p: p.symlink_to("nowhere"))
+    yield Fault("a link that leads nowhere", nowhere, 4, "RS941")
+    yield Fault("a link to itself", entry(f"{folder}/loop", lambda p: p.symlink_to(".")), 0)
+    left = entry(f"{folder}/.{name}.0123abcd.rebsync.tmp", lambda p: _write(p, "x"))
+    yield Fault("what a killed sync left", left, 0)
 
 
 def _write(path: Path, content: str) -> None:

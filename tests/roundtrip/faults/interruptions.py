@@ -1,15 +1,16 @@
-"""A sync that is stopped at one operation that writes: it dies there, or the operation fails."""
+"""Commands stopped at one operation that writes: they die there, or the operation fails."""
 
 from __future__ import annotations
 
 import errno
 import os
+import shutil
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.roundtrip.faults.package import Ended, Snapshot, copied, run, snapshot
+from tests.roundtrip.faults.package import MODEL_FILE, Ended, Snapshot, copied, run, snapshot
 
 KILLED = 137
 _WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT
@@ -17,11 +18,43 @@ _EVENTS = ("os.rename", "os.remove", "os.link", "os.mkdir", "os.rmdir", "os.chmo
 
 
 @dataclass(frozen=True)
+class Action:
+    """A command that is stopped, and how it ends if it is not.
+
+    `clear` takes away first what is to be written anew; `counts_cache` says that what is written to
+    the cache counts as well, as check writes nothing else.
+    """
+
+    name: str
+    arguments: tuple[str, ...]
+    status: int = 0
+    clear: str = ""
+    counts_cache: bool = False
+
+    def begun(self, made: Path, folder: Path) -> Path:
+        """A copy of a package on which the command is to run."""
+        copied(made, folder)
+        if self.clear:
+            shutil.rmtree(folder / self.clear)
+        return folder
+
+
+SYNC = Action("sync", ("sync",))
+ACTIONS = (
+    SYNC,
+    Action("generate anew", ("generate", MODEL_FILE)),
+    Action("generate", ("generate", MODEL_FILE), clear="patrol"),
+    Action("check", ("check",), 1, ".cache", counts_cache=True),
+)
+
+
+@dataclass(frozen=True)
 class Stop:
-    """At which operation a sync stops, and how: it is killed, or an error comes of it."""
+    """At which operation a command stops, and how: it is killed, or an error comes of it."""
 
     number: int
     is_killed: bool
+    action: Action = SYNC
 
 
 def stopping(folder: Path, stop: Stop) -> Callable[[], None]:
@@ -29,7 +62,6 @@ def stopping(folder: Path, stop: Stop) -> Callable[[], None]:
 
     def install() -> None:
         seen = 0
-        real = os.fsync
 
         def one() -> None:
             nonlocal seen
@@ -41,20 +73,16 @@ def stopping(folder: Path, stop: Stop) -> Callable[[], None]:
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
         def hook(event: str, arguments: tuple[object, ...]) -> None:
-            if _writes(folder, event, arguments):
+            if _writes(folder, event, arguments, stop.action.counts_cache):
                 one()
 
-        def fsync(handle: int) -> None:
-            one()
-            real(handle)
-
         sys.addaudithook(hook)
-        os.fsync = fsync  # type: ignore[assignment]
+        os.fsync = lambda fd: one()
 
     return install
 
 
-def _writes(folder: Path, event: str, arguments: tuple[object, ...]) -> bool:
+def _writes(folder: Path, event: str, arguments: tuple[object, ...], counts_cache: bool) -> bool:
     if event == "open":
         flags = arguments[2]
         if not (isinstance(flags, int) and flags & _WRITING):
@@ -65,33 +93,42 @@ def _writes(folder: Path, event: str, arguments: tuple[object, ...]) -> bool:
     if not isinstance(path, str | os.PathLike):
         return False
     name = os.path.normpath(Path.cwd() / os.fspath(path))
-    return name.startswith(f"{folder}/") and not name.startswith(f"{folder}/.cache")
+    is_cache = name.startswith(f"{folder}/.cache")
+    return name.startswith(f"{folder}/") and (counts_cache or not is_cache)
 
 
 @dataclass(frozen=True)
 class Tried:
-    """What came of one stop: how the sync ended, and what does not hold."""
+    """What came of one stop: how the command ended, and what does not hold."""
 
     stop: Stop
     ended: Ended
     wrong: tuple[str, ...]
 
 
+def whole(action: Action, made: Path, folder: Path) -> tuple[Snapshot, Ended]:
+    """What a command leaves that nothing stops."""
+    ended = run(action.begun(made, folder), *action.arguments)
+    assert ended.status == action.status, ended.told
+    return snapshot(folder), ended
+
+
 def tried(made: Path, wanted: Snapshot, folder: Path, stop: Stop) -> Tried:
-    """Stops a sync in a copy of a package, and looks at what it has left; then syncs again."""
-    old = snapshot(copied(made, folder))
-    ended = run(folder, "sync", before=stopping(folder, stop))
+    """Stops a command in a copy of a package, and looks at what it has left; then runs it again."""
+    action = stop.action
+    old = snapshot(action.begun(made, folder))
+    ended = run(folder, *action.arguments, before=stopping(folder, stop))
     left = snapshot(folder)
     wrong = list(_mixed(old, wanted, left))
-    if not stop.is_killed and ended.status not in (0, KILLED):
+    if not stop.is_killed and ended.status not in (action.status, KILLED):
         wrong += [] if left == old else ["an error, and something is not as it was"]
         wrong += [] if "RS805" in ended.told else [f"told: {ended.told}"]
-    again = run(folder, "sync")
-    if again.status != 0:
-        wrong.append(f"the next sync: {again.status} {again.told}")
+    again = run(folder, *action.arguments)
+    if again.status != action.status:
+        wrong.append(f"the next {action.name}: {again.status} {again.told}")
     else:
         now = snapshot(folder)
-        wrong += [f"after the next sync: {n}" for n in _differing(now, wanted)]
+        wrong += [f"after the next {action.name}: {n}" for n in _differing(now, wanted)]
     return Tried(stop, ended, tuple(wrong))
 
 
@@ -108,12 +145,13 @@ def _differing(one: Snapshot, other: Snapshot) -> list[str]:
     return [name for name in sorted({*one, *other}) if one.get(name) != other.get(name)]
 
 
-def operations(made: Path, folder: Path) -> int:
-    """How many operations a whole sync has."""
+def operations(action: Action, made: Path, folder: Path) -> int:
+    """How many operations the whole command has."""
     low, high = 0, 1024
     while high - low > 1:
         middle = (low + high) // 2
-        copied(made, folder)
-        ended = run(folder, "sync", before=stopping(folder, Stop(middle, True)))
+        action.begun(made, folder)
+        stop = Stop(middle, True, action)
+        ended = run(folder, *action.arguments, before=stopping(folder, stop))
         low, high = (middle, high) if ended.status == KILLED else (low, middle)
     return low

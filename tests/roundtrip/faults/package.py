@@ -1,4 +1,4 @@
-"""A package that model and code have both moved away from, and commands on it in processes."""
+"""Packages that model and code have both moved away from, and commands on them in processes."""
 
 from __future__ import annotations
 
@@ -8,17 +8,88 @@ import shutil
 import sys
 from collections.abc import Callable
 from contextlib import redirect_stderr, redirect_stdout
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from rebsync.cli import main
 from tests.cli.test_check import MODEL
 
 MODEL_FILE = "patrol.rebeca"
-SOURCE = "patrol/src/robot.cpp"
 MANIFEST = "patrol/.rebsync/manifest.json"
-EDITS = ((SOURCE, "n > 3", "n > 5  /* mine */"), (MODEL_FILE, "% 4;", "% 5;  // mine"))
+Edits = tuple[tuple[str, str, str], ...]
 Snapshot = dict[str, bytes]
+
+_OF_MODEL = (MODEL_FILE, "% 4;", "% 5;  // mine")
+_GUARD = """\
+reactiveclass Guard(2) {
+  knownrebecs {
+    Robot robot;
+  }
+
+  Guard() {
+    self.watch();
+  }
+
+  msgsrv watch() {
+    robot.go(1);
+    self.watch() after(5);
+  }
+}
+
+main {
+  Guard guard(robot1):();
+"""
+
+
+_TWO = MODEL.replace("main {\n", _GUARD)
+
+
+@dataclass(frozen=True)
+class Patrol:
+    """The package in a dialect: its settings, its model, and the edits of both sides.
+
+    `source` is the file that something happens to, `launch` the launch file.
+    """
+
+    settings: str
+    source: str
+    launch: str
+    edits: Edits
+    model: str = field(default=_TWO, repr=False)
+
+    @property
+    def comment(self) -> str:
+        """What comments of the source begin with."""
+        return "#" if self.source.endswith(".py") else "//"
+
+
+def _patrol(dialect: str, folder: str, suffix: str, launch: str, model: str = _TWO) -> Patrol:
+    """The package in a dialect; what happens is not to the class that is edited."""
+    mine = "  /* mine */" if suffix == "cpp" else "  # mine"
+    edits = ((f"{folder}/robot.{suffix}", "n > 3", f"n > 5{mine}"), _OF_MODEL)
+    source = f"{folder}/{'guard' if model == _TWO else 'robot'}.{suffix}"
+    return Patrol(f'target = "{dialect}"\n', source, launch, edits, model)
+
+
+_LAUNCH = "patrol/launch/patrol.launch"
+PATROLS = {
+    "ros1-cpp": _patrol("ros1-cpp", "patrol/src", "cpp", _LAUNCH, MODEL),
+    "ros2-cpp": _patrol("ros2-cpp", "patrol/src", "cpp", f"{_LAUNCH}.py"),
+    "ros1-py": _patrol("ros1-py", "patrol/src/patrol", "py", _LAUNCH),
+    "ros2-py": _patrol(
+        "ros2-py", "patrol/patrol/patrol", "py", "patrol/patrol/launch/patrol.launch.py"
+    ),
+    "mixed": Patrol(
+        'target = "ros1-cpp"\n\n[targets]\nGuard = "ros1-py"\n',
+        "patrol/src/patrol/guard.py",
+        _LAUNCH,
+        (
+            ("patrol/src/robot.cpp", "n > 3", "n > 5  /* mine */"),
+            ("patrol/src/patrol/guard.py", "(When(after=5))", "(When(after=6))  # mine"),
+            _OF_MODEL,
+        ),
+    ),
+}
 
 
 @dataclass(frozen=True)
@@ -29,12 +100,13 @@ class Ended:
     told: str
 
 
-def prepare(folder: Path) -> None:
+def prepare(folder: Path, patrol: Patrol) -> None:
     """Makes the package in a directory, in step, then the edits of both sides."""
-    (folder / MODEL_FILE).write_text(MODEL, encoding="utf-8")
+    (folder / MODEL_FILE).write_text(patrol.model, encoding="utf-8")
+    (folder / "rebsync.toml").write_text(patrol.settings, encoding="utf-8")
     ended = run(folder, "generate", MODEL_FILE)
     assert ended.status == 0, ended.told
-    for path, old, new in EDITS:
+    for path, old, new in patrol.edits:
         text = (folder / path).read_text(encoding="utf-8")
         assert old in text
         (folder / path).write_text(text.replace(old, new), encoding="utf-8")
@@ -101,6 +173,7 @@ def _child(
         os.chdir(folder)
         os.environ["REBSYNC_CACHE"] = str(folder / ".cache")
         sys.stdout = sys.stderr = told
+        os.fsync = lambda fd: None  # a disk takes longer for this than all the rest
         try:
             if before is not None:
                 before()

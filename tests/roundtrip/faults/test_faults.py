@@ -10,20 +10,27 @@ from pathlib import Path
 import pytest
 
 from tests.cli.run import environment
-from tests.roundtrip.faults.faults import FAULTS, Fault, outcome
-from tests.roundtrip.faults.interruptions import KILLED, Stop, tried
-from tests.roundtrip.faults.package import Snapshot, copied, prepare, run, snapshot
+from tests.roundtrip.faults.faults import ALIKE, Fault, faults, outcome
+from tests.roundtrip.faults.interruptions import ACTIONS, KILLED, Action, Stop, tried, whole
+from tests.roundtrip.faults.package import PATROLS, Snapshot, copied, prepare, run, snapshot
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="the system cannot fork")
+
+
+_OTHERS = [dialect for dialect in PATROLS if dialect != "ros1-cpp"]
+
+
+def _prepared(factory: pytest.TempPathFactory, dialect: str) -> Path:
+    folder = factory.mktemp("faults") / "made"
+    folder.mkdir()
+    prepare(folder, PATROLS[dialect])
+    return folder
 
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A package that model and code have both moved away from."""
-    folder = tmp_path_factory.mktemp("faults") / "made"
-    folder.mkdir()
-    prepare(folder)
-    return folder
+    return _prepared(tmp_path_factory, "ros1-cpp")
 
 
 @pytest.fixture(scope="module")
@@ -34,13 +41,13 @@ def wanted(made: Path) -> Snapshot:
     return snapshot(folder)
 
 
-@pytest.mark.parametrize("fault", FAULTS, ids=lambda f: f.name)
+@pytest.mark.parametrize("fault", faults(PATROLS["ros1-cpp"]), ids=lambda f: f.name)
 def test_faults(fault: Fault, made: Path, tmp_path: Path) -> None:
     _, wrong = outcome(fault, made, tmp_path / "tried")
     assert wrong == []
 
 
-# `python -m tests.roundtrip.faults` stops at every operation.
+# `python -m tests.roundtrip.faults` stops at every operation, and makes every fault, in a dialect.
 @pytest.mark.parametrize("number", [*range(1, 86, 12), 74, 80])
 @pytest.mark.parametrize("is_killed", [True, False], ids=["killed", "failed"])
 def test_a_sync_that_stops_anywhere(
@@ -49,6 +56,28 @@ def test_a_sync_that_stops_anywhere(
     done = tried(made, wanted, tmp_path / "tried", Stop(number, is_killed))
     assert done.wrong == ()
     assert done.ended.status == KILLED if is_killed else done.ended.status in (0, 2)
+
+
+@pytest.mark.parametrize("action", ACTIONS[1:], ids=lambda a: a.name)
+def test_another_command_that_stops_anywhere(action: Action, made: Path, tmp_path: Path) -> None:
+    wanted, _ = whole(action, made, tmp_path / "tried")
+    for number in (3, 14, 23):
+        for is_killed in (True, False):
+            done = tried(made, wanted, tmp_path / "tried", Stop(number, is_killed, action))
+            assert done.wrong == ()
+
+
+@pytest.mark.parametrize("dialect", _OTHERS)
+def test_the_other_dialects(dialect: str, tmp_path_factory: pytest.TempPathFactory) -> None:
+    patrol, package = PATROLS[dialect], _prepared(tmp_path_factory, dialect)
+    folder = package.parent / "tried"
+    own = [f for f in faults(patrol) if f not in ALIKE]
+    told = {f.name: outcome(f, package, folder, patrol)[1] for f in own}
+    assert {name: wrong for name, wrong in told.items() if wrong} == {}
+    for action in ACTIONS[:2]:
+        wanted, _ = whole(action, package, folder)
+        for stop in (Stop(7, True, action), Stop(24, True, action), Stop(24, False, action)):
+            assert tried(package, wanted, folder, stop).wrong == ()
 
 
 def test_several_at_once(made: Path, wanted: Snapshot, tmp_path: Path) -> None:

@@ -22,6 +22,9 @@ struct InvalidParameterTypeException : std::runtime_error {
 struct RCLErrorBase {
   virtual ~RCLErrorBase() = default;
 };
+struct RCLError : RCLErrorBase, std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 }  // namespace exceptions
 

@@ -104,6 +104,7 @@ class Node {
 
   explicit Node(const std::string& name, const NodeOptions& /* options */ = NodeOptions())
       : arguments_(fake::arguments()), name_(arguments_.name.empty() ? name : arguments_.name) {
+    if (fake::middleware().is_shut_down()) throw exceptions::RCLError("the context is not valid");
     fake::middleware().add(executor_);
   }
   virtual ~Node() = default;

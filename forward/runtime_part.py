@@ -1,0 +1,59 @@
+"""The run-time part, and what it and the nodes need of other packages, in any dialect."""
+
+from __future__ import annotations
+
+from rebsync.forward.cpp_types import cpp_choices
+from rebsync.forward.cpp_words import CppWords
+from rebsync.forward.sensors import played_sensors
+from rebsync.forward.templating import fill
+from rebsync.package import NodeClass, Package
+
+
+def message_packages(package: Package) -> set[str]:
+    """The packages whose messages the nodes use, without the package itself."""
+    found = {"std_msgs"}
+    if any(c.moves for c in package.classes):
+        found.add("geometry_msgs")
+    for node in package.classes:
+        found |= {s.type.partition("/")[0] for s in node.sensors if "/" in s.type}
+    return found - {package.name}
+
+
+def _stems(package: Package) -> list[str]:
+    names = ["mailbox", "startup", "values"]
+    if any(c.moves for c in package.classes):
+        names.append("drive")
+    if any(c.sensors for c in package.classes):
+        names.append("sensor")
+    return names
+
+
+def python_runtime(package: Package, dialect: str, folder: str) -> dict[str, str]:
+    """The modules of the run-time part by path, in the folder of the package's modules."""
+    return {
+        f"{folder}/{stem}.py": fill(
+            f"{'py' if stem == 'values' else dialect}/{stem}.py.j2", package=package.name
+        )
+        for stem in _stems(package)
+    }
+
+
+def cpp_runtime(package: Package, words: CppWords) -> dict[str, str]:
+    """The headers of the run-time part by path."""
+    names = (f"{stem}.{words.HEADER}" for stem in _stems(package))
+    return {
+        f"include/{package.name}/{name}": fill(f"{words.TEMPLATES}/{name}.j2", package=package.name)
+        for name in names
+    }
+
+
+def cpp_stand_in(package: Package, node: NodeClass, words: CppWords) -> str:
+    """The program that plays the sensors of a class."""
+    sensors = played_sensors(node, cpp_choices)
+    return fill(
+        f"{words.TEMPLATES}/stand_in.cpp.j2",
+        package=package.name,
+        node=node,
+        sensors=sensors,
+        includes=sorted(words.message_header(package.name, s.type) for s in sensors),
+    )

@@ -1,0 +1,89 @@
+"""The hand-written nodes of a package in all its languages, wired together."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import field
+
+from rebsync.records import dataclass
+from rebsync.reverse.nodes.node_names import Names
+from rebsync.reverse.nodes.node_servers import Server
+from rebsync.reverse.nodes.node_values import Instance
+from rebsync.reverse.nodes.node_wiring import Wiring
+
+Fields = Mapping[tuple[str, str], tuple[str, ...]]
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """The nodes of one language, before their bodies are read.
+
+    `classes` are the names in the model of the units by their own; `settings` say what tells
+    rebecs of one unit apart besides who they send to, by the names of the rebecs.
+    """
+
+    names: Names
+    classes: Mapping[str, str]
+    instances: tuple[Instance, ...]
+    servers: Mapping[str, tuple[Server, ...]]
+    settings: Mapping[str, object] = field(default_factory=dict)
+
+    @staticmethod
+    def empty() -> Part:
+        """No nodes at all."""
+        return Part(Names.beside(()), {}, (), {})
+
+
+@dataclass(frozen=True, slots=True)
+class Joined:
+    """All rebecs with the kinds that they are of, and the classes that these become.
+
+    `fields` are those of messages that servers get, by unit and server, where bodies that were
+    read say so; of others the servers do.
+    """
+
+    wiring: Wiring
+    kinds: Mapping[int, str]
+    fields: Fields = field(default_factory=dict)
+
+    @staticmethod
+    def of(parts: Iterable[Part]) -> Joined:
+        """The parts share the names that are taken, and no two have a unit of one name."""
+        together = list(parts)
+        instances = tuple(i for part in together for i in part.instances)
+        served = {n: s for part in together for n, s in part.servers.items()}
+        apart = {n: s for part in together for n, s in part.settings.items()}
+        wiring = Wiring(instances, served, apart)
+        kinds = {k: c for part in together for k, c in _kinds(part, wiring)}
+        return Joined(wiring, kinds)
+
+    def class_of(self, instance: Instance) -> str:
+        """The class of the model that a rebec is of."""
+        return self.kinds[self.wiring.kinds[instance.name]]
+
+    def taken(self, unit: str, server: Server) -> tuple[str, ...]:
+        """The paths of the fields that a server gets."""
+        return self.fields.get((unit, server.name), server.fields)
+
+    def known(
+        self, alike: Sequence[Instance], is_taken: Callable[[str], bool], names: Names
+    ) -> list[tuple[str, str, int]]:
+        """Name, class and place among the slots of the rebecs that rebecs of one kind send to."""
+        found = []
+        slots = [self.wiring.known(i) for i in alike]
+        for slot, several in enumerate(zip(*slots, strict=True)):
+            to = self.wiring.instances[several[0]]
+            class_ = self.class_of(to)
+            wish = to.name if len(set(several)) == 1 else class_[:1].lower() + class_[1:]
+            if is_taken(wish):
+                wish = f"{wish}_rebec"
+            found.append((names.give(wish), class_, slot))
+        return found
+
+
+def _kinds(part: Part, wiring: Wiring) -> Iterator[tuple[int, str]]:
+    """The class of each kind: a unit whose rebecs are wired differently becomes several."""
+    for unit, class_ in part.classes.items():
+        of_unit = [i for i in part.instances if i.start.unit.name == unit]
+        for number, kind in enumerate(dict.fromkeys(wiring.kinds[i.name] for i in of_unit)):
+            yield kind, class_ if not number else part.names.give(class_)

@@ -1,0 +1,91 @@
+"""Which rebecs the nodes of hand-written Python are: as a launch file starts them, or one each."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator, Mapping, Sequence
+
+from rebsync.records import dataclass
+from rebsync.reverse.files.python_files import SETUP
+from rebsync.reverse.graph import FromParameter, ParameterFact
+from rebsync.reverse.launch.launched import Launch, LaunchedNode
+from rebsync.reverse.nodes.node_names import Names
+from rebsync.reverse.nodes.node_units import Start
+from rebsync.reverse.nodes.node_values import Instance
+from rebsync.reverse.python.body_scope import PyUnit
+from rebsync.source import Source
+
+# `talker = package.talker:main` in the scripts that a package of Python installs
+_SCRIPT = re.compile(r"([\w.-]+)\s*=\s*([\w.]+)\s*:\s*\w+")
+_LISTED = re.compile(r"console_scripts['\"]?\s*[:=]\s*\[?([^\]\[]*)")
+
+
+@dataclass(frozen=True, slots=True)
+class Started:
+    """What starts the nodes: a launch file of a `package`, if any.
+
+    `scripts` are the modules, with dots, of the programs that the package installs by their names;
+    `others` the names of its programs in other languages.
+    """
+
+    launch: Launch | None
+    package: str
+    scripts: Mapping[str, str]
+    others: frozenset[str]
+
+    def instances(self, unit: PyUnit, units: Sequence[PyUnit], names: Names) -> Iterator[Instance]:
+        """The rebecs of a unit: one also where nothing starts it."""
+        launched = self.launch.nodes if self.launch is not None else ()
+        nodes: list[LaunchedNode | None] = [n for n in launched if self._runs(n, unit)]
+        alone = sum(u.module is unit.module for u in units) == 1 or not unit.lineage
+        start = Start(unit.unit, None, None)
+        for node in nodes or [None]:
+            own = unit.node
+            if node is not None and isinstance(node.name, str):
+                own = node.name
+            wish = own if alone else unit.lineage[0].name
+            if not alone and len(nodes) > 1:
+                wish = f"{own}_{wish}"
+            space = node.namespace if node is not None else ""
+            below = space.strip("/") if isinstance(space, str) else ""
+            wish = wish[:1].lower() + wish[1:]
+            name = names.give(wish, f"{below}_{wish}" if below else wish)
+            yield Instance(start, name, own, node, self.launch)
+
+    def _runs(self, node: LaunchedNode, unit: PyUnit) -> bool:
+        """Whether a tag of a launch file starts the program that a unit is of."""
+        if not isinstance(node.type, str):
+            return False
+        if self.package and isinstance(node.package, str) and node.package != self.package:
+            return False
+        path = unit.module.py.source.path
+        if node.type in self.scripts:
+            return _is_module(path, self.scripts[node.type])
+        plain = path.rpartition("/")[2]
+        stem = plain.removesuffix(".py")
+        return node.type == plain or (node.type == stem and stem not in self.others)
+
+
+NOTHING = Started(None, "", {}, frozenset())
+
+
+def settings(instance: Instance, asked: Collection[ParameterFact]) -> tuple[object, ...]:
+    """What the parameters of a node are: bodies are read with their values."""
+    values = []
+    for fact in asked:
+        value = instance.value(FromParameter(fact.name, fact.default))
+        values.append(value if isinstance(value, bool | int | float) else "")
+    return tuple((type(v).__name__, v) for v in values)
+
+
+def scripts_of(files: Mapping[str, Source]) -> dict[str, str]:
+    """The programs that the set-up of a package of Python installs, with their modules."""
+    listed = _LISTED.findall(files[SETUP].text) if SETUP in files else []
+    return {name: module for part in listed for name, module in _SCRIPT.findall(part)}
+
+
+def _is_module(path: str, module: str) -> bool:
+    """Whether a file is a module; a folder's own is its `__init__`."""
+    below = module.replace(".", "/")
+    whole = f"/{path}"
+    return whole.endswith((f"/{below}.py", f"/{below}/__init__.py"))

@@ -1,0 +1,243 @@
+"""What people write in Python where generated code says the same otherwise, as the model has it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.bodies.building import binary
+from rebsync.reverse.python.model_kinds import is_floating
+from rebsync.reverse.python.py_tree import field, named, text_of
+
+if TYPE_CHECKING:
+    from rebsync.reverse.python.model_expressions import Expressions
+
+_COMPARED = frozenset({"<", "<=", ">", ">=", "==", "!="})
+_PLAIN = frozenset({"identifier", "attribute", "integer", "float", "true", "false", "none"})
+_AROUND = frozenset(
+    {
+        *("boolean_operator", "not_operator", "comparison_operator", "binary_operator"),
+        *("unary_operator", "conditional_expression"),
+    }
+)
+_GROWING = frozenset({"+", "-", "*", "<<", ">>", "&", "|", "^"})
+_WHOLE = {"//": "divide", "/": "divide", "%": "remainder"}
+
+
+def comparison(reader: Expressions, node: Node) -> m.Expression:
+    """`a <= b < c`, `a in (1, 2)` and `a not in (1, 2)`. Unread: the model has no such thing."""
+    operands = named(node)
+    operators = [" ".join(text_of(c).split()) for c in node.children_by_field_name("operators")]
+    if operators in (["in"], ["not in"]) and operands[1].type in ("tuple", "list", "set"):
+        is_in, one = operators == ["in"], operands[0]
+        others = named(operands[1])
+        pairs = [(one, "==" if is_in else "!=", other) for other in others]
+        word = "||" if is_in else "&&"
+        repeated = [one] * (len(others) > 1)
+    elif len(operands) > 2 and set(operators) <= _COMPARED:
+        pairs = list(zip(operands, operators, operands[1:], strict=False))
+        word, repeated = "&&", operands[1:-1]
+    else:
+        raise reader.unread(node, "the model has no such comparison")
+    if not pairs or not all(map(is_plain, repeated)):
+        raise reader.unread(node, "what this compares more than once is to be in a variable first")
+    found = None
+    for left, operator, right in pairs:
+        each = binary(operator, reader.read(left), reader.read(right), reader.py.span(node))
+        found = each if found is None else m.Binary(word, found, each, reader.py.span(node))
+    assert found is not None
+    return found if len(pairs) == 1 or not _is_within(node) else m.Paren(found)
+
+
+def _is_within(node: Node) -> bool:
+    """Whether something stands in an operation, be it in parentheses."""
+    above = node.parent
+    while above is not None and above.type == "parenthesized_expression":
+        above = above.parent
+    return above is not None and above.type in _AROUND
+
+
+def is_plain(node: Node) -> bool:
+    """Whether an expression does nothing, however often it is evaluated."""
+    if node.type == "subscript":
+        return all(map(is_plain, named(node)))
+    if node.type in ("parenthesized_expression", "unary_operator", "binary_operator"):
+        return all(map(is_plain, named(node)))
+    return node.type in _PLAIN
+
+
+def divided(reader: Expressions, node: Node, read: m.Binary) -> m.Binary:
+    """`a / b` of numbers with a point. Unread: of integers, which the model divides otherwise."""
+    operator = text_of(field(node, "operator"))
+    kinds = reader.kind(read.left), reader.kind(read.right)
+    if operator == "/" and any(map(is_floating, kinds)):
+        return read
+    right = f"{_WHOLE[operator]}(a, b)"
+    why = f'"{operator}" of Python is not the model\'s, which is {right}'
+    raise reader.unread(node, why)
+
+
+def truth(reader: Expressions, read: m.Expression) -> m.Expression:
+    """What an integer says as a condition."""
+    kind = reader.kind(read)
+    if kind is None or kind.name != "int":
+        return read
+    return binary("!=", read, m.IntLiteral(0))
+
+
+# --- sends --------------------------------------------------------------------------------------
+
+
+def in_order(
+    reader: Expressions, node: Node, arguments: list[Node], parameters: tuple[str, ...]
+) -> list[Node]:
+    """Arguments of which some are given by name, in the order of the parameters.
+
+    Unread: one is missing or there twice, or their order might matter.
+    """
+    given = [a for a in arguments if a.type == "keyword_argument"]
+    if not given:
+        return arguments
+    named_ = {text_of(field(a, "name")): field(a, "value") for a in given}
+    first = arguments[: len(arguments) - len(given)]
+    rest = [p for p in parameters[len(first) :] if p in named_]
+    if len(rest) != len(given) or tuple(rest) != parameters[len(first) :][: len(rest)]:
+        raise reader.unread(node, "this sends with other arguments")
+    values = [named_[name] for name in rest]
+    plain = [v for name, v in named_.items() if name != "when"]
+    if list(named_) != rest and not all(map(is_plain, plain)):
+        raise reader.unread(node, "give these in the order of the parameters")
+    return [*first, *values]
+
+
+def times(reader: Expressions, node: Node) -> dict[str, m.Expression]:
+    """When a send arrives and expires. Unread: it is told otherwise than by `When`."""
+    if node.type == "identifier" and text_of(node) == "AT_ONCE":
+        return {}
+    called = text_of(field(node, "function")) if node.type == "call" else ""
+    given = named(field(node, "arguments")) if called == "When" else []
+    if called != "When" or len(given) > 2:
+        raise reader.unread(node, "this is no time of a send")
+    said: dict[str, Node] = {}
+    for name, each in zip(("after", "deadline"), given, strict=False):
+        is_named = each.type == "keyword_argument"
+        value = field(each, "value") if is_named else each
+        said[text_of(field(each, "name")) if is_named else name] = value
+    if "deadline" in said and text_of(said["deadline"]) == "None":
+        del said["deadline"]
+    return {name: reader.read(value) for name, value in said.items()}
+
+
+# --- statements ---------------------------------------------------------------------------------
+
+
+def augmented(reader: Expressions, node: Node) -> m.Expression:
+    """`x += e`. Unread: the model has no such operator, or Python means another one."""
+    operator = text_of(field(node, "operator")).removesuffix("=")
+    target = reader.read(field(node, "left"))
+    value = reader.read(field(node, "right"))
+    kinds = reader.kind(target), reader.kind(value)
+    if operator in _WHOLE and not (operator == "/" and is_floating(kinds[0])):
+        right = f"x = {_WHOLE[operator]}(x, e)"
+        raise reader.unread(node, f'"{operator}=" of Python is not the model\'s, which is {right}')
+    if operator not in _GROWING and operator != "/":
+        raise reader.unread(node, f'the model has no operator "{operator}="')
+    if None in kinds or (is_floating(kinds[1]) and not is_floating(kinds[0])):
+        raise reader.unread(node, "what this stores is of another type than the variable")
+    return m.Assign(f"{operator}=", target, value, reader.py.span(node))
+
+
+def one_by_one(reader: Expressions, node: Node) -> list[m.Statement]:
+    """`a, b = x, y` where no value needs what is stored before. Unread: one does."""
+    lefts, right = named(field(node, "left")), field(node, "right")
+    values = named(right) if right.type in ("expression_list", "tuple") else []
+    if len(lefts) != len(values) or "list_splat" in {v.type for v in (*lefts, *values)}:
+        raise reader.unread(node, "the model has no such assignment")
+    for number, value in enumerate(values):
+        before = {_base(left) for left in lefts[:number]}
+        if number and not (is_plain(value) and before.isdisjoint(_names(value))):
+            raise reader.unread(node, "this needs a value from before: store one after the other")
+    span, found = reader.py.span(node), list[m.Statement]()
+    for left, value in zip(lefts, values, strict=True):
+        stored = reader.stored(reader.read(left), left, value, node, statement=True)
+        found.append(m.ExpressionStatement(stored, span=span))
+    return found
+
+
+def _base(node: Node) -> str:
+    """The variable that something is stored in, or in an element of which."""
+    while node.type == "subscript":
+        node = named(node)[0]
+    return text_of(node)
+
+
+def _names(node: Node) -> set[str]:
+    if node.type in ("identifier", "attribute"):
+        return {text_of(node)}
+    return {name for each in named(node) for name in _names(each)}
+
+
+def cases(reader: Expressions, node: Node) -> Iterator[tuple[list[Node], Node]]:
+    """The values of each case of a `match` (none: all others), and the block of it."""
+    subjects = [c for c in named(node) if c.type not in ("block", "case_clause")]
+    if len(subjects) != 1 or not is_plain(subjects[0]):
+        raise reader.unread(node, "what this compares more than once is to be in a variable first")
+    for clause in named(field(node, "body")):
+        patterns = [c for c in named(clause) if c.type == "case_pattern"]
+        if clause.child_by_field_name("guard") is not None or len(patterns) != 1:
+            raise reader.unread(clause, "the model has no such case")
+        yield list(_values(reader, patterns[0])), field(clause, "consequence")
+
+
+def _values(reader: Expressions, pattern: Node) -> Iterator[Node]:
+    inner = named(pattern)
+    if not inner and text_of(pattern) == "_":
+        return
+    if len(inner) == 1 and inner[0].type == "union_pattern":
+        inner = named(inner[0])
+    for each in inner:
+        text = text_of(each)
+        if "." in text and text in reader.names.constants:
+            yield reader.names.constants[text]
+        elif each.type == "integer":
+            yield each
+        else:
+            raise reader.unread(pattern, "the model has no such case")
+
+
+def rounds(reader: Expressions, node: Node) -> tuple[m.Expression, m.Expression, m.Expression]:
+    """Start, end and step of `range(...)`. Unread: they may change in the loop."""
+    arguments = named(field(field(node, "right"), "arguments"))
+    body = field(node, "body")
+    if not 1 <= len(arguments) <= 3 or not all(_is_steady(reader, a, body) for a in arguments):
+        raise reader.unread(
+            node, "how often this is done may change: say it with numbers or locals"
+        )
+    read = [reader.read(a) for a in arguments]
+    start = read[0] if len(read) > 1 else m.IntLiteral(0)
+    step = read[2] if len(read) > 2 else m.IntLiteral(1)
+    return start, read[1] if len(read) > 1 else read[0], step
+
+
+def _is_steady(reader: Expressions, node: Node, body: Node) -> bool:
+    """Whether a bound of a loop stays the same: a number, or a local that the loop leaves alone."""
+    if node.type in ("unary_operator", "binary_operator", "parenthesized_expression"):
+        return all(_is_steady(reader, n, body) for n in named(node))
+    if node.type == "identifier":
+        return text_of(node) not in stored_in(body)
+    return node.type == "integer" or text_of(node) in reader.names.constants
+
+
+def stored_in(node: Node) -> set[str]:
+    """The local variables that a block stores something in."""
+    found: set[str] = set()
+    for each in node.named_children:
+        if each.type in ("assignment", "augmented_assignment", "for_statement", "named_expression"):
+            left = each.child_by_field_name("left") or each.child_by_field_name("name")
+            found |= {text_of(left)} if left is not None else set()
+            found |= {text_of(n) for n in named(left)} if left is not None else set()
+        found |= stored_in(each)
+    return found

@@ -1,0 +1,101 @@
+"""Users' own blocks in the bodies of generated Python, which no model describes.
+
+They may look at what the model has, and do what they like with the rest.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync.reverse.python.log_words import HARMLESS
+from rebsync.reverse.python.py_tree import field, named, text_of
+
+if TYPE_CHECKING:
+    from rebsync.reverse.python.model_expressions import Expressions
+
+_BLOCK = re.compile(r"^[ \t]*#\s*rebsync:\s*(user\s+\S+|end\b)", re.MULTILINE)
+_LEAVING = frozenset(
+    {"return_statement", "break_statement", "continue_statement", "raise_statement", "yield"}
+)
+_STORING = {
+    "assignment": "left",
+    "augmented_assignment": "left",
+    "for_statement": "left",
+    "named_expression": "name",
+    "as_pattern_target": "",
+    "delete_statement": "",
+    "for_in_clause": "left",
+}
+
+
+def is_users(reader: Expressions, node: Node) -> bool:
+    """Whether a statement stands between `rebsync: user NAME` and `rebsync: end`."""
+    span = reader.py.span(node)
+    return any(a < span.start and span.end <= b for a, b in _blocks(reader.py.source.text))
+
+
+@lru_cache(maxsize=8)
+def _blocks(text: str) -> tuple[tuple[int, int], ...]:
+    found, start = [], None
+    for marker in _BLOCK.finditer(text):
+        if marker[1] != "end":
+            start = marker.end()
+        elif start is not None:
+            found.append((start, marker.start()))
+            start = None
+    return tuple(found)
+
+
+def check(reader: Expressions, node: Node) -> None:
+    """Unread: a statement of a user's block does something to what the model has."""
+    if node.type in _LEAVING:
+        raise reader.unread(node, "a user's block must be run through")
+    if node.type in _STORING:
+        target = field(node, _STORING[node.type]) if _STORING[node.type] else node
+        for each in named(target) or [target]:
+            _check_stored(reader, each)
+    if node.type in ("identifier", "attribute"):
+        _check_name(reader, node)
+        return
+    for child in named(node):
+        check(reader, child)
+
+
+def _check_stored(reader: Expressions, target: Node) -> None:
+    base = target
+    while base.type == "subscript":
+        base = named(base)[0]
+    text = text_of(base)
+    hides = text in reader.locals or text in reader.names.constants
+    if hides or text.removeprefix("self.") in reader.names.variables:
+        raise reader.unread(
+            target, f"\"{text}\" is the model's, which a user's block only looks at"
+        )
+
+
+def _check_name(reader: Expressions, node: Node) -> None:
+    """What a block may name: values of the model, but no function of it, nor a whole array."""
+    text = text_of(node)
+    holder, _, name = text.partition(".")
+    if holder != "self":
+        return
+    own = name.partition(".")[0]
+    does = own in reader.names.sends or own in reader.names.functions
+    if not own or does or own in ("_mailbox", "_drive"):
+        raise reader.unread(node, f'"{text}" does what a model shows, in a user\'s block')
+    variable = reader.names.variables.get(own)
+    type_ = reader.names.types.get(variable or "")
+    if type_ is not None and type_.dimensions and not _is_looked_at(node):
+        raise reader.unread(node, f'"{text}" might be changed in a user\'s block')
+
+
+def _is_looked_at(node: Node) -> bool:
+    above = node.parent
+    if above is not None and above.type == "argument_list" and above.parent is not None:
+        called = text_of(field(above.parent, "function")).rpartition(".")[2]
+        return called in HARMLESS
+    return above is not None and above.type in ("subscript", "interpolation", "comparison_operator")

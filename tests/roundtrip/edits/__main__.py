@@ -1,0 +1,56 @@
+"""Runs edits by hand through all steps, and prints what is not as it is to be.
+
+python -m tests.roundtrip.edits [--said] [FILE.toml...] [CASE...]
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import io
+import os
+import traceback
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from tests.roundtrip.edits.steps import all_steps
+from tests.roundtrip.edits.trial import HERE, Case, cases, made
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--said", action="store_true", help="print what is said of each")
+    parser.add_argument("--dialect", help="of one dialect only")
+    parser.add_argument("names", nargs="*")
+    options = parser.parse_args()
+    files = [n for n in options.names if n.endswith(".toml")] or ["python.toml", "rclcpp.toml"]
+    names = [n for n in options.names if not n.endswith(".toml")]
+    found = [c for f in files for c in cases(HERE / f)]
+    chosen = [c for c in found if not names or c.name in names or str(c) in names]
+    chosen = [c for c in chosen if options.dialect in (None, c.dialect)]
+    wrong = sum(not _tried(case, options.said) for case in chosen)
+    print(f"{len(chosen)} edits, {wrong} not as they are to be")
+    return 1 if wrong else 0
+
+
+def _tried(case: Case, is_said: bool) -> bool:
+    out = io.StringIO()
+    with TemporaryDirectory() as folder:
+        os.environ["REBSYNC_CACHE"] = f"{folder}/cache"
+        trial = made(case, Path(folder, case.example))
+        if is_said:
+            print(f"--- {case}\n    {trial.check()}", flush=True)
+        try:
+            with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
+                all_steps(trial)
+        except AssertionError as error:
+            where = traceback.extract_tb(error.__traceback__)[-1]
+            print(
+                f"{case}: {where.line}\n    {error}\n    " + out.getvalue().replace("\n", "\n    ")
+            )
+            return False
+    return True
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

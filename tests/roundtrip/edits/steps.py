@@ -1,0 +1,81 @@
+"""The steps that an edit by hand goes through, each with what must hold after it."""
+
+from __future__ import annotations
+
+from tests.roundtrip.edits.trial import LATER, Trial
+
+
+def all_steps(trial: Trial) -> None:
+    """What is said of an edit, and what a sync makes of it."""
+    if trial.case.listed:
+        is_listed(trial)
+        is_left_alone(trial)
+        return
+    is_said(trial)
+    comes_back(trial)
+    model_goes_into_edited_code(trial)
+
+
+def is_listed(trial: Trial) -> None:
+    """No verdict is given on what no model shows, and each place is told."""
+    verdict, told, texts = trial.check()
+    assert verdict == "undetermined", (verdict, told, texts)
+    for text in trial.case.listed:
+        assert any(text in each for each in texts), (text, texts)
+
+
+def is_left_alone(trial: Trial) -> None:
+    """Nothing is written where not all is known."""
+    before = trial.code()
+    assert trial.status("sync") == 4
+    assert trial.code() == before
+
+
+def is_said(trial: Trial) -> None:
+    """The code says the model that the edit is, and check that it is ahead, if it is."""
+    wanted = trial.wanted()
+    is_same = wanted == trial.model.read_text(encoding="utf-8")
+    verdict, told, texts = trial.check()
+    assert verdict == ("in step" if is_same else "code ahead"), (verdict, told, texts)
+    assert texts == []
+    assert_says(trial, wanted)
+
+
+def assert_says(trial: Trial, wanted: str) -> None:
+    """The code is in step with another text of the model."""
+    text = trial.model.read_text(encoding="utf-8")
+    trial.model.write_text(wanted, encoding="utf-8")
+    verdict, told, texts = trial.check()
+    assert verdict == "in step", (told, texts)
+    trial.model.write_text(text, encoding="utf-8")
+
+
+def comes_back(trial: Trial) -> None:
+    """A sync makes the model the one that the edit is, and leaves the code."""
+    wanted, code = trial.wanted(), trial.code()
+    assert trial.status("sync") == 0
+    assert trial.code() == code, "the code has it already"
+    assert trial.status("check") == 0
+    assert_says(trial, wanted)
+
+
+def model_goes_into_edited_code(trial: Trial) -> None:
+    """A later change of the model comes into the code, of which nothing else changes."""
+    old, new = trial.case.data.get("later", LATER[trial.case.example])
+    text = trial.model.read_text(encoding="utf-8")
+    assert old in text, old
+    trial.model.write_text(text.replace(old, new), encoding="utf-8")
+    before = trial.code()
+    assert trial.status("sync") == 0
+    after = trial.code()
+    changed = [p for p in sorted({*before, *after}) if before.get(p) != after.get(p)]
+    assert changed
+    gone = [line for p in changed for line in _lines_gone(before.get(p, b""), after.get(p, b""))]
+    assert len(gone) <= 2, gone
+    assert trial.status("check") == 0
+    assert trial.check()[0] == "in step"
+
+
+def _lines_gone(before: bytes, after: bytes) -> list[bytes]:
+    left = set(after.splitlines())
+    return [line for line in before.splitlines() if line not in left]

@@ -1,0 +1,41 @@
+"""Edits by hand in rclcpp, rospy and rclpy (python.toml, rclcpp.toml) are what they mean.
+
+Here each is read and judged in one dialect, and some go through a sync as well;
+`python -m tests.roundtrip.edits` does all of it with all of them.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.roundtrip.edits.steps import all_steps, is_listed, is_said
+from tests.roundtrip.edits.trial import HERE, Case, cases, made
+
+_EVERY = 12  # of how many edits one goes through all steps
+
+
+def chosen(file: str) -> list[Case]:
+    """Each case of a file in one of its dialects, in turn."""
+    by_name: dict[str, list[Case]] = {}
+    for case in cases(HERE / file):
+        by_name.setdefault(case.name, []).append(case)
+    return [of[number % len(of)] for number, of in enumerate(by_name.values())]
+
+
+CASES = [*chosen("python.toml"), *chosen("rclcpp.toml")]
+
+
+@pytest.mark.parametrize("case", CASES, ids=str)
+def test_edits_are_what_they_mean(
+    case: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("REBSYNC_CACHE", str(tmp_path / "cache"))
+    trial = made(case, tmp_path / case.example)
+    if CASES.index(case) % _EVERY == 0:
+        all_steps(trial)
+    elif case.listed:
+        is_listed(trial)
+    else:
+        is_said(trial)

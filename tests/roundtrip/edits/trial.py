@@ -1,0 +1,177 @@
+"""An edit of generated code by hand on its way: extract, check, sync, and a change of the model."""
+
+from __future__ import annotations
+
+import re
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from rebsync.cli import main
+from rebsync.diagnostics import Diagnostic
+from rebsync.roundtrip.checked import check
+from rebsync.roundtrip.difference import explain
+from rebsync.roundtrip.packages import find
+from rebsync.source import Source
+from tests.reverse.test_edits import EDITS, LISTED
+from tests.roundtrip.mutations.harness import written
+from tests.roundtrip.mutations.package import Package
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+HERE = Path(__file__).parent
+
+# A later change of the model of each example, in code that few of the edits touch.
+LATER = {
+    "experiment1": ("delay(e12)", "delay(e12 + 1)"),
+    "experiment2": (
+        "stopped = true;\n    pos[0] = init_x;",
+        "stopped = false;\n    pos[0] = init_x;",
+    ),
+    "warehouse": ("loaded = !loaded;", "loaded = !loaded;\n    bay = bay + 4;"),
+}
+
+
+@dataclass(frozen=True)
+class Case:
+    """An edit in a dialect: what of the code is put in place of what, and what is to be said."""
+
+    name: str
+    dialect: str
+    data: dict[str, Any] = field(hash=False)
+
+    def __str__(self) -> str:
+        return f"{self.name}-{self.dialect}"
+
+    @property
+    def example(self) -> str:
+        """The example whose package is edited."""
+        return str(self.data["example"])
+
+    @property
+    def listed(self) -> list[str]:
+        """Texts that the findings begin with, if no model can show the edit."""
+        return [str(text) for text in self._of("listed")]
+
+    def edits(self) -> list[list[str]]:
+        """End of the path, text, text in its place."""
+        return self._of("code")
+
+    def added(self) -> list[list[str]]:
+        """Files that are new: path, text."""
+        return self._of("added")
+
+    def _of(self, key: str) -> list[Any]:
+        generation, language = self.dialect.split("-")
+        keys = [key, f"{key}-{generation}", f"{key}-{language}", f"{key}-{self.dialect}"]
+        return [each for k in keys for each in self.data.get(k, ())]
+
+
+def cases(path: Path) -> list[Case]:
+    """The cases of a file, each in all dialects that it is for."""
+    table: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8"))
+    dialects, words = table.pop("dialects"), table.pop("words", [])
+    for name in table.pop("shared", ()):
+        table[name] = _of_roscpp(name, words)
+    return [
+        Case(name, dialect, data)
+        for name, data in table.items()
+        for dialect in data.get("dialects", dialects)
+    ]
+
+
+def _of_roscpp(name: str, words: list[list[str]]) -> dict[str, Any]:
+    """A case for roscpp in the words of another dialect of C++."""
+    edit = EDITS[name] if name in EDITS else LISTED[name]
+    code = []
+    for path, old, new in edit["code"]:
+        for one, other in words:
+            old, new = old.replace(one, other), new.replace(one, other)
+        code.append([re.sub(r"\.h$", ".hpp", path), old, new])
+    listed = {"listed": ["unreadable"]} if name in LISTED else {}
+    return {**edit, "code": code, **listed}
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A folder with the model of an example and its package, edited."""
+
+    case: Case
+    root: Path
+
+    @property
+    def package(self) -> Path:
+        return self.root / self.case.example
+
+    @property
+    def model(self) -> Path:
+        return self.root / f"{self.case.example}.rebeca"
+
+    def edit(self) -> None:
+        """Makes the edit in the files."""
+        for end, old, new in self.case.edits():
+            if not old:
+                (self.package / end).write_text(new, encoding="utf-8")
+                continue
+            found = [p for p in self._files() if p.as_posix().endswith(end)]
+            assert len(found) == 1, (end, found)
+            text = found[0].read_text(encoding="utf-8")
+            assert old in text, (end, old)
+            found[0].write_text(text.replace(old, new), encoding="utf-8")
+        for path, text in self.case.added():
+            (self.package / path).parent.mkdir(parents=True, exist_ok=True)
+            (self.package / path).write_text(text, encoding="utf-8")
+
+    def _files(self) -> list[Path]:
+        return [p for p in self.package.rglob("*") if p.is_file() and ".rebsync" not in p.parts]
+
+    def code(self) -> dict[str, bytes]:
+        """All files of the package but rebsync's own."""
+        return {p.relative_to(self.package).as_posix(): p.read_bytes() for p in self._files()}
+
+    def wanted(self) -> str:
+        """The text of the model that the edit is."""
+        text = self.model.read_text(encoding="utf-8")
+        for old, new, *within in self.case.data.get("model", ()):
+            text = _replaced(text, old, new, *within)
+        return text
+
+    def check(self) -> tuple[str, list[str], list[str]]:
+        """The verdict, the differences, and the findings."""
+        (kept,) = find([str(self.root)])
+        found = check(kept)
+        texts = [f"{_line(f.source, d)} {d.message}" for f in found.findings for d in f.diagnostics]
+        if found.drift is None:
+            return "in step", [], texts
+        told = [f"{d.element}: {explain(d)}" for d, _ in found.drift.differences]
+        return found.drift.verdict.value, told, texts
+
+    def status(self, command: str) -> int:
+        """The exit status of a command on the folder."""
+        return main([command, str(self.root)])
+
+
+def _line(source: Source, found: Diagnostic) -> str:
+    """The line of code that something is said of."""
+    return source.line(source.position(found.span.start).line).strip() if source.text else ""
+
+
+def made(case: Case, root: Path) -> Trial:
+    """A fresh copy of a case's example with the edit."""
+    written(Package(case.example, case.dialect), root)
+    trial = Trial(case, root)
+    trial.edit()
+    return trial
+
+
+def _replaced(text: str, old: str, new: str, within: str = "") -> str:
+    if not within:
+        assert old in text, old
+        return text.replace(old, new)
+    before, head, rest = text.partition(f"reactiveclass {within}(")
+    own, end, after = rest.partition("\n}\n")
+    return before + head + _replaced(own, old, new) + end + after
