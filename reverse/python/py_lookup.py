@@ -9,6 +9,7 @@ from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, Unresolved
 from rebsync.reverse.python.py_bindings import Binding, reaching
+from rebsync.reverse.python.py_guards import together
 from rebsync.reverse.python.py_imports import imported, star_imported
 from rebsync.reverse.python.py_index import CLASS, Scope
 from rebsync.reverse.python.py_tree import field, named, text_of
@@ -72,7 +73,8 @@ def name_ways(values: Values, name: str, node: Node, scope: Scope) -> Ways:
         if bindings:
             here = at is scope or _shares_flow(at, scope)
             seen = reaching(bindings, node) if here else bindings
-            return distinct(w for b in seen or bindings for w in bound(values, b, name, at))
+            given = [(b, bound(values, b, name, at)) for b in seen or bindings]
+            return together(values, given, scope)
         at = at.parent
     star = star_imported(values.code, scope.module, name)
     if star is not None:
@@ -228,9 +230,9 @@ def _member(
         if not set_ and not declared:
             continue
         seen = _seen(values, [*declared, *set_], node, above, scope)
-        for binding in seen:
-            for value in bound(values, binding, name, above):
-                yield from _as_member(values, value, owner, is_object)
+        given = [(binding, bound(values, binding, name, above)) for binding in seen]
+        for value in together(values, given, scope):
+            yield from _as_member(values, value, owner, is_object)
         return
     if externals and is_object:
         yield Bound(Instance(owner), name)

@@ -226,6 +226,10 @@ class Values:
                 return on(a, b)
             case (str(), _) | (_, str()) if operator == "+":
                 return joined((a, b), none)
+            case (FromParameter(expression=str() as use), Unresolved()) if (
+                operator == "+" and "'" in use
+            ):
+                return joined((a, b), none)
             case FromParameter(), FromParameter():
                 return none()
             case FromParameter(), (int() | float()):

@@ -15,6 +15,8 @@ from rebsync.reverse.python.py_index import Scope
 
 # More ways than these to go are not followed one by one.
 MOST = 24
+_TEXT_BEFORE = re.compile(r"\(*'([^'\\]*)' \+ ")
+_TEXT_BEHIND = re.compile(r" \+ '([^'\\]*)'\Z")
 _ENDS_IN_TEXT = re.compile(r"(value \+ )'([^'\\]*)'")
 
 
@@ -225,6 +227,15 @@ def _known(value: Value) -> str:
             return str(value)
         case Unresolved():
             return value.partial or "*"
+        case FromParameter(expression=str() as text):
+            before, behind = _TEXT_BEFORE.match(text), _TEXT_BEHIND.search(text)
+            first, last = before[1] if before else "", behind[1] if behind else ""
+            default = value.default
+            if isinstance(default, str):  # which has not been through the whole expression
+                first = first if default.startswith(first) else ""
+                last = last if default.endswith(last) else ""
+                first = "" if len(first) + len(last) > len(default) else first
+            return f"{first}*{last}"
         case _:
             return "*"
 

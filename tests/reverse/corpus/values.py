@@ -76,8 +76,8 @@ def _partial(answer: Json) -> str | None:
 
 
 def _bare(pattern: str) -> str:
-    """A pattern as it matters: `*x` is as good as `*/x`."""
-    return re.sub(r"/?\*+/?", "*", pattern)
+    """A pattern as it matters: `*x` is as good as `*/x` or `*/*/x`."""
+    return re.sub(r"(?:/?\*+/?)+", "*", pattern)
 
 
 # --- plain values -------------------------------------------------------------------------------
