@@ -22,6 +22,7 @@ _USED = re.compile(rb"\busing\s+namespace\s+(\w+_msgs|std_srvs)\s*;")
 _USING = re.compile(rb"\busing\s+(\w+)::(?:msg|srv|action)::(\w+)\s*;")
 _HEADER = re.compile(rb'#[ \t]*include[ \t]*[<"](\w+)/(?:msg|srv|action)/(\w+)\.hpp[>"]')
 _KINDS = frozenset({"msg", "srv", "action"})
+_OF_ROS2 = frozenset(kind.encode() for kind in _KINDS)
 _WRAPPERS = frozenset({"shared_ptr", "MessageEvent", "ServiceEvent", "unique_ptr"})
 _INNER = frozenset(
     {
@@ -109,8 +110,12 @@ class MessageTypes:
     def _included(self, cpp: Cpp) -> dict[str, str]:
         if id(cpp) not in self._includes:
             data = cpp.original
-            found = [(p, _camel(n)) for p, n in _HEADER.findall(data)]
-            found += [*_INCLUDE.findall(data), *_USING.findall(data)]
+            found = []
+            if not cpp.words.isdisjoint(_OF_ROS2):
+                found += [(p, _camel(n)) for p, n in _HEADER.findall(data)]
+            found += _INCLUDE.findall(data)
+            if b"using" in cpp.words and not cpp.words.isdisjoint(_OF_ROS2):
+                found += _USING.findall(data)
             self._includes[id(cpp)] = {n.decode(): p.decode() for p, n in found}
         return self._includes[id(cpp)]
 

@@ -90,8 +90,9 @@ class Setup:
         self._loops()
         # Calls in the files of this unit, or of the programs that run it.
         near = self.state.unit.files | {f.cpp.source.path for f in self.first}
+        plain = (*_PLAIN, TimerFact)
         for fact in self.graph.facts:
-            if fact.site.cpp.source.path in near and isinstance(fact, (*_PLAIN, TimerFact)):
+            if isinstance(fact, plain) and fact.site.cpp.source.path in near:
                 self._plain(fact)
         for fact in self.facts:
             match fact:
