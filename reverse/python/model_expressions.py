@@ -234,6 +234,16 @@ class Expressions:
             return m.Assign(f"{operator}=", target, self.read(arguments[1]), span)
         return m.Assign("=", target, self.read(value), span)
 
+    def updated(self, node: Node) -> m.Expression:
+        """`x += e` and its kin, as somebody writes them by hand."""
+        operator, target = text_of(field(node, "operator")), self.read(field(node, "left"))
+        value, span = self.read(field(node, "right")), self.py.span(node)
+        if operator.removesuffix("=") not in _UPDATES.values():
+            raise self.unread(node, f'the model has no operator "{operator}"')
+        if operator in ("+=", "-=") and value == m.IntLiteral(1):
+            return m.Postfix(operator[0] * 2, target, span)
+        return m.Assign(operator, target, value, span)
+
     def _put_item(self, node: Node, arguments: list[Node]) -> m.Expression:
         values, index, value = arguments
         target = m.Index(self._kept_values(values), self._index(index), self.py.span(node))

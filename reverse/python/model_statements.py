@@ -150,6 +150,8 @@ class Statements:
             return []
         if inner.type == "assignment":
             return self._assigned(inner)
+        if inner.type == "augmented_assignment":
+            return [m.ExpressionStatement(self.expressions.updated(inner), span=span)]
         called, arguments = call_parts(inner) or ("", [])
         if called == "self._drive.move" and len(arguments) == 2:
             cells = tuple(map(self._cell, ("X", "Y"), arguments))
