@@ -8,9 +8,12 @@ and remainder of Python are not those of the model either.
 from __future__ import annotations
 
 import ast
+from collections import deque
 from collections.abc import Iterator, Mapping
 from itertools import chain
 from typing import TypeAlias
+
+from rebsync.roundtrip.python_trees import is_log
 
 RANGE = "range"
 Bounds: TypeAlias = "tuple[int, int]"
@@ -58,13 +61,26 @@ def ranges_in(function: ast.FunctionDef, types: Types) -> Iterator[tuple[str, st
             own[node.target.id] = ast.unparse(node.annotation)
     found = _Ranges(own)
     inner: set[int] = set()
-    for node in ast.walk(function):  # outer ones come first
+    for node in _evaluated(function):  # outer ones come first
         for value, type_ in chain(_stored(node, function, own), _used(node, inner)):
             if (why := found.odd(value, type_)) is not None:
                 yield ast.unparse(value), why, value
         for operator in _operators(node):
             if (why := found.other(operator)) is not None:
                 yield ast.unparse(operator), why, operator
+
+
+def _evaluated(function: ast.FunctionDef) -> Iterator[ast.AST]:
+    """All nodes of a function but what is only logged."""
+    waiting: deque[ast.AST] = deque([function])
+    while waiting:
+        node = waiting.popleft()
+        match node:
+            case ast.Expr(ast.Call() as call) if is_log(call):
+                continue
+            case _:
+                yield node
+                waiting.extend(ast.iter_child_nodes(node))
 
 
 class _Ranges:
