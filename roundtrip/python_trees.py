@@ -39,7 +39,7 @@ def said(body: list[ast.stmt]) -> Iterator[ast.stmt]:
         match statement:
             case ast.Expr(ast.Constant()) | ast.Pass():
                 continue
-            case ast.Expr(ast.Call() as call) if _is_log(call):
+            case ast.Expr(ast.Call() as call) if is_log(call):
                 continue
             case ast.If(ast.Name("TYPE_CHECKING")):
                 continue
@@ -50,7 +50,7 @@ def said(body: list[ast.stmt]) -> Iterator[ast.stmt]:
                 yield statement
 
 
-def _is_log(call: ast.Call) -> bool:
+def is_log(call: ast.Call) -> bool:
     """Whether a call only logs what is there already."""
     if LOGS.match(ast.unparse(call.func)) is None:
         return False

@@ -39,7 +39,7 @@ from rebsync.roundtrip.wiring_facts import (
     package_name,
 )
 from rebsync.roundtrip.wiring_names import TOPICS, Joined, is_about, joined, replaced
-from rebsync.roundtrip.wiring_ranges import ANY, RANGE
+from rebsync.roundtrip.wiring_ranges import RANGE
 from rebsync.source import NOWHERE, Source
 
 _WIRED = (
@@ -57,7 +57,7 @@ _MISSED = frozenset(
     {"subscription", "publisher", "sensor", "priority", "sending", "type of the parameter"}
 )
 # What was not there when the code was generated makes a difference too.
-_UNWANTED = frozenset({"setting", "compiler option"})
+_UNWANTED = frozenset({"setting", "compiler option", RANGE})
 _SAYING = frozenset({"receiving", "sending", "set-up"})
 _HELPING = frozenset({PROGRAM, PLAYED, TYPE, SPACE})
 _HINT = "take the edit back: no model tells this"
@@ -133,8 +133,6 @@ def _odd(kept: Kept, before: list[Fact], now: list[Fact]) -> Odd | None:
     first = (before or now)[0]
     if old == new or (not new and _is_missed(first)):
         return None
-    if first.kind == RANGE and (ANY not in new or ANY in old):
-        return None
     what = " ".join(filter(None, ("the", first.kind, first.name)))
     what += f" of {first.owner}" if first.owner else ""
     message = f"{what} {_change(first.kind, old, new)}"
@@ -172,6 +170,8 @@ def _shown(values: Iterable[str]) -> str:
 def _hint(fact: Fact) -> str:
     """What to do about a fact that is another."""
     match fact.kind:
+        case "range":
+            return "let the model's own functions say it: int32(...), int8(...), divide, remainder"
         case "remap" | "publisher" | "subscription" | "sensor":
             return "let the other end have the same name, or take the edit back"
         case "priority" | "best priority":

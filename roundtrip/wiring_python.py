@@ -21,7 +21,7 @@ from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.roundtrip.python_trees import bindings, plain, said, span_of, tree_of
 from rebsync.roundtrip.runtime_python import MODULE
 from rebsync.roundtrip.wiring_facts import PLAYED, PROGRAM, Fact
-from rebsync.roundtrip.wiring_ranges import RANGE, ranges_in
+from rebsync.roundtrip.wiring_ranges import RANGE, ranges_in, types_in
 from rebsync.source import Source
 
 _READS = frozenset({"rospy.get_param", "declared", "read_array", "declare_array"})
@@ -101,6 +101,7 @@ class _Class:
 
     def facts(self) -> Iterator[Fact]:
         """All that the class does beside what is in the model."""
+        types = types_in(self.node)
         used = {n.id for n in ast.walk(self.node) if isinstance(n, ast.Name)}
         for name, call in self.servers.items():
             if name in used:
@@ -118,7 +119,7 @@ class _Class:
             elif sent := self._sent(function):
                 yield self.fact("sending", sent, self._plain(function), function)
             else:
-                for name, range_, at in ranges_in(function):
+                for name, range_, at in ranges_in(function, types):
                     yield self.fact(RANGE, name, range_, at)
 
     def _sent(self, function: ast.FunctionDef) -> str:

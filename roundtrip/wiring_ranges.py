@@ -1,30 +1,256 @@
-"""Where bodies in Python say that numbers wrap, as those of the model do."""
+"""Where bodies in Python do not say that numbers wrap, as those of the model do.
+
+Python's integers have no width, the model's have 32 bits or fewer. Generated code cuts each value
+that may be too large, by `int32(...)` and its kin; what somebody writes by hand may not. Division
+and remainder of Python are not those of the model either.
+"""
 
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections import deque
+from collections.abc import Iterator, Mapping
+from itertools import chain
+from typing import TypeAlias
 
-RANGE, ANY = "range", "any"
-_FORMATS = frozenset({"int8", "int16", "int32"})
-_GROWING = (ast.Add, ast.Sub, ast.Mult, ast.LShift)
+from rebsync.roundtrip.python_trees import is_log
+
+RANGE = "range"
+Bounds: TypeAlias = "tuple[int, int]"
+Types: TypeAlias = Mapping[str, str]
+
+_INT = (-(2**31), 2**31 - 1)
+_NAMED: Mapping[str, Bounds] = {
+    "int": _INT,
+    "Byte": (-(2**7), 2**7 - 1),
+    "Short": (-(2**15), 2**15 - 1),
+}
+_CUTS = {"int8": "Byte", "int16": "Short", "int32": "int"}
+_CASTS = {"to_byte": "Byte", "to_short": "Short", "to_int": "int"}
+_SUMS = (ast.Add, ast.Sub, ast.Mult, ast.BitAnd, ast.BitOr, ast.BitXor)
+_FURTHEST = 31  # the largest distance of a shift
 
 
-def ranges_in(function: ast.FunctionDef) -> Iterator[tuple[str, str, ast.expr]]:
-    """Each sum, product or shift to the left in a body, and the type that its value is cut to.
+def types_in(owner: ast.ClassDef) -> dict[str, str]:
+    """The types that a class gives its attributes, and its functions what they take and return.
 
-    Generated code leaves that out where no value can be too large, which is not looked at here.
+    What it inherits may be a whole number: that is what "self." stands for.
     """
-    cut = {}
-    for node in ast.walk(function):
+    found = {"self.": "int"} if {ast.unparse(b) for b in owner.bases} - {"ABC"} else {}
+    for node in ast.walk(owner):
         match node:
-            case ast.Call(ast.Name(name), [value]) if name in _FORMATS:
-                cut[id(value)] = name
+            case ast.AnnAssign(ast.Attribute(ast.Name("self"), name), annotation):
+                found[f"self.{name}"] = ast.unparse(annotation)
+            case ast.FunctionDef(name=name, args=arguments, returns=returns):
+                found[f"self.{name}()"] = ast.unparse(returns) if returns else ""
+                for number, taken in enumerate(arguments.args[1:]):
+                    type_ = ast.unparse(taken.annotation) if taken.annotation else ""
+                    found[f"self.{name}({number})"] = type_
             case _:
                 pass
+    return found
+
+
+def ranges_in(function: ast.FunctionDef, types: Types) -> Iterator[tuple[str, str, ast.expr]]:
+    """Each expression of a body that Python may give another value, with what that is."""
+    own = dict(types)
+    for argument in function.args.args:
+        own[argument.arg] = ast.unparse(argument.annotation) if argument.annotation else ""
     for node in ast.walk(function):
-        if isinstance(node, ast.BinOp) and isinstance(node.op, _GROWING):
-            yield ast.unparse(node), cut.get(id(node), ANY), node
-        elif isinstance(node, ast.AugAssign) and isinstance(node.op, _GROWING):
-            whole = ast.BinOp(node.target, node.op, node.value)
-            yield ast.unparse(whole), ANY, ast.copy_location(whole, node)
+        if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
+            own[node.target.id] = ast.unparse(node.annotation)
+    found = _Ranges(own)
+    inner: set[int] = set()
+    for node in _evaluated(function):  # outer ones come first
+        for value, type_ in chain(_stored(node, function, own), _used(node, inner)):
+            if (why := found.odd(value, type_)) is not None:
+                yield ast.unparse(value), why, value
+        for operator in _operators(node):
+            if (why := found.other(operator)) is not None:
+                yield ast.unparse(operator), why, operator
+
+
+def _evaluated(function: ast.FunctionDef) -> Iterator[ast.AST]:
+    """All nodes of a function but what is only logged."""
+    waiting: deque[ast.AST] = deque([function])
+    while waiting:
+        node = waiting.popleft()
+        match node:
+            case ast.Expr(ast.Call() as call) if is_log(call):
+                continue
+            case _:
+                yield node
+                waiting.extend(ast.iter_child_nodes(node))
+
+
+class _Ranges:
+    """The bounds of expressions, by the types of names; None for what is no whole number."""
+
+    def __init__(self, types: Types) -> None:
+        self.types = types
+
+    def odd(self, value: ast.expr, type_: str) -> str | None:
+        """Why a value is not that of the model where one of a type is wanted."""
+        bounds, wanted = self.of(value), _NAMED.get(type_, _INT)
+        if bounds is None or (wanted[0] <= bounds[0] and bounds[1] <= wanted[1]):
+            return None
+        return f"not cut to {(wanted[1] + 1).bit_length()} bits"
+
+    def other(self, node: ast.BinOp) -> str | None:
+        """Why an operator is another than that of the model."""
+        left, right = self.of(node.left), self.of(node.right)
+        if left is None or right is None:
+            return None
+        match node.op:
+            case ast.Div():
+                return "a number with a point"
+            case ast.Mod() if left[0] < 0 or right[0] < 0:
+                return "never below zero"
+            case ast.LShift() | ast.RShift() if right[0] < 0 or right[1] > _FURTHEST:
+                return "shifted by any distance"
+            case _:
+                return None
+
+    def of(self, node: ast.expr) -> Bounds | None:
+        match node:
+            case ast.Constant(bool()) | ast.Constant(float()) | ast.Constant(str()):
+                return None
+            case ast.Constant(int(number)):
+                return number, number
+            case ast.UnaryOp(operator, operand):
+                return _signed(operator, self.of(operand))
+            case ast.IfExp(_, one, other):
+                ends = self.of(one), self.of(other)
+                return None if None in ends else _around(*(e for e in ends if e is not None))
+            case ast.BinOp(left, operator, right):
+                ends = self.of(left), self.of(right)
+                if ends[0] is None or ends[1] is None or isinstance(operator, ast.Div):
+                    return None
+                return _of_operator(operator, ends[0], ends[1])
+            case ast.NamedExpr(_, value):
+                return self.of(value)
+            case _:
+                return _NAMED.get(self._type(node))
+
+    def _type(self, node: ast.expr) -> str:
+        """The type of a name, an element or what is called, as it is written; empty if unknown."""
+        match node:
+            case ast.Subscript(of, _):
+                return self._type(of).partition("[")[2].partition(",")[0]
+            case ast.Call(ast.Name(name), _) if name in _CUTS:
+                return _CUTS[name]
+            case ast.Call(ast.Name(name), _):
+                return _CASTS.get(name, "")
+            case ast.Call(ast.Attribute(ast.Name(name), _), _) if name in _CUTS:
+                return _CUTS[name]
+            case ast.Call(of, _):
+                return self.types.get(f"{ast.unparse(of)}()", "")
+            case ast.Attribute(ast.Name("self"), name):
+                inherited = self.types.get("self.", "")
+                return self.types.get(f"self.{name}", inherited)
+            case ast.Name(name):
+                return self.types.get(name, "")
+            case _:
+                return ""
+
+
+# --- where values are used ----------------------------------------------------------------------
+
+
+def _stored(
+    node: ast.AST, function: ast.FunctionDef, types: Types
+) -> Iterator[tuple[ast.expr, str]]:
+    """What is stored in a variable or returned, with the type of that."""
+    match node:
+        case ast.Assign([target], value):
+            yield value, types.get(ast.unparse(target), "")
+        case ast.AnnAssign(_, annotation, value) if value is not None:
+            yield value, ast.unparse(annotation)
+        case ast.AugAssign(target, operator, value) if isinstance(operator, (*_SUMS, ast.LShift)):
+            place = ast.parse(ast.unparse(target), mode="eval").body
+            whole = ast.copy_location(ast.BinOp(place, operator, value), node)
+            yield whole, types.get(ast.unparse(target), "")
+        case ast.Return(value) if value is not None:
+            yield value, ast.unparse(function.returns) if function.returns else ""
+        case ast.Call(ast.Attribute(ast.Name("self"), name), given):
+            for number, value in enumerate(given):
+                yield value, types.get(f"self.{name}({number})", "")
+        case _:
+            pass
+
+
+def _used(node: ast.AST, inner: set[int]) -> Iterator[tuple[ast.expr, str]]:
+    """Operators whose value is used otherwise; `inner` are those that others go on from."""
+    match node:
+        case ast.Assign(_, value) | ast.AnnAssign(value=value) | ast.Return(value):
+            inner.add(id(value))
+        case ast.Call(ast.Name(name), [value]) if name in _CUTS or name in _CASTS:
+            inner.add(id(value))
+        case ast.Call(ast.Attribute(ast.Name("self"), _), given):
+            inner |= set(map(id, given))
+        case _:
+            pass
+    if not isinstance(node, (ast.BinOp, ast.UnaryOp, ast.IfExp)):
+        return
+    if id(node) not in inner:
+        yield node, "int"
+    match node:
+        case ast.BinOp(left, operator, right) if isinstance(operator, _SUMS):
+            inner |= {id(left), id(right)}
+        case ast.BinOp(left, ast.LShift(), _):
+            inner.add(id(left))
+        case ast.UnaryOp(operand=operand):
+            inner.add(id(operand))
+        case ast.IfExp(_, one, other):
+            inner |= {id(one), id(other)}
+        case _:
+            pass
+
+
+def _operators(node: ast.AST) -> Iterator[ast.BinOp]:
+    match node:
+        case ast.BinOp():
+            yield node
+        case ast.AugAssign(target, operator, value):
+            place = ast.parse(ast.unparse(target), mode="eval").body
+            yield ast.copy_location(ast.BinOp(place, operator, value), node)
+        case _:
+            pass
+
+
+# --- bounds -------------------------------------------------------------------------------------
+
+
+def _signed(operator: ast.unaryop, bounds: Bounds | None) -> Bounds | None:
+    if bounds is None or isinstance(operator, ast.Not):
+        return None
+    low, high = bounds
+    match operator:
+        case ast.USub():
+            return -high, -low
+        case ast.Invert():
+            return ~high, ~low
+        case _:
+            return bounds
+
+
+def _of_operator(operator: ast.operator, one: Bounds, other: Bounds) -> Bounds:
+    match operator:
+        case ast.Add():
+            return one[0] + other[0], one[1] + other[1]
+        case ast.Sub():
+            return one[0] - other[1], one[1] - other[0]
+        case ast.Mult():
+            ends = [a * b for a in one for b in other]
+            return min(ends), max(ends)
+        case ast.LShift() if other[0] == other[1] and 0 <= other[0] <= _FURTHEST:
+            return one[0] << other[0], one[1] << other[0]
+        case ast.BitAnd() | ast.BitOr() | ast.BitXor():
+            length = max(max(abs(end), abs(~end)).bit_length() for end in (*one, *other))
+            return -(1 << length), (1 << length) - 1
+        case _:
+            return _INT
+
+
+def _around(*bounds: Bounds) -> Bounds:
+    return min(b[0] for b in bounds), max(b[1] for b in bounds)

@@ -56,7 +56,7 @@ def _other_quotes(text: str) -> str:
     lines = text.splitlines(keepends=True)
     for token in [*tokenize.generate_tokens(io.StringIO(text).readline)][::-1]:
         plain = token.string[1:-1]
-        is_plain = token.string[0] == '"' and not set(plain) & set("'\"\\")
+        is_plain = token.string.startswith('"') and not set(plain) & set("'\"\\")
         if token.type == tokenize.STRING and is_plain:
             line, (row, start), (_, end) = lines[token.start[0] - 1], token.start, token.end
             lines[row - 1] = f"{line[:start]}'{plain}'{line[end:]}"

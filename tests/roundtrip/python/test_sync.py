@@ -25,7 +25,7 @@ OF_CODE = {
     "send": ("        self.send_self_begin()\n", "", ["    self.begin();"], []),
     "delay": (
         "delay(self._e11)",
-        "delay(2 * self._e11)",
+        "delay(int32(2 * self._e11))",
         ["    delay(e11);"],
         ["    delay(2 * e11);"],
     ),
