@@ -16,12 +16,12 @@ from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.scope import (
     Around,
     Called,
-    Function,
     Ignored,
     Inline,
     Itself,
     Lambda,
     Sends,
+    is_another,
 )
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
@@ -74,7 +74,10 @@ def by_name(
     match reader.scope.functions.get(name):
         case Sends() as sends:
             return cpp_mailbox.send(reader, node, sends, arguments, implicit=own is None)
-        case Called(_, server=True) if reader.scope.open:
+        case Called(_, server=True) as several if reader.scope.open:
+            meant = several.taking(len(arguments))
+            if len(meant) == 1:
+                return reader.inlined(node, Inline(meant[0]), arguments)
             raise reader.unread(node, f'what "{name}" does is not known here')
         case Called(_, server=True):
             why = f'"{name}" is a message server: a call runs it at once, a send does not'
@@ -149,19 +152,12 @@ def _qualified(
     if owner in reader.scope.bases and isinstance(called, Called) and not called.server:
         return reader.calls(node, m.Super(reader.cpp.span(function)), called.name, arguments)
     if called is not None and owner not in ("std", "ros", "boost"):
-        if reader.scope.open and _is_another(called, owner):
+        if reader.scope.open and is_another(called, f"{owner}::{name}"):
             why = f'the model has no "{owner}::{name}" beside its "{name}"'
             raise reader.unread(node, why, "give it a name of its own")
         return by_name(reader, node, name, arguments, m.Self)
     why = f'the model has no function "{owner}::{name}"'
     return _other(reader, node, text_of(function), arguments, why)
-
-
-def _is_another(called: Function, owner: str) -> bool:
-    """Whether a name with its class before it means a function of another class."""
-    function = called.function if isinstance(called, Called | Inline) else None
-    last = owner.partition("<")[0].rpartition("::")[2]
-    return function is not None and function.owner not in ("", last)
 
 
 def _of_object(

@@ -29,6 +29,7 @@ from rebsync.reverse.bodies.scope import (
     Scope,
     TimerOf,
     Variable,
+    meant_by,
 )
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
@@ -248,7 +249,7 @@ class Effects:
         known = False
         own = call.target is not None and isinstance(self._root(call.target)[1], Itself)
         if call.target is None or own:
-            known = self._function(node, name)
+            known = self._function(call, name)
             known = self._held(node, name, call) or known
         else:
             self._method(call, name)
@@ -260,18 +261,21 @@ class Effects:
             return
         self._arguments(call.arguments)
 
-    def _function(self, node: Node, name: str) -> bool:
+    def _function(self, call: CppCall, name: str) -> bool:
         """Whether a function of the code only looks; `Touches` if it acts on more than it gets."""
+        meant: tuple[CppFunction, ...] = ()
         match self.scope.functions.get(name):
             case None if hides(name):
                 if is_harmless(self, name):
                     return True
-                raise self._touches(node, f'"{name}" may be a macro that hides statements')
+                raise self._touches(call.node, f'"{name}" may be a macro that hides statements')
             case None | Ignored():
                 return False
-            case Inline(f) | Called(function=f) if f is not None and self._is_calm(f):
-                return not any(known_functions.may_change(p) for p in f.parameters)
-        raise self._touches(node, f'"{name}" may change what the model has')
+            case Called() | Inline() as known:
+                meant = meant_by(known, call.name, len(call.arguments))
+        if not meant or not all(map(self._is_calm, meant)):
+            raise self._touches(call.node, f'"{name}" may change what the model has')
+        return not any(known_functions.may_change(p) for f in meant for p in f.parameters)
 
     def _held(self, node: Node, name: str, call: CppCall) -> bool:
         """Whether a matrix is called; a function that somebody has put there may do anything.

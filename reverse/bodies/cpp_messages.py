@@ -134,6 +134,7 @@ def needed(reader: CppStatements, type_: str) -> Mapping[str, m.Type]:
     for function in reader.scope.functions.values():
         if isinstance(function, Called):
             sent |= {p for take in function.takes or () if isinstance(take, tuple) for p in take}
+            texts += [text_of(f.node) for f in function.overloads]
         if isinstance(function, Inline):
             texts.append(text_of(function.function.node))
     text = "\n".join(texts)

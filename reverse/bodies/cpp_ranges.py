@@ -294,14 +294,23 @@ def _result(scope: Scope, name: str) -> Ranged | None:
     """What a function of the code gives, by the type of its result."""
     match scope.locals.get(name) or scope.functions.get(name):
         case Inline(function) if function.result is not None:
-            kept = carried(function.result, scope.enums)
-            return _of_type(kept) if kept is not None else _of_lambda(text_of(function.result))
+            return _of_result(scope, function.result)
+        case Called(overloads=(first, *others)) if first.result is not None:
+            found = _of_result(scope, first.result)
+            results = (f.result for f in others)
+            same = all(r is not None and _of_result(scope, r) == found for r in results)
+            return found if same else all_of(64)
         case Called(returns=type_) if type_ is not None:
             return _of_model(type_)
         case Lambda(node):
             return _of_lambda(text_of(node))
         case _:
             return None
+
+
+def _of_result(scope: Scope, result: Node) -> Ranged | None:
+    kept = carried(result, scope.enums)
+    return _of_type(kept) if kept is not None else _of_lambda(text_of(result))
 
 
 def _of_lambda(text: str) -> Ranged | None:

@@ -19,6 +19,7 @@ from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.cpp_widths import check_whole
 from rebsync.reverse.bodies.known_functions import ASSERTS, STREAMS
 from rebsync.reverse.bodies.scope import (
+    Called,
     Inline,
     Itself,
     Lambda,
@@ -28,6 +29,7 @@ from rebsync.reverse.bodies.scope import (
     Stores,
     TimerOf,
     Variable,
+    meant_by,
 )
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_calls import call_of
@@ -160,8 +162,9 @@ def _called(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
         condition = _checked(reader, named(part(node, "arguments"))[0])
         checked = m.Call(None, "assertion", (as_boolean(reader.scope, condition),))
         return _statement(reader, node, checked)
-    if (inline := _inline(reader, function)) is not None:
-        reader.inlined(node, inline, named(part(node, "arguments")))
+    arguments = named(part(node, "arguments"))
+    if (inline := _inline(reader, function, len(arguments))) is not None:
+        reader.inlined(node, inline, arguments)
         return iter(())
     if (timer := _timer(reader, node)) is not None:
         return _starts(reader, node, timer)
@@ -172,8 +175,11 @@ def _called(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
     return None
 
 
-def _inline(reader: CppStatements, function: Node) -> Inline | Lambda | None:
-    """The function that is called for what it does, if its body stands in here."""
+def _inline(reader: CppStatements, function: Node, count: int) -> Inline | Lambda | None:
+    """The function that is called for what it does, if its body stands in here.
+
+    Of several with this name the one that takes so many arguments.
+    """
     if function.type == "lambda_expression":
         return Lambda(function, reader.scope) if reader.scope.open else None
     name = text_of(function)
@@ -187,6 +193,9 @@ def _inline(reader: CppStatements, function: Node) -> Inline | Lambda | None:
     elif function.type not in ("identifier", "qualified_identifier"):
         return None
     found = reader.scope.functions.get(name.rpartition("::")[2])
+    if isinstance(found, Called) and found.overloads:
+        meant = meant_by(found, name, count)
+        return Inline(meant[0]) if len(meant) == 1 else None
     return found if isinstance(found, Inline) else None
 
 

@@ -155,7 +155,7 @@ class Called:
     """A local method, or a message server, by its name in the model.
 
     `takes` says what the method gets for each parameter of the function (None: each as it is).
-    `function` is the one in the code, if it is known.
+    `function` is the one in the code, if it is known; of several of that name all are `overloads`.
     A callback that other bodies call is `Called` with the method that the model has for its body.
     """
 
@@ -164,6 +164,18 @@ class Called:
     takes: tuple[Takes, ...] | None = None
     returns: Type | None = None
     function: CppFunction | None = None
+    overloads: tuple[CppFunction, ...] = ()
+
+    def taking(self, count: int) -> tuple[CppFunction, ...]:
+        """The functions that may be meant where so many arguments are given."""
+        if self.function is not None:
+            return (self.function,)
+        return tuple(f for f in self.overloads if _takes(f, count))
+
+
+def _takes(function: CppFunction, count: int) -> bool:
+    needed = sum(p.default is None for p in function.parameters)
+    return needed <= count <= len(function.parameters)
 
 
 @dataclass(frozen=True, slots=True)
@@ -206,6 +218,27 @@ class Around:
 
 
 Function: TypeAlias = Called | Inline | Sends | Ignored | Around
+
+
+def is_another(called: Function | None, name: str) -> bool:
+    """Whether a name with its class before it means a function of another class."""
+    last = name.rpartition("::")[0].partition("<")[0].rpartition("::")[2]
+    match called:
+        case Inline(function):
+            known: tuple[CppFunction, ...] = (function,)
+        case Called(function=function, overloads=several):
+            known = several if function is None else (function,)
+        case _:
+            known = ()
+    return bool(last) and any(f.owner not in ("", last) for f in known)
+
+
+def meant_by(called: Called | Inline, name: str, count: int) -> tuple[CppFunction, ...]:
+    """The functions that a call of so many arguments may mean; none where that is not known."""
+    if is_another(called, name):
+        return ()
+    return (called.function,) if isinstance(called, Inline) else called.taking(count)
+
 
 # --- set-up -------------------------------------------------------------------------------------
 

@@ -41,8 +41,9 @@ class Functions:
             found = [self._with_defaults(f) for f in all_of]
             if name in self.bodies.unit.names or name.startswith("~") or name == "main":
                 continue
-            if len(found) != 1 or found[0].body is None:  # nobody knows which, or what it does
-                self.bodies.functions[name] = Called(name, server=True)
+            if len(found) != 1 or found[0].body is None:  # which is meant, or what it does, is open
+                known = () if any(f.body is None for f in found) else tuple(found)
+                self.bodies.functions[name] = Called(name, server=True, overloads=known)
             elif found[0].body.id in served or (method := self._signature(found[0])) is None:
                 self.bodies.functions[name] = Inline(found[0])
             else:

@@ -14,6 +14,8 @@ MACROS = (
     "#define LEAVE_IF(x) if ((x) > 3) return",
     "#define GUARDED(x) if (library::ready()) { SHOW(x) } else { RAISE(x); }",
     "void spread(int& to, int by) { to = by; }",
+    "void spread(int& to) { to = to % 50 + 1; }",
+    "bool looked(int of) { return of > 1; }",
     "bool looked(int of, int* found) {",
     "  *found = of;",
     "  return of > 2;",
@@ -44,6 +46,8 @@ def library_statement(body: Body) -> list[str]:
         f"{{ int got_; looked({other} * 2, &got_); {target} = got_; }}",
         f"{{ double seen_ = 0; noted(library::level(), seen_); {target} = {number}; }}",
         f"spread(library::table().cell, {target});",
+        f"spread({target});",
+        f"if (looked({other})) {target} = {number};",
     ]
     acting = [
         f"spread({target}, {other});",
