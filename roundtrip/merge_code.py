@@ -10,6 +10,7 @@ from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.files import read_source
 from rebsync.records import dataclass
 from rebsync.roundtrip.markers import user_blocks, with_user_blocks
+from rebsync.roundtrip.merge_files import renamed_files
 from rebsync.roundtrip.merge_models import Favour
 from rebsync.roundtrip.text_merge import merged_text
 from rebsync.source import NOWHERE, Source
@@ -55,7 +56,12 @@ def merged_code(
     texts: dict[str, str | None] = {}
     conflicts: dict[str, Stages] = {}
     refused: list[Findings] = []
-    for path in sorted({*base, *theirs}):
+    renamed = renamed_files(root, base, theirs)
+    for new, old in renamed.items():
+        texts[new], stages = _renamed(Path(root, old), base[old], theirs[new], favour)
+        texts[old] = None
+        conflicts |= {new: stages} if stages is not None else {}
+    for path in sorted({*base, *theirs} - {*renamed, *renamed.values()}):
         if base.get(path) == theirs.get(path):
             continue
         here = moved.get(path, path)
@@ -95,12 +101,23 @@ def _file(
     return merged.text, stages
 
 
+def _renamed(path: Path, base: str, theirs: str, favour: Favour) -> tuple[str, Stages | None]:
+    """The edited file of a class that has another name now, with all that is generated now."""
+    ours = read_source(str(path)).text
+    base, theirs = (_with_line_ends(text, ours) for text in (base, theirs))
+    merged = merged_text(ours, base, theirs, LABELS, favour.value)
+    return merged.text, Stages(base, ours, theirs) if merged.conflicts else None
+
+
+def _with_line_ends(text: str, ours: str) -> str:
+    return text.replace("\n", "\r\n") if "\r\n" in ours else text
+
+
 def _as_here(text: str | None, ours: str) -> str | None:
     """A generated text with the user's own blocks, and with the line ends of the file."""
     if text is None:
         return None
-    plain = text.replace("\n", "\r\n") if "\r\n" in ours else text
-    return with_user_blocks(plain, user_blocks(ours))
+    return with_user_blocks(_with_line_ends(text, ours), user_blocks(ours))
 
 
 _HINT = "`--conflict ours` takes the model's side, `--conflict theirs` that of the code"

@@ -96,3 +96,23 @@ def test_a_package_behind_a_link_is_found(tmp_path: Path) -> None:
     assert main(["check", str(workspace)]) == int(Status.FINDINGS)
     assert main(["sync", str(workspace)]) == CLEAN
     assert "if cell < 5:" in file_of(root, "/dispatcher.py").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("dialect", "end", "old", "new"),
+    [
+        ("ros1-cpp", ".cpp", "  x_ = place;\n", "  x_ = place;  // mine\n"),
+        ("ros2-py", ".py", "        self._x = place\n", "        self._x = place  # mine\n"),
+    ],
+)
+def test_edits_go_with_a_class_that_the_model_renames(
+    dialect: str, end: str, old: str, new: str, tmp_path: Path
+) -> None:
+    root = made(dialect, tmp_path)
+    before = file_of(root, f"/lifter{end}")
+    replace(before, old, new)
+    replace(root / "warehouse.rebeca", "Lifter", "Hoist")
+    assert main(["sync", str(root)]) == CLEAN
+    assert not before.exists()
+    assert new in file_of(root, f"/hoist{end}").read_text(encoding="utf-8")
+    assert main(["check", str(root)]) == CLEAN
