@@ -145,6 +145,8 @@ class Expressions:
     def _comparison(self, node: Node) -> m.Expression:
         operands = named(node)
         operators = [text_of(c) for c in node.children_by_field_name("operators")]
+        if operands[-1].type in ("true", "false"):  # which there is one of each
+            operators = [_SAME.get(operator, operator) for operator in operators]
         if len(operands) != 2 or operators[0] not in ("<", "<=", ">", ">=", "==", "!="):
             raise self.unread(node, "the model has no such comparison")
         level = _COMPARISON + 1
@@ -365,6 +367,7 @@ class Expressions:
         return {k: self.read(v) for k, v in times.items() if k != "deadline" or not is_without}
 
 
+_SAME = {"is": "==", "is not": "!="}
 _TIMES = ("after", "deadline")  # in the order of the parameters of When
 
 
