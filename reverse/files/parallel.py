@@ -115,7 +115,9 @@ def in_processes(
         lost = [*(one for one, _ in waiting), *more]
         yield from (_alone(one, task, root_of) for one in chain(lost, every))
     finally:
-        pool.shutdown(wait=False, cancel_futures=True)
+        # Who has all results waits for the processes to end, which is soon: at its own end the
+        # interpreter would close pipes that the pool's thread still uses.
+        pool.shutdown(wait=not waiting, cancel_futures=True)
 
 
 def _alone(one: G, task: Callable[[G], T], root_of: Callable[[G], str]) -> T:

@@ -176,6 +176,8 @@ class Expressions:
     def _comparison(self, node: Node) -> m.Expression:
         operands = named(node)
         operators = [text_of(c) for c in node.children_by_field_name("operators")]
+        if operands[-1].type in ("true", "false"):  # which there is one of each
+            operators = [_SAME.get(operator, operator) for operator in operators]
         if len(operands) != 2 or operators[0] not in ("<", "<=", ">", ">=", "==", "!="):
             return idioms.comparison(self, node)
         level = _COMPARISON + 1
@@ -382,6 +384,9 @@ class Expressions:
         """Who gets a message: what is no name or call stands in parentheses."""
         found = self.read(node)
         return m.Paren(found) if isinstance(found, (m.Cast, m.Conditional, m.Choice)) else found
+
+
+_SAME = {"is": "==", "is not": "!="}
 
 
 def _in_double_quotes(text: str) -> str:

@@ -88,7 +88,10 @@ PYTHON = (
     Kind("depth of a topic", run_time(r"^QUEUE_SIZE = \d+", "QUEUE_SIZE = 1")),
 )
 
-PYTHON_NEUTRAL = (Kind("times by position", _in_bodies(r"When\(after=(\w+)\)", r"When(\1)")),)
+PYTHON_NEUTRAL = (
+    Kind("is for == of a truth", _in_bodies(r" == (?=True\b|False\b)", " is ")),
+    Kind("times by position", _in_bodies(r"When\(after=(\w+)\)", r"When(\1)")),
+)
 
 RCLPY = (
     Kind("state not kept", run_time(r"TRANSIENT_LOCAL", "VOLATILE")),
