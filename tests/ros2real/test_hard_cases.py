@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import pytest
@@ -33,16 +32,3 @@ def play_case(request: pytest.FixtureRequest, play_real: Play, tmp_path: Path) -
         return play_real(folder, dialect, Clock(until=12, quiet=5))
 
     return played
-
-
-def test_sensors_of_other_packages(play_case: PlayCase) -> None:
-    """What sensors see comes from messages of another package; without one, choices are drawn."""
-    if not any(Path(p, "share", "sensor_msgs").is_dir() for p in _prefixes()):
-        pytest.skip("no sensor_msgs")
-    recording = play_case("sensors")
-    assert recording.served != ()
-    assert [r for r in recording.reports() if r.kind in ("exception", "choice", "startup")] == []
-
-
-def _prefixes() -> list[str]:
-    return os.environ.get("AMENT_PREFIX_PATH", "").split(":")
