@@ -16,7 +16,12 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_kinds import kind_of
 from rebsync.reverse.python.model_roles import Sends
-from rebsync.reverse.python.model_types import call_parts, string_value
+from rebsync.reverse.python.model_types import (
+    call_parts,
+    in_double_quotes,
+    only_breaks_lines,
+    string_value,
+)
 from rebsync.reverse.python.py_tree import Py, field, named, text_of
 
 _CLOCK = {
@@ -105,14 +110,14 @@ class Expressions:
             case "true" | "false":
                 return m.BoolLiteral(node.type == "true", span)
             case "string":
-                return m.StringLiteral(_in_double_quotes(text_of(node)), span)
+                return m.StringLiteral(in_double_quotes(text_of(node)), span)
             case "identifier":
                 return self._name(node)
             case "attribute":
                 return self._attribute(node)
             case "subscript":
                 return self._element(node)
-            case "parenthesized_expression" if _only_breaks_lines(node):
+            case "parenthesized_expression" if only_breaks_lines(node):
                 return self.read(named(node)[0])
             case "parenthesized_expression":
                 return self._in_parentheses(node)
@@ -387,17 +392,3 @@ class Expressions:
 
 
 _SAME = {"is": "==", "is not": "!="}
-
-
-def _in_double_quotes(text: str) -> str:
-    """A string as the model writes it."""
-    plain = text[1:-1]
-    is_single = text.startswith("'") and not text.startswith("'''")
-    return f'"{plain}"' if is_single and not set(plain) & {'"', "\\"} else text
-
-
-def _only_breaks_lines(node: Node) -> bool:
-    """Whether these are the parentheses that a formatter puts around what is too long a line."""
-    inner = named(node)[0]
-    is_apart = inner.start_point.row > node.start_point.row
-    return is_apart and inner.type != "named_expression"

@@ -154,3 +154,17 @@ def call_parts(node: Node | None) -> tuple[str, list[Node]] | None:
 def called_late(node: Node) -> Node | None:
     """What a function without a name does when it is called; None for what is none."""
     return without_parentheses(field(node, "body")) if node.type == "lambda" else None
+
+
+def in_double_quotes(text: str) -> str:
+    """A string as the model writes it."""
+    plain = text[1:-1]
+    is_single = text.startswith("'") and not text.startswith("'''")
+    return f'"{plain}"' if is_single and not set(plain) & {'"', "\\"} else text
+
+
+def only_breaks_lines(node: Node) -> bool:
+    """Whether these are the parentheses that a formatter puts around what is too long a line."""
+    inner = named(node)[0]
+    is_apart = inner.start_point.row > node.start_point.row
+    return is_apart and inner.type != "named_expression"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter
-from rebsync.reverse.syntax.cpp_tree import part, text_of
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.reverse.values.cpp_flow_definitions import Definition
 from rebsync.reverse.values.cpp_flow_types import Variable
 from rebsync.reverse.values.cpp_values_numbers import converted
@@ -67,3 +67,21 @@ def on_this(call: Node) -> bool:
         return call.type == "field_initializer"
     function = part(call, "function")
     return function.type != "field_expression" or part(function, "argument").type == "this"
+
+
+def root_of(node: Node) -> tuple[Node, str]:
+    """The name that `a.b.c`, `this->a` or `(*a).b` begins with, and the fields after it."""
+    root, path = node, ""
+    while root.type in ("field_expression", "parenthesized_expression", "pointer_expression"):
+        if root.type == "field_expression":
+            inner = part(root, "argument")
+            name = text_of(part(root, "field"))
+            if inner.type == "this":
+                root = part(root, "field")
+                break
+            path = f"{name}.{path}" if path else name
+            root = inner
+        else:
+            inside = named(root)
+            root = inside[-1] if inside else root.children[0]
+    return root, path

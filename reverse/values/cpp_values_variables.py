@@ -27,7 +27,13 @@ from rebsync.reverse.values.cpp_flow_writes import (
 )
 from rebsync.reverse.values.cpp_values_afterwards import Afterwards
 from rebsync.reverse.values.cpp_values_calls import from_parameter
-from rebsync.reverse.values.cpp_values_kept import is_pointer, listed, on_this, with_default
+from rebsync.reverse.values.cpp_values_kept import (
+    is_pointer,
+    listed,
+    on_this,
+    root_of,
+    with_default,
+)
 from rebsync.reverse.values.cpp_values_lambdas import arguments_of
 from rebsync.reverse.values.cpp_values_made import constructed, default_of
 from rebsync.reverse.values.cpp_values_names import name_under, resolved
@@ -85,19 +91,7 @@ class Variables:
 
     def field_value(self, node: Node, frame: Frame) -> Value:
         """The value of `a.b`, `this->b` or `a->b.c`."""
-        root, path = node, ""
-        while root.type in ("field_expression", "parenthesized_expression", "pointer_expression"):
-            if root.type == "field_expression":
-                inner = part(root, "argument")
-                name = text_of(part(root, "field"))
-                if inner.type == "this":
-                    root = part(root, "field")
-                    break
-                path = f"{name}.{path}" if path else name
-                root = inner
-            else:
-                inside = named(root)
-                root = inside[-1] if inside else root.children[0]
+        root, path = root_of(node)
         variable = None
         if root.type in ("identifier", "field_identifier"):
             variable = self.values.types.variable(frame.cpp, root)
