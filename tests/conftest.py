@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 
+import pytest
 from hypothesis import HealthCheck, settings
 
 # Drawing a model takes longer than hypothesis expects of one example.
@@ -14,3 +15,11 @@ settings.register_profile(
 )
 settings.register_profile("long", max_examples=1000, deadline=None, suppress_health_check=_SLOW)
 settings.load_profile(os.environ.get("REBSYNC_HYPOTHESIS", "quick"))
+
+# What runs real systems or compilers is begun first, or else it is waited for at the end.
+_LONG = ("ros1/", "ros2/", "ros2py/", "forward/test_compiles", "hooks/")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Puts the files that take long before all others."""
+    items.sort(key=lambda item: not item.nodeid.removeprefix("tests/").startswith(_LONG))
