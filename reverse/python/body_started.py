@@ -60,7 +60,7 @@ class Started:
             return False
         path = unit.module.py.source.path
         if node.type in self.scripts:
-            return _is_module(path, self.scripts[node.type])
+            return is_module(path, self.scripts[node.type])
         plain = path.rpartition("/")[2]
         stem = plain.removesuffix(".py")
         return node.type == plain or (node.type == stem and stem not in self.others)
@@ -84,7 +84,7 @@ def scripts_of(files: Mapping[str, Source]) -> dict[str, str]:
     return {name: module for part in listed for name, module in _SCRIPT.findall(part)}
 
 
-def _is_module(path: str, module: str) -> bool:
+def is_module(path: str, module: str) -> bool:
     """Whether a file is a module; a folder's own is its `__init__`."""
     below = module.replace(".", "/")
     whole = f"/{path}"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from dataclasses import field as with_default
 from functools import partial
 
 from tree_sitter import Node
@@ -26,7 +27,7 @@ from rebsync.reverse.graph import (
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.nodes.node_joined import Part
 from rebsync.reverse.nodes.node_system import unit_of_time
-from rebsync.reverse.python.body_started import Started, scripts_of
+from rebsync.reverse.python.body_started import Started, is_module, scripts_of
 from rebsync.reverse.python.body_system import PyNodes, PySystem
 from rebsync.reverse.python.model_classes import Classes, is_runtime_file
 from rebsync.reverse.python.model_roles import parameter_read
@@ -48,13 +49,17 @@ Used = tuple[str, tuple[m.Type, str, "Value | None"]]
 
 @dataclass(frozen=True, eq=False)
 class PythonPart:
-    """What files of Python say: classes of the model, and all that they ask of ROS."""
+    """What files of Python say: classes of the model, and all that they ask of ROS.
+
+    `scripts` are the modules of the programs that the package installs, by their names.
+    """
 
     graph: Graph
     classes: tuple[m.ReactiveClass | m.Interface, ...] = ()
     used: tuple[Used, ...] = ()
     code: PyCode | None = None
     nodes: PyNodes = PyNodes()
+    scripts: Mapping[str, str] = with_default(default_factory=dict)
 
     def started(self, program: str) -> tuple[str, list[str]] | None:
         """The class that a program makes a rebec of, and its private parameters."""
@@ -64,7 +69,12 @@ class PythonPart:
             called = text_of(field(call, "function"))
             made = class_name(called)
             is_own = made in names and carry(made, NO_PYTHON_CLASSES) == called
-            if program in (path, path.removesuffix(".py")) and is_own:
+            module = self.scripts.get(program)
+            if module is None:
+                runs = program in (path, path.removesuffix(".py"))
+            else:
+                runs = is_module(scope.py.source.path, module)
+            if runs and is_own:
                 arguments = named(field(call, "arguments"))
                 keys = [r[0] for a in arguments if (r := parameter_read(a)) is not None]
                 return made, keys
@@ -102,14 +112,15 @@ def read_python(
     known, unit = MessageTypes.of(files or {}, package), unit_of_time(files or {})
     own = {(o.name, o.py.source.path) for o in classes.owners}
     is_people = partial(_is_people, own=own)
-    started = Started(launch, package, scripts_of(files or {}), frozenset(programs))
+    scripts = scripts_of(files or {})
+    started = Started(launch, package, scripts, frozenset(programs))
     system = PySystem(values, graph, known, unit, findings, is_people, path, started)
     system.beside = beside if beside is not None else Part.empty()
     nodes = system.read()
     _list_callbacks(graph, own, findings, path, nodes)
     _list_hooks(values, own, findings, path)
     used = tuple((e.key, (e.type, e.name, constant(e.default))) for e in classes.env())
-    return PythonPart(graph, read, used, code, nodes)
+    return PythonPart(graph, read, used, code, nodes, scripts)
 
 
 def constant(node: Node | None) -> Value | None:

@@ -130,3 +130,28 @@ def test_overloads_in_the_other_language_are_no_difference(tmp_path: Path) -> No
     found = checked(root)
     assert found.drift is not None
     assert found.drift.verdict is Verdict.IN_STEP, (found.drift.differences, told(found))
+
+
+def test_programs_are_found_by_the_names_that_they_are_installed_with(tmp_path: Path) -> None:
+    root = made("running_example", "ros2-py", tmp_path)
+    for name in ("setup.py", "launch/running_example.launch.py"):
+        for path in root.rglob(name):
+            if ".rebsync" not in path.parts:
+                text = path.read_text(encoding="utf-8").replace('"r1_node', '"first_robot')
+                path.write_text(text, encoding="utf-8")
+    found = checked(root)
+    assert found.drift is not None
+    assert found.drift.differences == ()
+    assert found.drift.verdict is Verdict.UNDETERMINED
+    assert any("the installed program r1_node is gone" in line for line in told(found))
+
+
+def test_a_program_that_runs_another_class_makes_another_rebec(tmp_path: Path) -> None:
+    root = made("running_example", "ros2-py", tmp_path)
+    path = root / "running_example" / "setup.py"
+    text = path.read_text(encoding="utf-8").replace("example.r1_node:main", "example.r2_node:main")
+    path.write_text(text, encoding="utf-8")
+    found = checked(root)
+    assert found.drift is not None
+    assert [str(d.element) for d, _ in found.drift.differences] == ["rebec robot1"]
+    assert found.drift.verdict is Verdict.CODE_AHEAD
