@@ -41,6 +41,7 @@ class MessageTypes:
 
     values: Values
     _includes: dict[int, dict[str, str]] = field(default_factory=dict)
+    _including: dict[str, list[Cpp]] = field(default_factory=dict)  # files, by what they include
     _spaces: dict[int, dict[str, str]] = field(default_factory=dict)
 
     def of(self, cpp: Cpp, type_: Node, depth: int = 0) -> str | Unresolved:
@@ -102,8 +103,12 @@ class MessageTypes:
         own = self._included(cpp).get(name)
         if own is not None:
             return own
-        others = [c for c in self.values.code.files if name in self._included(c)]
-        if not others:
+        if not self._including:
+            for file in self.values.code.files:
+                for each in self._included(file):
+                    self._including.setdefault(each, []).append(file)
+        others = self._including.get(name)
+        if others is None:
             return None
         return self._included(max(others, key=lambda c: nearness(c, cpp)))[name]
 

@@ -18,7 +18,6 @@ from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import (
     ClientFact,
     Fact,
-    Graph,
     NodeFact,
     ParameterFact,
     PublisherFact,
@@ -34,6 +33,7 @@ from rebsync.reverse.nodes.node_reach import reached
 from rebsync.reverse.nodes.node_servers import Server, replaced, share_variable
 from rebsync.reverse.nodes.node_state import State
 from rebsync.reverse.nodes.node_times import Times
+from rebsync.reverse.nodes.node_units import Facts
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.syntax.cpp_declarations import declared_name
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
@@ -60,13 +60,14 @@ _NESTING = frozenset(
 class Setup:
     """What the calls that set a node up stand for, by the ids of their statements.
 
+    `package` are all facts of the package, `facts` those of the unit;
     `first` are the functions that run before the node serves messages. `periodic` gives for each
     server of a timer its period, `switches` what stops and starts it; `parameters` are those of
     the constructor.
     """
 
     code: Code
-    graph: Graph
+    package: Facts
     state: State
     servers: Sequence[Server]
     facts: Sequence[Fact]
@@ -91,8 +92,8 @@ class Setup:
         # Calls in the files of this unit, or of the programs that run it.
         near = self.state.unit.files | {f.cpp.source.path for f in self.first}
         plain = (*_PLAIN, TimerFact)
-        for fact in self.graph.facts:
-            if isinstance(fact, plain) and fact.site.cpp.source.path in near:
+        for fact in self.package.of_files(near):
+            if isinstance(fact, plain):
                 self._plain(fact)
         for fact in self.facts:
             match fact:

@@ -264,7 +264,7 @@ class _Reader:
             facts = (*facts, *self._facts_at(start))
         setup = Setup(
             unit.code,
-            self.system.graph,
+            self.reading.facts,
             state,
             self.wiring.servers[unit.name],
             facts,

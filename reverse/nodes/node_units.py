@@ -5,9 +5,10 @@ A class counts with all that it inherits; a program stands for its functions out
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Hashable, Iterator, Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
+from operator import itemgetter
 
 from tree_sitter import Node
 
@@ -87,9 +88,9 @@ class Start:
     nodelet: str | None = None
 
     @property
-    def process(self) -> object:
+    def process(self) -> Hashable:
         """What objects have in common that run together."""
-        return self.program.main.node.id if self.program is not None else self.nodelet or self
+        return self.program.main.node.id if self.program is not None else self.nodelet or id(self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,6 +124,8 @@ class Units:
     generated: bool = False
     _owners: dict[int, str | None] = field(default_factory=dict)
     _here: list[Fact] | None = None
+    # By the names of classes, each fact with its number in the order of all.
+    _by_class: dict[str, list[tuple[int, Fact]]] | None = None
 
     def all(self) -> tuple[list[Unit], list[Start]]:
         """All units, in the order of the code, and all objects of them that programs make."""
@@ -218,12 +221,20 @@ class Units:
                 key = function.name, function.types
                 if function.body is not None or function.initialisers is not None:
                     functions.setdefault(key, function)
-        facts = [
-            f
-            for f in self._facts()
-            if self.owner_of(f) in names or (not isinstance(f, _CONNECTS) and f.site.owner in names)
-        ]
-        return Unit(name, lineage[0], lineage, tuple(functions.values()), tuple(facts), self.code)
+        numbered = [pair for n in names for pair in self._facts_of(n)]
+        facts = tuple(f for _, f in sorted(numbered, key=itemgetter(0)))
+        return Unit(name, lineage[0], lineage, tuple(functions.values()), facts, self.code)
+
+    def _facts_of(self, name: str) -> list[tuple[int, Fact]]:
+        """The facts that belong to a class, what it inherits left out."""
+        if self._by_class is None:
+            self._by_class = {}
+            for number, fact in enumerate(self._facts()):
+                connects = isinstance(fact, _CONNECTS)
+                owner = self.owner_of(fact) if connects else fact.site.owner
+                if owner is not None:
+                    self._by_class.setdefault(owner, []).append((number, fact))
+        return self._by_class.get(name, [])
 
     def _facts(self) -> list[Fact]:
         """The facts that calls in these files give; there may be more files in the package."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 
@@ -66,14 +67,14 @@ def idle(
 
 
 def _alone(starts: Sequence[Start], names: Names) -> Iterator[Instance]:
+    together = Counter(s.process for s in starts)
     for start in starts:
         program = start.program
-        others = [s for s in starts if s.process == start.process]
         named = program.node.name if program is not None and program.node is not None else None
         own = _named_itself(start)
         node = named if isinstance(named, str) and named else _program(program) or start.unit.name
         node = own or node
-        wish = node if own or len(others) == 1 else _own(start)
+        wish = node if own or together[start.process] == 1 else _own(start)
         yield Instance(start, names.give(wish[:1].lower() + wish[1:]), node.strip("/"))
 
 
