@@ -223,7 +223,8 @@ class Classes:
     def _only_forwards(self, owner: CppClass, function: CppFunction) -> bool:
         """Whether it only makes an inherited function that of an interface as well."""
         statements = named(function.body) if function.body is not None else []
-        if not function.overrides or len(statements) != 1:
+        same = (f for f in owner.functions if (f.name, f.types) == (function.name, function.types))
+        if len(statements) != 1 or not any(f.overrides for f in (function, *same)):
             return False
         inner = named(statements[0])
         call = call_of(inner[0]) if inner else None

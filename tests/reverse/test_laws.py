@@ -47,6 +47,12 @@ def test_examples_come_back(example: Path) -> None:
     assert_says(package_of(example), model_of(example))
 
 
+def test_inherited_functions_of_interfaces_are_not_declared_again() -> None:
+    path = Path(__file__).parents[1] / "forward" / "cases" / "interfaces.rebeca"
+    model = parse_model(read_source(str(path))).model
+    assert_says(generated(model), model)
+
+
 @given(models())
 def test_drawn_models_come_back(model: m.Model) -> None:
     assert_says(generated(model), model)
