@@ -29,13 +29,16 @@ _FLOAT = m.Type("float")
 _ONE, _ZERO = m.IntLiteral(1), m.IntLiteral(0)
 
 
-def variable_of(scope: Scope, name: str) -> Variable | None:
-    """The variable that has a name in the model."""
-    for meanings in (scope.locals, scope.members):
+def variable_of(scope: Scope, name: str, is_member: bool = False) -> Variable | None:
+    """The variable that has a name in the model; None also for a local of unknown type."""
+    for meanings in (scope.members,) if is_member else (scope.locals, scope.members):
         for meaning in meanings.values():
             if isinstance(meaning, Variable):
                 if meaning.name == name:
                     return meaning
+            elif isinstance(meaning, m.Name):
+                if meaning.name == name and meanings is scope.locals:
+                    return None
             elif isinstance(meaning, Record):
                 for variable in meaning.fields.values():
                     if variable.name == name:
@@ -55,7 +58,7 @@ def type_in(scope: Scope, expression: m.Expression) -> m.Type | None:
         case m.Name("now" | "currentMessageArrival" | "currentMessageWaitingTime"):
             return INT
         case m.Name(name) | m.Member(m.Self(), name):
-            variable = variable_of(scope, name)
+            variable = variable_of(scope, name, isinstance(expression, m.Member))
             return variable.type if variable is not None else None
         case m.Paren(inner) | m.Assign(target=inner):
             return type_in(scope, inner)

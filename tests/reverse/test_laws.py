@@ -47,8 +47,9 @@ def test_examples_come_back(example: Path) -> None:
     assert_says(package_of(example), model_of(example))
 
 
-def test_inherited_functions_of_interfaces_are_not_declared_again() -> None:
-    path = Path(__file__).parents[1] / "forward" / "cases" / "interfaces.rebeca"
+@pytest.mark.parametrize("name", ["interfaces", "env"])
+def test_hard_cases_come_back(name: str) -> None:
+    path = Path(__file__).parents[1] / "forward" / "cases" / f"{name}.rebeca"
     model = parse_model(read_source(str(path))).model
     assert_says(generated(model), model)
 
