@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rebsync.cache import cache_directory, is_ours
-from rebsync.checker.engines import Unavailable
+from rebsync.checker.exploration import Unavailable
 from rebsync.records import dataclass
 
 if TYPE_CHECKING:

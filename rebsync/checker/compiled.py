@@ -16,8 +16,15 @@ from rebsync.checker import native
 from rebsync.checker.build import Unit, always, header, libraries
 from rebsync.checker.compile_bodies import branches
 from rebsync.checker.compile_model import ModelText
-from rebsync.checker.engines import Unavailable
-from rebsync.checker.exploration import Covered, Event, Exploration, Limits, Progress, Report
+from rebsync.checker.exploration import (
+    Covered,
+    Event,
+    Exploration,
+    Limits,
+    Progress,
+    Report,
+    Unavailable,
+)
 from rebsync.checker.graph import Graph
 from rebsync.checker.memory import used_memory
 from rebsync.checker.program import Program

@@ -7,16 +7,11 @@ from collections.abc import Callable
 from dataclasses import replace
 from itertools import chain, repeat
 
-from rebsync.checker.exploration import Exploration, Report, Search
+from rebsync.checker.exploration import Exploration, Report, Search, Unavailable
 from rebsync.checker.problem import Options
 from rebsync.checker.program import Program
 from rebsync.checker.search import PAUSED, Interpreted, Pause
 from rebsync.checker.steps import Semantics
-
-
-class Unavailable(Exception):
-    """The compiled engine cannot be had here; the text says why."""
-
 
 GLANCE = 0.05  # seconds after which it pays to look whether a model was compiled before
 PATIENCE = 0.25  # seconds after which a search counts as large

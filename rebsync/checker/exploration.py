@@ -11,6 +11,10 @@ from rebsync.checker.steps import Failure, Semantics
 from rebsync.records import dataclass
 
 
+class Unavailable(Exception):
+    """The compiled engine cannot be had here; the text says why."""
+
+
 @dataclass(frozen=True, slots=True)
 class Limits:
     """Bounds of a search; None is no bound. `seconds` is by the wall clock, `until` model time.

@@ -172,7 +172,7 @@ def view_named(given: dict[str, Any]) -> Semantics | None:
 
 
 def _verified(problem: Problem, options: Options) -> Result:
-    from rebsync.checker.engines import Unavailable
+    from rebsync.checker.exploration import Unavailable
     from rebsync.checker.verify import verify
     from rebsync.cli.progress import progress
 

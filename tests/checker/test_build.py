@@ -15,7 +15,7 @@ import pytest
 
 from rebsync.checker import build
 from rebsync.checker.build import Unit, libraries
-from rebsync.checker.engines import Unavailable
+from rebsync.checker.exploration import Unavailable
 
 _REAL = next(filter(None, map(shutil.which, ("cc", "gcc", "clang"))), None)
 pytestmark = pytest.mark.skipif(_REAL is None, reason="no C compiler")

@@ -13,8 +13,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from rebsync.checker.compiled import CompiledSearch
-from rebsync.checker.engines import Unavailable
-from rebsync.checker.exploration import Event, Exploration, Limits
+from rebsync.checker.exploration import Event, Exploration, Limits, Unavailable
 from rebsync.checker.problem import Options, Problem
 from rebsync.checker.program import Program
 from rebsync.checker.reduction import self_driven

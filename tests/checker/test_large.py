@@ -5,8 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rebsync.checker.compiled import CompiledSearch
-from rebsync.checker.engines import Unavailable
-from rebsync.checker.exploration import Exploration, Limits
+from rebsync.checker.exploration import Exploration, Limits, Unavailable
 from rebsync.checker.search import Interpreted
 from tests.checker.comparing import System
 

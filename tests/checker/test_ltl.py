@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import pytest
 
-from rebsync.checker.engines import Unavailable
+from rebsync.checker.exploration import Unavailable
 from rebsync.checker.formulas import And, Atom, Formula, Not, Or, Temporal, Timed
 from rebsync.checker.graph import Graph
 from rebsync.checker.temporal import Fairness, Lasso, check_ltl, compiled_product

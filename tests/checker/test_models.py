@@ -13,7 +13,7 @@ from typing import get_args
 
 import pytest
 
-from rebsync.checker.engines import Unavailable
+from rebsync.checker.exploration import Unavailable
 from rebsync.checker.problem import EngineChoice, Options, Problem
 from rebsync.checker.result import Violation
 from rebsync.checker.steps import FailureKind, Semantics

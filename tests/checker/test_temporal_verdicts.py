@@ -10,8 +10,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from rebsync.checker import verify as verification
-from rebsync.checker.engines import Unavailable
-from rebsync.checker.exploration import Limits, Progress
+from rebsync.checker.exploration import Limits, Progress, Unavailable
 from rebsync.checker.formulas import And, Atom, Formula, Not, Or, Temporal, Timed
 from rebsync.checker.problem import EngineChoice, Fairness, Options, Problem
 from rebsync.checker.result import Result, Violation

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from functools import cache, partial
 
 from rebsync.checker.build import Unit, header, libraries
-from rebsync.checker.engines import Unavailable
+from rebsync.checker.exploration import Unavailable
 from rebsync.checker.graph import Graph
 from rebsync.checker.temporal.emptiness import Reached, search
 from rebsync.checker.temporal.product import Product
