@@ -17,7 +17,7 @@ from rebsync.source import Source
 from rebsync.static import analyse
 from rebsync.unions import assert_never
 
-TESTS = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 # In the first mixed form the classes around the first one are in Python, in the second all others.
 MIXED = ("mixed", "mixed-others")
 DIALECTS = ("ros1-cpp", "ros1-py", "ros2-cpp", "ros2-py")
@@ -38,11 +38,6 @@ class Case:
     model: Model
     settings: str = ""
 
-    @property
-    def stem(self) -> str:
-        """The name of the model's file without its suffix."""
-        return Path(self.name).stem
-
     def targets(self) -> tuple[str, ...]:
         """The dialects, and the mixed forms that its classes allow."""
         return (*DIALECTS, *(MIXED if len(families(self.model)) > 1 else ()))
@@ -50,9 +45,9 @@ class Case:
 
 def cases() -> dict[str, Case]:
     """All models of examples and tests that can be generated from."""
-    paths = sorted((TESTS.parent / "examples").glob("*/*.rebeca"))
+    paths = sorted((ROOT / "examples").glob("*/*.rebeca"))
     for folder in _FOLDERS:
-        paths += sorted((TESTS / folder).rglob("*.rebeca"))
+        paths += sorted((ROOT / "tests" / folder).rglob("*.rebeca"))
     found = (case_of(path) for path in paths if ".rebsync" not in path.parts)
     return {case.name: case for case in found if case is not None}
 
@@ -69,7 +64,7 @@ def case_of(path: Path) -> Case | None:
     sensors = path.with_name("sensors.toml")
     needed = sensors.is_file() and path.stem == "sensors"
     settings = sensors.read_text(encoding="utf-8") if needed else ""
-    return Case(str(path.relative_to(TESTS.parent)), text, model, settings)
+    return Case(str(path.relative_to(ROOT)), text, model, settings)
 
 
 def families(model: Model) -> list[set[str]]:
