@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 import subprocess
 import sys
 import tokenize
@@ -13,7 +14,8 @@ from shutil import which
 
 STYLES = ("Google", "LLVM", "Mozilla", "WebKit", "Chromium", "GNU", "Microsoft")
 WIDTHS = (60, 79, 120)
-TOUCHED = "touched"
+TOUCHED, SPREAD = "touched", "spread"
+_BREAKABLE = re.compile(r'//[^\n]*|^ *#[^\n]*|"(?:\\.|[^"\\])*"|::', re.MULTILINE)
 
 
 def forms() -> dict[str, Callable[[Path], None]]:
@@ -22,6 +24,7 @@ def forms() -> dict[str, Callable[[Path], None]]:
         TOUCHED: touched,
         "quotes": with_other_quotes,
         "crlf": with_crlf,
+        SPREAD: spread,
     }
     if which("clang-format") is not None:
         for style in STYLES:
@@ -62,6 +65,20 @@ def with_crlf(root: Path) -> None:
     """The ends of lines of another system, and a blank line at the end."""
     for path in (*cpp_of(root), *python_of(root)):
         path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n") + b"\r\n")
+
+
+def spread(root: Path) -> None:
+    """Names and literals of C++ broken wherever a formatter with very short lines may do so."""
+    for path in cpp_of(root):
+        _rewrite(path, lambda text: _BREAKABLE.sub(lambda found: _broken(found[0]), text))
+
+
+def _broken(text: str) -> str:
+    if text == "::":
+        return " ::\n    "
+    if text.startswith('"') and len(text) > 3 and "\\" not in text:
+        return f'{text[:2]}"\n    "{text[2:]}'
+    return text
 
 
 def other_quotes(text: str) -> str:
