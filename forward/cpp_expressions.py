@@ -6,7 +6,15 @@ from collections.abc import Sequence
 
 from rebsync import model as m
 from rebsync.forward.cpp_names import CppNames
-from rebsync.forward.cpp_operands import bare, float_literal, is_bitwise, is_distance, is_int, when
+from rebsync.forward.cpp_operands import (
+    bare,
+    float_literal,
+    is_bitwise,
+    is_distance,
+    is_int,
+    looks_like_template,
+    when,
+)
 from rebsync.forward.cpp_types import LOWEST, cpp_type, stored_type
 from rebsync.forward.effects import conflicting, writes_to
 from rebsync.forward.sends import Send, ToAny, ToKnown, ToSelf, send_of
@@ -261,7 +269,8 @@ class CppExpressions:
         times = [t for t in (call.after, call.deadline) if t is not None]
         timed = [self.text(t) for t in times]
         helper = self._helper(call, send)
-        if not conflicting([*operands, *times], self.analysis):
+        apart = conflicting([*operands, *times], self.analysis)
+        if not apart and not looks_like_template(operands, values):
             return f"{helper}({', '.join([*values, *when(call, timed)])})"
         names = [f"op{i}_" for i in range(1, len(operands) + len(times) + 1)]
         passed = [*names[: len(operands)], *when(call, names[len(operands) :])]
@@ -318,7 +327,8 @@ class CppExpressions:
         self, function: str, values: Sequence[str], arguments: Sequence[m.Expression]
     ) -> str:
         """A call whose arguments are evaluated from left to right where that matters."""
-        if not conflicting(arguments, self.analysis):
+        apart = conflicting(arguments, self.analysis)
+        if not apart and not looks_like_template(arguments, values):
             return f"{function}({', '.join(values)})"
         passed = ", ".join(f"op{i}_" for i in range(1, len(values) + 1))
         return self._in_order(values, f"{function}({passed})")

@@ -58,6 +58,28 @@ def when(call: m.Call, times: Sequence[str]) -> list[str]:
     return [".".join(parts)] if parts else []
 
 
+def looks_like_template(operands: Sequence[m.Expression], texts: Sequence[str]) -> bool:
+    """Whether arguments may be taken for those of a template: `a < b, as<C>(c)`.
+
+    A compiler knows better, as it knows names; what reads text alone does not.
+    """
+    after = [">" in " ".join(texts[i:]).replace("->", "") for i in range(1, len(texts) + 1)]
+    return any(_compares(o) and later for o, later in zip(operands, after, strict=True))
+
+
+def _compares(expression: m.Expression) -> bool:
+    """Whether `<` is among the operators of an expression that stand in no parentheses."""
+    match expression:
+        case m.Binary("<"):
+            return True
+        case m.Binary(_, left, right):
+            return _compares(left) or _compares(right)
+        case m.Conditional(condition, then, otherwise):
+            return any(map(_compares, (condition, then, otherwise)))
+        case _:
+            return False
+
+
 def bare(target: m.Expression | None) -> m.Expression:
     """An expression without parentheses around it, such as the target of a send has."""
     if isinstance(target, m.Paren):

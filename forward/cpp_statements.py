@@ -53,9 +53,7 @@ class CppStatements:
         at = start
         for statement in statements:
             yield from self.remarks.between(at, statement.span.start)
-            for annotation in statement.annotations:
-                if annotation.name != "Move":
-                    yield f"// rebsync: annotation {print_line(annotation).strip()}"
+            yield from _annotations(statement)
             yield from self._statement(statement)
             at = statement.span.end
         yield from self.remarks.between(at, end)
@@ -171,6 +169,7 @@ class CppStatements:
             label = "default" if case.value is None else f"case {self.expressions.text(case.value)}"
             lines = list(self._statements(case.statements, case.span.start, case.span.start))
             last = i == len(statement.cases) - 1
+            yield from (_INDENT + line for line in _annotations(case))
             if not lines and not last:
                 yield f"{_INDENT}{label}:"
                 continue
@@ -231,6 +230,13 @@ class CppStatements:
             for v in initial.values
         ]
         return "{{" + ", ".join(values) + "}}"
+
+
+def _annotations(of: m.Statement | m.Case) -> Iterator[str]:
+    """The markers of annotations, which stand right above what they are on."""
+    for annotation in of.annotations:
+        if annotation.name != "Move":
+            yield f"// rebsync: annotation {print_line(annotation).strip()}"
 
 
 def _returns(statement: m.Statement) -> bool:

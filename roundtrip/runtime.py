@@ -138,13 +138,29 @@ def _tokens(source: Source, own: frozenset[str]) -> Iterator[_Piece]:
     headers = [_Piece(m[1] or "", Span(*m.span())) for m in _INCLUDE.finditer(source.text)]
     rest = _INCLUDE.sub(lambda m: " " * len(m[0]), source.text)
     tokens = [_Piece(m[0], Span(*m.span())) for m in TOKEN.finditer(rest)]
-    for piece in (*sorted(headers, key=lambda h: h.text.rpartition("/")[2]), *tokens):
+    tokens = [t for t in tokens if not t.text.startswith(("//", "/*"))]
+    headers = sorted((h for h in headers if h.text), key=lambda h: h.text.rpartition("/")[2])
+    for piece in (*headers, *_joined(tokens)):
         text = piece.text
-        if not text or text.startswith(("//", "/*")):
-            continue
         for name in names:
             text = text.replace(name, "")
         yield _Piece(text, piece.span)
+
+
+def _joined(tokens: list[_Piece]) -> Iterator[_Piece]:
+    """Tokens, with literals that follow each other as one: formatters break long ones."""
+    held: _Piece | None = None
+    for token in tokens:
+        if held is not None and token.text.startswith('"'):
+            held = _Piece(held.text[:-1] + token.text[1:], Span(held.span.start, token.span.end))
+            continue
+        if held is not None:
+            yield held
+        held = token if token.text.startswith('"') else None
+        if held is None:
+            yield token
+    if held is not None:
+        yield held
 
 
 def _statements(source: Source, own: frozenset[str]) -> Iterator[_Piece]:

@@ -36,9 +36,9 @@ _SENSOR = re.compile(r'[:,]\s*(\w+)\s*[({]\s*\w+\s*,\s*("[^"]*")\s*[)}]')
 _PLAYED = re.compile(r'\bnode\s*\.\s*advertise\s*<[^;()]*>\s*\(\s*"([^"]*)"')
 MAIN = re.compile(r"\bint\s+main\s*\(")
 _MADE = re.compile(r"\b(?:\w+\s*::\s*)*(\w+)\s+\w+\s*[({]\s*node\s*[,)}]")
-_OWNER = re.compile(r"\b(\w+)::\1\s*\(")
+_OWNER = re.compile(r"\b(\w+)\s*::\s*\1\s*\(")
 _SUBSCRIBED = re.compile(r'\b(subscribe\w*)\s*(?:<[^;()]*>\s*)?\(\s*("[^"]*")\s*,')
-_HANDLER = re.compile(r"&\s*(?:\w+::)+(\w+)|\b(k[A-Z]\w*)")
+_HANDLER = re.compile(r"&\s*(?:\w+\s*::\s*)+(\w+)|\b(k[A-Z]\w*)")
 _ADVERTISED = re.compile(r"\b(\w+)\s*=\s*mailbox_\s*\.\s*(advertise\w*\s*<[^;]*?\([^;]*\))\s*;")
 _SERVER = re.compile(r'\bServer\s+(\w+)\s*\{\s*("[^"]*")\s*,\s*([^}]*?)\s*\}')
 _ENTRY = re.compile(r"^([ \t]*)(\w+):[ \t]*([^\n#]*?)[ \t]*(?:#.*)?$", re.MULTILINE)
@@ -177,7 +177,7 @@ def _server_of(text: str, start: int, servers: Mapping[str, str]) -> str:
 
 def _posted_in(text: str, handler: str, servers: Mapping[str, str]) -> str:
     """The server that a handler posts to; its own name if it posts to none."""
-    body = re.search(rf"::{handler}\s*\([^{{;]*\)\s*\{{(.*?)\n\}}", text, re.DOTALL)
+    body = re.search(rf"::\s*{handler}\s*\([^{{;]*\)\s*\{{(.*?)\n\}}", text, re.DOTALL)
     for constant in _POSTED.findall(body[1]) if body is not None else ():
         if constant in servers:
             return servers[constant]

@@ -207,7 +207,7 @@ class _Node:
 
 def _message(publisher: Fact) -> str:
     """The type of what it publishes, without its package."""
-    return publisher.value.partition("<")[2].partition(">")[0].rpartition("::")[2]
+    return publisher.value.partition("<")[2].partition(">")[0].rpartition("::")[2].strip()
 
 
 def _private(name: str) -> str:

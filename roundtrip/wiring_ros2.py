@@ -17,13 +17,13 @@ from rebsync.source import Source, Span
 # Kind, owner, name and value of a fact, and where it is.
 Told: TypeAlias = "tuple[str, str, str, str, Source, Span]"
 
-_OWNER = re.compile(r"\b(\w+)::\1\s*\(")
+_OWNER = re.compile(r"\b(\w+)\s*::\s*\1\s*\(")
 _DECLARED = re.compile(r'\bdeclare_parameter\s*<\s*([\w:]+)\s*>\s*\(\s*"([^"]*)"')
 _STATE = re.compile(
     r"\b(?:create_publisher|advertise)\s*<\s*[\w:]*State\s*>\s*\(\s*\"[^\"]*\"\s*,([^;]*)\)\s*;"
 )
 _STOPPED = re.compile(r"~(\w+)\s*\([^;{]*\{[^}]*\bmailbox_\s*\.\s*stop\s*\(\s*\)")
-_COMPONENT = re.compile(r"\bRCLCPP_COMPONENTS_REGISTER_NODE\s*\(\s*(?:\w+::)*(\w+)\s*\)")
+_COMPONENT = re.compile(r"\bRCLCPP_COMPONENTS_REGISTER_NODE\s*\(\s*(?:\w+\s*::\s*)*(\w+)\s*\)")
 _BUILT = re.compile(r"\brclcpp_components_register_nodes\s*\(([^)]*)\)")
 _MESSAGES = re.compile(r"\b(?:rosidl_generate_interfaces|add_message_files)\s*\(([^)]*)\)")
 _OPTIONS = re.compile(r"\bset\s*\(\s*\w*options\w*\s+([^)]*)\)")

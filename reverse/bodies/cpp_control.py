@@ -12,7 +12,8 @@ from rebsync import model as m
 from rebsync.reverse.bodies import cpp_locals, cpp_plain_locals, cpp_special
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.scope import Outside, Record, Variable
-from rebsync.reverse.syntax.cpp_tree import named, part
+from rebsync.reverse.bodies.written import annotation
+from rebsync.reverse.syntax.cpp_tree import markers_in, named, part, text_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_statements import CppStatements
@@ -100,7 +101,7 @@ def switched(reader: CppStatements, node: Node, annotations: tuple[m.Annotation,
     clause = part(node, "condition")
     subject = cpp_special.subject(reader, part(clause, "value"), part(node, "body"))
     outside = reader.scope
-    cases = [_case(reader, c) for c in named(part(node, "body"))]
+    cases = list(_cases(reader, part(node, "body")))
     reader.scope = outside
     if reader.scope.open:
         cases = _default_last(reader, node, cases)
@@ -128,7 +129,20 @@ def _leaves(case: m.Case) -> bool:
     )
 
 
-def _case(reader: CppStatements, node: Node) -> m.Case:
+def _cases(reader: CppStatements, body: Node) -> Iterator[m.Case]:
+    """The cases, each with the annotations in the comments above it."""
+    comments: list[str] = []
+    for child in body.named_children:
+        if child.type == "comment":
+            comments.append(text_of(child))
+            continue
+        span = reader.cpp.span(child)
+        found = (annotation(text, span) for text in markers_in(comments))
+        yield _case(reader, child, tuple(a for a in found if a is not None))
+        comments = []
+
+
+def _case(reader: CppStatements, node: Node, annotations: tuple[m.Annotation, ...]) -> m.Case:
     """One case with its statements."""
     if node.type != "case_statement":
         raise reader.unread(node, "this stands before the first case")
@@ -140,7 +154,7 @@ def _case(reader: CppStatements, node: Node) -> m.Case:
         statements = reader.inner(inside[0]).statements
     else:
         statements = tuple(reader.statements(body))
-    return m.Case(read, statements, span=reader.cpp.span(node))
+    return m.Case(read, statements, annotations, reader.cpp.span(node))
 
 
 def returned(

@@ -26,6 +26,7 @@ from rebsync.static.types import (
 )
 
 _FLOAT = m.Type("float")
+_TIMES = frozenset({"now", "currentMessageArrival", "currentMessageWaitingTime"})
 _ONE, _ZERO = m.IntLiteral(1), m.IntLiteral(0)
 
 
@@ -46,6 +47,12 @@ def variable_of(scope: Scope, name: str, is_member: bool = False) -> Variable | 
     return scope.results.get(name)
 
 
+def _is_taken(scope: Scope, name: str) -> bool:
+    """Whether a variable of the model has a name."""
+    known = (*scope.locals.values(), *scope.members.values())
+    return any(isinstance(v, Variable | m.Name) and v.name == name for v in known)
+
+
 def type_in(scope: Scope, expression: m.Expression) -> m.Type | None:
     """The type that the model gives an expression; None where it is not known."""
     match expression:
@@ -55,7 +62,7 @@ def type_in(scope: Scope, expression: m.Expression) -> m.Type | None:
             return DOUBLE if expression.is_double else _FLOAT
         case m.BoolLiteral() | m.InstanceOf():
             return BOOLEAN
-        case m.Name("now" | "currentMessageArrival" | "currentMessageWaitingTime"):
+        case m.Name(name) if name in _TIMES and not _is_taken(scope, name):
             return INT
         case m.Name(name) | m.Member(m.Self(), name):
             variable = variable_of(scope, name, isinstance(expression, m.Member))

@@ -12,6 +12,7 @@ from rebsync import model as m
 from rebsync import precedence
 from rebsync.names import original
 from rebsync.reverse.bodies.scope import Runtime, Sends
+from rebsync.reverse.syntax.cpp_calls import string_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 if TYPE_CHECKING:
@@ -65,9 +66,10 @@ def built_in(
 
 def _class_named(reader: CppExpressions, node: Node) -> str:
     """The class whose name a literal holds."""
-    if node.type != "string_literal":
+    name = string_of(node)
+    if name is None:
         raise reader.unread(node, "this class is not known before the node runs")
-    return original(text_of(node)[1:-1])
+    return original(name)
 
 
 def in_order(reader: CppExpressions, function: Node) -> m.Expression:

@@ -121,7 +121,8 @@ def _odd_in_constructor(
     arguments = dict(arguments_in(function))
     for statement in working(function.body):
         given = text_of(statement).partition("=")[0].removeprefix("this->")
-        prepares = given.startswith("const ros::NodeHandle ") or given.strip() in roles.globals
+        is_handle = "".join(given.split()).startswith("constros::NodeHandle")
+        prepares = is_handle or given.strip() in roles.globals
         prepares = prepares or _declared_by(statement) in arguments
         if not prepares and not _sets_up(statement, function, roles, timers):
             yield statement

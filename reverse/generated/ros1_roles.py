@@ -27,7 +27,7 @@ from rebsync.reverse.generated.ros2_words import (
 from rebsync.reverse.syntax.cpp_calls import CppCall, assigned_in, call_of, calls_in, string_of
 from rebsync.reverse.syntax.cpp_declarations import parameters_in, whole_number
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction, CppParameter
-from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, last_name, named, part, text_of
 from rebsync.static.constants import constant
 
 _SENSOR = "_sensor_"
@@ -235,7 +235,7 @@ def _member(roles: Roles, member: str, call: CppCall) -> None:
         case "subscribe", on if on in _OWN_HANDLES and len(call.arguments) in (3, 4):
             if _is_deep(call.arguments[1]):
                 roles.wired.add(call.node.id)
-                roles.topics[text_of(call.arguments[2]).rpartition("::")[2]] = first
+                roles.topics[last_name(call.arguments[2])] = first
         case "advertise", "mailbox_" if call.types:
             roles.wired.add(call.node.id)
             known, _, key = first.rpartition("/")
@@ -244,7 +244,7 @@ def _member(roles: Roles, member: str, call: CppCall) -> None:
         case "subscribe" | "subscribeOnBridge", "mailbox_" if len(call.arguments) == 3:
             roles.wired.add(call.node.id)
             roles.on_bridge = roles.on_bridge or call.name == "subscribeOnBridge"
-            roles.topics[text_of(call.arguments[1]).rpartition("::")[2]] = first
+            roles.topics[last_name(call.arguments[1])] = first
         case "advertiseAll", "mailbox_" if call.types and len(call.arguments) == 2:
             roles.wired.add(call.node.id)
             key = string_of(call.arguments[1]) or ""
@@ -338,7 +338,7 @@ def call_in(body: Node) -> tuple[str, list[Node]] | None:
         bound = call_of(body)
         if bound is None or not bound.name.endswith("bind") or len(bound.arguments) < 2:
             return None
-        return text_of(bound.arguments[0]).rpartition("::")[2], list(bound.arguments[2:])
+        return last_name(bound.arguments[0]), list(bound.arguments[2:])
     statements = working(part(body, "body")) if body.type == "lambda_expression" else []
     inner = named(statements[0]) if len(statements) == 1 else []
     call = call_of(inner[0]) if len(inner) == 1 else None

@@ -17,7 +17,7 @@ from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_roles import Advertised, Roles, call_in, server_of
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
-from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, last_name, named, part, text_of
 
 _AT_ONCE = frozenset({"When()", "When{}", "{}"})
 
@@ -99,7 +99,7 @@ def _odd_send(
     """What a function does besides sending; `senders` are the messages that say who sends them."""
     handlers = {f: s for roles in reversed(lineage) for f, s in roles.handlers.items()}
     made = next((s for s in working(function.body) if s.type == "declaration"), None)
-    type_ = text_of(part(made, "type")).rpartition("::")[2] if made is not None else ""
+    type_ = last_name(part(made, "type")) if made is not None else ""
     order = list(fields[type_]) if type_ in fields else None
     odd = list(_odd_in_send(function, sends, handlers, order))
     if made is not None and type_ in senders and not _tells_sender(function, _declared(made)):

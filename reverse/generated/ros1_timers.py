@@ -21,7 +21,7 @@ from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_roles import Roles, call_in
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
-from rebsync.reverse.syntax.cpp_tree import named, text_of
+from rebsync.reverse.syntax.cpp_tree import last_name, named, text_of
 
 MAKES = frozenset(
     {"createTimer", "createWallTimer", "createSteadyTimer", "create_timer", "create_wall_timer"}
@@ -84,7 +84,7 @@ def _timer(
     if callback.type == "lambda_expression":
         lambda_ = callback
     elif callback.type == "pointer_expression" and flags and flags[0].type == "this":
-        name, flags = text_of(callback).lstrip("& ").rpartition("::")[2], flags[1:]
+        name, flags = last_name(callback).lstrip("& "), flags[1:]
     elif (bound := call_in(callback)) is not None:
         name = bound[0]
     own = next((f for f in code.functions_of(owner) if f.name == name), None)

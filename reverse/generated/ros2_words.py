@@ -23,12 +23,14 @@ _ROS = frozenset(
     }
 )
 _MADE = re.compile(r"std::make_shared<\s*([\w:]+)\s*>\Z")
+_PARTED = re.compile(r"\s*::\s*")
 _WORD = re.compile(r"\w+")
 _KNOWN, _ENV = "knownrebecs.", "env."
 
 
 def message_name(type_: str) -> str:
     """A message type without its package, and without what points at it."""
+    type_ = _PARTED.sub("::", type_)
     for end in _POINTERS:
         type_ = type_.removesuffix(end)
     return type_.rpartition("::")[2]
@@ -36,8 +38,8 @@ def message_name(type_: str) -> str:
 
 def is_of_ros(type_: str) -> bool:
     """Whether it is the type of a publisher, a subscription or a timer."""
-    plain = type_.removesuffix("::SharedPtr").partition("<")[0]
-    return plain.rpartition("::")[2] in _ROS
+    plain = _PARTED.sub("::", type_).removesuffix("::SharedPtr").partition("<")[0]
+    return plain.rpartition("::")[2].strip() in _ROS
 
 
 def known_rebec(key: str) -> str | None:
@@ -82,7 +84,7 @@ def _handed_on(constructor: CppFunction) -> set[str]:
 def made_in(code: Code, main: CppFunction) -> Iterator[tuple[str, list[str]]]:
     """The nodes that a program's `main` makes, and the parameters that their constructors take."""
     for call in calls_in(main.body):
-        made = _MADE.match(call.name)
+        made = _MADE.match(_PARTED.sub("::", call.name))
         if made is None:
             continue
         type_ = made[1]

@@ -193,6 +193,11 @@ def text_of(node: Node) -> str:
     return text.decode("utf-8", "replace") if text else ""
 
 
+def last_name(node: Node) -> str:
+    """The last part of a qualified name, however it is laid out."""
+    return text_of(node).rpartition("::")[2].strip()
+
+
 def named(node: Node) -> list[Node]:
     """The named children of a node but for comments."""
     return [c for c in node.named_children if c.type != "comment"]
