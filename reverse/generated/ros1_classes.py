@@ -56,13 +56,14 @@ class Classes:
     """Reads the classes of some code that have a mailbox, and the interfaces of these.
 
     `messages` are the fields of message types (`package/Type`) by their names, `unit` the seconds
-    that a unit of time takes.
+    that a unit of time takes, `servers` those in another language by the types of their messages.
     """
 
     code: Code
     findings: Findings
     messages: Mapping[str, Mapping[str, m.Type | None]] = field(default_factory=dict)
     unit: Fraction = Fraction(1)
+    servers: Mapping[str, str] = field(default_factory=dict)
     types: frozenset[str] = frozenset()
     roles: dict[str, Roles] = field(default_factory=dict)
     timers: dict[str, tuple[Timer, ...]] = field(default_factory=dict)
@@ -79,9 +80,10 @@ class Classes:
         self.meanings = other_meanings(self.code)
         for owner in self.code.classes.values():
             self.roles[owner.name] = roles_of(self.code, owner)
+            self.servers = {**self.servers, **self.roles[owner.name].messages}
         for owner in self.code.classes.values():
-            add_sends(self.code, owner, self.roles, self.fields)
-        messages = {n for roles in self.roles.values() for n in roles.messages}
+            add_sends(self.code, owner, self.roles, self.fields, self.servers)
+        messages = {*self.fields, *self.servers}
         messages |= {p.message for roles in self.roles.values() for p in roles.publishers.values()}
         states = {s for c in self.code.classes.values() for s in state_types(self.code, c)}
         self.types = frozenset(messages | states | set(self.code.classes))
@@ -350,7 +352,7 @@ class Classes:
         if (runtime := runtime_of(member)) is not None:
             return runtime
         if (advertised := roles.publishers.get(member.name)) is not None:
-            return publisher(advertised, self.roles, self.messages)
+            return publisher(advertised, self.servers, self.messages)
         if declared_type(self.code, member.type) is None:
             return Outside(reaches=text_of(member.type).startswith(("ros::", "rclcpp::")))
         return Variable(variable_name(roles, member), declared_type(self.code, member.type))

@@ -27,14 +27,14 @@ def add_sends(
     owner: CppClass,
     all_roles: dict[str, Roles],
     fields: Mapping[str, Collection[str]],
+    servers: Mapping[str, str],
 ) -> None:
     """Reads which functions of a class send what to whom, and which do more than that.
 
-    `fields` are those of each message type, in their order.
+    `fields` are those of each message type, in their order, `servers` the server of each.
     """
     lineage = [all_roles[c.name] for c in code.lineage(owner.name)]
     publishers = {n: p for roles in reversed(lineage) for n, p in roles.publishers.items()}
-    servers = {m: s for roles in all_roles.values() for m, s in roles.messages.items()}
     senders = {t.type for roles in all_roles.values() for t in roles.taken if t.tells_sender}
     roles = all_roles[owner.name]
     for function in code.functions_of(owner):
@@ -71,7 +71,7 @@ def _sent(
     function: CppFunction,
     call: CppCall,
     publishers: dict[str, Advertised],
-    servers: dict[str, str],
+    servers: Mapping[str, str],
 ) -> Sends | None:
     if call.name == "post" and len(call.arguments) == 4 and call.on == "mailbox_":
         server = server_of(code, function.cpp, text_of(call.arguments[0]))

@@ -42,13 +42,14 @@ class Classes:
     """Reads the classes of some code that have a mailbox, and the interfaces of these.
 
     `messages` are the fields of the package's message types, by the names of these, `elsewhere`
-    the servers that are in another language, by the same.
+    the servers of classes in another language, by the same.
     """
 
     code: PyCode
     findings: Findings
     messages: Mapping[str, Sequence[str]] = with_default(default_factory=dict)
     elsewhere: Mapping[str, str] = with_default(default_factory=dict)
+    servers: dict[str, str] = with_default(default_factory=dict)
     roles: dict[int, Roles] = with_default(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -67,8 +68,7 @@ class Classes:
         ]
         own = {o.name for o in self._owners}
         self._types = frozenset({*self.messages, *_messages_of(self._owners), *own})
-        self._servers = dict(self.elsewhere)
-        self._servers |= {k: v for o in self._owners for k, v in self._of(o).messages.items()}
+        self.servers = {k: v for o in self._owners for k, v in self._of(o).messages.items()}
 
     def line(self, owner: Scope) -> list[Scope]:
         """A class and those above it, nearest first."""
@@ -338,8 +338,8 @@ class Classes:
         message, _, key = sends.server.partition(" ")
         if not key:
             return sends
-        server = self._servers.get(message, uncarry(key, RUNTIME_TOPICS))
-        return replace(sends, server=server)
+        server = self.servers.get(message) or self.elsewhere.get(message)
+        return replace(sends, server=server or uncarry(key, RUNTIME_TOPICS))
 
 
 def is_runtime_file(source: Source) -> bool:
