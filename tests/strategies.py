@@ -192,11 +192,16 @@ def _outline_server(
 
 
 def _other_types(drawing: _Drawing, server: Signature) -> tuple[m.Type, ...]:
-    """The types of an overload: one more, or another one that no value of the first has."""
+    """The types of an overload: one more, or another one.
+
+    Rebecs stand for those of classes above them too: then only truth values are told from numbers.
+    """
     if not server.types or drawing.flag():
         return (*server.types, type_of("boolean"))
     *same, last = server.types
-    kinds = [type_of(k) for k in PRIMITIVES if k != last.name or last.dimensions]
+    is_exact = all(t.name in PRIMITIVES for t in same)
+    others = PRIMITIVES if is_exact or last.name == "boolean" else ("boolean",)
+    kinds = [type_of(k) for k in others if k != last.name or last.dimensions]
     return (*same, drawing.draw(st.sampled_from(kinds)))
 
 
