@@ -14,6 +14,7 @@ from rebsync.package import Value
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED_GLOBALS
 from rebsync.reverse.bodies.cpp_types import class_name, type_of
+from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.build.manifests import read_manifest
 from rebsync.reverse.calls.ros_calls import Asking
@@ -100,8 +101,9 @@ def extract(
     launch = system.launch if system is not None else None
     listed, messages = Findings(), own_messages(files)
     in_python = _in_python(files, listed, messages)
-    beside = in_python.classes.servers if in_python is not None else {}
-    classes = Classes(code, findings, messages, _unit_of_time(launch), beside)
+    types = {t.rpartition("/")[2]: tuple(f.values()) for t, f in messages.items()}
+    served = Served(in_python.classes.families() if in_python is not None else {}, types)
+    classes = Classes(code, findings, messages, _unit_of_time(launch), served)
     wanted = _classes_in(code, files[only].path) if only is not None else None
     read = classes.read(wanted) if memory is None else read_with(memory, classes, wanted)
     generated = is_generated(code)
@@ -166,8 +168,8 @@ def _python(
 
     names = {name for p in programs for name in (p.name, p.stem)}
     names = names.union(*executables(files).values())
-    servers = in_cpp.servers
-    return read_python(code, findings, only, files, package, launch, beside, names, servers)
+    served = in_cpp.served
+    return read_python(code, findings, only, files, package, launch, beside, names, served)
 
 
 def _main(generated: _System, nodes: Nodes, is_part: bool) -> m.Main | None:

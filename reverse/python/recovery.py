@@ -13,6 +13,7 @@ from rebsync.names import carry
 from rebsync.package import Value
 from rebsync.records import dataclass
 from rebsync.reserved import NO_PYTHON_CLASSES
+from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import (
@@ -112,19 +113,19 @@ def read_python(
     launch: Launch | None = None,
     beside: Part | None = None,
     programs: Collection[str] = (),
-    servers: Mapping[str, str] | None = None,
+    served: Served | None = None,
 ) -> PythonPart:
     """What some files say; each callback whose body is not in the model is listed.
 
     With `only` the classes of that file; `files` are all that the package has, and `launch` what
     starts its nodes. `beside` are its hand-written nodes in C++, whose `programs` are none of
-    Python's, and `servers` those of its generated ones, by the types of their messages.
+    Python's, and `served` what its generated classes in both languages serve.
     """
     values, classes = python.values, python.classes
     graph = graph_with(values)
     asked = python.sources.get(only) if only is not None else None
     path = asked.path if asked is not None else None
-    classes.elsewhere = servers or {}
+    classes.served = served if served is not None else Served(classes.families())
     read = classes.read(path) if asked is not None or only is None else ()
     known, unit = MessageTypes.of(files or {}, package), unit_of_time(files or {})
     own = {(o.name, o.py.source.path) for o in classes.owners}
