@@ -56,12 +56,14 @@ def generate(
     """The files of the package by path; `analysis` must be free of errors."""
     package, topics = view(model, analysis, config, package_name(stem, config))
     targets = {c.name: config.target_of(c.name) for c in package.classes}
-    if len(set(targets.values())) > 1:
+    # An interface alone has no node, so that it needs no language of its own.
+    of_nodes = {targets[c.name] for c in package.classes if not c.interface}
+    if len(of_nodes) > 1:
         from rebsync.forward.ros1_mixed import render_mixed
 
         name = f"{stem}.rebeca"
         return render_mixed(package, analysis, topics, Remarks(comments), name, targets)
-    render = _renderer(next(iter(targets.values()), config.target))
+    render = _renderer(next(iter(of_nodes), config.target))
     return render(package, analysis, topics, Remarks(comments), f"{stem}.rebeca")
 
 

@@ -14,6 +14,7 @@ from rebsync.package import Value
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED_GLOBALS
 from rebsync.reverse.bodies.cpp_types import class_name, type_of
+from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.build.manifests import read_manifest
 from rebsync.reverse.calls.ros_calls import Asking
@@ -48,7 +49,7 @@ from rebsync.reverse.syntax.unparsed import unparsed
 from rebsync.source import NOWHERE, Source
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.recovery import PythonPart
+    from rebsync.reverse.python.recovery import PythonCode, PythonPart
 
 _MANIFEST = "package.xml"
 _TIME_UNIT = "/mailbox/time_unit"
@@ -98,7 +99,11 @@ def extract(
     started = programs(code, files)
     system = system_of(files, package, asked, started)
     launch = system.launch if system is not None else None
-    classes = Classes(code, findings, own_messages(files), _unit_of_time(launch))
+    listed, messages = Findings(), own_messages(files)
+    in_python = _in_python(files, listed, messages)
+    types = {t.rpartition("/")[2]: tuple(f.values()) for t, f in messages.items()}
+    served = Served(in_python.classes.families() if in_python is not None else {}, types)
+    classes = Classes(code, findings, messages, _unit_of_time(launch), served)
     wanted = _classes_in(code, files[only].path) if only is not None else None
     read = classes.read(wanted) if memory is None else read_with(memory, classes, wanted)
     generated = is_generated(code)
@@ -110,9 +115,9 @@ def extract(
         of_cpp = NodeSystem(code, graph, files, of_nodes, package, found, findings, only, generated)
     people = of_cpp.find() if of_cpp is not None else None
     part = people.part if people is not None else Part.empty()
-    listed = Findings()
-    servers = {t: s for roles in classes.roles.values() for t, s in roles.messages.items()}
-    python = _python(files, listed, only, package, launch, part, started, servers)
+    python = None
+    if in_python is not None:
+        python = _python(in_python, files, listed, only, package, launch, part, started, classes)
     joined = python.nodes.joined if python is not None else None
     nodes = Nodes((), (), False)
     if of_cpp is not None and people is not None:
@@ -127,11 +132,28 @@ def extract(
     main = _main(made, nodes, only is not None and len(files) > 1)
     model = m.Model(tuple(made.heads() if read else ()), (*read, *nodes.classes), main)
     statements = tuple(findings.statements.items())
-    in_python = python.graph if python is not None else Graph()
-    return Extracted(model, tuple(findings.all), statements, asking, in_python)
+    asked_for = python.graph if python is not None else Graph()
+    return Extracted(model, tuple(findings.all), statements, asking, asked_for)
+
+
+def _in_python(
+    files: Mapping[str, Source],
+    findings: Findings,
+    messages: Mapping[str, Mapping[str, m.Type | None]],
+) -> PythonCode | None:
+    """The files of Python, if there are any, and what of them is generated."""
+    code = ((path, source) for path, source in files.items() if path != SETUP)
+    sources = {path: source for path, source in code if is_python(path, source)}
+    if not sources:
+        return None
+    from rebsync.reverse.python.recovery import PythonCode
+
+    fields = {t.rpartition("/")[2]: tuple(f) for t, f in messages.items()}
+    return PythonCode.of(sources, findings, fields)
 
 
 def _python(
+    code: PythonCode,
     files: Mapping[str, Source],
     findings: Findings,
     only: str | None,
@@ -139,24 +161,15 @@ def _python(
     launch: Launch | None,
     beside: Part,
     programs: tuple[Program, ...],
-    servers: Mapping[str, str],
-) -> PythonPart | None:
-    """What the files of Python say; what of them is not in the model is listed.
-
-    `servers` are those of generated C++, by the types of their messages.
-    """
-    code = ((path, source) for path, source in files.items() if path != SETUP)
-    sources = {path: source for path, source in code if is_python(path, source)}
-    if not sources:
-        return None
+    in_cpp: Classes,
+) -> PythonPart:
+    """What the files of Python say; what of them is not in the model is listed."""
     from rebsync.reverse.python.recovery import read_python
 
-    messages = {t.rpartition("/")[2]: tuple(f) for t, f in own_messages(files).items()}
     names = {name for p in programs for name in (p.name, p.stem)}
     names = names.union(*executables(files).values())
-    return read_python(
-        sources, findings, only, messages, files, package, launch, beside, names, servers
-    )
+    served = in_cpp.served
+    return read_python(code, findings, only, files, package, launch, beside, names, served)
 
 
 def _main(generated: _System, nodes: Nodes, is_part: bool) -> m.Main | None:

@@ -57,6 +57,7 @@ class _Drawing:
     interfaces: dict[str, list[Signature]] = field(default_factory=dict)
     classes: list[_Class] = field(default_factory=list)
     envs: list[Variable] = field(default_factory=list)
+    overloads: int = 5
 
     def name(self) -> str:
         return self.names.pop(0)
@@ -86,16 +87,19 @@ class _Drawing:
 
 
 @st.composite
-def models(draw: DrawFn, awkward_names: bool = True) -> m.Model:
-    """A model that the static rules accept; warnings about it are possible."""
+def models(draw: DrawFn, awkward_names: bool = True, least: int = 1, overloads: int = 5) -> m.Model:
+    """A model that the static rules accept; warnings about it are possible.
+
+    It has at least so many classes; one in `overloads` servers is overloaded.
+    """
     words = [*_WORDS, *_AWKWARD] if awkward_names else list(_WORDS)
     shuffled = draw(st.permutations(words))
     numbered = [f"{word}{number}" for number in range(3, 9) for word in words]
-    drawing = _Drawing(draw, [*shuffled, *numbered])
+    drawing = _Drawing(draw, [*shuffled, *numbered], overloads=overloads)
     heads = tuple(_env(drawing) for _ in range(drawing.up_to(2)))
     if drawing.flag(3):
         _outline_interface(drawing)
-    for number in range(drawing.up_to(3, least=1)):
+    for number in range(drawing.up_to(3, least=least)):
         _outline_class(drawing, number)
     for each in drawing.classes:
         _outline_known(drawing, each)
@@ -182,10 +186,23 @@ def _outline_server(
         notes = (m.Annotation("Port"),)
     elif drawing.flag(4):
         notes = (m.Annotation("priority", (m.IntLiteral(drawing.up_to(3)),)),)
-    if drawing.flag(5):
-        overload = Signature(server.name, (*server.types, type_of("boolean")))
-        return [(server, notes), (overload, ())]
-    return [(server, notes)]
+    if not drawing.flag(drawing.overloads):
+        return [(server, notes)]
+    return [(server, notes), (Signature(server.name, _other_types(drawing, server)), ())]
+
+
+def _other_types(drawing: _Drawing, server: Signature) -> tuple[m.Type, ...]:
+    """The types of an overload: one more, or another one.
+
+    Rebecs stand for those of classes above them too: then only truth values are told from numbers.
+    """
+    if not server.types or drawing.flag():
+        return (*server.types, type_of("boolean"))
+    *same, last = server.types
+    is_exact = all(t.name in PRIMITIVES for t in same)
+    others = PRIMITIVES if is_exact or last.name == "boolean" else ("boolean",)
+    kinds = [type_of(k) for k in others if k != last.name or last.dimensions]
+    return (*same, drawing.draw(st.sampled_from(kinds)))
 
 
 def _outline_known(drawing: _Drawing, each: _Class) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
@@ -11,6 +12,8 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync import precedence
 from rebsync.names import original
+from rebsync.reverse.bodies.cpp_conversions import type_in
+from rebsync.reverse.bodies.overloads import HINT, WHY, telling
 from rebsync.reverse.bodies.scope import Runtime, Sends
 from rebsync.reverse.syntax.cpp_calls import string_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -112,6 +115,9 @@ def send(
     else:
         target = m.Name(sends.known, reader.cpp.span(node))
     values = tuple(reader.read(a) for a in arguments[expected - sends.arguments : expected])
+    told = telling(values, sends.types, sends.rivals, partial(type_in, reader.scope))
+    if told is None:
+        raise reader.unread(node, WHY, HINT)
     if len(arguments) > expected:
         last = times(reader, arguments[expected])
     elif sends.usual is not None:
@@ -119,7 +125,7 @@ def send(
     else:
         last = {}
     after, deadline = last.get("after"), last.get("deadline")
-    return m.Call(target, sends.server, values, after, deadline, reader.cpp.span(node))
+    return m.Call(target, sends.server, told, after, deadline, reader.cpp.span(node))
 
 
 def times(reader: CppExpressions, node: Node) -> dict[str, m.Expression]:

@@ -55,8 +55,9 @@ def _declarator(reader: CppStatements, node: Node, type_: m.Type) -> m.Declarato
             initial = braces(reader, value, type_)
         else:
             initial = reader.expressions.read(value)
-    reader.scope = reader.scope.declare(text_of(name))
     local = reader.scope.local(text_of(name))
+    known = m.Name(local) if reader.scope.open else Variable(local, type_)
+    reader.scope = reader.scope.with_locals({text_of(name): known})
     return m.Declarator(local, initial, reader.cpp.span(node), reader.cpp.span(name))
 
 

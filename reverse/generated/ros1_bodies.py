@@ -52,7 +52,12 @@ class Bodies:
             if not function.pure:
                 self._unread(function, function.node, "its body is not in these files", within)
             return None
-        inside = self._inside(function.cpp).declare(*(p.name for p in function.parameters))
+        inside = self._inside(function.cpp).with_locals(
+            {
+                p.name: Variable(self.scope.local(p.name), declared_type(self.code, p.type))
+                for p in function.parameters
+            }
+        )
         return CppStatements(function.cpp, inside, self.findings, within).block(function.body)
 
     def _inside(self, cpp: Cpp) -> Scope:

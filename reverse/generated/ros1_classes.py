@@ -11,6 +11,7 @@ from rebsync.names import uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED
 from rebsync.reverse.bodies.cpp_types import class_name
+from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.bodies.scope import Around, Called, Function, Member, Outside, Scope, Variable
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.ros1_annotations import (
@@ -34,7 +35,7 @@ from rebsync.reverse.generated.ros1_names import (
 from rebsync.reverse.generated.ros1_plumbing import check_plumbing
 from rebsync.reverse.generated.ros1_publishing import publisher
 from rebsync.reverse.generated.ros1_roles import Roles, roles_of, shown_of
-from rebsync.reverse.generated.ros1_sends import add_sends
+from rebsync.reverse.generated.ros1_sends import add_sends, families_of
 from rebsync.reverse.generated.ros1_timers import (
     Timer,
     checked,
@@ -56,13 +57,14 @@ class Classes:
     """Reads the classes of some code that have a mailbox, and the interfaces of these.
 
     `messages` are the fields of message types (`package/Type`) by their names, `unit` the seconds
-    that a unit of time takes.
+    of a unit of time, `served` what classes in another language serve.
     """
 
     code: Code
     findings: Findings
     messages: Mapping[str, Mapping[str, m.Type | None]] = field(default_factory=dict)
     unit: Fraction = Fraction(1)
+    served: Served = field(default_factory=Served)
     types: frozenset[str] = frozenset()
     roles: dict[str, Roles] = field(default_factory=dict)
     timers: dict[str, tuple[Timer, ...]] = field(default_factory=dict)
@@ -72,19 +74,21 @@ class Classes:
 
     def __post_init__(self) -> None:
         self.fields = {t.rpartition("/")[2]: f for t, f in self.messages.items()}
-        if not any("Mailbox" in cpp.source.text for cpp in self.code.files):
+        if all("Mailbox" not in cpp.source.text for cpp in self.code.files):
             self.roles = {name: Roles() for name in self.code.classes}
             self.types = frozenset(self.code.classes)
             return  # nothing here is generated
         self.meanings = other_meanings(self.code)
         for owner in self.code.classes.values():
             self.roles[owner.name] = roles_of(self.code, owner)
+        self.served = self.served.joined(families_of(self.code, self.roles))
         for owner in self.code.classes.values():
-            add_sends(self.code, owner, self.roles, self.fields)
-        messages = {n for roles in self.roles.values() for n in roles.messages}
-        messages |= {p.message for roles in self.roles.values() for p in roles.publishers.values()}
-        states = {s for c in self.code.classes.values() for s in state_types(self.code, c)}
-        self.types = frozenset(messages | states | set(self.code.classes))
+            add_sends(self.code, owner, self.roles, self.fields, self.served)
+        sent = (p.message for roles in self.roles.values() for p in roles.publishers.values())
+        states = (s for c in self.code.classes.values() for s in state_types(self.code, c))
+        self.types = frozenset(self.code.classes).union(
+            self.fields, self.served.servers, sent, states
+        )
         for owner in self.code.classes.values():
             self.timers[owner.name] = tuple(self._timed(owner))
 
@@ -127,10 +131,8 @@ class Classes:
             if f.pure
         )
         extends = tuple(class_name(b) for b in owner.bases)
-        span = owner.cpp.span(owner.node)
-        return m.Interface(
-            class_name(owner.name), servers, extends, annotations_in(owner.markers, owner), span
-        )
+        name, span = class_name(owner.name), owner.cpp.span(owner.node)
+        return m.Interface(name, servers, extends, annotations_in(owner.markers, owner), span)
 
     def _reactive(self, owner: CppClass) -> m.ReactiveClass:
         check_plumbing(self.code, owner, self.roles, self.fields, self.findings)
@@ -350,7 +352,7 @@ class Classes:
         if (runtime := runtime_of(member)) is not None:
             return runtime
         if (advertised := roles.publishers.get(member.name)) is not None:
-            return publisher(advertised, self.roles, self.messages)
+            return publisher(advertised, self.served.servers, self.messages)
         if declared_type(self.code, member.type) is None:
             return Outside(reaches=text_of(member.type).startswith(("ros::", "rclcpp::")))
         return Variable(variable_name(roles, member), declared_type(self.code, member.type))

@@ -195,7 +195,7 @@ def _common(classes: Classes) -> Iterator[str]:
     told = _Told({})
     for each in (classes.roles, classes.timers, classes.meanings, classes.messages):
         yield from told.of(each)
-    yield from told.of((classes.unit, classes.types, classes.fields))
+    yield from told.of((classes.unit, classes.types, classes.fields, classes.served))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -206,16 +206,25 @@ def _odd_in_shim(
     known = fields.get(taken.type)
     if not (_hands_fields_on(taken, known) and _fits(code, owner, taken, known or {})):
         yield taken.call.arguments[-1]
-    elif not _tells_of_message(code, owner, taken):
+    elif not _tells_of_message(code, owner, taken, known or {}):
         yield taken.call.node
 
 
 def _fits(code: Code, owner: CppClass, taken: Taken, fields: Mapping[str, Type | None]) -> bool:
     """Whether fields are of the types of the handler's parameters, so that no value is cut."""
+    own = _handlers(code, owner, taken, len(fields))
+    return not own or any(_takes_in(code, f, fields) for f in own)
+
+
+def _handlers(code: Code, owner: CppClass, taken: Taken, count: int) -> list[CppFunction]:
+    """The functions that may serve a message with so many fields, of the class itself first."""
     every = (f for c in code.lineage(owner.name) for f in code.functions_of(c))
-    own = [f for f in every if f.name == taken.handler and len(f.parameters) == len(fields)]
-    taking = ([declared_type(code, p.type) for p in f.parameters] for f in own)
-    return not own or any(all(map(_is_kept, fields.values(), types)) for types in taking)
+    return [f for f in every if f.name == taken.handler and len(f.parameters) == count]
+
+
+def _takes_in(code: Code, function: CppFunction, fields: Mapping[str, Type | None]) -> bool:
+    types = (declared_type(code, p.type) for p in function.parameters)
+    return all(map(_is_kept, fields.values(), types))
 
 
 def _is_kept(field: Type | None, type_: Type | None) -> bool:
@@ -225,39 +234,55 @@ def _is_kept(field: Type | None, type_: Type | None) -> bool:
     return field.name == type_.name and prod(field.dimensions) == prod(type_.dimensions)
 
 
-def _tells_of_message(code: Code, owner: CppClass, taken: Taken) -> bool:
+def _tells_of_message(
+    code: Code, owner: CppClass, taken: Taken, fields: Mapping[str, Type | None]
+) -> bool:
     """Whether the mailbox gets the message's own times, and its sender where that is asked for."""
     times, sender = ("".join(text_of(a).split()) for a in taken.call.arguments[1:3])
     name = taken.message.name
     if times != f"{name}->timing":
         return False
-    return sender == f"{name}->sender" or not _asks_for_sender(code, owner, taken)
+    return sender == f"{name}->sender" or not _asks_for_sender(code, owner, taken, fields)
 
 
-def _asks_for_sender(code: Code, owner: CppClass, taken: Taken) -> bool:
+def _asks_for_sender(
+    code: Code, owner: CppClass, taken: Taken, fields: Mapping[str, Type | None]
+) -> bool:
     """Whether what serves a message asks who has sent it; what it sends is served apart."""
     called = call_in(taken.call.arguments[-1])
     if called is None or taken.handler is None:
         return any(_is_question(call) for call in code.calls_of(taken.function))
-    lineage = reversed(code.lineage(owner.name))
-    functions: dict[tuple[str, int], CppFunction] = {}
-    for function in (f for c in lineage for f in code.functions_of(c)):
-        key = function.name, len(function.parameters)
-        if "When" in function.types[-1:] or functions.get(key, function).types != function.types:
-            functions.pop(key, None)  # one that sends, or one of several that only types tell
-        else:
-            functions[key] = function
-    waiting, seen = [(taken.handler, len(called[1]))], set[tuple[str, int]]()
+    functions = _told_by_number(code, owner)
+    own = _handlers(code, owner, taken, len(called[1]))
+    waiting = [f for f in own if not fields or _takes_in(code, f, fields)][:1]
+    seen: set[int] = set()
     while waiting:
-        key = waiting.pop()
-        if key in seen or key not in functions:
+        function = waiting.pop()
+        if function.node.id in seen:
             continue
-        seen.add(key)
-        for call in code.calls_of(functions[key]):
+        seen.add(function.node.id)
+        for call in code.calls_of(function):
             if _is_question(call):
                 return True
-            waiting.append((call.name.rpartition("::")[2], len(call.arguments)))
+            called_next = functions.get((call.name.rpartition("::")[2], len(call.arguments)))
+            waiting += [called_next] if called_next is not None else []
     return False
+
+
+def _told_by_number(code: Code, owner: CppClass) -> dict[tuple[str, int], CppFunction]:
+    """The functions by name and number of parameters, without those that only types tell apart.
+
+    Nor those that send.
+    """
+    found: dict[tuple[str, int], CppFunction] = {}
+    several: set[tuple[str, int]] = set()
+    lineage = reversed(code.lineage(owner.name))
+    for function in (f for c in lineage for f in code.functions_of(c)):
+        key = function.name, len(function.parameters)
+        if "When" in function.types[-1:] or found.get(key, function).types != function.types:
+            several.add(key)
+        found[key] = function
+    return {key: function for key, function in found.items() if key not in several}
 
 
 def _is_question(call: CppCall) -> bool:

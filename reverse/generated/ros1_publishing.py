@@ -8,18 +8,20 @@ from rebsync.model import Type
 from rebsync.names import uncarry
 from rebsync.reserved import RUNTIME_TOPICS
 from rebsync.reverse.bodies.scope import Outside, Publishes, Target
-from rebsync.reverse.generated.ros1_roles import Advertised, Roles
+from rebsync.reverse.generated.ros1_roles import Advertised
 
 
 def publisher(
     advertised: Advertised,
-    all_roles: Mapping[str, Roles],
+    servers: Mapping[str, str],
     messages: Mapping[str, Mapping[str, Type | None]],
 ) -> Publishes | Outside:
-    """What a publisher sends, and to whom; one to all rebecs of a class is used by sends only."""
+    """What a publisher sends, and to whom; one to all rebecs of a class is used by sends only.
+
+    `servers` are those of all classes by the types of their messages.
+    """
     if advertised.known is None:
         return Outside(reaches=True)
-    servers = {m: s for roles in all_roles.values() for m, s in roles.messages.items()}
     server = servers.get(advertised.message) or uncarry(advertised.key, RUNTIME_TOPICS)
     full = next((t for t in messages if t.rpartition("/")[2] == advertised.message), "")
     fields = tuple(messages.get(full, ()))

@@ -12,8 +12,11 @@ from tree_sitter import Node
 
 from rebsync.names import uncarry
 from rebsync.reserved import RUNTIME_TOPICS
+from rebsync.reverse.bodies.cpp_types import class_name
+from rebsync.reverse.bodies.overloads import Served, plain
 from rebsync.reverse.bodies.scope import Sends
 from rebsync.reverse.generated.ros1_idle import working
+from rebsync.reverse.generated.ros1_names import declared_type
 from rebsync.reverse.generated.ros1_roles import Advertised, Roles, call_in, server_of
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
@@ -27,14 +30,15 @@ def add_sends(
     owner: CppClass,
     all_roles: dict[str, Roles],
     fields: Mapping[str, Collection[str]],
+    served: Served,
 ) -> None:
     """Reads which functions of a class send what to whom, and which do more than that.
 
-    `fields` are those of each message type, in their order.
+    `fields` are those of each message type, in their order, `served` what all classes serve.
     """
     lineage = [all_roles[c.name] for c in code.lineage(owner.name)]
     publishers = {n: p for roles in reversed(lineage) for n, p in roles.publishers.items()}
-    servers = {m: s for roles in all_roles.values() for m, s in roles.messages.items()}
+    servers = served.servers
     senders = {t.type for roles in all_roles.values() for t in roles.taken if t.tells_sender}
     roles = all_roles[owner.name]
     for function in code.functions_of(owner):
@@ -47,8 +51,38 @@ def add_sends(
             if odd := _odd_send(function, sends, lineage, fields, senders):
                 roles.odd_sends[function.name] = odd
             else:
-                roles.sends[function.name] = replace(sends, usual=_usual(owner, function))
+                told = _told(code, owner, function, call, publishers, sends, served)
+                roles.sends[function.name] = replace(told, usual=_usual(owner, function))
             break
+
+
+def families_of(code: Code, all_roles: Mapping[str, Roles]) -> dict[str, dict[str, str]]:
+    """By class the servers, those above included, by the types of their messages."""
+    found = {}
+    for name in code.classes:
+        lines = [all_roles[above.name].messages for above in reversed(code.lineage(name))]
+        found[class_name(name)] = {t: s for line in lines for t, s in line.items()}
+    return found
+
+
+def _told(
+    code: Code,
+    owner: CppClass,
+    function: CppFunction,
+    call: CppCall,
+    publishers: Mapping[str, Advertised],
+    sends: Sends,
+    served: Served,
+) -> Sends:
+    """A send with the types of what it sends, and those that overloads take."""
+    if sends.known == "self":
+        types = plain([declared_type(code, p.type) for p in function.parameters[:-1]])
+        rivals = served.rivals_in(class_name(owner.name), sends.server, types)
+    else:
+        message = publishers[_publisher(call)].message
+        types = plain(served.fields.get(message, ()))
+        rivals = served.rivals(message, types) if len(types) == sends.arguments else frozenset()
+    return replace(sends, types=types, rivals=rivals)
 
 
 def _usual(owner: CppClass, function: CppFunction) -> tuple[Cpp, Node] | None:
@@ -71,22 +105,32 @@ def _sent(
     function: CppFunction,
     call: CppCall,
     publishers: dict[str, Advertised],
-    servers: dict[str, str],
+    servers: Mapping[str, str],
 ) -> Sends | None:
     if call.name == "post" and len(call.arguments) == 4 and call.on == "mailbox_":
         server = server_of(code, function.cpp, text_of(call.arguments[0]))
         return Sends("self", server, len(function.parameters) - 1) if server else None
     if call.name != "publish" or call.on != "mailbox_" or len(call.arguments) != 3:
         return None
-    where, others = call.arguments[0], 1
-    chosen = call_of(where)
-    if chosen is not None and chosen.name == "to" and chosen.arguments:
-        where, others = chosen.arguments[0], 2
-    publisher = publishers.get(text_of(where).removeprefix("this->"))
+    publisher = publishers.get(_publisher(call))
+    others = 1 if _chosen(call) is None else 2
     if publisher is None:
         return None
     server = servers.get(publisher.message) or uncarry(publisher.key, RUNTIME_TOPICS)
     return Sends(publisher.known, server, len(function.parameters) - others)
+
+
+def _chosen(call: CppCall) -> CppCall | None:
+    """`to(publishers, to_)`, if that is where a call publishes."""
+    chosen = call_of(call.arguments[0])
+    return chosen if chosen is not None and chosen.name == "to" and chosen.arguments else None
+
+
+def _publisher(call: CppCall) -> str:
+    """The member that a call publishes with."""
+    chosen = _chosen(call)
+    where = call.arguments[0] if chosen is None else chosen.arguments[0]
+    return text_of(where).removeprefix("this->")
 
 
 def _odd_send(

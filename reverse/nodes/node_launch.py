@@ -11,6 +11,7 @@ from rebsync.reverse.launch.launch_files_ros2 import is_of_ros_2, read_ros2_laun
 from rebsync.reverse.launch.launch_values import Surroundings
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.nodes.node_components import executables
+from rebsync.reverse.nodes.node_presence import STAND_IN
 from rebsync.reverse.nodes.node_programs import Program
 from rebsync.source import Source
 
@@ -57,7 +58,8 @@ def system_of(
 ) -> System | None:
     """The system of a package: the launch file that is asked for, or that starts most of it.
 
-    That is first of all most of its `programs`: what else it starts is no C++.
+    That is first of all most of its `programs` but those that stand in for sensors: what else it
+    starts is no C++.
     """
 
     def load(path: str) -> Source | None:
@@ -68,7 +70,8 @@ def system_of(
     read = [(files[p], _read(files[p], surroundings, package)) for p in paths]
     if not read:
         return None
-    names = {name for p in programs for name in (p.name, p.stem)}
+    nodes = (p for p in programs if not p.name.endswith(STAND_IN))
+    names = {name for p in nodes for name in (p.name, p.stem)}
     names = names.union(*executables(files).values())
     best = max(read, key=lambda each: (_known(each[1], names), _size(each[1], package)))
     included = {id(s) for s in best[1].sources}

@@ -9,15 +9,16 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.names import original, uncarry
+from rebsync.names import original
 from rebsync.records import dataclass
-from rebsync.reserved import RUNTIME_TOPICS
+from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python.model_constants import constants_of, enumerations_of
 from rebsync.reverse.python.model_expressions import Expressions, Names
 from rebsync.reverse.python.model_plumbing import Plumbing, odd_at_top
 from rebsync.reverse.python.model_roles import EnvUse, Roles, Sends, plain_name, roles_of
+from rebsync.reverse.python.model_sends import families, resolved
 from rebsync.reverse.python.model_statements import Statements
 from rebsync.reverse.python.model_types import class_name, markers_above, type_of
 from rebsync.reverse.python.py_callbacks import body_of
@@ -41,14 +42,14 @@ _RUNTIME = {
 class Classes:
     """Reads the classes of some code that have a mailbox, and the interfaces of these.
 
-    `messages` are the fields of the package's message types, by the names of these, `elsewhere`
-    the servers that are in another language, by the same.
+    `messages` are the fields of the package's message types, by the names of these, `served` what
+    classes serve, those in another language among them.
     """
 
     code: PyCode
     findings: Findings
     messages: Mapping[str, Sequence[str]] = with_default(default_factory=dict)
-    elsewhere: Mapping[str, str] = with_default(default_factory=dict)
+    served: Served = with_default(default_factory=Served)
     roles: dict[int, Roles] = with_default(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -67,8 +68,6 @@ class Classes:
         ]
         own = {o.name for o in self._owners}
         self._types = frozenset({*self.messages, *_messages_of(self._owners), *own})
-        self._servers = dict(self.elsewhere)
-        self._servers |= {k: v for o in self._owners for k, v in self._of(o).messages.items()}
 
     def line(self, owner: Scope) -> list[Scope]:
         """A class and those above it, nearest first."""
@@ -312,7 +311,8 @@ class Classes:
             variables |= {a: e.name for a, e in roles.env.items()}
             types |= {v[0]: v[1] for v in (roles.state | roles.known).values()}
             types |= {e.name: e.type for e in roles.env.values()}
-            sends |= {f: self._resolved(s) for f, s in roles.sends.items()}
+            given = ((f, s, roles.functions[f]) for f, s in roles.sends.items())
+            sends |= {f: resolved(self.served, owner, s, of) for f, s, of in given}
             own = {n: v for n, v in constants_of(above).items() if n not in above.attributes}
             constants |= {f"self.{name}": value for name, value in own.items()}
             for name, function in roles.functions.items():
@@ -333,13 +333,9 @@ class Classes:
             frozenset(properties),
         )
 
-    def _resolved(self, sends: Sends) -> Sends:
-        """A send by the name that the server has in the model, which its message type tells."""
-        message, _, key = sends.server.partition(" ")
-        if not key:
-            return sends
-        server = self._servers.get(message, uncarry(key, RUNTIME_TOPICS))
-        return replace(sends, server=server)
+    def families(self) -> dict[str, dict[str, str]]:
+        """By class the servers, those above included, by the types of their messages."""
+        return families((o, map(self._of, self.line(o))) for o in self._owners)
 
 
 def is_runtime_file(source: Source) -> bool:

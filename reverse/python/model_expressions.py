@@ -16,6 +16,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_kinds import kind_of
 from rebsync.reverse.python.model_roles import Sends
+from rebsync.reverse.python.model_sends import told
 from rebsync.reverse.python.model_types import (
     call_parts,
     in_double_quotes,
@@ -381,7 +382,8 @@ class Expressions:
             target = self._receiver(arguments[0])
         else:
             target = m.Self(span) if sends.known == "self" else m.Name(sends.known, span)
-        values = tuple(map(self.read, arguments[expected - sends.arguments : expected]))
+        given = tuple(map(self.read, arguments[expected - sends.arguments : expected]))
+        values = told(self, node, sends, given)
         times = idioms.times(self, arguments[expected]) if len(arguments) > expected else {}
         return m.Call(target, sends.server, values, times.get("after"), times.get("deadline"), span)
 

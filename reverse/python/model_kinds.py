@@ -43,6 +43,8 @@ def kind_of(expression: m.Expression, known: Known, results: Mapping[str, m.Type
             return _element(target, known)
         case m.Cast(type_):
             return _widest(type_)
+        case m.Call(None, "pow" | "sqrt" as name) if name not in results:
+            return _DOUBLE
         case m.Call(None, name):
             return _widest(results.get(name))
         case m.Conditional(_, then, otherwise):

@@ -16,6 +16,7 @@ from rebsync import model as m
 from rebsync.names import carry, original, uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import OWN_TOPICS, PYTHON_MEMBERS, PYTHON_RESERVED
+from rebsync.reverse.bodies.overloads import Signature
 from rebsync.reverse.python.model_types import (
     call_parts,
     handed_over,
@@ -44,13 +45,16 @@ _READS = frozenset({"rospy.get_param", "declared", "read_array", "declare_array"
 class Sends:
     """A function that sends: `known` as in the model, "self", or None for any rebec of a class.
 
-    `parameters` are the names of all that it is given, the time among them.
+    `parameters` are the names of all that it is given, the time among them. `types` are those of
+    the arguments, `rivals` the types that other servers of the name take.
     """
 
     known: str | None
     server: str
     arguments: int
     parameters: tuple[str, ...] = ()
+    types: Signature = ()
+    rivals: frozenset[Signature] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)

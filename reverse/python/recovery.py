@@ -13,6 +13,7 @@ from rebsync.names import carry
 from rebsync.package import Value
 from rebsync.records import dataclass
 from rebsync.reserved import NO_PYTHON_CLASSES
+from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import (
@@ -81,33 +82,50 @@ class PythonPart:
         return None
 
 
+@dataclass(frozen=True, eq=False)
+class PythonCode:
+    """The files of Python of a package by their paths, parsed, and what of them is generated."""
+
+    sources: Mapping[str, Source]
+    code: PyCode
+    values: Values
+    classes: Classes
+
+    @staticmethod
+    def of(
+        sources: Mapping[str, Source],
+        findings: Findings,
+        messages: Mapping[str, Sequence[str]] | None = None,
+    ) -> PythonCode:
+        """Parses them; `messages` are the fields of the package's message types."""
+        trees = [parse(source) for _, source in sorted(sources.items())]
+        findings.all += [f for py in trees for f in unparsed(py)]
+        code = PyCode.of(trees)
+        return PythonCode(sources, code, Values(code), Classes(code, findings, messages or {}))
+
+
 def read_python(
-    sources: Mapping[str, Source],
+    python: PythonCode,
     findings: Findings,
     only: str | None = None,
-    messages: Mapping[str, Sequence[str]] | None = None,
     files: Mapping[str, Source] | None = None,
     package: str = "",
     launch: Launch | None = None,
     beside: Part | None = None,
     programs: Collection[str] = (),
-    servers: Mapping[str, str] | None = None,
+    served: Served | None = None,
 ) -> PythonPart:
     """What some files say; each callback whose body is not in the model is listed.
 
-    With `only` the classes of that file; `messages` are the fields of the
-    package's message types, `files` all that it has, and `launch` what starts its nodes. `beside`
-    are its hand-written nodes in C++, whose `programs` are none of Python's, and `servers` those of
-    its generated ones, by the types of their messages.
+    With `only` the classes of that file; `files` are all that the package has, and `launch` what
+    starts its nodes. `beside` are its hand-written nodes in C++, whose `programs` are none of
+    Python's, and `served` what its generated classes in both languages serve.
     """
-    trees = [parse(source) for _, source in sorted(sources.items())]
-    findings.all += [f for py in trees for f in unparsed(py)]
-    code = PyCode.of(trees)
-    values = Values(code)
+    values, classes = python.values, python.classes
     graph = graph_with(values)
-    asked = sources.get(only) if only is not None else None
+    asked = python.sources.get(only) if only is not None else None
     path = asked.path if asked is not None else None
-    classes = Classes(code, findings, messages or {}, servers or {})
+    classes.served = served if served is not None else Served(classes.families())
     read = classes.read(path) if asked is not None or only is None else ()
     known, unit = MessageTypes.of(files or {}, package), unit_of_time(files or {})
     own = {(o.name, o.py.source.path) for o in classes.owners}
@@ -120,7 +138,7 @@ def read_python(
     _list_callbacks(graph, own, findings, path, nodes)
     _list_hooks(values, own, findings, path)
     used = tuple((e.key, (e.type, e.name, constant(e.default))) for e in classes.env())
-    return PythonPart(graph, read, used, code, nodes, scripts)
+    return PythonPart(graph, read, used, python.code, nodes, scripts)
 
 
 def constant(node: Node | None) -> Value | None:

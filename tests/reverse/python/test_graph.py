@@ -10,7 +10,7 @@ from rebsync.reverse.findings import Findings
 from rebsync.reverse.python.py_calls import graph_of
 from rebsync.reverse.python.py_index import PyCode
 from rebsync.reverse.python.py_tree import parse, unparsed
-from rebsync.reverse.python.recovery import read_python
+from rebsync.reverse.python.recovery import PythonCode, read_python
 from rebsync.source import Source
 from tests.reverse.graph.notation import noted
 
@@ -48,7 +48,7 @@ def test_what_is_found_is_what_the_comments_say(case: Path) -> None:
 def test_what_is_no_python_is_listed_and_the_rest_is_read() -> None:
     text = "import rospy\nrospy.init_node('n')\ndef f(:\n  x = = 1\n"
     findings = Findings()
-    graph = read_python({"a.py": Source("a.py", text)}, findings).graph
+    graph = read_python(PythonCode.of({"a.py": Source("a.py", text)}, findings), findings).graph
     assert [noted(f) for f in graph.facts] == ['node "n"']
     assert "this is no Python that can be read" in {f.why for f in findings.all}
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rebsync.reverse.findings import Findings
-from rebsync.reverse.python.recovery import read_python
+from rebsync.reverse.python.recovery import PythonCode, read_python
 from rebsync.source import Source
 
 ROSPY = "import rospy, actionlib\nfrom dynamic_reconfigure.server import Server\n"
@@ -85,7 +85,7 @@ def test_what_is_handed_over_is_listed(case: str) -> None:
         "  def stop(self, *given): pass\n  def send_goal(self, *given): pass\n"
     )
     findings = Findings()
-    read_python({"a.py": Source("a.py", text)}, findings)
+    read_python(PythonCode.of({"a.py": Source("a.py", text)}, findings), findings)
     assert _hooks(findings) == ([expected] if expected else [])
 
 
@@ -96,7 +96,7 @@ def test_changes_of_state_are_listed() -> None:
         "  def on_other(self, state): pass\nclass Other:\n  def on_configure(self): pass\n"
     )
     findings = Findings()
-    read_python({"a.py": Source("a.py", text)}, findings)
+    read_python(PythonCode.of({"a.py": Source("a.py", text)}, findings), findings)
     assert _hooks(findings) == ["on_configure: Own.on_configure"]
 
 

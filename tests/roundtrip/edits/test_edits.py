@@ -1,4 +1,4 @@
-"""Edits by hand in rclcpp, rospy and rclpy (python.toml, rclcpp.toml) are what they mean.
+"""Edits by hand in rclcpp, rospy, rclpy and mixed packages are what they mean.
 
 Here one in three is read and judged, and some go through a sync as well;
 `python -m tests.roundtrip.edits` does all of it with all of them, in each dialect.
@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from tests.roundtrip.edits.steps import all_steps, is_listed, is_said
-from tests.roundtrip.edits.trial import HERE, Case, cases, made
+from tests.roundtrip.edits.trial import FILES, HERE, Case, cases, made
 
 _EVERY = 8  # of how many edits one goes through all steps
 
@@ -24,7 +24,7 @@ def chosen(file: str) -> list[Case]:
     return [of[number % len(of)] for number, of in enumerate(by_name.values())]
 
 
-CASES = [*chosen("python.toml"), *chosen("rclcpp.toml")][::3]
+CASES = [case for file in FILES for case in chosen(file)][::3]
 
 
 @pytest.mark.parametrize("case", CASES, ids=str)

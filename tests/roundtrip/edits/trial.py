@@ -17,6 +17,7 @@ from rebsync.source import Source
 from tests.reverse.test_edits import EDITS, LISTED
 from tests.roundtrip.mutations.harness import written
 from tests.roundtrip.mutations.package import Package
+from tests.roundtrip.python import packages
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -24,6 +25,8 @@ else:
     import tomli as tomllib
 
 HERE = Path(__file__).parent
+FILES = ("python.toml", "rclcpp.toml", "mixed.toml")
+MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 
 # A later change of the model of each example, in code that few of the edits touch.
 LATER = {
@@ -33,6 +36,8 @@ LATER = {
         "stopped = false;\n    pos[0] = init_x;",
     ),
     "warehouse": ("loaded = !loaded;", "loaded = !loaded;\n    bay = bay + 4;"),
+    "numbers": ("half = d / 2;", "half = d / 3;"),
+    "overloads": ("asked = n;", "asked = n + 1;"),
 }
 
 
@@ -161,8 +166,13 @@ def _line(source: Source, found: Diagnostic) -> str:
 
 
 def made(case: Case, root: Path) -> Trial:
-    """A fresh copy of a case's example with the edit."""
-    written(Package(case.example, case.dialect), root)
+    """A fresh copy of a case's example with the edit; a mixed one has a model of its own."""
+    if case.dialect == "ros1-mixed":
+        root.mkdir()
+        text = (MIXED / f"{case.example}.rebeca").read_text(encoding="utf-8")
+        packages.made(case.example, packages.MIXED, root, text)
+    else:
+        written(Package(case.example, case.dialect), root)
     trial = Trial(case, root)
     trial.edit()
     return trial
