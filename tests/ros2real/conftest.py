@@ -9,10 +9,13 @@ from pathlib import Path
 
 import pytest
 
+from rebsync.config import Config
+from tests.forward.compiling import generated, written
 from tests.ros1.conftest import shared
 from tests.ros1.recording import Recording
 from tests.ros1.run import Clock
 from tests.ros2.launching import launched
+from tests.ros2.test_mailbox import MODEL
 from tests.ros2real.running import run
 from tests.ros2real.workspace import Workspace, build, missing_ros2
 
@@ -68,6 +71,12 @@ def play_real(build_real: Builder, tmp_path_factory: pytest.TempPathFactory) -> 
         return run(workspace, launch, names, rebecs, directory, followed(clock, dialect))
 
     return play
+
+
+def office(folder: Path, dialect: str) -> Path:
+    """The package of the mailbox tests in a dialect, made in a folder."""
+    config = Config(target=dialect)
+    return written(generated(MODEL, "office", config), folder, "office", config)
 
 
 def followed(clock: Clock, dialect: str) -> Clock:
