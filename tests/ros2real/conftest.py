@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
 
+from rebsync.config import Config
+from tests.forward.compiling import generated, written
 from tests.ros1.conftest import shared
 from tests.ros1.recording import Recording
 from tests.ros1.run import Clock
 from tests.ros2.launching import launched
+from tests.ros2.test_mailbox import MODEL
 from tests.ros2real.running import run
 from tests.ros2real.workspace import Workspace, build, missing_ros2
 
@@ -22,7 +25,6 @@ _BUSIEST = 4.0  # processes for a processor, above which the clock is not slowed
 DIALECTS = ("ros2-cpp", "ros2-py")
 
 Builder = Callable[[Path, str], Workspace]
-Play = Callable[[Path, str, Clock], Recording]
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
@@ -52,22 +54,49 @@ def build_real(tmp_path_factory: pytest.TempPathFactory) -> Builder:
     return lambda folder, name: build(folder, root / "ros2" / name)
 
 
-@pytest.fixture(scope="session")
-def play_real(build_real: Builder, tmp_path_factory: pytest.TempPathFactory) -> Play:
+@dataclass(frozen=True)
+class Play:
     """Builds the package in a folder, of a dialect, and runs its launch file."""
 
-    def play(folder: Path, dialect: str, clock: Clock) -> Recording:
+    build: Builder
+    factory: pytest.TempPathFactory
+
+    def __call__(
+        self, folder: Path, dialect: str, clock: Clock, beside: Sequence[Path] = ()
+    ) -> Recording:
         name = folder.name
-        workspace = build_real(folder, f"{name}_{dialect}")
+        workspace = self.build(folder, f"{name}_{dialect}")
         package = folder / name if dialect == "ros2-py" else folder
-        nodes = launched(package)
+        return self.launched(workspace, package, dialect, clock, beside)
+
+    def launched(
+        self,
+        workspace: Workspace,
+        package: Path,
+        dialect: str,
+        clock: Clock,
+        beside: Sequence[Path] = (),
+    ) -> Recording:
+        """Run the launch file of a package that has been built."""
+        name, nodes = package.name, launched(package)
         rebecs = [n.name for n in nodes if "mailbox.rebecs" in n.parameters]
         launch = workspace.root / "install/share" / name / "launch" / f"{name}.launch.py"
         names = [f"/{n.name}" for n in nodes]
-        directory = tmp_path_factory.mktemp(name)
-        return run(workspace, launch, names, rebecs, directory, followed(clock, dialect))
+        directory = self.factory.mktemp(name)
+        clock = followed(clock, dialect)
+        return run(workspace, launch, names, rebecs, directory, clock, beside)
 
-    return play
+
+@pytest.fixture(scope="session")
+def play_real(build_real: Builder, tmp_path_factory: pytest.TempPathFactory) -> Play:
+    """Builds packages and runs them."""
+    return Play(build_real, tmp_path_factory)
+
+
+def office(folder: Path, dialect: str) -> Path:
+    """The package of the mailbox tests in a dialect, made in a folder."""
+    config = Config(target=dialect)
+    return written(generated(MODEL, "office", config), folder, "office", config)
 
 
 def followed(clock: Clock, dialect: str) -> Clock:

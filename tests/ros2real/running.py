@@ -7,19 +7,21 @@ from pathlib import Path
 
 from tests.ros1.recording import Recording
 from tests.ros1.run import Clock, launched, record
+from tests.ros1.workspace import SYSTEM_PYTHON
 from tests.ros2real.workspace import Workspace
 
 _RECORDER = Path(__file__).parent / "nodes" / "recorder.py"
 _WRAPPER = """
 from launch import LaunchDescription
-from launch.actions import IncludeLaunchDescription
+from launch.actions import ExecuteProcess, IncludeLaunchDescription
 from launch.launch_description_sources import PythonLaunchDescriptionSource
 from launch_ros.actions import SetParameter
 
 
 def generate_launch_description():
     system = IncludeLaunchDescription(PythonLaunchDescriptionSource({launch!r}))
-    return LaunchDescription([SetParameter("use_sim_time", {simulated}), system])
+    beside = [ExecuteProcess(cmd=c, output="screen") for c in {beside!r}]
+    return LaunchDescription([SetParameter("use_sim_time", {simulated}), *beside, system])
 """
 
 
@@ -30,11 +32,17 @@ def run(
     rebecs: Sequence[str],
     directory: Path,
     clock: Clock,
+    beside: Sequence[Path] = (),
 ) -> Recording:
-    """Run a launch file to the end of `clock`; `nodes` are its nodes by their full names."""
+    """Run a launch file to the end of `clock`; `nodes` are its nodes by their full names.
+
+    The scripts `beside` it are no part of the system: what publishes to its sensors.
+    """
     wrapper = directory / "wrapper.launch.py"
     simulated = clock.rate is not None
-    wrapper.write_text(_WRAPPER.format(launch=str(launch), simulated=simulated))
+    commands = [[SYSTEM_PYTHON, str(script)] for script in beside]
+    text = _WRAPPER.format(launch=str(launch), simulated=simulated, beside=commands)
+    wrapper.write_text(text)
     return run_command(workspace, ["ros2", "launch", str(wrapper)], nodes, rebecs, directory, clock)
 
 

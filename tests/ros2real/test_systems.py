@@ -6,19 +6,17 @@ import signal
 import subprocess
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 import yaml
 
-from rebsync.config import Config
-from tests.forward.compiling import generated, written
 from tests.ros1.recording import Recording
 from tests.ros1.run import Clock, launched
 from tests.ros2.launching import launched as described
-from tests.ros2.test_mailbox import MODEL
 from tests.ros2real.conftest import DIALECTS, Builder, followed
+from tests.ros2real.conftest import office as office_package
 from tests.ros2real.running import run, run_command
 from tests.ros2real.workspace import Workspace
 
@@ -72,12 +70,10 @@ class Office:
 def office(
     request: pytest.FixtureRequest, build_real: Builder, tmp_path_factory: pytest.TempPathFactory
 ) -> Office:
-    config = replace(Config(), target=str(request.param))
-    folder = tmp_path_factory.mktemp("systems")
-    package = written(generated(MODEL, "office", config), folder, "office", config)
-    workspace = build_real(package, f"office_{config.target}")
-    inner = package / "office" if config.target == "ros2-py" else package
-    return Office(workspace, config.target, inner)
+    dialect = str(request.param)
+    package = office_package(tmp_path_factory.mktemp("systems"), dialect)
+    workspace = build_real(package, f"office_{dialect}")
+    return Office(workspace, dialect, package / "office" if dialect == "ros2-py" else package)
 
 
 def _bodies(recording: Recording, space: str = "") -> Mapping[str, Sequence[str]]:

@@ -56,14 +56,19 @@ class Workspace:
 
 def missing_ros2() -> str | None:
     """Why packages cannot be built and run here, or None."""
-    prefixes = [p for p in os.environ.get("AMENT_PREFIX_PATH", "").split(":") if p]
     for package in _NEEDED:
-        if not any(Path(prefix, "share", package).is_dir() for prefix in prefixes):
+        if not has_package(package):
             return f"no ROS 2 is sourced: AMENT_PREFIX_PATH has no {package}"
     for tool in ("colcon", "ros2"):
         if shutil.which(tool) is None:
             return f"no {tool}"
     return None
+
+
+def has_package(name: str) -> bool:
+    """Whether the ROS 2 that is sourced has a package."""
+    prefixes = [p for p in os.environ.get("AMENT_PREFIX_PATH", "").split(":") if p]
+    return any(Path(prefix, "share", name).is_dir() for prefix in prefixes)
 
 
 def sourced() -> dict[str, str]:

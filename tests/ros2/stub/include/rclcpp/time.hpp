@@ -40,7 +40,9 @@ class Duration {
 class Time {
  public:
   Time(int32_t seconds, uint32_t nanoseconds, rcl_clock_type_t clock = RCL_SYSTEM_TIME)
-      : nanoseconds_(int64_t{seconds} * 1000000000 + nanoseconds), clock_(clock) {}
+      : nanoseconds_(int64_t{seconds} * 1000000000 + nanoseconds), clock_(clock) {
+    if (seconds < 0) throw std::runtime_error("a time before 0");
+  }
   explicit Time(int64_t nanoseconds = 0, rcl_clock_type_t clock = RCL_SYSTEM_TIME)
       : nanoseconds_(nanoseconds), clock_(clock) {}
   Time(const builtin_interfaces::msg::Time& time, rcl_clock_type_t clock = RCL_ROS_TIME)
