@@ -1,0 +1,104 @@
+"""What generated Python asks of its mailbox, and how it sends, as the model has it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.names import original
+from rebsync.reverse.python import model_idioms as idioms
+from rebsync.reverse.python.model_builtins import array_elements
+from rebsync.reverse.python.model_types import passed_on, string_value
+from rebsync.reverse.python.py_tree import named, text_of
+
+if TYPE_CHECKING:
+    from rebsync.reverse.python.model_expressions import Expressions
+    from rebsync.reverse.python.model_roles import Sends
+
+_CLOCK = {
+    "now": "now",
+    "arrival": "currentMessageArrival",
+    "expiry": "currentMessageDeadline",
+    "waiting_time": "currentMessageWaitingTime",
+    "sender": "sender",
+}
+_LATE = frozenset({"integer", "float", "true", "false"})  # the same whenever it is evaluated
+
+
+def of_mailbox(reader: Expressions, node: Node, name: str, arguments: list[Node]) -> m.Expression:
+    """What a function of the mailbox gives or does. Unread: the model has no such thing."""
+    span = reader.py.span(node)
+    match name, len(arguments):
+        case "self", 0:
+            return m.Self(span)
+        case _, 0 if name in _CLOCK:
+            return m.Name(_CLOCK[name], span)
+        case "choose", 1 | 2 if arguments[0].type == "list":
+            return m.Choice(tuple(map(reader.read, named(arguments[0]))), span)
+        case "is_a", 2:
+            type_ = m.Type(original(string_value(arguments[1]) or ""))
+            return m.InstanceOf(reader.read(arguments[0]), type_, span)
+        case "delay" | "assertion", _:
+            return m.Call(None, name, tuple(map(reader.read, arguments)), span=span)
+        case "post", 4:
+            return _posted(reader, node, arguments)
+        case _:
+            raise reader.unread(node, f'the model has no function "{name}"')
+
+
+def _posted(reader: Expressions, node: Node, arguments: list[Node]) -> m.Expression:
+    """`self._mailbox.post(_P, When(), "", self.p)`, which a function that sends does as well."""
+    server = reader.names.descriptors.get(text_of(arguments[0]))
+    handler, values = passed_on(arguments[3]) or ("", [])
+    if server is None or reader.names.handlers.get(handler.removeprefix("self.")) != server:
+        raise reader.unread(node, "this is no server of the model with the function that serves it")
+    if not all(value.type in _LATE for value in values):
+        raise reader.unread(node, "this is evaluated when it is served: send it by `send_self_...`")
+    times, span = idioms.times(reader, arguments[1]), reader.py.span(node)
+    return m.Call(
+        m.Self(span),
+        server,
+        tuple(map(reader.read, values)),
+        times.get("after"),
+        times.get("deadline"),
+        span,
+    )
+
+
+def sent(reader: Expressions, node: Node, sends: Sends, arguments: list[Node]) -> m.Expression:
+    """What a function that sends is given, as a send of the model."""
+    span, is_to_any = reader.py.span(node), sends.known is None
+    expected = sends.arguments + is_to_any
+    arguments = idioms.in_order(reader, node, arguments, sends.parameters)
+    rest = arguments[is_to_any:]
+    values: list[m.Expression] = []
+    target: m.Expression = m.Self(span)
+    if sends.known is None and arguments:
+        target = _receiver(reader, arguments[0])
+    elif sends.known is not None and sends.known != "self":
+        target = m.Name(sends.known, span)
+    while rest and len(values) < sends.arguments:
+        values += _unpacked(reader, rest.pop(0))
+    if len(values) != sends.arguments or len(rest) > 1 or len(arguments) < is_to_any:
+        raise reader.unread(node, f"this sends with {expected} arguments")
+    times = idioms.times(reader, rest[0]) if rest else {}
+    given = tuple(values)
+    return m.Call(target, sends.server, given, times.get("after"), times.get("deadline"), span)
+
+
+def _unpacked(reader: Expressions, node: Node) -> list[m.Expression]:
+    """One argument, or the elements of an array behind a star."""
+    if node.type != "list_splat":
+        return [reader.read(node)]
+    elements = array_elements(reader, named(node)[0])
+    if elements is None:
+        raise reader.unread(node, "nobody knows how many values this gives")
+    return elements
+
+
+def _receiver(reader: Expressions, node: Node) -> m.Expression:
+    """Who gets a message: what is no name or call stands in parentheses."""
+    found = reader.read(node)
+    return m.Paren(found) if isinstance(found, (m.Cast, m.Conditional, m.Choice)) else found
