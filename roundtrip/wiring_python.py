@@ -44,9 +44,10 @@ def facts_in_python(name: str, source: Source, package: str) -> Iterator[Fact]:
     found = [f for c in classes for f in _Class.of(source, tree, c).facts()]
     if classes:
         found += _imports(source, tree, classes[0], package)
-        found += _helping(source, tree, classes[0])
+        found += _helping(source, tree, uncarry(classes[0].name, NO_PYTHON_CLASSES))
     else:
-        found += _program(Path(name).stem, source, tree)
+        stem = Path(name).stem
+        found += [*_program(stem, source, tree), *_helping(source, tree, stem)]
     seen: Counter[tuple[str, ...]] = Counter()
     for fact in found:
         told = (*fact.key, fact.value)
@@ -274,9 +275,9 @@ def _imports(source: Source, tree: ast.Module, node: ast.ClassDef, package: str)
             yield Fact("import", owner, name, inside, source, span_of(source, statement))
 
 
-def _helping(source: Source, tree: ast.Module, node: ast.ClassDef) -> Iterator[Fact]:
+def _helping(source: Source, tree: ast.Module, owner: str) -> Iterator[Fact]:
     """The sums that do not wrap in functions and classes beside a node's."""
-    owner, types = uncarry(node.name, NO_PYTHON_CLASSES), types_of_functions(tree)
+    types = types_of_functions(tree)
     for statement in tree.body:
         within = [statement] if isinstance(statement, ast.FunctionDef) else []
         if isinstance(statement, ast.ClassDef) and not _is_node(statement):

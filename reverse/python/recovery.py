@@ -14,6 +14,7 @@ from rebsync.package import Value
 from rebsync.records import dataclass
 from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.reverse.build.message_types import MessageTypes
+from rebsync.reverse.files.python_files import SETUP
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import (
     Callback,
@@ -114,6 +115,8 @@ def read_python(
     known, unit = MessageTypes.of(files or {}, package), unit_of_time(files or {})
     classes = Classes(code, findings, messages or {}, servers or {}, _types_in(known))
     read = classes.read(path) if asked is not None or only is None else ()
+    if read and only is None and SETUP in (files or {}):
+        findings.all += unparsed(parse((files or {})[SETUP]))
     own = {(o.name, o.py.source.path) for o in classes.owners}
     is_people = partial(_is_people, own=own)
     scripts = scripts_of(files or {})
