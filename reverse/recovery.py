@@ -122,7 +122,8 @@ def extract(
     nodes = Nodes((), (), False)
     if of_cpp is not None and people is not None:
         nodes = of_cpp.read(people, joined if joined is not None else Joined.of([part]))
-    if system is not None and only is None and (read or nodes.classes):
+    is_made = bool(python is not None and python.classes)
+    if system is not None and only is None and (read or nodes.classes or is_made):
         system.note(findings)
     findings.take(listed)
     if python is not None:

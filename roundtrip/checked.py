@@ -144,7 +144,33 @@ def finish(begun: Begun, depth: str) -> Checked:
         drift = undetermined(drift) if unknown else drift
         about = (*_about_base(kept, record), *changed_settings(model, record))
         findings = (*about, *findings, *unknown)
+        return _as_sync_says(Checked(kept, model, record, now, drift, findings), record)
     return Checked(kept, model, record, now, drift, findings)
+
+
+def _as_sync_says(checked: Checked, record: Record) -> Checked:
+    """The same, undetermined where `rebsync sync` takes nothing out of the model for a lost file.
+
+    It would go on to generate the file anew, or wait until it parses.
+    """
+    from rebsync.roundtrip.difference import Comparison, Removed
+    from rebsync.roundtrip.gone import Gone
+    from rebsync.roundtrip.models import code_given
+    from rebsync.roundtrip.verdict import undetermined
+
+    drift = checked.drift
+    apart = tuple(d for d, _ in drift.differences) if drift is not None else ()
+    if drift is None or not any(isinstance(d, Removed) for d in apart):
+        return checked
+    gone, code = Gone(checked, record), code_given(checked.kept, checked.standing).given
+    causes = (*gone.without_cause(Comparison(apart), code.model), *gone.unparsed())
+    if not causes:
+        return checked
+    told = {(f.source.path, d) for f in checked.findings for d in f.diagnostics}
+    new = [*causes, *gone.files()]
+    left = tuple(f for f in new if not {(f.source.path, d) for d in f.diagnostics} <= told)
+    findings = (*checked.findings, *dict.fromkeys(left))
+    return replace(checked, drift=undetermined(drift), findings=findings)
 
 
 def _odd(

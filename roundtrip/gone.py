@@ -7,11 +7,12 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 
 from rebsync import model as m
-from rebsync.diagnostics import Findings, RebsyncError
+from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.files import read_source
 from rebsync.records import dataclass
+from rebsync.reverse.syntax.unparsed import NO_CPP, NO_PYTHON
 from rebsync.roundtrip.checked import Checked
-from rebsync.roundtrip.difference import Comparison, Place, Removed
+from rebsync.roundtrip.difference import Comparison, Difference, Place, Removed
 from rebsync.roundtrip.merge_check import finding
 from rebsync.roundtrip.recorded import Record
 from rebsync.roundtrip.verdict import Mover
@@ -51,6 +52,18 @@ class Gone:
             message = f"this runs {name}, and no class of that name is read"
             yield from self._at(self._running(name), message)
 
+    def unparsed(self) -> Iterator[Findings]:
+        """Files that do not parse, where the code seems to lack what may be in these."""
+        if any(self._is_by_code(d) for d in self._differences()):
+            for found in self.checked.findings:
+                told = tuple(d for d in found.diagnostics if is_mistake(d))
+                if told:
+                    yield Findings(found.source, told)
+
+    def _differences(self) -> Iterator[Difference]:
+        drift = self.checked.drift
+        return (d for d, _ in drift.differences) if drift is not None else iter(())
+
     def files(self) -> Iterator[Findings]:
         """Generated files that are not there."""
         for name in self.checked.standing.missing:
@@ -81,6 +94,11 @@ class Gone:
                 text = _REMARK.sub("", read_source(path).text)
                 if re.search(rf"\b{re.escape(name)}\b", text):
                     yield path
+
+
+def is_mistake(found: Diagnostic) -> bool:
+    """Whether a finding is about a place that does not parse."""
+    return found.code == "RS941" and any(text in found.message for text in (NO_CPP, NO_PYTHON))
 
 
 def is_of_file(found: Findings) -> bool:

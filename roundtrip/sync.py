@@ -92,6 +92,7 @@ class _Syncing:
         if refused := (
             *self._unread(apart, code.given),
             *gone.without_cause(apart, code.given.model),
+            *gone.unparsed(),
         ):
             causes = (*filter(is_of_file, self.checked.findings), *gone.files())
             return Sync(self.checked, refused=causes or refused, is_undetermined=True)

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 from rebsync import model as m
 from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.records import dataclass
-from rebsync.reverse.syntax.unparsed import NO_CPP
 from rebsync.roundtrip.checked import Checked
+from rebsync.roundtrip.gone import is_mistake
 from rebsync.roundtrip.models import code_given
 from rebsync.roundtrip.verdict import Mover
 from rebsync.source import Source, SourceSpan, Span
@@ -65,12 +65,8 @@ class _Mistake:
 def _mistakes(checked: Checked) -> Iterator[_Mistake]:
     for found in checked.findings:
         for diagnostic in found.diagnostics:
-            if _is_mistake(diagnostic):
+            if is_mistake(diagnostic):
                 yield _Mistake(found.source, diagnostic.span)
-
-
-def _is_mistake(diagnostic: Diagnostic) -> bool:
-    return diagnostic.code == "RS941" and NO_CPP in diagnostic.message
 
 
 def _bodies(code: m.Model) -> Iterator[SourceSpan]:
@@ -135,7 +131,7 @@ class _Hidden:
         left = tuple(
             d
             for d in found.diagnostics
-            if _is_mistake(d)
+            if is_mistake(d)
             or d.code not in _FOLLOWING
             or not (found.source.path in self.paths or self._is_near(found.source, d))
         )

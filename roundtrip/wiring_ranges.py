@@ -29,6 +29,22 @@ _CUTS = {"int8": "Byte", "int16": "Short", "int32": "int"}
 _CASTS = {"to_byte": "Byte", "to_short": "Short", "to_int": "int"}
 _SUMS = (ast.Add, ast.Sub, ast.Mult, ast.BitAnd, ast.BitOr, ast.BitXor)
 _FURTHEST = 31  # the largest distance of a shift
+_MANY = 2**16  # more values than an array has
+_WITH_A_POINT = frozenset(
+    {"bool", "float32", "float64", "to_float", "to_double", "to_boolean", "square_root", "power"}
+)
+
+
+def types_of_functions(tree: ast.Module) -> dict[str, str]:
+    """What the functions of a module take and return, as `types_in` tells it of a class."""
+    found = {}
+    for function in tree.body:
+        if isinstance(function, ast.FunctionDef):
+            found[f"{function.name}()"] = ast.unparse(function.returns or ast.Constant("int"))
+            for number, taken in enumerate(function.args.args):
+                type_ = ast.unparse(taken.annotation) if taken.annotation else ""
+                found[f"{function.name}({number})"] = type_
+    return found
 
 
 def types_in(owner: ast.ClassDef) -> dict[str, str]:
@@ -43,9 +59,12 @@ def types_in(owner: ast.ClassDef) -> dict[str, str]:
                 found[f"self.{name}"] = ast.unparse(annotation)
             case ast.FunctionDef(name=name, args=arguments, returns=returns):
                 found[f"self.{name}()"] = ast.unparse(returns) if returns else ""
-                for number, taken in enumerate(arguments.args[1:]):
+                is_static = any(ast.unparse(d) == "staticmethod" for d in node.decorator_list)
+                for number, taken in enumerate(arguments.args[not is_static :]):
                     type_ = ast.unparse(taken.annotation) if taken.annotation else ""
                     found[f"self.{name}({number})"] = type_
+                    found[f"{owner.name}.{name}({number})"] = type_
+                found[f"{owner.name}.{name}()"] = found[f"self.{name}()"]
             case _:
                 pass
     return found
@@ -60,6 +79,9 @@ def ranges_in(function: ast.FunctionDef, types: Types) -> Iterator[tuple[str, st
         if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
             own[node.target.id] = ast.unparse(node.annotation)
     found = _Ranges(own)
+    for node in ast.walk(function):
+        for name, type_ in found.implied(node):
+            own.setdefault(name, type_)
     inner: set[int] = set()
     for node in _evaluated(function):  # outer ones come first
         for value, type_ in chain(_stored(node, function, own), _used(node, inner)):
@@ -111,6 +133,39 @@ class _Ranges:
             case _:
                 return None
 
+    def implied(self, node: ast.AST) -> Iterator[tuple[str, str]]:
+        """The types of variables that a statement sets without saying one.
+
+        What nobody knows the type of may be a whole number.
+        """
+        match node:
+            case ast.Assign(targets, value):
+                for target in targets:
+                    if isinstance(target, ast.Name):
+                        yield target.id, self._implied(value)
+            case ast.NamedExpr(ast.Name(name), value):
+                yield name, self._implied(value)
+            case ast.For(ast.Name(name), values) | ast.comprehension(ast.Name(name), values):
+                of = self._type(values).partition("[")[2].partition(",")[0]
+                yield name, of or "int"
+            case _:
+                pass
+
+    def _implied(self, value: ast.expr) -> str:
+        match value:
+            case ast.Constant(bool()) | ast.Constant(float()) | ast.Constant(str()):
+                return "of no width"
+            case ast.Compare() | ast.BoolOp() | ast.UnaryOp(ast.Not()):
+                return "of no width"
+            case ast.Call(ast.Name(name)) if name in _WITH_A_POINT:
+                return "of no width"
+            case ast.Name() | ast.Attribute() | ast.Subscript():
+                return self._type(value) or "int"
+            case ast.BinOp() if self.of(value) is None:
+                return "of no width"
+            case _:
+                return "int"
+
     def of(self, node: ast.expr) -> Bounds | None:
         match node:
             case ast.Constant(bool()) | ast.Constant(float()) | ast.Constant(str()):
@@ -129,6 +184,13 @@ class _Ranges:
                 return _of_operator(operator, ends[0], ends[1])
             case ast.NamedExpr(_, value):
                 return self.of(value)
+            case ast.Call(ast.Name("min" | "max"), [_, _, *_] as given):
+                each = [self.of(value) for value in given]
+                return None if None in each else _around(*(e for e in each if e is not None))
+            case ast.Call(ast.Name("abs"), [value]) if (inner := self.of(value)) is not None:
+                return 0, max(abs(end) for end in inner)
+            case ast.Call(ast.Name("sum"), _):
+                return _MANY * _INT[0], _MANY * _INT[1]
             case _:
                 return _NAMED.get(self._type(node))
 
@@ -149,7 +211,9 @@ class _Ranges:
                 inherited = self.types.get("self.", "")
                 return self.types.get(f"self.{name}", inherited)
             case ast.Name(name):
-                return self.types.get(name, "")
+                return self.types.get(name, "int")
+            case ast.Attribute(ast.Name()):
+                return "int"
             case _:
                 return ""
 
@@ -172,9 +236,11 @@ def _stored(
             yield whole, types.get(ast.unparse(target), "")
         case ast.Return(value) if value is not None:
             yield value, ast.unparse(function.returns) if function.returns else ""
-        case ast.Call(ast.Attribute(ast.Name("self"), name), given):
+        case ast.Call(ast.Attribute(ast.Name()) | ast.Name() as called, given):
+            name = ast.unparse(called)
             for number, value in enumerate(given):
-                yield value, types.get(f"self.{name}({number})", "")
+                if (type_ := types.get(f"{name}({number})")) is not None:
+                    yield value, type_
         case _:
             pass
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field as with_default
 from dataclasses import replace
+from functools import cached_property
 
 from tree_sitter import Node
 
@@ -14,17 +15,14 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
-from rebsync.reverse.python.model_constants import constants_of, enumerations_of
-from rebsync.reverse.python.model_expressions import Expressions, Names
+from rebsync.reverse.python.model_bodies import Bodies
+from rebsync.reverse.python.model_overloads import families
 from rebsync.reverse.python.model_plumbing import Plumbing, odd_at_top
-from rebsync.reverse.python.model_roles import EnvUse, Roles, Sends, plain_name, roles_of
-from rebsync.reverse.python.model_sends import families, resolved
-from rebsync.reverse.python.model_statements import Statements
-from rebsync.reverse.python.model_types import class_name, markers_above, type_of
-from rebsync.reverse.python.py_callbacks import body_of
+from rebsync.reverse.python.model_roles import EnvUse, Roles, plain_name, roles_of
+from rebsync.reverse.python.model_types import class_name, markers_above
 from rebsync.reverse.python.py_index import PyCode, Scope, classes_in
 from rebsync.reverse.python.py_lookup import lineage
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_tree import named, text_of
 from rebsync.reverse.python.py_values import Values
 from rebsync.source import Source
 
@@ -42,14 +40,15 @@ _RUNTIME = {
 class Classes:
     """Reads the classes of some code that have a mailbox, and the interfaces of these.
 
-    `messages` are the fields of the package's message types, by the names of these, `served` what
-    classes serve, those in another language among them.
+    `messages` are the fields of the package's message types, by the names of these, `served`
+    what classes serve, those in another language among them, and `fields` the types of fields.
     """
 
     code: PyCode
     findings: Findings
     messages: Mapping[str, Sequence[str]] = with_default(default_factory=dict)
     served: Served = with_default(default_factory=Served)
+    fields: Mapping[str, Mapping[str, m.Type]] = with_default(default_factory=dict)
     roles: dict[int, Roles] = with_default(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -68,6 +67,23 @@ class Classes:
         ]
         own = {o.name for o in self._owners}
         self._types = frozenset({*self.messages, *_messages_of(self._owners), *own})
+
+    @cached_property
+    def _bodies(self) -> Bodies:
+        return Bodies(
+            self.code,
+            self.findings,
+            self.line,
+            self._of,
+            self._served,
+            self._types,
+            self.served,
+            self.fields,
+        )
+
+    def families(self) -> dict[str, dict[str, str]]:
+        """By class the servers, those above included, by the types of their messages."""
+        return families((o, map(self._of, self.line(o))) for o in self._owners)
 
     def line(self, owner: Scope) -> list[Scope]:
         """A class and those above it, nearest first."""
@@ -89,7 +105,9 @@ class Classes:
                 unread = Unread(module.py.span(node), "what this does is not in the model")
                 self.findings.unreadable(module.py.source, unread, "")
         return tuple(
-            self._reactive(o) if self._has_mailbox(o) else self._interface(o) for o in wanted
+            self._reactive(o) if self._has_mailbox(o) else self._interface(o)
+            for o in wanted
+            if not self._is_helping(o)
         )
 
     def env(self) -> Iterator[EnvUse]:
@@ -130,18 +148,20 @@ class Classes:
 
     def _reactive(self, owner: Scope) -> m.ReactiveClass:
         roles = self._of(owner)
-        Plumbing(roles, self.messages, self.findings).check()
+        Plumbing(roles, self.messages, self.findings, self.code).check()
         members: list[m.ClassMember] = []
         known = [self._variable(owner, *v) for v in roles.known.values()]
         state = [self._variable(owner, *v) for v in roles.state.values()]
         members += [m.KnownRebecs(tuple(known))] if known else []
         members += [m.StateVars(tuple(state))] if state else []
         members += self._constructors(owner)
-        rest = [f for f in roles.functions.values() if self._is_of_model(owner, f)]
+        rest = [f for f in self._functions(owner) if self._is_of_model(owner, f)]
         served = {f.name: self._served(owner, f) for f in rest}
         members += [self._server(owner, f, s) for f in rest if (s := served[f.name]) is not None]
         members += [self._method(owner, f) for f in rest if served[f.name] is None]
-        bases = [c for c in _once(self.line(owner)[1:]) if self._is_base(owner, c)]
+        members += [self._method(owner, f) for f in self._bodies.helpers(owner)]
+        above = (c for c in _once(self.line(owner)[1:]) if not self._is_helping(c))
+        bases = [c for c in above if self._is_base(owner, c)]
         extends = [class_name(c.name) for c in bases if self._has_mailbox(c)]
         return m.ReactiveClass(
             class_name(owner.name),
@@ -153,6 +173,21 @@ class Classes:
             tuple(self._shown(owner)),
             owner.py.span(owner.node),
         )
+
+    def _functions(self, owner: Scope) -> Iterator[Scope]:
+        """The functions of a class, and those that it has from classes that are only helpers."""
+        own = self._of(owner).functions
+        yield from own.values()
+        line = _once(self.line(owner)[1:])
+        nearest = next((i for i, c in enumerate(line) if self._has_mailbox(c)), len(line))
+        for above in filter(self._is_helping, line[:nearest]):
+            yield from (f for n, f in self._of(above).functions.items() if n not in own)
+
+    def _is_helping(self, owner: Scope) -> bool:
+        """Whether a class has nothing but functions with bodies, for its heirs."""
+        functions = self._of(owner).functions
+        is_plain = not (owner.attributes or _is_marked(owner) or self._has_mailbox(owner))
+        return bool(functions) and is_plain and not any(map(_is_abstract, functions.values()))
 
     def _queue_length(self, owner: Scope) -> int:
         return self._of(owner).queue_length or 1
@@ -192,7 +227,8 @@ class Classes:
             roles = self._of(above)
             if function.name in roles.handlers:
                 return roles.handlers[function.name]
-            if not self._has_mailbox(above) and function.name in roles.functions:
+            is_declared = function.name in roles.functions and not self._is_helping(above)
+            if is_declared and not self._has_mailbox(above):
                 return plain_name(function)
         return None
 
@@ -200,8 +236,8 @@ class Classes:
         within = f"{class_name(owner.name)}.{name}"
         return m.MessageServer(
             name,
-            self._parameters(owner, function, within),
-            self._body(owner, function, within),
+            self._bodies.parameters(owner, function, within),
+            self._bodies.body(owner, function, within),
             _is_abstract(function) and self._has_mailbox(owner),
             tuple(self._server_annotations(owner, function, name)),
             function.py.span(function.node),
@@ -224,10 +260,10 @@ class Classes:
         name = plain_name(function)
         within = f"{class_name(owner.name)}.{name}"
         return m.Method(
-            _result(function),
+            self._bodies.result(owner, function, within),
             name,
-            self._parameters(owner, function, within),
-            self._body(owner, function, within),
+            self._bodies.parameters(owner, function, within),
+            self._bodies.body(owner, function, within),
             _is_abstract(function),
             _annotations(function),
             function.py.span(function.node),
@@ -239,12 +275,12 @@ class Classes:
         found = [f for f in roles.functions.values() if _is_constructor(f.name)]
         for function in found:
             first = self._initial(owner, function, name)
-            body = self._body(owner, function, name)
+            body = self._bodies.body(owner, function, name)
             if first and body is not None:
                 body = replace(body, statements=(*first, *body.statements))
             yield m.Constructor(
                 name,
-                self._parameters(owner, function, name),
+                self._bodies.parameters(owner, function, name),
                 body,
                 _annotations(function),
                 function.py.span(function.node),
@@ -255,7 +291,7 @@ class Classes:
 
     def _initial(self, owner: Scope, function: Scope, within: str) -> tuple[m.Statement, ...]:
         """What variables hold before the constructor of the model runs."""
-        reader, roles = self._reader(owner, function, within).expressions, self._of(owner)
+        reader, roles = self._bodies.reader(owner, function, within).expressions, self._of(owner)
         return tuple(
             m.ExpressionStatement(
                 m.Assign("=", m.Name(roles.state[attribute][0]), reader.read(value)),
@@ -263,79 +299,6 @@ class Classes:
             )
             for attribute, value in roles.initial
         )
-
-    # --- bodies ---------------------------------------------------------------------------------
-
-    def _parameters(self, owner: Scope, function: Scope, within: str) -> tuple[m.Parameter, ...]:
-        found = []
-        reader = self._reader(owner, function, within)
-        for node in named(field(function.node, "parameters"))[1:]:
-            span = function.py.span(node)
-            type_ = type_of(node.child_by_field_name("type"))
-            if type_ is None:
-                why = f'the model has no type for "{text_of(node)}"'
-                self.findings.unreadable(function.py.source, Unread(span, why), within)
-            plain = text_of(named(node)[0]) if node.type == "typed_parameter" else text_of(node)
-            found.append(m.Parameter(type_ or m.Type("int"), reader.local(plain), span))
-        return tuple(found)
-
-    def _body(self, owner: Scope, function: Scope, within: str) -> m.Block | None:
-        if _is_abstract(function):
-            return None
-        reader = self._reader(owner, function, within)
-        for parameter in function.parameters[1:]:
-            reader.expressions.locals[parameter.name] = reader.local(parameter.name)
-        for node in named(field(function.node, "parameters"))[1:]:
-            type_ = type_of(node.child_by_field_name("type"))
-            if type_ is not None:
-                reader.expressions.types[reader.local(text_of(named(node)[0]))] = type_
-        self.findings.statements[within] += 0
-        return reader.block(body_of(function), field(function.node, "body"))
-
-    def _reader(self, owner: Scope, function: Scope, within: str) -> Statements:
-        expressions = Expressions(function.py, self._names(owner))
-        return Statements(expressions, self.findings, within, self._types)
-
-    def _names(self, owner: Scope) -> Names:
-        variables: dict[str, str] = {}
-        sends: dict[str, Sends] = {}
-        functions: dict[str, str] = {}
-        servers: set[str] = set()
-        types: dict[str, m.Type] = {}
-        results: dict[str, m.Type] = {}
-        properties: set[str] = set()
-        constants = constants_of(owner.module) | enumerations_of(owner.module)
-        for above in reversed(self.line(owner)):
-            roles = self._of(above)
-            variables |= {a: v[0] for a, v in (roles.state | roles.known).items()}
-            variables |= {a: e.name for a, e in roles.env.items()}
-            types |= {v[0]: v[1] for v in (roles.state | roles.known).values()}
-            types |= {e.name: e.type for e in roles.env.values()}
-            given = ((f, s, roles.functions[f]) for f, s in roles.sends.items())
-            sends |= {f: resolved(self.served, owner, s, of) for f, s, of in given}
-            own = {n: v for n, v in constants_of(above).items() if n not in above.attributes}
-            constants |= {f"self.{name}": value for name, value in own.items()}
-            for name, function in roles.functions.items():
-                if not roles.is_plumbing(name) and not _is_constructor(name):
-                    served = self._served(above, function)
-                    functions[name] = served or plain_name(function)
-                    servers |= {name} if served is not None else set()
-                    properties |= {name} if "property" in function.decorators else set()
-                    results[functions[name]] = _result(function)
-        return Names(
-            variables,
-            sends,
-            functions,
-            frozenset(servers),
-            constants,
-            types,
-            results,
-            frozenset(properties),
-        )
-
-    def families(self) -> dict[str, dict[str, str]]:
-        """By class the servers, those above included, by the types of their messages."""
-        return families((o, map(self._of, self.line(o))) for o in self._owners)
 
 
 def is_runtime_file(source: Source) -> bool:
@@ -368,10 +331,6 @@ def _is_marked(owner: Scope) -> bool:
 
 def _is_constructor(name: str) -> bool:
     return name == "construct" or name.startswith("construct__")
-
-
-def _result(function: Scope) -> m.Type:
-    return type_of(function.node.child_by_field_name("return_type")) or m.Type("void")
 
 
 def _is_abstract(function: Scope) -> bool:

@@ -3,29 +3,69 @@
 from __future__ import annotations
 
 import builtins
+from collections.abc import Iterator, Mapping
+from operator import add, floordiv, mul, sub
 
 from tree_sitter import Node
 
-from rebsync.reverse.python.py_index import Scope
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync import model as m
+from rebsync.reverse.python.py_imports import module_named, module_of
+from rebsync.reverse.python.py_index import CLASS, PyCode, Scope
+from rebsync.reverse.python.py_tree import Py, field, named, text_of
 
 _LITERALS = frozenset({"integer", "float", "true", "false"})
+_OPERATORS = {"+": add, "-": sub, "*": mul, "//": floordiv}
+_FROZEN = frozenset({"dataclass(frozen=True)", "dataclasses.dataclass(frozen=True)"})
+_TUPLES = frozenset({"NamedTuple", "typing.NamedTuple"})
+_PLAIN_BASES = frozenset({"object", "IntEnum", "enum.IntEnum", "ABC", "abc.ABC"})
+_LARGEST = 2**31 - 1
+_DEEPEST = 4  # modules that import a constant from each other
+
+Constants = Mapping[str, m.Expression]
 
 
-def constants_of(scope: Scope) -> dict[str, Node]:
-    """The names of a module or a class that are bound once, to a literal."""
-    found = {}
+def constants_in(code: PyCode, module: Scope, depth: int = 0) -> dict[str, m.Expression]:
+    """What constants of a module are, by all that they are called in it: `LAST`, `limits.LAST`.
+
+    Those of its classes, of what is made of these, and of imported modules are among them.
+    """
+    found = constants_of(module)
+    for name, bindings in module.names.items():
+        if len(bindings) != 1 or hasattr(builtins, name):
+            continue
+        binding = bindings[0]
+        if binding.how == "scope" and binding.node.type == "class_definition":
+            owner = code.scope_of(binding.node, module.py)
+            if not _is_plain(code, module, binding.node):
+                continue
+            own = {k: v for k, v in constants_of(owner).items() if k not in owner.attributes}
+            found |= {f"{name}.{key}": value for key, value in own.items()}
+        elif binding.how == "import" and depth < _DEEPEST:
+            found |= _imported(code, module, name, binding.node, binding.value, depth)
+        elif binding.how == "value" and binding.value is not None:
+            found |= _made(code, module, name, binding.value)
+    stored = {name for scope in code.scopes.values() for _, name in scope.stores}
+    return {k: v for k, v in found.items() if "." not in k or k.rpartition(".")[2] not in stored}
+
+
+def constants_of(scope: Scope) -> dict[str, m.Expression]:
+    """The names of a module or a class that are bound once, to what is always the same."""
+    found: dict[str, m.Expression] = {}
     for name, bindings in scope.names.items():
         if len(bindings) == 1 and bindings[0].how == "value" and not hasattr(builtins, name):
             value = bindings[0].value
-            if value is not None and _is_literal(value):
-                found[name] = value
+            read = _value(scope.py, value, found) if value is not None else None
+            if read is not None:
+                found[name] = read
+            elif value is not None and value.type == "tuple":
+                each = [_value(scope.py, v, found) for v in named(value)]
+                found |= {f"{name}[{i}]": v for i, v in enumerate(each) if v is not None}
     return found
 
 
-def enumerations_of(module: Scope) -> dict[str, Node]:
+def enumerations_of(module: Scope) -> dict[str, m.Expression]:
     """The members of the module's enumerations of integers, `Command.STOP`, as what they are."""
-    found = {}
+    found: dict[str, m.Expression] = {}
     for node in named(module.node):
         bases = node.child_by_field_name("superclasses")
         if node.type != "class_definition" or bases is None:
@@ -38,9 +78,30 @@ def enumerations_of(module: Scope) -> dict[str, Node]:
             if inner is None or inner.type != "assignment" or not _is_new(module, name):
                 continue
             value = inner.child_by_field_name("right")
-            if value is not None and value.type == "integer":
-                found[f"{name}.{text_of(field(inner, 'left'))}"] = value
+            read = _value(module.py, value, {}) if value is not None else None
+            if value is not None and value.type == "integer" and read is not None:
+                found[f"{name}.{text_of(field(inner, 'left'))}"] = read
     return found
+
+
+def _is_plain(code: PyCode, module: Scope, node: Node, depth: int = 0) -> bool:
+    """Whether the constants of a class are what they are bound to, as they are not in an `Enum`."""
+    bases = node.child_by_field_name("superclasses")
+    for base in named(bases) if bases is not None else ():
+        name = text_of(base)
+        if name in _PLAIN_BASES:
+            continue
+        bindings = module.names.get(name, [])
+        source = module
+        if len(bindings) == 1 and bindings[0].node.type == "import_from_statement":
+            found = module_named(code, module_of(bindings[0].node), module)
+            bindings, source = (found.names.get(name, []), found) if found else ([], module)
+        is_class = len(bindings) == 1 and bindings[0].node.type == "class_definition"
+        if not is_class or depth > _DEEPEST:
+            return False
+        if not _is_plain(code, source, bindings[0].node, depth + 1):
+            return False
+    return True
 
 
 def is_quiet(scope: Scope, statement: Node) -> bool:
@@ -58,7 +119,10 @@ def is_quiet(scope: Scope, statement: Node) -> bool:
         return False
     if text_of(left) == "__all__":
         return value.type in ("list", "tuple")
-    return _is_literal(value) and _is_new(scope, text_of(left))
+    is_known = _value(scope.py, value, constants_of(scope)) is not None or (
+        value.type == "tuple" and all(map(_is_literal, named(value)))
+    )
+    return (is_known or _is_record(scope, value)) and _is_new(scope, text_of(left))
 
 
 def _is_new(scope: Scope, name: str) -> bool:
@@ -70,3 +134,146 @@ def _is_literal(node: Node) -> bool:
     if node.type == "unary_operator":
         return text_of(field(node, "operator")) == "-" and _is_literal(field(node, "argument"))
     return node.type in _LITERALS
+
+
+# --- values -------------------------------------------------------------------------------------
+
+
+def _value(py: Py, node: Node, known: Constants) -> m.Expression | None:
+    """A literal, or the whole number that some of them make; None for anything else."""
+    span = py.span(node)
+    match node.type:
+        case "true" | "false":
+            return m.BoolLiteral(node.type == "true", span)
+        case "float":
+            return m.FloatLiteral(text_of(node), span)
+        case "unary_operator" if text_of(field(node, "argument")) and _is_literal(node):
+            inner = _value(py, field(node, "argument"), known)
+            return m.Unary("-", inner, span) if inner is not None else None
+        case _:
+            number = _whole(node, known)
+    if number is None or abs(number) > _LARGEST:
+        return None
+    literal = m.IntLiteral(abs(number), span)
+    return literal if number >= 0 else m.Unary("-", literal, span)
+
+
+def _whole(node: Node, known: Constants) -> int | None:
+    match node.type:
+        case "integer" if text_of(node).replace("_", "").isdigit():
+            return int(text_of(node))
+        case "integer":
+            return int(text_of(node), 0) if text_of(node)[-1] not in "lLjJ" else None
+        case "identifier":
+            return _number(known.get(text_of(node)))
+        case "parenthesized_expression" if len(named(node)) == 1:
+            return _whole(named(node)[0], known)
+        case "unary_operator" if text_of(field(node, "operator")) == "-":
+            inner = _whole(field(node, "argument"), known)
+            return -inner if inner is not None else None
+        case "binary_operator":
+            left, right = (_whole(field(node, side), known) for side in ("left", "right"))
+            operator = text_of(field(node, "operator"))
+            if left is None or right is None or operator not in _OPERATORS:
+                return None
+            return None if operator == "//" and not right else _OPERATORS[operator](left, right)
+        case _:
+            return None
+
+
+def _number(read: m.Expression | None) -> int | None:
+    match read:
+        case m.IntLiteral(value):
+            return value
+        case m.Unary("-", m.IntLiteral(value)):
+            return -value
+        case _:
+            return None
+
+
+# --- elsewhere ----------------------------------------------------------------------------------
+
+
+def _imported(
+    code: PyCode, module: Scope, name: str, node: Node, item: Node | None, depth: int
+) -> dict[str, m.Expression]:
+    """The constants that an import brings under a name."""
+    if item is None:
+        return {}
+    wanted = text_of(field(item, "name") if item.type == "aliased_import" else item)
+    if node.type == "import_statement":
+        source = module_named(code, wanted, module)
+        called = name if item.type == "aliased_import" else wanted
+        return _below(code, source, module, called, depth)
+    source = module_named(code, module_of(node), module)
+    if source is None or source is module or wanted not in source.names:
+        inner = module_named(code, f"{module_of(node).rstrip('.')}.{wanted}", module)
+        return _below(code, inner, module, name, depth)
+    given = constants_in(code, source, depth + 1)
+    given |= enumerations_of(source)
+    return {
+        f"{name}{key.removeprefix(wanted)}": value
+        for key, value in given.items()
+        if key == wanted or key.startswith((f"{wanted}.", f"{wanted}["))
+    }
+
+
+def _below(
+    code: PyCode, source: Scope | None, module: Scope, name: str, depth: int
+) -> dict[str, m.Expression]:
+    if source is None or source is module:
+        return {}
+    return {f"{name}.{k}": v for k, v in constants_in(code, source, depth + 1).items()}
+
+
+def _made(code: PyCode, module: Scope, name: str, value: Node) -> dict[str, m.Expression]:
+    """The fields of `LIMITS = Limits(last=10)`, of a class whose objects do not change."""
+    owner = _record(code, module, value)
+    if owner is None:
+        return {}
+    known = constants_of(module)
+    fields = list(_fields(owner))
+    given: dict[str, Node | None] = dict(fields)
+    for (key, _), argument in zip(fields, named(field(value, "arguments")), strict=False):
+        if argument.type != "keyword_argument":
+            given[key] = argument
+    for argument in named(field(value, "arguments")):
+        if argument.type == "keyword_argument":
+            given[text_of(field(argument, "name"))] = field(argument, "value")
+    read = {k: _value(module.py, v, known) for k, v in given.items() if v is not None}
+    return {f"{name}.{k}": v for k, v in read.items() if v is not None}
+
+
+def _is_record(scope: Scope, value: Node) -> bool:
+    """Whether a value is made of a class of the module whose objects do not change."""
+    return scope.kind != CLASS and _record(None, scope, value) is not None
+
+
+def _record(code: PyCode | None, module: Scope, value: Node) -> Scope | None:
+    called = text_of(field(value, "function")) if value.type == "call" else ""
+    bindings = module.names.get(called, [])
+    if len(bindings) != 1 or bindings[0].how != "scope":
+        return None
+    node = bindings[0].node
+    if node.type != "class_definition":
+        return None
+    owner = code.scope_of(node, module.py) if code is not None else module
+    bases = node.child_by_field_name("superclasses")
+    above = {text_of(b) for b in named(bases)} if bases is not None else set()
+    around = node.parent.children if node.parent is not None else []
+    decorators = {text_of(c).lstrip("@ ") for c in around if c.type == "decorator"}
+    is_record = (above <= _TUPLES and bool(above)) or (not above and bool(decorators & _FROZEN))
+    functions = [s for s in named(field(node, "body")) if s.type not in _SAID]
+    return owner if is_record and not functions else None
+
+
+_SAID = frozenset({"expression_statement", "pass_statement"})
+
+
+def _fields(owner: Scope) -> Iterator[tuple[str, Node | None]]:
+    """The fields that the body of a class declares, with what they are by default."""
+    for statement in named(field(owner.node, "body")):
+        inner = named(statement)[0] if statement.type == "expression_statement" else None
+        is_field = inner is not None and inner.child_by_field_name("type") is not None
+        if inner is not None and is_field:
+            yield text_of(field(inner, "left")), inner.child_by_field_name("right")

@@ -13,10 +13,13 @@ from rebsync.names import original
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import binary
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_idioms as idioms
+from rebsync.reverse.python.model_filled import Filling
+from rebsync.reverse.python.model_helpers import Helper
 from rebsync.reverse.python.model_kinds import kind_of
 from rebsync.reverse.python.model_roles import Sends
-from rebsync.reverse.python.model_sends import told
+from rebsync.reverse.python.model_sends import of_mailbox, sent
 from rebsync.reverse.python.model_types import (
     call_parts,
     in_double_quotes,
@@ -25,13 +28,6 @@ from rebsync.reverse.python.model_types import (
 )
 from rebsync.reverse.python.py_tree import Py, field, named, text_of
 
-_CLOCK = {
-    "now": "now",
-    "arrival": "currentMessageArrival",
-    "expiry": "currentMessageDeadline",
-    "waiting_time": "currentMessageWaitingTime",
-    "sender": "sender",
-}
 _CASTS = {
     "to_byte": "byte",
     "to_short": "short",
@@ -75,23 +71,31 @@ class Names:
     `servers` are those of the functions that serve messages; `constants` what names of the module,
     and those of the class behind `self.`, are bound to. `types` are those of variables, `results`
     those of functions, by their names in the model; `properties` functions that are read.
+    `imported` are what names of the module are of, `helpers` functions without an object,
+    `fillings` what publishers send, `descriptors` and `handlers` the servers that are posted.
     """
 
     variables: Mapping[str, str]
     sends: Mapping[str, Sends]
     functions: Mapping[str, str]
     servers: frozenset[str] = frozenset()
-    constants: Mapping[str, Node] = with_default(default_factory=dict)
+    constants: Mapping[str, m.Expression] = with_default(default_factory=dict)
     types: Mapping[str, m.Type] = with_default(default_factory=dict)
     results: Mapping[str, m.Type] = with_default(default_factory=dict)
     properties: frozenset[str] = frozenset()
+    imported: Mapping[str, str] = with_default(default_factory=dict)
+    helpers: Mapping[str, Helper] = with_default(default_factory=dict)
+    fillings: Mapping[str, Filling] = with_default(default_factory=dict)
+    descriptors: Mapping[str, str] = with_default(default_factory=dict)
+    handlers: Mapping[str, str] = with_default(default_factory=dict)
 
 
 @dataclass(eq=False, slots=True)
 class Expressions:
     """Reads the expressions of one body; `locals` are its variables by their names in Python.
 
-    `types` are those of the locals, by their names in the model.
+    `types` are those of the locals, by their names in the model; `bound` names that stand for an
+    expression while a comprehension is read; `own` is what the object is called.
     """
 
     py: Py
@@ -99,6 +103,8 @@ class Expressions:
     locals: dict[str, str] = with_default(default_factory=dict)
     kept: dict[str, Node] = with_default(default_factory=dict)
     types: dict[str, m.Type] = with_default(default_factory=dict)
+    bound: dict[str, m.Expression] = with_default(default_factory=dict)
+    own: str = "self"
 
     def read(self, node: Node) -> m.Expression:
         """An expression. Unread: the model has none for it."""
@@ -218,10 +224,12 @@ class Expressions:
         text, span = text_of(node), self.py.span(node)
         if text == "NULL":
             return m.NullLiteral(span)
+        if text in self.bound:
+            return self.bound[text]
         if text in self.kept:
             return self.read(self.kept[text])
         if text not in self.locals and text in self.names.constants:
-            return self.read(self.names.constants[text])
+            return self.names.constants[text]
         if text not in self.locals:
             raise self.unread(node, f'the model has no variable "{text}"')
         return m.Name(self.locals[text], span)
@@ -230,16 +238,19 @@ class Expressions:
         span, name = self.py.span(node), text_of(field(node, "attribute"))
         variable = self.names.variables.get(name)
         if text_of(node) in self.names.constants:
-            return self.read(self.names.constants[text_of(node)])
-        if text_of(field(node, "object")) == "self" and name in self.names.properties:
+            return self.names.constants[text_of(node)]
+        is_own = text_of(field(node, "object")) == self.own
+        if is_own and name in self.names.properties:
             return m.Call(None, self.names.functions[name], span=span)
-        if text_of(field(node, "object")) != "self" or variable is None:
+        if not is_own or variable is None:
             raise self.unread(node, f'the model has no variable "{text_of(node)}"')
         if variable in self.locals.values():
             return m.Member(m.Self(span), variable, span)
         return m.Name(variable, span)
 
     def _element(self, node: Node) -> m.Expression:
+        if text_of(node) in self.names.constants:
+            return self.names.constants[text_of(node)]
         target = self.read(field(node, "value"))
         return m.Index(target, self._index(field(node, "subscript")), self.py.span(node))
 
@@ -301,8 +312,11 @@ class Expressions:
         if called in _OPERATIONS and len(arguments) == 2:
             left, right = map(self.read, arguments)
             return binary(_OPERATIONS[called], left, right, self.py.span(node))
-        if called.startswith(("self.", "super().")):
-            return self._own_call(node, called, arguments)
+        if called.startswith((f"{self.own}.", "super().")):
+            plain = called.removeprefix(f"{self.own}.")
+            called = called if plain == called else f"self.{plain}"
+            if called not in self.names.helpers:
+                return self._own_call(node, called, arguments)
         return self._function(node, called, arguments)
 
     def _converted(self, called: str, node: Node) -> m.Expression:
@@ -336,16 +350,29 @@ class Expressions:
             case "before", 2:
                 return self._before(node, arguments)
             case _:
-                raise self.unread(node, f'the model has no function "{called}"')
+                return self._elsewhere(node, called, arguments)
+
+    def _elsewhere(self, node: Node, called: str, arguments: list[Node]) -> m.Expression:
+        """What a function of the code, of Python itself, or of its library gives."""
+        helper = self.names.helpers.get(called)
+        if helper is not None:
+            given = helper.given(self, node, arguments)
+            return m.Call(None, helper.name, given, span=self.py.span(node))
+        drawn = builtins.drawn(self, node, called, arguments)
+        found = drawn or builtins.of_python(self, node, called, arguments)
+        if found is None:
+            raise self.unread(node, f'the model has no function "{called}"')
+        return found
 
     def _own_call(self, node: Node, called: str, arguments: list[Node]) -> m.Expression:
         if called.startswith("self._mailbox."):
-            return self._mailbox(node, called.removeprefix("self._mailbox."), arguments)
+            name = called.removeprefix("self._mailbox.")
+            return of_mailbox(self, node, name, arguments)
         holder, _, name = called.rpartition(".")
         span = self.py.span(node)
         sends = self.names.sends.get(name)
         if sends is not None and holder == "self":
-            return self._send(node, sends, arguments)
+            return sent(self, node, sends, arguments)
         function = self.names.functions.get(name)
         if function is None:
             raise self.unread(node, f'the model has no function "{called}"')
@@ -353,44 +380,6 @@ class Expressions:
             raise self.unread(node, "this serves a message at once; the model only sends them")
         target = m.Super(span) if holder == "super()" else None
         return m.Call(target, function, tuple(map(self.read, arguments)), span=span)
-
-    def _mailbox(self, node: Node, name: str, arguments: list[Node]) -> m.Expression:
-        span = self.py.span(node)
-        match name, len(arguments):
-            case "self", 0:
-                return m.Self(span)
-            case _, 0 if name in _CLOCK:
-                return m.Name(_CLOCK[name], span)
-            case "choose", 1 | 2 if arguments[0].type == "list":
-                return m.Choice(tuple(map(self.read, named(arguments[0]))), span)
-            case "is_a", 2:
-                type_ = m.Type(original(string_value(arguments[1]) or ""))
-                return m.InstanceOf(self.read(arguments[0]), type_, span)
-            case "delay" | "assertion", _:
-                return m.Call(None, name, tuple(map(self.read, arguments)), span=span)
-            case _:
-                raise self.unread(node, f'the model has no function "{name}"')
-
-    def _send(self, node: Node, sends: Sends, arguments: list[Node]) -> m.Expression:
-        span = self.py.span(node)
-        expected = sends.arguments + (sends.known is None)
-        arguments = idioms.in_order(self, node, arguments, sends.parameters)
-        if not expected <= len(arguments) <= expected + 1:
-            raise self.unread(node, f"this sends with {expected} arguments")
-        target: m.Expression
-        if sends.known is None:
-            target = self._receiver(arguments[0])
-        else:
-            target = m.Self(span) if sends.known == "self" else m.Name(sends.known, span)
-        given = tuple(map(self.read, arguments[expected - sends.arguments : expected]))
-        values = told(self, node, sends, given)
-        times = idioms.times(self, arguments[expected]) if len(arguments) > expected else {}
-        return m.Call(target, sends.server, values, times.get("after"), times.get("deadline"), span)
-
-    def _receiver(self, node: Node) -> m.Expression:
-        """Who gets a message: what is no name or call stands in parentheses."""
-        found = self.read(node)
-        return m.Paren(found) if isinstance(found, (m.Cast, m.Conditional, m.Choice)) else found
 
 
 _SAME = {"is": "==", "is not": "!="}

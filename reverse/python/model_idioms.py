@@ -49,7 +49,13 @@ def comparison(reader: Expressions, node: Node) -> m.Expression:
         each = binary(operator, reader.read(left), reader.read(right), reader.py.span(node))
         found = each if found is None else m.Binary(word, found, each, reader.py.span(node))
     assert found is not None
-    return found if len(pairs) == 1 or not _is_within(node) else m.Paren(found)
+    return found if len(pairs) == 1 else grouped(node, found)
+
+
+def grouped(node: Node, found: m.Expression) -> m.Expression:
+    """What Python says in one piece and the model in several, within an operation."""
+    is_one = not isinstance(found, m.Binary | m.Conditional)
+    return found if is_one or not _is_within(node) else m.Paren(found)
 
 
 def _is_within(node: Node) -> bool:
@@ -151,37 +157,21 @@ def augmented(reader: Expressions, node: Node) -> m.Expression:
     return m.Assign(f"{operator}=", target, value, reader.py.span(node))
 
 
-def one_by_one(reader: Expressions, node: Node) -> list[m.Statement]:
-    """`a, b = x, y` where no value needs what is stored before. Unread: one does."""
-    lefts, right = named(field(node, "left")), field(node, "right")
-    values = named(right) if right.type in ("expression_list", "tuple") else []
-    if len(lefts) != len(values) or "list_splat" in {v.type for v in (*lefts, *values)}:
-        raise reader.unread(node, "the model has no such assignment")
-    for number, value in enumerate(values):
-        before = {_base(left) for left in lefts[:number]}
-        if number and not (is_plain(value) and before.isdisjoint(_names(value))):
-            raise reader.unread(node, "this needs a value from before: store one after the other")
-    span, found = reader.py.span(node), list[m.Statement]()
-    for left, value in zip(lefts, values, strict=True):
-        stored = reader.stored(reader.read(left), left, value, node, statement=True)
-        found.append(m.ExpressionStatement(stored, span=span))
-    return found
-
-
-def _base(node: Node) -> str:
+def base_of(node: Node) -> str:
     """The variable that something is stored in, or in an element of which."""
     while node.type == "subscript":
         node = named(node)[0]
     return text_of(node)
 
 
-def _names(node: Node) -> set[str]:
+def names_in(node: Node) -> set[str]:
+    """The names and attributes that a part of the code has."""
     if node.type in ("identifier", "attribute"):
         return {text_of(node)}
-    return {name for each in named(node) for name in _names(each)}
+    return {name for each in named(node) for name in names_in(each)}
 
 
-def cases(reader: Expressions, node: Node) -> Iterator[tuple[list[Node], Node]]:
+def cases(reader: Expressions, node: Node) -> Iterator[tuple[list[m.Expression], Node]]:
     """The values of each case of a `match` (none: all others), and the block of it."""
     subjects = [c for c in named(node) if c.type not in ("block", "case_clause")]
     if len(subjects) != 1 or not is_plain(subjects[0]):
@@ -193,7 +183,7 @@ def cases(reader: Expressions, node: Node) -> Iterator[tuple[list[Node], Node]]:
         yield list(_values(reader, patterns[0])), field(clause, "consequence")
 
 
-def _values(reader: Expressions, pattern: Node) -> Iterator[Node]:
+def _values(reader: Expressions, pattern: Node) -> Iterator[m.Expression]:
     inner = named(pattern)
     if not inner and text_of(pattern) == "_":
         return
@@ -204,7 +194,7 @@ def _values(reader: Expressions, pattern: Node) -> Iterator[Node]:
         if "." in text and text in reader.names.constants:
             yield reader.names.constants[text]
         elif each.type == "integer":
-            yield each
+            yield reader.read(each)
         else:
             raise reader.unread(pattern, "the model has no such case")
 
@@ -223,6 +213,15 @@ def rounds(reader: Expressions, node: Node) -> tuple[m.Expression, m.Expression,
     return start, read[1] if len(read) > 1 else read[0], step
 
 
+def is_literal(reader: Expressions, node: Node) -> bool:
+    """Whether an expression is the same at any time."""
+    if node.type == "unary_operator":
+        return is_literal(reader, field(node, "argument"))
+    return node.type in ("integer", "float", "true", "false") or (
+        text_of(node) in reader.names.constants and text_of(node) not in reader.locals
+    )
+
+
 def _is_steady(reader: Expressions, node: Node, body: Node) -> bool:
     """Whether a bound of a loop stays the same: a number, or a local that the loop leaves alone."""
     if node.type in ("unary_operator", "binary_operator", "parenthesized_expression"):
@@ -238,7 +237,8 @@ def stored_in(node: Node) -> set[str]:
     for each in node.named_children:
         if each.type in ("assignment", "augmented_assignment", "for_statement", "named_expression"):
             left = each.child_by_field_name("left") or each.child_by_field_name("name")
-            found |= {text_of(left)} if left is not None else set()
-            found |= {text_of(n) for n in named(left)} if left is not None else set()
+            is_many = left is not None and left.type in ("pattern_list", "tuple_pattern")
+            lefts = named(left) if left is not None and is_many else [left]
+            found |= {base_of(n) for n in lefts if n is not None}
         found |= stored_in(each)
     return found

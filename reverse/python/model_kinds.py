@@ -5,13 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TypeAlias
 
+from tree_sitter import Node
+
 from rebsync import model as m
+from rebsync.reverse.python.py_tree import field, named, text_of
 
 _INT, _DOUBLE, _BOOLEAN = m.Type("int"), m.Type("double"), m.Type("boolean")
 _INTEGERS = frozenset({"byte", "short", "int"})
 _FLOATING = frozenset({"float", "double"})
 _TIMES = frozenset({"now", *(f"currentMessage{n}" for n in ("Arrival", "Deadline", "WaitingTime"))})
 _TESTS = frozenset({"<", "<=", ">", ">=", "==", "!=", "&&", "||"})
+
+_MADE = dict.fromkeys(("int8", "int16", "int32", "divide", "remainder", "abs", "len"), _INT)
+_MADE |= {"bool": _BOOLEAN, "any": _BOOLEAN, "all": _BOOLEAN, "float64": _DOUBLE}
 
 Known: TypeAlias = Callable[[str], "m.Type | None"]
 
@@ -53,6 +59,35 @@ def kind_of(expression: m.Expression, known: Known, results: Mapping[str, m.Type
             kinds = of(left), of(right)
             is_real = operator not in _TESTS and _DOUBLE in kinds
             return _BOOLEAN if operator in _TESTS else _DOUBLE if is_real else _joined(*kinds)
+        case _:
+            return None
+
+
+def literal_kind(node: Node, variables: Known) -> m.Type | None:
+    """What an expression of Python is by its text; `variables` are those of the object."""
+    match node.type:
+        case "integer":
+            return _INT
+        case "float":
+            return _DOUBLE
+        case "true" | "false" | "comparison_operator" | "not_operator":
+            return _BOOLEAN
+        case "parenthesized_expression" if len(named(node)) == 1:
+            return literal_kind(named(node)[0], variables)
+        case "boolean_operator" | "binary_operator":
+            sides = (literal_kind(field(node, side), variables) for side in ("left", "right"))
+            return _joined(*sides)
+        case "conditional_expression":
+            then, _, otherwise = named(node)
+            return _joined(literal_kind(then, variables), literal_kind(otherwise, variables))
+        case "call":
+            return _MADE.get(text_of(field(node, "function")))
+        case "attribute":
+            return _widest(variables(text_of(field(node, "attribute"))))
+        case "subscript":
+            holder = field(node, "value")
+            type_ = variables(text_of(field(holder, "attribute")))
+            return _widest(m.Type(type_.name)) if type_ and len(type_.dimensions) == 1 else None
         case _:
             return None
 

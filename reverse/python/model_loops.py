@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import binary
+from rebsync.reverse.bodies.building import binary, chosen
+from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_idioms as idioms
-from rebsync.reverse.python.py_tree import field, named
+from rebsync.reverse.python.model_types import call_parts
+from rebsync.reverse.python.py_tree import field, named, text_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.model_statements import Statements
@@ -22,6 +24,107 @@ def counted(reader: Statements, node: Node, name: str) -> m.For:
     start, end, step = idioms.rounds(reader.expressions, node)
     body = _body(reader, node, name, m.Type("int"), ())
     return _for(reader, node, reader.local(name), start, end, step, body)
+
+
+def through(reader: Statements, node: Node, called: str, arguments: list[Node]) -> m.For | None:
+    """`enumerate`, `zip` and `reversed(range(...))`, and a tuple of numbers; None for others."""
+    left, right = field(node, "left"), field(node, "right")
+    names = [text_of(n) for n in (named(left) if left.type == "pattern_list" else [left])]
+    match called, arguments:
+        case "enumerate", [values] if len(names) == 2:
+            return _numbered(reader, node, names[0], names[1:], [values])
+        case "zip", _ if len(names) == len(arguments) > 0:
+            return _numbered(reader, node, "", names, arguments)
+        case "reversed", [inner] if len(names) == 1:
+            return _backwards(reader, node, names[0], inner)
+        case "", _ if right.type in ("tuple", "list") and len(names) == 1:
+            return _listed(reader, node, names[0], named(right))
+        case _:
+            return None
+
+
+def _numbered(
+    reader: Statements, node: Node, number: str, names: list[str], arrays: list[Node]
+) -> m.For:
+    """A loop through several arrays at once; the variable `number` counts, if it has a name."""
+    each_ = [builtins.array_elements(reader.expressions, a) for a in arrays]
+    if None in each_ or len({*names, number}) != len(names) + 1:
+        raise reader.expressions.unread(node, "the model has no such loop")
+    length = min(len(elements) for elements in each_ if elements is not None)
+    index = reader.local(number) if number else _free(reader, node, names[0])
+    first: list[tuple[str, m.Type, m.Expression]] = []
+    for name, elements in zip(names, each_, strict=True):
+        read = elements[0] if elements else m.IntLiteral(0)
+        element = reader.expressions.kind(read)
+        if not isinstance(read, m.Index) or element is None:
+            raise reader.expressions.unread(node, "the model has no such loop")
+        first.append((name, element, m.Index(read.target, m.Name(index))))
+    body = _round(reader, node, [(number, m.Type("int"))] if number else [], index, first)
+    zero, one = m.IntLiteral(0), m.IntLiteral(1)
+    return _for(reader, node, index, zero, m.IntLiteral(length), one, body)
+
+
+def _listed(reader: Statements, node: Node, name: str, values: list[Node]) -> m.For:
+    """A loop over numbers, each in its turn."""
+    read = [reader.expressions.read(v) for v in values]
+    kinds = {reader.expressions.kind(e) for e in read}
+    if len(kinds) != 1 or not all(idioms.is_literal(reader.expressions, v) for v in values):
+        raise reader.expressions.unread(node, "the model has no such loop")
+    (kind,) = kinds
+    index = _free(reader, node, name)
+    value, count_ = read[-1], len(read)
+    for i in range(count_ - 2, -1, -1):
+        value = chosen(binary("==", m.Name(index), m.IntLiteral(i)), read[i], value)
+    first = [(name, kind or m.Type("int"), value)]
+    body = _round(reader, node, [], index, first)
+    zero, one = m.IntLiteral(0), m.IntLiteral(1)
+    return _for(reader, node, index, zero, m.IntLiteral(count_), one, body)
+
+
+def _backwards(reader: Statements, node: Node, name: str, inner: Node) -> m.For:
+    """`for i in reversed(range(n))`, of numbers that count up by one."""
+    called, arguments = call_parts(inner) or ("", [])
+    if called != "range" or not 1 <= len(arguments) <= 2:
+        if builtins.array_elements(reader.expressions, inner) is not None:
+            raise reader.expressions.unread(node, builtins.NO_LENGTH.format("reversed"))
+        raise reader.expressions.unread(node, "the model has no such loop")
+    if not all(a.type == "integer" for a in arguments):
+        raise reader.expressions.unread(node, "say with numbers how often this is done")
+    ends = [int(text_of(a), 0) for a in arguments]
+    low, high = (0, *ends) if len(ends) == 1 else (ends[0], ends[1])
+    place, index = m.Name(reader.local(name)), reader.local(name)
+    body = _body(reader, node, name, m.Type("int"), ())
+    declared = m.Declaration(m.Type("int"), (m.Declarator(index, m.IntLiteral(high - 1)),))
+    condition = binary(">=", place, m.IntLiteral(low))
+    span = reader.expressions.py.span(node)
+    return m.For(declared, condition, (m.Postfix("--", place),), body, span=span)
+
+
+def _round(
+    reader: Statements,
+    node: Node,
+    counting: list[tuple[str, m.Type]],
+    index: str,
+    first: list[tuple[str, m.Type, m.Expression]],
+) -> m.Block:
+    """The body of a loop that begins with what its variables are this time."""
+    body, known = field(node, "body"), reader.expressions.locals
+    names = [(name, type_) for name, type_, _ in first] + counting
+    if any(n in known or n in idioms.stored_in(body) for n, _ in names):
+        raise reader.expressions.unread(node, "the variable of this loop is used elsewhere")
+    known[f"index of {names[0][0]}"] = index
+    for name, type_ in names:
+        known[name] = reader.local(name)
+        reader.expressions.types[known[name]] = type_
+    found = reader.suite(body)
+    declared = tuple(
+        m.Local(m.Declaration(type_, (m.Declarator(known[name], value),)))
+        for name, type_, value in first
+    )
+    for name, _ in names:
+        del known[name]
+    del known[f"index of {names[0][0]}"]
+    return replace(found, statements=(*declared, *found.statements))
 
 
 def each(reader: Statements, node: Node, name: str) -> m.For:
@@ -96,7 +199,7 @@ def match(reader: Statements, node: Node) -> list[m.Statement]:
     for values, block in idioms.cases(reader.expressions, node):
         asked: m.Expression | None = None
         for value in values:
-            each = binary("==", reader.expressions.read(subject), reader.expressions.read(value))
+            each = binary("==", reader.expressions.read(subject), value)
             asked = each if asked is None else m.Binary("||", asked, each)
         branches.append((asked, reader.branch(block)))
     found: m.Statement | None = None

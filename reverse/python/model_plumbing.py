@@ -13,6 +13,7 @@ from rebsync.names import graph_name
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python.model_constants import is_quiet
+from rebsync.reverse.python.model_helpers import is_transparent
 from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_roles import Roles
 from rebsync.reverse.python.model_types import (
@@ -24,7 +25,7 @@ from rebsync.reverse.python.model_types import (
     type_of,
 )
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import Scope
+from rebsync.reverse.python.py_index import PyCode, Scope
 from rebsync.reverse.python.py_tree import Py, field, named, text_of
 
 _MADE = frozenset({"Mailbox", "Drive", "Sensor"})
@@ -39,7 +40,9 @@ _AT_TOP = frozenset(
     }
 )
 _IN_CLASS = frozenset({"function_definition", "decorated_definition", "pass_statement"})
-_DECORATORS = frozenset({"abstractmethod", "final", "override", "property"})
+_DECORATORS = frozenset(
+    {"abstractmethod", "final", "override", "property", "staticmethod", "classmethod"}
+)
 _WHY = "what this does is not in the model"
 _HINT = "say it in the model, or move it into a user block"
 
@@ -55,6 +58,7 @@ class Plumbing:
     roles: Roles
     fields: Mapping[str, Sequence[str]]
     findings: Findings
+    code: PyCode
 
     def check(self) -> None:
         """Lists what a class does besides."""
@@ -63,7 +67,8 @@ class Plumbing:
             for node in self._odd(function):
                 self._list(owner.py, node, _WHY, function.name)
         for function in self.roles.functions.values():
-            if odd := [d for d in function.decorators if d not in _DECORATORS]:
+            odd = [d for d in function.decorators if d not in _DECORATORS]
+            if odd := [d for d in odd if not is_transparent(self.code, owner.module, d)]:
                 why = f'nobody knows what "@{odd[0]}" makes of it'
                 self._list(owner.py, function.node, why, function.name)
         for statement in named(field(owner.node, "body")):

@@ -1,71 +1,105 @@
-"""Sends of generated Python to overloads, which the model tells apart by types."""
+"""What generated Python asks of its mailbox, and how it sends, as the model has it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import replace
-from functools import partial
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.names import uncarry
-from rebsync.reserved import RUNTIME_TOPICS
-from rebsync.reverse.bodies.cpp_conversions import type_in
-from rebsync.reverse.bodies.overloads import HINT, WHY, Served, plain, telling
-from rebsync.reverse.bodies.scope import Called, Variable
-from rebsync.reverse.bodies.scope import Scope as Meanings
-from rebsync.reverse.findings import Unread
-from rebsync.reverse.python.model_roles import Roles, Sends
-from rebsync.reverse.python.model_types import class_name, type_of
-from rebsync.reverse.python.py_index import Scope
-from rebsync.reverse.python.py_tree import field, named
-from rebsync.static.types import is_floating, is_integer
+from rebsync.names import original
+from rebsync.reverse.python import model_idioms as idioms
+from rebsync.reverse.python.model_builtins import array_elements
+from rebsync.reverse.python.model_overloads import told
+from rebsync.reverse.python.model_types import passed_on, string_value
+from rebsync.reverse.python.py_tree import named, text_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.model_expressions import Expressions
+    from rebsync.reverse.python.model_roles import Sends
+
+_CLOCK = {
+    "now": "now",
+    "arrival": "currentMessageArrival",
+    "expiry": "currentMessageDeadline",
+    "waiting_time": "currentMessageWaitingTime",
+    "sender": "sender",
+}
+_LATE = frozenset({"integer", "float", "true", "false"})  # the same whenever it is evaluated
 
 
-def families(lines: Iterable[tuple[Scope, Iterable[Roles]]]) -> dict[str, dict[str, str]]:
-    """By class the servers by the types of their messages; with each those above, nearest first."""
-    return {
-        class_name(owner.name): {
-            t: s for roles in [*above][::-1] for t, s in roles.messages.items()
-        }
-        for owner, above in lines
-    }
+def of_mailbox(reader: Expressions, node: Node, name: str, arguments: list[Node]) -> m.Expression:
+    """What a function of the mailbox gives or does. Unread: the model has no such thing."""
+    span = reader.py.span(node)
+    match name, len(arguments):
+        case "self", 0:
+            return m.Self(span)
+        case _, 0 if name in _CLOCK:
+            return m.Name(_CLOCK[name], span)
+        case "choose", 1 | 2 if arguments[0].type == "list":
+            return m.Choice(tuple(map(reader.read, named(arguments[0]))), span)
+        case "is_a", 2:
+            type_ = m.Type(original(string_value(arguments[1]) or ""))
+            return m.InstanceOf(reader.read(arguments[0]), type_, span)
+        case "delay" | "assertion", _:
+            return m.Call(None, name, tuple(map(reader.read, arguments)), span=span)
+        case "post", 4:
+            return _posted(reader, node, arguments)
+        case _:
+            raise reader.unread(node, f'the model has no function "{name}"')
 
 
-def resolved(served: Served, owner: Scope, sends: Sends, function: Scope) -> Sends:
-    """A send by the name that the server has in the model, which its message type tells.
+def _posted(reader: Expressions, node: Node, arguments: list[Node]) -> m.Expression:
+    """`self._mailbox.post(_P, When(), "", self.p)`, which a function that sends does as well."""
+    server = reader.names.descriptors.get(text_of(arguments[0]))
+    handler, values = passed_on(arguments[3]) or ("", [])
+    if server is None or reader.names.handlers.get(handler.removeprefix("self.")) != server:
+        raise reader.unread(node, "this is no server of the model with the function that serves it")
+    if not all(value.type in _LATE for value in values):
+        raise reader.unread(node, "this is evaluated when it is served: send it by `send_self_...`")
+    times, span = idioms.times(reader, arguments[1]), reader.py.span(node)
+    return m.Call(
+        m.Self(span),
+        server,
+        tuple(map(reader.read, values)),
+        times.get("after"),
+        times.get("deadline"),
+        span,
+    )
 
-    With the types of what it takes, and those that other servers of the name take.
-    """
-    given = named(field(function.node, "parameters"))[1:]
-    said = plain([type_of(p.child_by_field_name("type")) for p in given])
-    types = said[sends.known is None :][: sends.arguments]
-    message, _, key = sends.server.partition(" ")
-    if not key:
-        rivals = served.rivals_in(class_name(owner.name), message, types)
-        return replace(sends, types=types, rivals=rivals)
-    server = served.servers.get(message) or uncarry(key, RUNTIME_TOPICS)
-    return replace(sends, server=server, types=types, rivals=served.rivals(message, types))
+
+def sent(reader: Expressions, node: Node, sends: Sends, arguments: list[Node]) -> m.Expression:
+    """What a function that sends is given, as a send of the model."""
+    span, is_to_any = reader.py.span(node), sends.known is None
+    expected = sends.arguments + is_to_any
+    arguments = idioms.in_order(reader, node, arguments, sends.parameters)
+    rest = arguments[is_to_any:]
+    values: list[m.Expression] = []
+    target: m.Expression = m.Self(span)
+    if sends.known is None and arguments:
+        target = _receiver(reader, arguments[0])
+    elif sends.known is not None and sends.known != "self":
+        target = m.Name(sends.known, span)
+    while rest and len(values) < sends.arguments:
+        values += _unpacked(reader, rest.pop(0))
+    if len(values) != sends.arguments or len(rest) > 1 or len(arguments) < is_to_any:
+        raise reader.unread(node, f"this sends with {expected} arguments")
+    times = idioms.times(reader, rest[0]) if rest else {}
+    given = told(reader, node, sends, tuple(values))
+    return m.Call(target, sends.server, given, times.get("after"), times.get("deadline"), span)
 
 
-def told(
-    reader: Expressions, node: Node, sends: Sends, values: tuple[m.Expression, ...]
-) -> tuple[m.Expression, ...]:
-    """What is sent, by which the model chooses this server. Unread: the types are not known."""
-    if not sends.rivals:
-        return values
-    known = {**reader.names.types, **reader.types}
-    results = {n: Called(n, returns=t) for n, t in reader.names.results.items()}
-    scope = Meanings({n: Variable(n, t) for n, t in known.items()}, results, {})
-    kind = partial(type_in, scope)
-    pairs = ((kind(v), t) for v, t in zip(values, sends.types, strict=True))
-    cut = any(of and t and is_floating(of) and is_integer(t) for of, t in pairs)
-    found = None if cut else telling(values, sends.types, sends.rivals, kind)
-    if found is None:
-        raise Unread(reader.py.span(node), WHY, HINT)
-    return found
+def _unpacked(reader: Expressions, node: Node) -> list[m.Expression]:
+    """One argument, or the elements of an array behind a star."""
+    if node.type != "list_splat":
+        return [reader.read(node)]
+    elements = array_elements(reader, named(node)[0])
+    if elements is None:
+        raise reader.unread(node, "nobody knows how many values this gives")
+    return elements
+
+
+def _receiver(reader: Expressions, node: Node) -> m.Expression:
+    """Who gets a message: what is no name or call stands in parentheses."""
+    found = reader.read(node)
+    return m.Paren(found) if isinstance(found, (m.Cast, m.Conditional, m.Choice)) else found

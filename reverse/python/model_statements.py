@@ -16,8 +16,10 @@ from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python import model_loops as loops
+from rebsync.reverse.python import model_stored as stored
 from rebsync.reverse.python import model_users as users
 from rebsync.reverse.python.model_expressions import Expressions
+from rebsync.reverse.python.model_filled import filled
 from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_types import (
     call_parts,
@@ -37,7 +39,8 @@ class Statements:
     """Reads the bodies of one function; `within` names it where something is listed.
 
     `hoisted` are the locals that a switch declares before it, `cases` the names of the switches
-    around a statement, innermost last. `implied` are the locals of a block without a type.
+    around a statement, innermost last. `implied` are the locals of a block without a type, `inner`
+    are functions within.
     """
 
     expressions: Expressions
@@ -47,6 +50,7 @@ class Statements:
     hoisted: dict[str, m.Type] = with_default(default_factory=dict)
     cases: list[str] = with_default(default_factory=list)
     implied: set[str] = with_default(default_factory=set)
+    inner: dict[str, Node] = with_default(default_factory=dict)
 
     def block(self, nodes: list[Node], span_of: Node) -> m.Block:
         """The statements of a suite."""
@@ -72,7 +76,11 @@ class Statements:
                     found.append(m.Continue(span=self.expressions.py.span(node)))
                     waiting.pop(0)
                     continue
-                read = self._with_annotations(node, self._read(node, found))
+                sent = filled(self.expressions, node, waiting)
+                if sent is None:
+                    found += stored.declared_before(self, node, waiting)
+                    sent = self._read(node, found)
+                read = self._with_annotations(node, sent)
             except Unread as unread:
                 self.findings.unreadable(self.expressions.py.source, unread, self.within)
                 read = []
@@ -111,6 +119,14 @@ class Statements:
         match node.type:
             case "pass_statement":
                 return []
+            case "assert_statement":
+                return [stored.asserted(self, node)]
+            case "delete_statement":
+                return stored.deleted(self, node)
+            case "try_statement":
+                return stored.tried(self, node)
+            case "function_definition":
+                return stored.inner(self, node)
             case "expression_statement":
                 return self._effect(node)
             case "if_statement":
@@ -145,12 +161,12 @@ class Statements:
         self.implied = set()
         found = self.block(named(node), node)
         for name in self.implied:
-            del self.expressions.locals[name]
+            self.expressions.locals.pop(name, None)
         self.implied = outer
         return found
 
     def _return(self, node: Node) -> list[m.Statement]:
-        values = named(node)
+        values = [v for v in named(node) if v.type != "none"]
         if values and is_unset(without_parentheses(values[0])):
             return []  # only Python wants one here
         value = self.expressions.read(values[0]) if values else None
@@ -165,11 +181,13 @@ class Statements:
         if inner.type == "string":
             return []
         if inner.type == "assignment":
-            return self._assigned(inner)
+            return self.assigned(inner)
         if inner.type == "augmented_assignment":
-            stored = idioms.augmented(self.expressions, inner)
-            return [m.ExpressionStatement(stored, span=span)]
+            changed = idioms.augmented(self.expressions, inner)
+            return [m.ExpressionStatement(changed, span=span)]
         called, arguments = call_parts(inner) or ("", [])
+        if called in self.inner:
+            return stored.done_inside(self, inner, called, arguments)
         if called == "self._drive.move" and len(arguments) == 2:
             cells = tuple(map(self._cell, ("X", "Y"), arguments))
             return [m.Empty((m.Annotation("Move", cells, span),), span)]
@@ -185,7 +203,7 @@ class Statements:
             case _:
                 return m.Binary("+", m.Name(axis), found)
 
-    def _assigned(self, node: Node) -> list[m.Statement]:
+    def assigned(self, node: Node) -> list[m.Statement]:
         span, left = self.expressions.py.span(node), field(node, "left")
         value = field(node, "right")
         name = text_of(left)
@@ -197,13 +215,17 @@ class Statements:
             return [self._declared(name, type_, value, node)]
         if name in self.hoisted:
             return [self._declared(name, self.hoisted.pop(name), value, node)]
+        if value.type == "assignment":
+            return stored.chained(self, node)
         if left.type in ("pattern_list", "tuple_pattern"):
-            return idioms.one_by_one(self.expressions, node)
+            return stored.unpacked(self, node)
+        if (elements := stored.all_elements(self, left, value)) is not None:
+            return elements
         if left.type == "identifier" and name not in self.expressions.locals:
-            return [self._implied(name, value, node)]
+            return [self.implied_local(name, value, node)]
         target = self.expressions.read(left)
-        stored = self.expressions.stored(target, left, value, node, statement=True)
-        return [m.ExpressionStatement(stored, span=span)]
+        changed = self.expressions.stored(target, left, value, node, statement=True)
+        return [m.ExpressionStatement(changed, span=span)]
 
     def _declared(self, name: str, type_: m.Type, value: Node, node: Node) -> m.Local:
         span = self.expressions.py.span(node)
@@ -215,7 +237,7 @@ class Statements:
         declarator = m.Declarator(plain, initial, span)
         return m.Local(m.Declaration(type_, (declarator,), span=span), span=span)
 
-    def _implied(self, name: str, value: Node, node: Node) -> m.Local:
+    def implied_local(self, name: str, value: Node, node: Node) -> m.Local:
         """A local without a type, which is that of its value."""
         if name in self.expressions.names.constants:
             raise self.expressions.unread(node, f'"{name}" is a constant elsewhere')
@@ -272,6 +294,8 @@ class Statements:
             return [self._rounds(node, name, before)]
         if called == "range":
             return [loops.counted(self, node, name)]
+        if (found := loops.through(self, node, called, arguments)) is not None:
+            return [found]
         return [loops.each(self, node, name)]
 
     def _rounds(self, node: Node, name: str, before: list[m.Statement]) -> m.For:

@@ -148,7 +148,9 @@ def call_parts(node: Node | None) -> tuple[str, list[Node]] | None:
     """The text of what is called, and the arguments, for a call without names for these."""
     if node is None or (node := without_parentheses(node)).type != "call":
         return None
-    return text_of(field(node, "function")), named(field(node, "arguments"))
+    given = field(node, "arguments")
+    arguments = [given] if given.type == "generator_expression" else named(given)
+    return text_of(field(node, "function")), arguments
 
 
 def called_late(node: Node) -> Node | None:

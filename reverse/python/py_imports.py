@@ -28,7 +28,7 @@ def imported(values: Values, binding: Binding, name: str, scope: Scope) -> Ways:
         dotted = wanted if item.type == "aliased_import" else wanted.partition(".")[0]
         module = module_named(values.code, dotted, scope.module)
         return (Module(module) if module is not None else External(dotted),)
-    source = _module_of(binding.node)
+    source = module_of(binding.node)
     module = module_named(values.code, source, scope.module)
     if module is not None and wanted in module.names and module is not scope.module:
         return tuple(w for b in module.names[wanted] for w in bound(values, b, wanted, module))
@@ -42,7 +42,7 @@ def star_imported(code: PyCode, module: Scope, name: str) -> Module | External |
     """What `from x import *` may bring under a name: what is known comes before what is not."""
     others: list[str] = []
     for binding in module.names.get("*", []):
-        source = _module_of(binding.node)
+        source = module_of(binding.node)
         found = module_named(code, source, module)
         if found is not None and name in found.names:
             return Module(found)
@@ -56,7 +56,8 @@ def star_imported(code: PyCode, module: Scope, name: str) -> Module | External |
     return External(f"{chosen[0]}.{name}") if chosen else None
 
 
-def _module_of(node: Node) -> str:
+def module_of(node: Node) -> str:
+    """The module that names are imported from, with its dots."""
     return text_of(field(node, "module_name")).replace(" ", "")
 
 

@@ -14,6 +14,7 @@ from tree_sitter import Language, Node, Parser
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Finding, Grade
 from rebsync.reverse.syntax.cpp_tree import Cpp, byte_places
+from rebsync.reverse.syntax.unparsed import NO_PYTHON
 from rebsync.source import Source
 
 _HINT = "mend the syntax, so that the whole file can be read"
@@ -46,8 +47,7 @@ def unparsed(py: Py) -> list[Finding]:
     while waiting and len(found) < _SHOWN:
         node = waiting.pop()
         if node.type == "ERROR" or node.is_missing:
-            why = "this is no Python that can be read"
-            found.append(Finding(Grade.UNREADABLE, py.source, py.span(node), why, _HINT))
+            found.append(Finding(Grade.UNREADABLE, py.source, py.span(node), NO_PYTHON, _HINT))
         elif node.has_error:
             waiting += reversed(node.children)
     return found

@@ -15,6 +15,7 @@ from rebsync.records import dataclass
 from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.build.message_types import MessageTypes
+from rebsync.reverse.files.python_files import SETUP
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import (
     Callback,
@@ -43,6 +44,10 @@ from rebsync.source import Source
 _WHY = "what this belongs to is no node of the model: only what it asks of ROS is read"
 _HINT = "--format json tells what it asks of ROS"
 _STAND_IN = "_stand_in"
+_FIELDS = {
+    **{"bool": "boolean", "int8": "byte", "int16": "short", "int32": "int"},
+    **{"float32": "float", "float64": "double"},
+}
 
 # The constants that classes read: by key the type, the name in the model, and the default.
 Used = tuple[str, tuple[m.Type, str, "Value | None"]]
@@ -125,9 +130,12 @@ def read_python(
     graph = graph_with(values)
     asked = python.sources.get(only) if only is not None else None
     path = asked.path if asked is not None else None
-    classes.served = served if served is not None else Served(classes.families())
-    read = classes.read(path) if asked is not None or only is None else ()
     known, unit = MessageTypes.of(files or {}, package), unit_of_time(files or {})
+    classes.served = served if served is not None else Served(classes.families())
+    classes.fields = _types_in(known)
+    read = classes.read(path) if asked is not None or only is None else ()
+    if read and only is None and SETUP in (files or {}):
+        findings.all += unparsed(parse((files or {})[SETUP]))
     own = {(o.name, o.py.source.path) for o in classes.owners}
     is_people = partial(_is_people, own=own)
     scripts = scripts_of(files or {})
@@ -139,6 +147,18 @@ def read_python(
     _list_hooks(values, own, findings, path)
     used = tuple((e.key, (e.type, e.name, constant(e.default))) for e in classes.env())
     return PythonPart(graph, read, used, python.code, nodes, scripts)
+
+
+def _types_in(known: MessageTypes) -> dict[str, dict[str, m.Type]]:
+    """The model's types of the fields of the package's messages, arrays left out."""
+    return {
+        type_.rpartition("/")[2]: {
+            name: m.Type(_FIELDS[plain])
+            for name, plain, length in fields
+            if length is None and plain in _FIELDS
+        }
+        for type_, fields in known.own.items()
+    }
 
 
 def constant(node: Node | None) -> Value | None:

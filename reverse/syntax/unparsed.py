@@ -19,6 +19,7 @@ from rebsync.reverse.syntax.cpp_tree import Cpp
 from rebsync.source import Span
 
 NO_CPP = "this is no C++ that can be read"
+NO_PYTHON = "this is no Python that can be read"
 _LONGEST = 120
 _DIRECTIVES = re.compile(r"^[ \t]*#(?:[^\n\\]|\\\r?\n|\\.)*", re.MULTILINE)
 _ROS = re.compile(

@@ -1,0 +1,260 @@
+"""The functions of a class of generated Python as the model has them: what they take, do and give.
+
+Methods that no class above with a mailbox has, functions of modules, and static ones are among
+those of each class that calls them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import field as with_default
+from dataclasses import replace
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.bodies.overloads import Served
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.python.model_constants import constants_in, constants_of, enumerations_of
+from rebsync.reverse.python.model_expressions import Expressions, Names
+from rebsync.reverse.python.model_filled import Filling, fillings_of
+from rebsync.reverse.python.model_helpers import (
+    Helper,
+    called_in,
+    first_of,
+    own_name,
+    without_object,
+)
+from rebsync.reverse.python.model_kinds import literal_kind
+from rebsync.reverse.python.model_overloads import resolved
+from rebsync.reverse.python.model_roles import Roles, Sends, plain_name, servers_of
+from rebsync.reverse.python.model_statements import Statements
+from rebsync.reverse.python.model_types import passed_on, type_of
+from rebsync.reverse.python.py_callbacks import body_of
+from rebsync.reverse.python.py_index import PyCode, Scope
+from rebsync.reverse.python.py_tree import field, named, text_of
+
+_HINT = "say its type, as `: int` or `-> int`"
+
+
+@dataclass(eq=False)
+class Bodies:
+    """Reads functions; `line` are a class and those above it, `roles` what members are for.
+
+    `served` is the server of a function, if it serves one, `types` are the names of classes and
+    messages, `serving` what classes serve, and `fields` what messages have in the model's types.
+    """
+
+    code: PyCode
+    findings: Findings
+    line: Callable[[Scope], list[Scope]]
+    roles: Callable[[Scope], Roles]
+    served: Callable[[Scope, Scope], str | None]
+    types: frozenset[str]
+    serving: Served
+    fields: Mapping[str, Mapping[str, m.Type]]
+    known: dict[int, Names] = with_default(default_factory=dict)
+
+    def parameters(self, owner: Scope, function: Scope, within: str) -> tuple[m.Parameter, ...]:
+        """What a function takes, without its object."""
+        found = []
+        reader = self.reader(owner, function, within)
+        for node, type_ in self._taken(owner, function):
+            span = function.py.span(node)
+            if type_ is None:
+                why = f'the model has no type for "{text_of(node)}"'
+                self.findings.unreadable(function.py.source, Unread(span, why, _HINT), within)
+            found.append(m.Parameter(type_ or m.Type("int"), reader.local(_plain(node)), span))
+        return tuple(found)
+
+    def body(self, owner: Scope, function: Scope, within: str) -> m.Block | None:
+        """What a function does; None for one that is only declared."""
+        if "abstractmethod" in function.decorators:
+            return None
+        reader = self.reader(owner, function, within)
+        for node, type_ in self._taken(owner, function):
+            name = _plain(node)
+            reader.expressions.locals[name] = reader.local(name)
+            if type_ is not None:
+                reader.expressions.types[reader.local(name)] = type_
+        self.findings.statements[within] += 0
+        return reader.block(body_of(function), field(function.node, "body"))
+
+    def result(self, owner: Scope, function: Scope, within: str) -> m.Type:
+        """The type of what a function gives."""
+        said = function.node.child_by_field_name("return_type")
+        variables = _variables(self.names(owner))
+        found = type_of(said) if said is not None else result_of(function, variables)
+        if found is None:
+            span = function.py.span(field(function.node, "name"))
+            why = f'the model has no type for what "{function.name}" gives'
+            self.findings.unreadable(function.py.source, Unread(span, why, _HINT), within)
+        return found or m.Type("void")
+
+    def reader(self, owner: Scope, function: Scope, within: str) -> Statements:
+        """What reads statements of a function."""
+        names = self.names(owner)
+        if function.module is not owner.module:
+            constants = constants_in(self.code, function.module)
+            names = replace(names, constants=constants | enumerations_of(function.module))
+        expressions = Expressions(function.py, names, own=self._own(owner, function))
+        return Statements(expressions, self.findings, within, self.types)
+
+    def helpers(self, owner: Scope) -> Iterator[Scope]:
+        """The functions of modules that a class calls."""
+        found = {id(h.function): h.function for h in self.names(owner).helpers.values()}
+        yield from (f for f in found.values() if not f.is_method)
+
+    # --- what is taken --------------------------------------------------------------------------
+
+    def _own(self, owner: Scope, function: Scope) -> str:
+        """What a function calls the object of the class."""
+        if function.is_method:
+            return own_name(function)
+        called = (h for h in self.names(owner).helpers.values() if h.function is function)
+        return next((h.own for h in called if h.own), "\0")
+
+    def _taken(self, owner: Scope, function: Scope) -> Iterator[tuple[Node, m.Type | None]]:
+        """The parameters with their types, those of a server as its message says if need be."""
+        first = first_of(function)
+        if not function.is_method:
+            first = int(self._own(owner, function) != "\0")
+        nodes = named(field(function.node, "parameters"))[first:]
+        types = self._of_message(owner, function, len(nodes))
+        for node, type_ in zip(nodes, types, strict=True):
+            said = node.child_by_field_name("type")
+            is_plain = node.type in ("identifier", "typed_parameter")
+            found = (type_of(said) if said is not None else type_) if is_plain else None
+            yield node, found
+
+    def _of_message(self, owner: Scope, function: Scope, count: int) -> list[m.Type | None]:
+        """The types of what the message of a server has, in the order of its parameters."""
+        for above in self.line(owner):
+            roles = self.roles(above)
+            for shim, handler in roles.handler_names.items():
+                if handler == function.name and shim in roles.functions:
+                    types = list(self._passed(roles.functions[shim]))
+                    return types if len(types) == count else [None] * count
+        return [None] * count
+
+    def _passed(self, shim: Scope) -> Iterator[m.Type | None]:
+        message = named(field(shim.node, "parameters"))[-1]
+        type_ = message.child_by_field_name("type")
+        known = self.fields.get(text_of(type_), {}) if type_ is not None else {}
+        holder = f"{shim.parameters[-1].name}."
+        for call in (s for s in body_of(shim) if "receive(" in text_of(s)):
+            arguments = named(field(named(call)[0], "arguments"))
+            _, values = passed_on(arguments[-1]) or ("", [])
+            yield from (known.get(text_of(v).removeprefix(holder)) for v in values)
+
+    # --- names ----------------------------------------------------------------------------------
+
+    def names(self, owner: Scope) -> Names:
+        """What the names in a class stand for."""
+        if id(owner) not in self.known:
+            self.known[id(owner)] = self._names(owner)
+        return self.known[id(owner)]
+
+    def _names(self, owner: Scope) -> Names:
+        variables: dict[str, str] = {}
+        sends: dict[str, Sends] = {}
+        types: dict[str, m.Type] = {}
+        constants = constants_in(self.code, owner.module) | enumerations_of(owner.module)
+        for above in reversed(self.line(owner)):
+            roles = self.roles(above)
+            variables |= {a: v[0] for a, v in (roles.state | roles.known).items()}
+            variables |= {a: e.name for a, e in roles.env.items()}
+            types |= {v[0]: v[1] for v in (roles.state | roles.known).values()}
+            types |= {e.name: e.type for e in roles.env.values()}
+            given = ((f, s, roles.functions[f]) for f, s in roles.sends.items())
+            sends |= {f: resolved(self.serving, owner, s, of) for f, s, of in given}
+            own = {n: v for n, v in constants_of(above).items() if n not in above.attributes}
+            constants |= {f"self.{name}": value for name, value in own.items()}
+        names = Names(variables, sends, {}, constants=constants, types=types)
+        return self._with_messages(owner, self._with_functions(owner, names))
+
+    def _with_functions(self, owner: Scope, names: Names) -> Names:
+        functions: dict[str, str] = {}
+        servers: set[str] = set()
+        results: dict[str, m.Type] = {}
+        properties: set[str] = set()
+        helpers: dict[str, Helper] = {}
+        scopes: list[Scope] = []
+        for above in reversed(self.line(owner)):
+            roles = self.roles(above)
+            for name, function in roles.functions.items():
+                if roles.is_plumbing(name):
+                    continue
+                scopes.append(function)
+                if name == "construct" or name.startswith("construct__"):
+                    continue
+                served = self.served(above, function)
+                functions[name] = served or plain_name(function)
+                servers |= {name} if served is not None else set()
+                properties |= {name} if "property" in function.decorators else set()
+                self._add_result(results, functions[name], function, names)
+            helpers |= without_object(above, roles.functions)
+        taken = {*functions.values(), *names.variables.values(), *self.types}
+        for name, helper in called_in(self.code, scopes, taken).items():
+            helpers[name] = helper
+            self._add_result(results, helper.name, helper.function, names)
+        return replace(
+            names,
+            functions=functions,
+            servers=frozenset(servers),
+            results=results,
+            properties=frozenset(properties),
+            helpers=helpers,
+        )
+
+    def _add_result(
+        self, results: dict[str, m.Type], name: str, function: Scope, names: Names
+    ) -> None:
+        said = function.node.child_by_field_name("return_type")
+        found = type_of(said) if said is not None else result_of(function, _variables(names))
+        results.pop(name, None)
+        if found is not None:
+            results[name] = found
+
+    def _with_messages(self, owner: Scope, names: Names) -> Names:
+        """The same with what publishers send, and what is posted."""
+        imported = {
+            name: text_of(b.value) if b.value is not None else ""
+            for name, bindings in owner.module.names.items()
+            for b in bindings
+            if b.how == "import" and b.node.type == "import_statement"
+        }
+        descriptors = {name: server for name, (server, _) in servers_of(owner.module).items()}
+        handlers: dict[str, str] = {}
+        fillings: dict[str, Filling] = {}
+        for above in reversed(self.line(owner)):
+            handlers |= self.roles(above).handlers
+            fillings |= fillings_of(self.roles(above), names.sends)
+        return replace(
+            names,
+            imported=imported,
+            descriptors=descriptors,
+            handlers=handlers,
+            fillings=fillings,
+        )
+
+
+def result_of(function: Scope, variables: Callable[[str], m.Type | None]) -> m.Type | None:
+    """The type of what a function without a type gives, if its text tells; None: it does not."""
+    values = [named(r)[0] for r in function.returns if named(r)]
+    values = [v for v in values if v.type != "none"]
+    kinds = {literal_kind(value, variables) for value in values}
+    return m.Type("void") if not values else kinds.pop() if len(kinds) == 1 else None
+
+
+def _variables(names: Names) -> Callable[[str], m.Type | None]:
+    """The types of attributes."""
+    return lambda attribute: names.types.get(names.variables.get(attribute, ""))
+
+
+def _plain(node: Node) -> str:
+    """The name of a parameter."""
+    if node.type == "typed_parameter":
+        return text_of(named(node)[0])
+    return text_of(node.child_by_field_name("name") or node)

@@ -1,0 +1,257 @@
+"""Functions that Python itself has, which people call in the bodies of generated code.
+
+What goes through an array of the model is said element by element; the array is of fixed length.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.bodies.building import binary, chosen, negated
+from rebsync.reverse.python.model_idioms import grouped, is_plain, truth
+from rebsync.reverse.python.py_tree import field, named, text_of
+
+if TYPE_CHECKING:
+    from rebsync.reverse.python.model_expressions import Expressions
+
+_LARGEST = 24  # parts of what is repeated where values are compared
+_MOST = 16  # elements that are said one by one
+_TESTS = {"any": "||", "all": "&&"}
+NO_LENGTH = 'an array of the model has no "{}" in Python: say its length as a number'
+
+
+def of_python(
+    reader: Expressions, node: Node, called: str, arguments: list[Node]
+) -> m.Expression | None:
+    """What a function of Python gives, as the model says it; None for another function.
+
+    Unread: the model cannot say it.
+    """
+    if called in reader.names.constants or called in reader.locals:
+        return None
+    match called, arguments:
+        case ("any" | "all" | "sum", [given]):
+            return grouped(node, _folded(reader, node, called, given))
+        case ("min" | "max", [given]):
+            values = [e for e, _ in _elements(reader, given, called)]
+            return grouped(node, _extreme(reader, node, called, values))
+        case ("min" | "max", _) if len(arguments) > 1 and all(map(is_plain, arguments)):
+            return grouped(node, _extreme(reader, node, called, list(map(reader.read, arguments))))
+        case "abs", [given] if is_plain(given):
+            read = reader.read(given)
+            _assert_whole(reader, node, read)
+            below = binary("<", read, m.IntLiteral(0))
+            return grouped(node, chosen(below, m.Unary("-", _tight(read)), read))
+        case "bool", [given]:
+            return grouped(node, truth(reader, reader.read(given)))
+        case "int", [given]:
+            return grouped(node, _as_int(reader, node, reader.read(given)))
+        case ("len" | "reversed", [given]) if _array(reader, given) is not None:
+            raise reader.unread(node, NO_LENGTH.format(called))
+        case "len", [given] if given.type in ("list", "tuple"):
+            return m.IntLiteral(len(named(given)))
+        case _:
+            return None
+
+
+def drawn(reader: Expressions, node: Node, called: str, arguments: list[Node]) -> m.Choice | None:
+    """`random.choice([1, 2])` and `random.randint(1, 3)`; None for another call."""
+    holder, _, name = called.rpartition(".")
+    if holder != "random" or reader.names.imported.get("random") != "random":
+        return None
+    span = reader.py.span(node)
+    ends = [int(text_of(a)) for a in arguments if a.type == "integer" and text_of(a).isdigit()]
+    match name, arguments, ends:
+        case "choice", [given], _ if given.type in ("list", "tuple") and is_plain_list(given):
+            return m.Choice(tuple(map(reader.read, named(given))), span)
+        case (("randint" | "randrange"), [_, _], [low, high]):
+            end = high + 1 if name == "randint" else high
+        case "randrange", [_], [end]:
+            low = 0
+        case _:
+            return None
+    if not 0 < end - low <= _MOST:
+        return None
+    return m.Choice(tuple(map(m.IntLiteral, range(low, end))), span)
+
+
+def is_plain_list(node: Node) -> bool:
+    """Whether a list has elements, none of which does anything."""
+    return bool(named(node)) and all(map(is_plain, named(node)))
+
+
+def array_elements(reader: Expressions, node: Node) -> list[m.Expression] | None:
+    """The elements of a variable of the model that is an array of one dimension; else None."""
+    found = _array(reader, node)
+    if found is None:
+        return None
+    read, length = found
+    return [m.Index(read, m.IntLiteral(i)) for i in range(length)]
+
+
+def listed(reader: Expressions, node: Node) -> list[m.Expression]:
+    """The elements of a list, an array or a comprehension. Unread: nobody knows these."""
+    return [e for e, condition in _elements(reader, node, "this") if condition is None]
+
+
+def _array(reader: Expressions, node: Node) -> tuple[m.Expression, int] | None:
+    if node.type not in ("identifier", "attribute"):
+        return None
+    name = text_of(node)
+    plain = reader.locals.get(name) or reader.names.variables.get(name.removeprefix("self."))
+    type_ = reader.types.get(plain or "", reader.names.types.get(plain or ""))
+    if type_ is None or len(type_.dimensions) != 1:
+        return None
+    return reader.read(node), type_.dimensions[0]
+
+
+# --- elements -----------------------------------------------------------------------------------
+
+
+def _elements(
+    reader: Expressions, node: Node, called: str
+) -> list[tuple[m.Expression, m.Expression | None]]:
+    """Each value that something goes through, with the condition under which it is there."""
+    if node.type in ("list", "tuple", "set") and is_plain_list(node):
+        found: list[tuple[m.Expression, m.Expression | None]] = [
+            (reader.read(n), None) for n in named(node)
+        ]
+    elif node.type in ("generator_expression", "list_comprehension"):
+        found = list(_comprehended(reader, node))
+    else:
+        values = array_elements(reader, node)
+        if values is None:
+            raise reader.unread(node, f'nobody knows what "{called}" goes through here')
+        found = [(value, None) for value in values]
+    if len(found) > _MOST:
+        raise reader.unread(node, "this goes through too many values to say each")
+    return found
+
+
+def _comprehended(
+    reader: Expressions, node: Node
+) -> Iterator[tuple[m.Expression, m.Expression | None]]:
+    """`f(x) for x in values if condition`, of one loop and at most one condition."""
+    body, *clauses = named(node)
+    loops = [c for c in clauses if c.type == "for_in_clause"]
+    tests = [named(c)[0] for c in clauses if c.type == "if_clause"]
+    if len(loops) != 1 or len(tests) > 1 or not all(map(is_calm, (body, *tests))):
+        raise reader.unread(node, "the model has no such expression")
+    left, right = field(loops[0], "left"), field(loops[0], "right")
+    names = [text_of(n) for n in (named(left) if left.type == "pattern_list" else [left])]
+    for values in _rows(reader, right, len(names)):
+        outer = dict(reader.bound)
+        reader.bound.update(zip(names, values, strict=True))
+        try:
+            condition = reader.condition(tests[0]) if tests else None
+            yield reader.read(body), condition
+        finally:
+            reader.bound.clear()
+            reader.bound.update(outer)
+
+
+def is_calm(node: Node) -> bool:
+    """Whether evaluating it changes nothing: it calls nothing but what is of Python or cuts."""
+    if node.type == "named_expression":
+        return False
+    if node.type == "call" and text_of(field(node, "function")) not in _CALM:
+        return False
+    return all(map(is_calm, named(node)))
+
+
+_CALM = frozenset({"abs", "min", "max", "bool", "int8", "int16", "int32", "divide", "remainder"})
+
+
+def _rows(reader: Expressions, node: Node, width: int) -> list[tuple[m.Expression, ...]]:
+    """What a loop gives its variables, round by round."""
+    called = text_of(field(node, "function")) if node.type == "call" else ""
+    arguments = named(field(node, "arguments")) if called else []
+    if called == "range" and width == 1 and all(a.type == "integer" for a in arguments):
+        numbers = range(*(int(text_of(a), 0) for a in arguments))
+        if len(numbers) <= _MOST:
+            return [(m.IntLiteral(n),) for n in numbers]
+    if called == "enumerate" and width == 2 and len(arguments) == 1:
+        values = [e for e, _ in _elements(reader, arguments[0], called)]
+        return [(m.IntLiteral(i), value) for i, value in enumerate(values)]
+    if called == "zip" and width == len(arguments):
+        each = [[e for e, _ in _elements(reader, a, called)] for a in arguments]
+        return list(zip(*each, strict=False))
+    if width == 1 and node.type not in ("generator_expression", "list_comprehension"):
+        return [(e,) for e, _ in _elements(reader, node, called or "this")]
+    raise reader.unread(node, "nobody knows what this goes through")
+
+
+# --- values -------------------------------------------------------------------------------------
+
+
+def _folded(reader: Expressions, node: Node, called: str, given: Node) -> m.Expression:
+    """`any`, `all` and `sum` of some elements."""
+    if given.type == "list_comprehension" and called != "sum":
+        raise reader.unread(node, "leave out the brackets: then it ends with the first that counts")
+    found: m.Expression | None = None
+    for value, condition in _elements(reader, given, called):
+        each = _counted(reader, node, called, value, condition)
+        found = each if found is None else binary(_TESTS.get(called, "+"), found, each)
+    if found is None:
+        return m.IntLiteral(0) if called == "sum" else m.BoolLiteral(called == "all")
+    return found
+
+
+def _counted(
+    reader: Expressions,
+    node: Node,
+    called: str,
+    value: m.Expression,
+    condition: m.Expression | None,
+) -> m.Expression:
+    if called == "sum":
+        kind = reader.kind(value)
+        if kind == m.Type("boolean"):
+            value = chosen(value, m.IntLiteral(1), m.IntLiteral(0))
+        else:
+            _assert_whole(reader, node, value)
+        return value if condition is None else chosen(condition, value, m.IntLiteral(0))
+    value = truth(reader, value)
+    if condition is None:
+        return value
+    return (
+        binary("&&", condition, value)
+        if called == "any"
+        else binary("||", negated(condition), value)
+    )
+
+
+def _extreme(
+    reader: Expressions, node: Node, called: str, values: list[m.Expression]
+) -> m.Expression:
+    """The least or greatest value, of equal ones the first."""
+    kinds = {reader.kind(value) for value in values}
+    if len(kinds) != 1 or kinds & {None, m.Type("boolean")} or not values:
+        raise reader.unread(node, f'nobody knows of which type "{called}" is here')
+    found = values[0]
+    for value in values[1:]:
+        if len(list(m.walk(found))) > _LARGEST:
+            raise reader.unread(node, "the model compares two values at a time")
+        found = chosen(binary("<" if called == "min" else ">", value, found), value, found)
+    return found
+
+
+def _as_int(reader: Expressions, node: Node, read: m.Expression) -> m.Expression:
+    if reader.kind(read) == m.Type("boolean"):
+        return chosen(read, m.IntLiteral(1), m.IntLiteral(0))
+    _assert_whole(reader, node, read)
+    return read
+
+
+def _assert_whole(reader: Expressions, node: Node, read: m.Expression) -> None:
+    if reader.kind(read) != m.Type("int"):
+        raise reader.unread(node, "this is to be a whole number")
+
+
+def _tight(read: m.Expression) -> m.Expression:
+    is_small = isinstance(read, m.Name | m.Member | m.Index | m.Paren | m.Call)
+    return read if is_small else m.Paren(read)

@@ -1,0 +1,163 @@
+"""Functions of generated Python that have no object: of a module, static, or of a class.
+
+The model has them as methods of each class that calls them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.python.model_idioms import in_order
+from rebsync.reverse.python.model_logs import only_logs
+from rebsync.reverse.python.py_callbacks import body_of
+from rebsync.reverse.python.py_imports import module_named, module_of
+from rebsync.reverse.python.py_index import FUNCTION, Parameter, PyCode, Scope
+from rebsync.reverse.python.py_tree import field, named, text_of
+
+if TYPE_CHECKING:
+    from rebsync.reverse.python.model_expressions import Expressions
+
+STATIC, OF_CLASS = "staticmethod", "classmethod"
+
+
+@dataclass(frozen=True, slots=True)
+class Helper:
+    """A function by its `name` in the model; `own` is what it calls the object that it is given."""
+
+    name: str
+    function: Scope
+    own: str = ""
+
+    def given(
+        self, reader: Expressions, node: Node, arguments: list[Node]
+    ) -> tuple[m.Expression, ...]:
+        """What it is given but for the object. Unread: the object is another one."""
+        if self.own:
+            if not arguments or text_of(arguments[0]) != reader.own:
+                raise reader.unread(node, f'"{self.name}" is given another object elsewhere')
+            arguments = arguments[1:]
+        names = tuple(p.name for p in parameters_of(self.function, self.own))
+        given = in_order(reader, node, arguments, names)
+        if len(given) != len(names) or any(a.type == "list_splat" for a in given):
+            raise reader.unread(node, f'"{self.name}" is called with other arguments')
+        return tuple(map(reader.read, given))
+
+
+def first_of(function: Scope) -> int:
+    """How many parameters of a method stand for its object or class."""
+    return 0 if not function.is_method or STATIC in function.decorators else 1
+
+
+def parameters_of(function: Scope, own: str = "") -> list[Parameter]:
+    """The parameters of a function of the model, without the object."""
+    return function.parameters[1 if own else first_of(function) :]
+
+
+def own_name(function: Scope) -> str:
+    """What the body of a method calls its object; what is no name for one without."""
+    if first_of(function) == 0:
+        return "\0"
+    return function.parameters[0].name if function.parameters else "self"
+
+
+def without_object(owner: Scope, functions: Mapping[str, Scope]) -> dict[str, Helper]:
+    """The static functions of a class, and those of the class, by how they are called."""
+    found = {}
+    for name, function in functions.items():
+        if {STATIC, OF_CLASS} & set(function.decorators):
+            for holder in ("self", "cls", owner.name):
+                found[f"{holder}.{name}"] = Helper(name, function)
+    return found
+
+
+def called_in(code: PyCode, functions: list[Scope], taken: set[str]) -> dict[str, Helper]:
+    """The functions of modules that some functions call, and those that these call.
+
+    What has the name of something in `taken` is left out, and so is what is decorated.
+    """
+    found: dict[str, Helper] = {}
+    waiting = list(functions)
+    while waiting:
+        function = waiting.pop()
+        for call in calls_in(function.node):
+            called = field(call, "function")
+            name = text_of(called)
+            if called.type != "identifier" or name in found or name in taken:
+                continue
+            helper = _function(code, function.module, name)
+            if helper is None or name in function.names:
+                continue
+            found[name] = Helper(helper.name, helper, _object(call, helper))
+            waiting.append(helper)
+    return found
+
+
+def calls_in(node: Node) -> Iterator[Node]:
+    """All calls in a part of the code."""
+    for child in named(node):
+        if child.type == "call":
+            yield child
+        yield from calls_in(child)
+
+
+def _object(call: Node, function: Scope) -> str:
+    """What a function calls the object, if that is what it is given first."""
+    arguments = named(field(call, "arguments"))
+    is_given = bool(arguments) and text_of(arguments[0]) in ("self", "node")
+    return function.parameters[0].name if is_given and function.parameters else ""
+
+
+def _function(code: PyCode, module: Scope, name: str) -> Scope | None:
+    """A plain function of a module of the package, of this one or one that it is imported from."""
+    bindings = module.names.get(name, [])
+    if len(bindings) != 1:
+        return None
+    binding = bindings[0]
+    if binding.how == "import" and binding.node.type == "import_from_statement":
+        item = binding.value
+        is_other = item is not None and item.type == "aliased_import"
+        source = module_named(code, module_of(binding.node), module)
+        if source is None or source is module or is_other or is_runtime(source):
+            return None
+        return _function(code, source, name)
+    if binding.how != "scope":
+        return None
+    found = code.scope_of(binding.node, module.py)
+    return found if found.kind == FUNCTION and not found.decorators else None
+
+
+def is_runtime(module: Scope) -> bool:
+    """Whether a module is of the run-time part, whose functions the model has words for."""
+    text = module.py.source.text
+    return any(f"\nclass {name}" in text for name in ("Violation", "Mailbox", "Startup"))
+
+
+# --- decorators ---------------------------------------------------------------------------------
+
+
+def is_transparent(code: PyCode, module: Scope, decorator: str) -> bool:
+    """Whether a decorator only logs, and calls the function with all that it is given."""
+    made = _function(code, module, decorator) if decorator.isidentifier() else None
+    if made is None or len(made.parameters) != 1:
+        return False
+    inner = [s for s in body_of(made) if s.type in ("function_definition", "decorated_definition")]
+    rest = [text_of(s) for s in body_of(made) if s not in inner]
+    if len(inner) != 1:
+        return False
+    of = inner[0].child_by_field_name("definition") or inner[0]
+    around = [text_of(c) for c in inner[0].children if c.type == "decorator"]
+    function, name = code.scope_of(of, module.py), made.parameters[0].name
+    said = [s for s in body_of(function) if not only_logs(s)]
+    stars = [p.star for p in function.parameters]
+    passed = [f"{'*' * p.star}{p.name}" for p in function.parameters]
+    return (
+        rest == [f"return {function.name}"]
+        and set(around) <= {f"@wraps({name})", f"@functools.wraps({name})"}
+        and stars in ([1, 2], [0, 1, 2], [0])
+        and [text_of(s) for s in said] == [f"return {name}({', '.join(passed)})"]
+    )

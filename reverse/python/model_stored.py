@@ -1,0 +1,272 @@
+"""Statements that people write in Python where the model has several, or declares a variable."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import count
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.python import model_builtins as builtins
+from rebsync.reverse.python import model_idioms as idioms
+from rebsync.reverse.python.model_types import call_parts, string_value
+from rebsync.reverse.python.py_tree import field, named, text_of
+
+if TYPE_CHECKING:
+    from rebsync.reverse.python.model_statements import Statements
+
+_LEAVING = frozenset({"return_statement", "break_statement", "continue_statement"})
+_LOOPS = frozenset({"for_statement", "while_statement"})
+_FUNCTIONS = frozenset({"function_definition", "lambda", "class_definition"})
+_BRANCHES = frozenset({"if_statement", "match_statement"})
+_WHOLE = "say what is stored here element by element"
+
+
+# --- assignments --------------------------------------------------------------------------------
+
+
+def chained(reader: Statements, node: Node) -> list[m.Statement]:
+    """`a = b = e`. Unread: e may be another value the second time."""
+    lefts, value = [field(node, "left")], field(node, "right")
+    while value.type == "assignment":
+        lefts.append(field(value, "left"))
+        value = field(value, "right")
+    stored = {idioms.base_of(left) for left in lefts}
+    if not idioms.is_plain(value) or not stored.isdisjoint(idioms.names_in(value)):
+        raise reader.expressions.unread(node, "store this in one variable after the other")
+    return [s for left in lefts for s in _stored(reader, left, value, node)]
+
+
+def unpacked(reader: Statements, node: Node) -> list[m.Statement]:
+    """`a, b = x, y` and `a, b = self._pair`, what is needed again being kept.
+
+    Unread: the values are not as many, or what they are depends on their order.
+    """
+    lefts, right = named(field(node, "left")), field(node, "right")
+    expressions = reader.expressions
+    elements = builtins.array_elements(expressions, right)
+    if elements is not None and len(elements) == len(lefts):
+        if text_of(right) in {idioms.base_of(left) for left in lefts}:
+            raise expressions.unread(node, _WHOLE)
+        pairs = zip(lefts, elements, strict=True)
+        return [s for left, e in pairs for s in _given(reader, left, e, node)]
+    values = named(right) if right.type in ("expression_list", "tuple") else []
+    if len(lefts) != len(values) or "list_splat" in {v.type for v in (*lefts, *values)}:
+        raise expressions.unread(node, "the model has no such assignment")
+    needed = [i for i, v in enumerate(values) if _is_needed(lefts[:i], v)]
+    if not all(map(idioms.is_plain, values[1:] if not needed else values)):
+        why = "this needs a value from before: store one after the other"
+        raise expressions.unread(node, why)
+    kept = {number: _kept(reader, lefts[number], values[number], node) for number in needed}
+    found: list[m.Statement] = list(kept.values())
+    for number, (left, value) in enumerate(zip(lefts, values, strict=True)):
+        if number in kept:
+            name = kept[number].declaration.declarators[0].name
+            found += _given(reader, left, m.Name(name), node)
+        else:
+            found += _stored(reader, left, value, node)
+    return found
+
+
+def _is_needed(before: list[Node], value: Node) -> bool:
+    """Whether a value is looked at that is stored over before its turn."""
+    stored = {idioms.base_of(left) for left in before}
+    return not stored.isdisjoint(idioms.names_in(value))
+
+
+def _kept(reader: Statements, left: Node, value: Node, node: Node) -> m.Local:
+    """A local that keeps a value until it is its turn."""
+    read = reader.expressions.read(value)
+    type_ = reader.expressions.kind(read)
+    if type_ is None:
+        raise reader.expressions.unread(node, "store one after the other, with a variable between")
+    taken = {*reader.expressions.locals.values(), *reader.expressions.names.types}
+    plain = idioms.base_of(left).removeprefix("self.").strip("_")
+    name = next(n for n in (f"{plain}_{i}" for i in count(1)) if n not in taken)
+    reader.expressions.locals[f"kept as {name}"] = name
+    reader.expressions.types[name] = type_
+    span = reader.expressions.py.span(node)
+    return m.Local(m.Declaration(type_, (m.Declarator(name, read, span),), span=span), span=span)
+
+
+def _stored(reader: Statements, left: Node, value: Node, node: Node) -> list[m.Statement]:
+    name = text_of(left)
+    if left.type == "identifier" and name not in reader.expressions.locals:
+        return [reader.implied_local(name, value, node)]
+    target = reader.expressions.read(left)
+    stored = reader.expressions.stored(target, left, value, node, statement=True)
+    return [m.ExpressionStatement(stored, span=reader.expressions.py.span(node))]
+
+
+def _given(reader: Statements, left: Node, value: m.Expression, node: Node) -> list[m.Statement]:
+    """A value of the model that is stored."""
+    name, span = text_of(left), reader.expressions.py.span(node)
+    if left.type != "identifier" or name in reader.expressions.locals:
+        target = reader.expressions.read(left)
+        return [m.ExpressionStatement(m.Assign("=", target, value, span), span=span)]
+    type_ = reader.expressions.kind(value)
+    if type_ is None:
+        raise reader.expressions.unread(node, f'say the type of "{name}" where it is first set')
+    return [_declaration(reader, name, type_, value, node)]
+
+
+def _declaration(
+    reader: Statements, name: str, type_: m.Type, value: m.Expression | None, node: Node
+) -> m.Local:
+    span = reader.expressions.py.span(node)
+    plain = reader.local(name)
+    reader.implied.add(name)
+    reader.expressions.locals[name] = plain
+    reader.expressions.types[plain] = type_
+    declared = m.Declaration(type_, (m.Declarator(plain, value, span),), span=span)
+    return m.Local(declared, span=span)
+
+
+def all_elements(reader: Statements, left: Node, value: Node) -> list[m.Statement] | None:
+    """`self._a = Array([x, y])`, element by element; None for another assignment."""
+    called, arguments = call_parts(value) or ("", [])
+    if called != "Array" or len(arguments) != 1:
+        return None
+    places = builtins.array_elements(reader.expressions, left)
+    values = builtins.listed(reader.expressions, arguments[0]) if places else []
+    if places is None or len(places) != len(values):
+        raise reader.expressions.unread(value, _WHOLE)
+    if idioms.base_of(left) in idioms.names_in(arguments[0]):
+        raise reader.expressions.unread(value, _WHOLE)
+    span = reader.expressions.py.span(value)
+    stored = (m.Assign("=", p, v, span) for p, v in zip(places, values, strict=True))
+    return [m.ExpressionStatement(each, span=span) for each in stored]
+
+
+# --- variables ----------------------------------------------------------------------------------
+
+
+def declared_before(reader: Statements, node: Node, after: list[Node]) -> list[m.Statement]:
+    """The variables that a statement names first within, which the model declares before it.
+
+    `:=` stores where it stands; what all branches store is known behind them.
+    """
+    names = {text_of(field(w, "name")): field(w, "value") for w in _walruses(node)}
+    if node.type == "if_statement" and after:
+        wanted = {n for each in after for n in idioms.names_in(each)}
+        names |= {k: v for k, v in _of_all_branches(node).items() if k in wanted}
+    found: list[m.Statement] = []
+    for name, value in names.items():
+        known = reader.expressions
+        if name in known.locals or name in known.names.constants or name in known.kept:
+            continue
+        try:
+            type_ = known.kind(known.read(value))
+        except Unread:
+            continue  # it is listed where it stands
+        if type_ is not None:
+            found.append(_declaration(reader, name, type_, None, node))
+    return found
+
+
+def _walruses(node: Node) -> Iterator[Node]:
+    """The `:=` that a statement evaluates itself, and not one within it."""
+    for child in named(node):
+        if child.type in ("block", *_FUNCTIONS) or child.type == "comment":
+            continue
+        if child.type == "named_expression" and not text_of(field(child, "name")).endswith("_"):
+            yield child
+        yield from _walruses(child)
+
+
+def _of_all_branches(node: Node) -> dict[str, Node]:
+    """What each branch of an `if` with an `else` stores at its top, with the first value."""
+    parts = [node, *node.children_by_field_name("alternative")]
+    if parts[-1].type != "else_clause":
+        return {}
+    found = []
+    for part in parts:
+        body = field(part, "body" if part.type == "else_clause" else "consequence")
+        inner = [named(s)[0] for s in named(body) if s.type == "expression_statement" and named(s)]
+        plain = [a for a in inner if a.type == "assignment" and a.child_by_field_name("right")]
+        stores = [a for a in plain if field(a, "left").type == "identifier"]
+        untyped = [a for a in stores if a.child_by_field_name("type") is None]
+        found.append({text_of(field(a, "left")): field(a, "right") for a in reversed(untyped)})
+    first, *others = found
+    return {k: v for k, v in first.items() if all(k in other for other in others)}
+
+
+def deleted(reader: Statements, node: Node) -> list[m.Statement]:
+    """`del x` of a local that nothing names behind it, which says nothing in the model."""
+    names = [text_of(n) for n in (named(named(node)[0]) or named(node))]
+    block = node.parent
+    rest = named(block)[named(block).index(node) + 1 :] if block is not None else []
+    used = {name for each in rest for name in idioms.names_in(each)}
+    if not set(names) <= reader.implied or used & set(names):
+        raise reader.expressions.unread(node, "the model has no such statement")
+    return []
+
+
+# --- control ------------------------------------------------------------------------------------
+
+
+def asserted(reader: Statements, node: Node) -> m.Statement:
+    """`assert e, "text"`: what must hold, told as one of the model's assertions."""
+    parts, span = named(node), reader.expressions.py.span(node)
+    given: list[m.Expression] = [reader.expressions.condition(parts[0])]
+    if len(parts) > 1 and string_value(parts[1]) is not None:
+        is_formatted = any(c.type == "interpolation" for c in parts[1].children)
+        given += [] if is_formatted else [reader.expressions.read(parts[1])]
+    return m.ExpressionStatement(m.Call(None, "assertion", tuple(given), span=span), span=span)
+
+
+def tried(reader: Statements, node: Node) -> list[m.Statement]:
+    """`try` with a `finally` alone: one behind the other, as nothing leaves the first part."""
+    clauses = [c for c in named(node) if c.type.endswith("_clause")]
+    body = field(node, "body")
+    if [c.type for c in clauses] != ["finally_clause"]:
+        why = "what is caught here ends the body in the model"
+        raise reader.expressions.unread(node, why)
+    if any(_leaves(part) for part in (body, clauses[0])):
+        raise reader.expressions.unread(node, "nothing is to leave a block that has a finally")
+    last = next(c for c in named(clauses[0]) if c.type == "block")
+    return [
+        *reader.block(named(body), body).statements,
+        *reader.block(named(last), last).statements,
+    ]
+
+
+def _leaves(node: Node, in_loop: bool = False) -> bool:
+    for child in named(node):
+        if child.type in _LEAVING and not (in_loop and child.type != "return_statement"):
+            return True
+        if child.type not in _FUNCTIONS and _leaves(child, in_loop or child.type in _LOOPS):
+            return True
+    return False
+
+
+def inner(reader: Statements, node: Node) -> list[m.Statement]:
+    """A function in a body, which stands for what it does where it is called."""
+    name, body = text_of(field(node, "name")), field(node, "body")
+    calls = {text_of(field(c, "function")) for c in _calls(body)}
+    is_plain = not named(field(node, "parameters")) and name not in calls
+    if not is_plain or _leaves(body) or idioms.stored_in(body):
+        why = "only a function that is given nothing and gives nothing stands for what it does"
+        raise reader.expressions.unread(node, why)
+    reader.inner[name] = body
+    return []
+
+
+def _calls(node: Node) -> Iterator[Node]:
+    for child in named(node):
+        if child.type == "call":
+            yield child
+        yield from _calls(child)
+
+
+def done_inside(
+    reader: Statements, node: Node, name: str, arguments: list[Node]
+) -> list[m.Statement]:
+    """What a function in the body does, where it is called."""
+    if arguments:
+        raise reader.expressions.unread(node, f'"{name}" is given nothing')
+    body = reader.inner[name]
+    return list(reader.block(named(body), body).statements)
