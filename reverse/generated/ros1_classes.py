@@ -20,6 +20,7 @@ from rebsync.reverse.generated.ros1_annotations import (
 )
 from rebsync.reverse.generated.ros1_bodies import Bodies
 from rebsync.reverse.generated.ros1_free import free_functions
+from rebsync.reverse.generated.ros1_hand import as_by_hand
 from rebsync.reverse.generated.ros1_meanings import Meaning, in_files_of, other_meanings
 from rebsync.reverse.generated.ros1_names import (
     declared_type,
@@ -336,7 +337,10 @@ class Classes:
             yield m.Constructor(name, (), m.Block((*given, *started)))
 
     def _bodies(self, owner: CppClass) -> Bodies:
-        return Bodies(self.code, self.scope(owner), self.findings)
+        def by_hand(scope: Scope) -> Scope:
+            return as_by_hand(self.code, owner, scope)
+
+        return Bodies(self.code, self.scope(owner), self.findings, by_hand)
 
     # --- names ----------------------------------------------------------------------------------
 
