@@ -102,8 +102,7 @@ def switched(reader: CppStatements, node: Node, annotations: tuple[m.Annotation,
     outside = reader.scope
     cases = [_case(reader, c) for c in named(part(node, "body"))]
     reader.scope = outside
-    if reader.scope.open:
-        cases = _default_last(reader, node, cases)
+    cases = _default_last(reader, node, cases)
     return m.Switch(subject, tuple(cases), annotations, reader.cpp.span(node))
 
 
