@@ -28,8 +28,8 @@ from rebsync.reverse.generated.ros1_annotations import (
     server_annotations,
 )
 from rebsync.reverse.generated.ros1_bodies import Bodies
-from rebsync.reverse.generated.ros1_free import free_functions
-from rebsync.reverse.generated.ros1_hand import as_by_hand, is_passive, only_logs, stands_in
+from rebsync.reverse.generated.ros1_free import free_beside
+from rebsync.reverse.generated.ros1_hand import acts, as_by_hand, is_passive, only_logs, stands_in
 from rebsync.reverse.generated.ros1_inherited import only_forwards
 from rebsync.reverse.generated.ros1_meanings import Meaning, in_files_of, other_meanings
 from rebsync.reverse.generated.ros1_names import (
@@ -162,7 +162,7 @@ class Classes:
         ]
         members += self._lambdas(owner)
         members += [self._method(owner, f) for f in functions if self._served(owner, f) is None]
-        members += [self._method(owner, f) for f in self._free(owner)]
+        members += [self._method(owner, f) for f in free_beside(self.code, owner)]
         extends = [b for b in owner.bases if self._is_reactive(b)]
         return m.ReactiveClass(
             class_name(owner.name),
@@ -249,14 +249,6 @@ class Classes:
             ):
                 return plain_name(function, self.types)
         return None
-
-    def _free(self, owner: CppClass) -> list[CppFunction]:
-        """The free functions that the functions of a class call, not those of its ancestors."""
-        above = [f for c in self.code.lineage(owner.name)[1:] for f in self.code.functions_of(c)]
-        known = {f.name for f in free_functions(self.code, above)}
-        known |= {f.name for c in self.code.lineage(owner.name) for f in c.functions}
-        own = free_functions(self.code, self.code.functions_of(owner))
-        return [f for f in own if f.name not in known]
 
     def _server(self, owner: CppClass, function: CppFunction, name: str) -> m.MessageServer:
         bodies, within = self._bodies(owner), f"{owner.name}.{name}"
@@ -359,9 +351,7 @@ class Classes:
         if (advertised := roles.publishers.get(member.name)) is not None:
             return publisher(advertised, self.roles, self.messages)
         if declared_type(self.code, member.type) is None:
-            type_ = text_of(member.type)
-            acts = type_.startswith(("ros::", "rclcpp::")) and not is_passive(type_)
-            return Outside(reaches=acts)
+            return Outside(reaches=acts(text_of(member.type)))
         return Variable(variable_name(roles, member), declared_type(self.code, member.type))
 
     def _called(self, function: CppFunction) -> Called:
@@ -390,7 +380,7 @@ class Classes:
                 else:
                     functions.setdefault(function.name, Around())
             callable_ |= roles.constants | set(roles.sends)
-        for function in self._free(owner):
+        for function in free_beside(self.code, owner):
             functions[function.name] = self._called(function)
             callable_.add(function.name)
         bases = {c.name: class_name(c.name) for c in self.code.lineage(owner.name)[1:]}

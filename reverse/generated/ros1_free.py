@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from rebsync.reserved import RUNTIME_FUNCTIONS
 from rebsync.reverse.bodies.cpp_types import type_of
-from rebsync.reverse.syntax.cpp_index import Code, CppFunction
+from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 
 _LIBRARIES = frozenset({"std", "ros", "rclcpp", "boost", "tf2", "Eigen"})
 
@@ -30,6 +30,15 @@ def free_functions(code: Code, bodies: Iterable[CppFunction]) -> Iterator[CppFun
                 seen.add(name)
                 waiting.append(function)
                 yield function
+
+
+def free_beside(code: Code, owner: CppClass) -> list[CppFunction]:
+    """The free functions that the functions of a class call, not those of its ancestors."""
+    above = [f for c in code.lineage(owner.name)[1:] for f in code.functions_of(c)]
+    known = {f.name for f in free_functions(code, above)}
+    known |= {f.name for c in code.lineage(owner.name) for f in c.functions}
+    own = free_functions(code, code.functions_of(owner))
+    return [f for f in own if f.name not in known]
 
 
 def _is_method(function: CppFunction) -> bool:

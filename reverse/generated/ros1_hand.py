@@ -13,8 +13,9 @@ from rebsync.reserved import RUNTIME_FUNCTIONS
 from rebsync.reverse.bodies.scope import Around, Function, Inline, Member, Outside, Scope
 from rebsync.reverse.generated.ros1_free import has_plain_types, passed_by_reference
 from rebsync.reverse.generated.ros1_idle import working
+from rebsync.reverse.syntax.cpp_calls import calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
-from rebsync.reverse.syntax.cpp_tree import inside, named, text_of
+from rebsync.reverse.syntax.cpp_tree import inside, text_of
 
 # Types whose objects do nothing by themselves, and know of no node.
 _PASSIVE = re.compile(
@@ -63,7 +64,8 @@ def only_logs(function: CppFunction) -> bool:
     """Whether a function does nothing but to log: the model does not have it."""
     void = function.result is not None and text_of(function.result) == "void"
     known = function.markers or function.pure or function.body is None
-    return void and not known and bool(named(function.body)) and not working(function.body)
+    logs = next(calls_in(function.body), None) is not None
+    return void and not known and logs and not working(function.body)
 
 
 def _with_defaults(owner: CppClass, function: CppFunction) -> CppFunction:
@@ -84,6 +86,11 @@ def is_passive(type_: str) -> bool:
     What bodies do with them is found there.
     """
     return _PASSIVE.match(" ".join(type_.split())) is not None
+
+
+def acts(type_: str) -> bool:
+    """Whether functions of an object of such a type may act on the node."""
+    return type_.startswith(("ros::", "rclcpp::")) and not is_passive(type_)
 
 
 def _referring(owner: CppClass) -> Iterator[str]:

@@ -16,6 +16,8 @@ from tempfile import TemporaryDirectory
 from tests.roundtrip.edits.steps import all_steps
 from tests.roundtrip.edits.trial import HERE, Case, cases, made
 
+FILES = ["python.toml", "rclcpp.toml", "cpp.toml"]
+
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
@@ -23,7 +25,7 @@ def main() -> int:
     parser.add_argument("--dialect", help="of one dialect only")
     parser.add_argument("names", nargs="*")
     options = parser.parse_args()
-    files = [n for n in options.names if n.endswith(".toml")] or ["python.toml", "rclcpp.toml"]
+    files = [n for n in options.names if n.endswith(".toml")] or FILES
     names = [n for n in options.names if not n.endswith(".toml")]
     found = [c for f in files for c in cases(HERE / f)]
     chosen = [c for c in found if not names or c.name in names or str(c) in names]

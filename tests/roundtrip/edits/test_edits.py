@@ -1,6 +1,6 @@
-"""Edits by hand in rclcpp, rospy and rclpy (python.toml, rclcpp.toml) are what they mean.
+"""Edits by hand (python.toml, rclcpp.toml, cpp.toml) are what they mean in each dialect.
 
-Here one in three is read and judged, and some go through a sync as well;
+Here one in three, or in eight, is read and judged, and some go through a sync as well;
 `python -m tests.roundtrip.edits` does all of it with all of them, in each dialect.
 """
 
@@ -24,7 +24,7 @@ def chosen(file: str) -> list[Case]:
     return [of[number % len(of)] for number, of in enumerate(by_name.values())]
 
 
-CASES = [*chosen("python.toml"), *chosen("rclcpp.toml")][::3]
+CASES = [*chosen("python.toml"), *chosen("rclcpp.toml")][::3] + chosen("cpp.toml")[::8]
 
 
 @pytest.mark.parametrize("case", CASES, ids=str)
