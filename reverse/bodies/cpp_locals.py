@@ -289,7 +289,10 @@ def _inferred(
         reader.meaning(declared.name, read if is_calm(read) and _lasts(reader, read) else Outside())
         return
     whole = INT if of in (BYTE, SHORT) else of
-    local = Variable(reader.fresh(declared.name), whole, wide=wide_of(reader.expressions, value))
+    wide = wide_of(reader.expressions, value)
+    if wide and not reader.scope.open:
+        raise reader.unread(declared.node, "this may hold more than the model's int does")
+    local = Variable(reader.fresh(declared.name), whole, wide=wide)
     reader.meaning(declared.name, local, own=True)
     yield reader.local(declared.node, local, read)
 
