@@ -36,6 +36,9 @@ _SENSOR = re.compile(r'[:,]\s*(\w+)\s*[({]\s*\w+\s*,\s*("[^"]*")\s*[)}]')
 _PLAYED = re.compile(r'\bnode\s*\.\s*advertise\s*<[^;()]*>\s*\(\s*"([^"]*)"')
 MAIN = re.compile(r"\bint\s+main\s*\(")
 _MADE = re.compile(r"\b(?:\w+\s*::\s*)*(\w+)\s+\w+\s*[({]\s*node\s*[,)}]")
+_SHARED = re.compile(
+    r"\bmake_shared\s*<\s*(?:\w+\s*::\s*)*(\w+)\s*>\s*\(\s*rclcpp\s*::\s*NodeOptions\b"
+)
 _OWNER = re.compile(r"\b(\w+)\s*::\s*\1\s*\(")
 _SUBSCRIBED = re.compile(r'\b(subscribe\w*)\s*(?:<[^;()]*>\s*)?\(\s*("[^"]*")\s*,')
 _HANDLER = re.compile(r"&\s*(?:\w+\s*::\s*)+(\w+)|\b(k[A-Z]\w*)")
@@ -159,7 +162,7 @@ def _made(program: str, source: Source, text: str) -> Iterator[Fact]:
     """What a program makes a rebec of, or what sensors it plays."""
     if not MAIN.search(text):
         return
-    for m in _MADE.finditer(text):
+    for m in chain(_MADE.finditer(text), _SHARED.finditer(text)):
         yield Fact(PROGRAM, program, "", m[1], source, Span(*m.span()))
     for m in _PLAYED.finditer(text):
         yield Fact(PLAYED, program, m[1], m[1], source, Span(*m.span()))
@@ -236,6 +239,7 @@ def _declared(source: Source, package: str) -> Iterator[Fact]:
         facts = {"pkg": of, "ns": str(node.namespace), "if": " ".join(node.only_if)}
         for key, value in facts.items():
             yield Fact("node", name, key, value or NOT_GIVEN, source, node.span)
+        yield Fact(TYPE, name, "", str(node.type), source, node.span)
         for remap in node.remaps:
             yield Fact("remap", name, remap.private, str(remap.target), source, remap.span)
         for given in node.parameters:

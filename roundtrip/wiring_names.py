@@ -15,7 +15,8 @@ from rebsync.roundtrip.wiring_facts import NOT_GIVEN, PLAYED, PROGRAM, TYPE, Fac
 _INSTANCES = ("parameter", "", "mailbox/instances")
 _LISTED = re.compile(r"(\w+):\[([^\]]*)\]")
 _STRING = re.compile(r'"([^"]*)"')
-_NAME = re.compile(r"[~/]?\w+(?:/\w+)*\Z")
+_QUOTED = re.compile(r"'([^']*)'")
+_NAME = re.compile(r"(?:~/?|/)?\w+(?:/\w+)*\Z")
 _SENDING = frozenset({"publisher", PLAYED})
 TOPICS = frozenset({"publisher", "subscription", "sensor"})
 
@@ -78,7 +79,7 @@ def joined(facts: Facts, free: frozenset[_End] = frozenset()) -> Joined | None:
     What is `free` does not count.
     """
     nodes = [owner for kind, owner, _ in facts if kind == TYPE]
-    if not nodes:
+    if not nodes or not any(kind == PROGRAM for kind, _, _ in facts):
         return None
     try:
         ends = [e for node in nodes for e in _Node(facts, node).ends() if e[0] not in free]
@@ -146,9 +147,10 @@ class _Node:
             raise _Unknown
         if name[0] == "/":
             return name
-        space = self._value(("node", self.node, "ns"))
-        prefix = "" if space == NOT_GIVEN else f"/{space.strip('/')}"
-        return f"{prefix}/{self.node}/{name[1:]}" if name[0] == "~" else f"{prefix}/{name}"
+        space = self._value(("node", self.node, "ns")).strip("/")
+        prefix = "" if space in (NOT_GIVEN, "") else f"/{space}"
+        own = name.removeprefix("~").removeprefix("/")
+        return f"{prefix}/{self.node}/{own}" if name[0] == "~" else f"{prefix}/{name}"
 
     def _remaps(self) -> Iterator[tuple[str, str]]:
         for (kind, node, old), found in self.facts.items():
@@ -199,10 +201,20 @@ class _Node:
                 raise _Unknown
 
     def _instances(self, class_: str) -> list[str]:
+        own = "parameter", self.node, f"{_INSTANCES[2]}/{class_}"
+        if own in self.facts:
+            return _QUOTED.findall(self._value(own))
+        if _INSTANCES not in self.facts and any(_is_list(key) for key in self.facts):
+            return []
         for name, rebecs in _LISTED.findall(self._value(_INSTANCES)):
             if name == class_:
                 return [rebec for rebec in rebecs.split(",") if rebec]
         return []
+
+
+def _is_list(key: tuple[str, str, str]) -> bool:
+    """Whether it is that of a list of rebecs that a node of ROS 2 is given."""
+    return key[0] == "parameter" and key[2].startswith(_INSTANCES[2])
 
 
 def _message(publisher: Fact) -> str:

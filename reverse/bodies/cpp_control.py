@@ -103,8 +103,7 @@ def switched(reader: CppStatements, node: Node, annotations: tuple[m.Annotation,
     outside = reader.scope
     cases = list(_cases(reader, part(node, "body")))
     reader.scope = outside
-    if reader.scope.open:
-        cases = _default_last(reader, node, cases)
+    cases = _default_last(reader, node, cases)
     return m.Switch(subject, tuple(cases), annotations, reader.cpp.span(node))
 
 

@@ -202,6 +202,9 @@ class CppExpressions:
         name, span = text_of(node), self.cpp.span(node)
         last = name.rpartition("::")[2]
         match resolve(self.scope, node):
+            case Variable(of_model) if name not in self.scope.locals and self.scope.hides(of_model):
+                why = f'a local of the name "{of_model}" hides this in the model'
+                raise self.unread(node, why, "give the local another name")
             case Variable(of_model):
                 return m.Name(of_model, span)
             case Runtime():

@@ -32,6 +32,7 @@ from rebsync.reverse.bodies.scope import (
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
 from rebsync.reverse.syntax.cpp_depth import DEEPEST
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.static.constants import constant as constant_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_statements import CppStatements
@@ -212,6 +213,11 @@ def _bound(
     if refers and not constant and isinstance(meaning, Variable):
         inside.meaning(name, meaning)
         return
+    if refers and not constant and argument.type == "subscript_expression":
+        place = reader.expressions.read(argument)
+        if isinstance(place, m.Index) and constant_of(place.index) is not None:
+            inside.meaning(name, place)
+            return
     kept = carried(parameter.type, reader.scope.enums)
     if (refers and not constant) or kept is None:
         effects = Effects(reader.cpp, reader.scope)

@@ -11,7 +11,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies import cpp_messages, cpp_plain_locals
+from rebsync.reverse.bodies import cpp_bindings, cpp_messages, cpp_plain_locals
 from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_effects import Effects, Touches
@@ -157,6 +157,9 @@ def _declared(reader: CppStatements, declared: _Declared) -> Iterator[m.Statemen
     if value is not None and is_this(value) and (declared.kind in _REFERS or _is_auto(declared)):
         reader.meaning(declared.name, Itself())
         return
+    if (binding := cpp_bindings.names_in(declared.node)) is not None:
+        yield from cpp_bindings.bound(reader, declared.node, binding, value, _copies(declared))
+        return
     if declared.kind in _REFERS:
         yield from _reference(reader, declared, value)
         return
@@ -174,7 +177,14 @@ def _declared(reader: CppStatements, declared: _Declared) -> Iterator[m.Statemen
     kept = array or carried(declared.type, reader.scope.enums)
     if kept is None:
         raise reader.unread(declared.node, f'the model has no type "{declared.text}"')
+    if (kept.bits or kept.wide) and not reader.scope.open:
+        raise reader.unread(declared.node, f'"{declared.text}" is none of the model\'s types')
     yield from _typed(reader, declared, kept, value)
+
+
+def _copies(declared: _Declared) -> bool:
+    """Whether a declaration makes variables of its own."""
+    return declared.kind not in _REFERS
 
 
 def _is_auto(declared: _Declared) -> bool:
@@ -279,7 +289,10 @@ def _inferred(
         reader.meaning(declared.name, read if is_calm(read) and _lasts(reader, read) else Outside())
         return
     whole = INT if of in (BYTE, SHORT) else of
-    local = Variable(reader.fresh(declared.name), whole, wide=wide_of(reader.expressions, value))
+    wide = wide_of(reader.expressions, value)
+    if wide and not reader.scope.open:
+        raise reader.unread(declared.node, "this may hold more than the model's int does")
+    local = Variable(reader.fresh(declared.name), whole, wide=wide)
     reader.meaning(declared.name, local, own=True)
     yield reader.local(declared.node, local, read)
 

@@ -112,6 +112,9 @@ def send(
         target = reader.operand(arguments[0], precedence.PRIMARY)
     elif sends.known == "self":
         target = None if implicit else m.Self(reader.cpp.span(node))
+    elif reader.scope.hides(sends.known):
+        why = f'a local of the name "{sends.known}" hides whom this is sent to'
+        raise reader.unread(node, why, "give the local another name")
     else:
         target = m.Name(sends.known, reader.cpp.span(node))
     values = tuple(reader.read(a) for a in arguments[expected - sends.arguments : expected])

@@ -51,7 +51,7 @@ def message_type(scope: Scope, text: str) -> str | None:
     shared = _SHARED.match(plain)
     plain = _POINTER.sub("", shared[1] if shared is not None else plain)
     package, _, name = _SPACE.sub("::", plain).rpartition("::")
-    if package:
+    if package and package != "msg":
         full = f"{package}/{name}"
         return full if full in scope.messages else None
     same = [t for t in scope.messages if t.rpartition("/")[2] == name]

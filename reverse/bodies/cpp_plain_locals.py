@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies import cpp_messages
+from rebsync.reverse.bodies import cpp_messages, cpp_special
 from rebsync.reverse.bodies.cpp_types import type_of
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -50,14 +50,20 @@ def _declarator(reader: CppStatements, node: Node, type_: m.Type) -> m.Declarato
     """One local, with its first value."""
     name, initial = node, None
     if node.type == "init_declarator":
-        name, value = part(node, "declarator"), part(node, "value")
+        name = part(node, "declarator")
+    reader.scope = reader.scope.declare(text_of(name))
+    local = reader.scope.local(text_of(name))
+    if local in cpp_special.WORDS and not reader.scope.open:
+        raise reader.unread(node, f'"{local}" is a word of the model', "give it another name")
+    if node.type == "init_declarator":
+        value = part(node, "value")
         if value.type == "initializer_list":
             initial = braces(reader, value, type_)
         else:
             initial = reader.expressions.read(value)
-    local = reader.scope.local(text_of(name))
-    known = m.Name(local) if reader.scope.open else Variable(local, type_)
-    reader.scope = reader.scope.with_locals({text_of(name): known})
+    if not reader.scope.open:
+        known = Variable(local, type_)
+        reader.scope = reader.scope.with_locals({text_of(name): known})
     return m.Declarator(local, initial, reader.cpp.span(node), reader.cpp.span(name))
 
 

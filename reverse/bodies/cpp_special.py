@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 _TRUTH = m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)))
 # Words of the model that are none of C++.
-_WORDS = frozenset(
+WORDS = frozenset(
     {
         *("abstract", "after", "deadline", "env", "extends", "featurevar", "implements", "import"),
         *("instanceof", "interface", "knownrebecs", "main", "msgsrv", "null", "package", "byte"),
@@ -54,7 +54,7 @@ _WORDS = frozenset(
 
 def taken(scope: Scope) -> set[str]:
     """The names of the model that mean something at a place."""
-    found = set(_WORDS)
+    found = set(WORDS)
     for meaning in (*scope.members.values(), *scope.locals.values()):
         match meaning:
             case Variable(name) | m.Name(name):

@@ -227,6 +227,8 @@ class CppStatements:
                     yield from block.statements
                 else:
                     yield m.Block(block.statements, annotations, span)
+            case "if_statement" if cpp_users.only_logs(self, node):
+                pass
             case "if_statement":
                 yield from cpp_control.branches(self, node, annotations)
             case "while_statement":
@@ -252,6 +254,8 @@ class CppStatements:
                 yield m.Continue(annotations, span)
             case kind if kind.startswith("preproc_"):
                 raise self.unread(node, "which of these alternatives counts is not known")
+            case "attributed_statement" if text_of(node) == "[[fallthrough]];":
+                pass
             case "ERROR":
                 raise self.unread(node, "this does not parse as C++")
             case kind:

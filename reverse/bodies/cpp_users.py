@@ -12,8 +12,9 @@ from tree_sitter import Node
 
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_plain_locals import declared_names
-from rebsync.reverse.bodies.known_functions import CONSOLE, LOGGING
-from rebsync.reverse.syntax.cpp_tree import part, text_of
+from rebsync.reverse.bodies.known_functions import CONSOLE, LOGGING, STREAMS
+from rebsync.reverse.bodies.scope import Ignored
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_statements import CppStatements
@@ -43,6 +44,38 @@ def check_names(reader: CppStatements, node: Node) -> None:
                 raise reader.unread(node, f'this hides "{name}" from what follows')
 
 
+def only_logs(reader: CppStatements, node: Node) -> bool:
+    """Whether a branch of generated code does nothing but to log.
+
+    Raises `Unread` where that does more to the model than to look at it.
+    """
+    if reader.scope.open or not _only_logs(node):
+        return False
+    Effects(reader.cpp, reader.scope).check(node)
+    return True
+
+
+def _only_logs(node: Node) -> bool:
+    match node.type:
+        case "if_statement":
+            ways = [part(node, "consequence")]
+            if (other := node.child_by_field_name("alternative")) is not None:
+                ways += named(other)
+            return all(map(_only_logs, ways))
+        case "compound_statement":
+            return bool(named(node)) and all(map(_only_logs, named(node)))
+        case "expression_statement" if named(node):
+            inner = named(node)[0]
+            if inner.type == "call_expression":
+                name = text_of(part(inner, "function"))
+                return name.startswith(LOGGING) or name in CONSOLE
+            while inner.type == "binary_expression" and text_of(part(inner, "operator")) == "<<":
+                inner = part(inner, "left")
+            return text_of(inner) in STREAMS
+        case _:
+            return False
+
+
 def is_log(reader: CppStatements, statement: Node, node: Node) -> bool:
     """Whether the expression of a statement logs, or says of a variable that nothing uses it.
 
@@ -51,7 +84,11 @@ def is_log(reader: CppStatements, statement: Node, node: Node) -> bool:
     if node.type != "call_expression":
         return False
     function = part(node, "function")
+    own = reader.scope.functions.get(text_of(function))
     if text_of(function) == "unused":
+        return True
+    if isinstance(own, Ignored) and not reader.scope.open:
+        Effects(reader.cpp, reader.scope).check(part(node, "arguments"))
         return True
     logs = function.type == "identifier" and text_of(function).startswith(LOGGING)
     if not logs and (reader.scope.open or text_of(function) not in CONSOLE):

@@ -7,6 +7,7 @@ an `int` holds: comparisons, quotients, shifts to the right, conversions to floa
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -25,6 +26,9 @@ from rebsync.static.types import is_floating
 if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_expressions import CppExpressions
 
+_MAY_BE_WIDE = re.compile(
+    r"size\(\)|sizeof|size_t|\blong\b|unsigned|uint|int64|\b(?:0x[\da-f]+|\d+)[ul]", re.IGNORECASE
+)
 _OBSERVES = COMPARES | {"/", "%", ">>", "<<"}
 
 
@@ -50,7 +54,7 @@ def is_wide(reader: CppExpressions, operand: Operand) -> bool:
 
 def exact(reader: CppExpressions, operator: str, sides: Sequence[Node]) -> str:
     """`!=` for `>` where a number of 32 bits without a sign is compared with 0."""
-    if operator != ">" or not reader.scope.open:
+    if operator != ">" or not _is_asked(reader, *sides):
         return operator
     left, right = (range_of(reader.cpp, reader.scope, side) for side in sides)
     if left is None or right is None or left.bits != 32 or left.fits:
@@ -60,7 +64,7 @@ def exact(reader: CppExpressions, operator: str, sides: Sequence[Node]) -> str:
 
 def check(reader: CppExpressions, node: Node, operator: str, sides: Sequence[Node]) -> None:
     """Raises where an operator looks at a number that an `int` need not hold."""
-    if not reader.scope.open:
+    if not _is_asked(reader, node):
         return
     left, right = (range_of(reader.cpp, reader.scope, side) for side in sides)
     if left is None or right is None:
@@ -86,14 +90,14 @@ def check(reader: CppExpressions, node: Node, operator: str, sides: Sequence[Nod
 
 def check_whole(reader: CppExpressions, node: Node) -> None:
     """Raises where an integer is none that an `int` is sure to hold."""
-    found = range_of(reader.cpp, reader.scope, node) if reader.scope.open else None
+    found = range_of(reader.cpp, reader.scope, node) if _is_asked(reader, node) else None
     if found is not None and not found.fits:
         _raise(reader, node)
 
 
 def check_truth(reader: CppExpressions, node: Node) -> None:
     """Raises where a number of more than 32 bits need not be an `int`, and so may be another 0."""
-    found = range_of(reader.cpp, reader.scope, node) if reader.scope.open else None
+    found = range_of(reader.cpp, reader.scope, node) if _is_asked(reader, node) else None
     if found is not None and found.bits > 32 and not found.fits:
         _raise(reader, node)
 
@@ -119,6 +123,11 @@ def check_wide_call(reader: CppExpressions, node: Node) -> None:
         found = range_of(reader.cpp, reader.scope, argument)
         if found is None or found.low < 0:
             _raise(reader, argument)
+
+
+def _is_asked(reader: CppExpressions, *nodes: Node) -> bool:
+    """Whether there may be such numbers: generated code has none, unless people wrote them."""
+    return reader.scope.open or any(_MAY_BE_WIDE.search(text_of(n)) for n in nodes)
 
 
 def _raise(reader: CppExpressions, node: Node) -> None:

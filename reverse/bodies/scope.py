@@ -321,6 +321,10 @@ class Scope:
         """What a name stands for: a local hides a member."""
         return self.locals.get(name) or self.members.get(name)
 
+    def hides(self, name: str) -> bool:
+        """Whether a local or parameter has a name of the model."""
+        return any(isinstance(x, Variable | Name) and x.name == name for x in self.locals.values())
+
     def with_locals(self, found: Mapping[str, Meaning]) -> Scope:
         """The same with more locals, which hide what has their names."""
         whole = {**self.locals, **found}

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 from tree_sitter import Node
@@ -17,17 +18,23 @@ from rebsync.reverse.generated.ros1_free import passed_by_reference
 from rebsync.reverse.generated.ros1_names import declared_type
 from rebsync.reverse.generated.ros1_roles import Taken, parameters_of
 from rebsync.reverse.generated.ros1_timers import Timer, sent_later, with_rearming
-from rebsync.reverse.syntax.cpp_index import Code, CppField, CppFunction
+from rebsync.reverse.syntax.cpp_index import Code, CppField, CppFunction, CppParameter
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+
+_USERS = "rebsync: user"  # what stands in such a block is nobody else's
 
 
 @dataclass(frozen=True, slots=True)
 class Bodies:
-    """Reads functions and lambdas of one class; `scope` is what they can name."""
+    """Reads functions and lambdas of one class; `scope` is what they can name.
+
+    `by_hand` makes of that what people's own code can name.
+    """
 
     code: Code
     scope: Scope
     findings: Findings
+    by_hand: Callable[[Scope], Scope]
 
     def parameters(self, function: CppFunction) -> tuple[m.Parameter, ...]:
         """The parameters; what the model cannot pass is listed."""
@@ -42,9 +49,22 @@ class Bodies:
             elif index in references:
                 why = "what this function does to its parameter the caller's variable keeps"
                 self._unread(function, parameter.node, why, function.name)
-            name = self.scope.local(parameter.name)
+            name = self._given_name(function, parameter)
             found.append(m.Parameter(type_ or m.Type("int"), name, span))
         return tuple(found)
+
+    def _given_name(self, function: CppFunction, parameter: CppParameter) -> str:
+        """The model's name of a parameter: another one where it would hide a member in use."""
+        name = free = self.scope.local(parameter.name)
+        text, number = text_of(function.body) if function.body is not None else "", 1
+        own = {n: v for n, v in self.scope.members.items() if n != parameter.name}
+        names = {v.name for v in own.values() if isinstance(v, Variable)}
+        used = (n for n, v in own.items() if isinstance(v, Variable) and v.name == name)
+        if any(re.search(rf"(?<![\w.>]){n}\b", text) for n in used):
+            while free in names:
+                number += 1
+                free = f"{name}_{number}"
+        return free
 
     def block(self, function: CppFunction, within: str) -> m.Block | None:
         """The body of a function, if the files have it; one that should be there is listed."""
@@ -54,11 +74,26 @@ class Bodies:
             return None
         inside = self._inside(function.cpp).with_locals(
             {
-                p.name: Variable(self.scope.local(p.name), declared_type(self.code, p.type))
+                p.name: Variable(self._given_name(function, p), declared_type(self.code, p.type))
                 for p in function.parameters
             }
         )
-        return CppStatements(function.cpp, inside, self.findings, within).block(function.body)
+        return self._read(function.cpp, inside, function.body, within)
+
+    def _read(self, cpp: Cpp, inside: Scope, body: Node, within: str) -> m.Block:
+        """A body as generated code says it, or else, if it is exact, as people's code says it."""
+        marked = self.findings.mark()
+        read = CppStatements(cpp, inside, self.findings, within).block(body)
+        if len(self.findings.all) == marked[0] or _USERS in text_of(body):
+            return read
+        by_hand = Findings()
+        changed = self.by_hand(inside)
+        again = CppStatements(cpp, changed, by_hand, within).block(body)
+        if by_hand.all:
+            return read
+        self.findings.back_to(marked)
+        self.findings.take(by_hand)
+        return again
 
     def _inside(self, cpp: Cpp) -> Scope:
         return replace(self.scope, constants=self.code.constants_for(cpp))
@@ -84,8 +119,7 @@ class Bodies:
         parameters = tuple(m.Parameter(t, names[f], span) for f, t in known.items())
         inside = self._inside(function.cpp).with_locals({taken.message.name: Record(variables)})
         body = part(taken.call.arguments[4], "body")
-        reader = CppStatements(function.cpp, inside, self.findings, within)
-        return parameters, reader.block(body)
+        return parameters, self._read(function.cpp, inside, body, within)
 
     # --- timers ---------------------------------------------------------------------------------
 
@@ -98,7 +132,7 @@ class Bodies:
             self._unread(function, function.node, "its body is not in these files", within)
             return m.Block(())
         hidden = self._inside(function.cpp).with_locals({p.name: Outside() for p in given})
-        read = CppStatements(function.cpp, hidden, self.findings, within).block(body)
+        read = self._read(function.cpp, hidden, body, within)
         again = None if timer.one_shot else self._later(timer, name, within)
         return read if again is None else with_rearming(read, again)
 

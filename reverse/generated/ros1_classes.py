@@ -12,7 +12,16 @@ from rebsync.records import dataclass
 from rebsync.reserved import RESERVED
 from rebsync.reverse.bodies.cpp_types import class_name
 from rebsync.reverse.bodies.overloads import Served
-from rebsync.reverse.bodies.scope import Around, Called, Function, Member, Outside, Scope, Variable
+from rebsync.reverse.bodies.scope import (
+    Around,
+    Called,
+    Function,
+    Ignored,
+    Member,
+    Outside,
+    Scope,
+    Variable,
+)
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.ros1_annotations import (
     annotations_in,
@@ -20,7 +29,9 @@ from rebsync.reverse.generated.ros1_annotations import (
     server_annotations,
 )
 from rebsync.reverse.generated.ros1_bodies import Bodies
-from rebsync.reverse.generated.ros1_free import free_functions
+from rebsync.reverse.generated.ros1_free import free_beside
+from rebsync.reverse.generated.ros1_hand import acts, as_by_hand, is_passive, only_logs, stands_in
+from rebsync.reverse.generated.ros1_inherited import only_forwards
 from rebsync.reverse.generated.ros1_meanings import Meaning, in_files_of, other_meanings
 from rebsync.reverse.generated.ros1_names import (
     declared_type,
@@ -45,9 +56,8 @@ from rebsync.reverse.generated.ros1_timers import (
 )
 from rebsync.reverse.generated.ros1_values import initial_values
 from rebsync.reverse.generated.ros2_words import is_of_ros
-from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppField, CppFunction
-from rebsync.reverse.syntax.cpp_tree import named, text_of
+from rebsync.reverse.syntax.cpp_tree import text_of
 
 _PLUMBING = frozenset({"mailbox", "publishState"})
 
@@ -154,7 +164,7 @@ class Classes:
         ]
         members += self._lambdas(owner)
         members += [self._method(owner, f) for f in functions if self._served(owner, f) is None]
-        members += [self._method(owner, f) for f in self._free(owner)]
+        members += [self._method(owner, f) for f in free_beside(self.code, owner)]
         extends = [b for b in owner.bases if self._is_reactive(b)]
         return m.ReactiveClass(
             class_name(owner.name),
@@ -185,7 +195,7 @@ class Classes:
                 continue
             type_ = declared_type(self.code, member.type)
             if type_ is None:
-                if not is_of_ros(text_of(member.type)):
+                if not is_of_ros(text_of(member.type)) and not is_passive(text_of(member.type)):
                     why = f'the model has no type "{text_of(member.type)}"'
                     unread = Unread(member.cpp.span(member.node), why)
                     self.findings.unreadable(member.cpp.source, unread, owner.name)
@@ -208,7 +218,15 @@ class Classes:
             return False
         if function.pure and not self._declares(owner, function):
             return False
-        return not self._only_forwards(owner, function)
+        if self._is_by_hand(owner, function):
+            return False
+        return not only_forwards(self.code, owner, function)
+
+    def _is_by_hand(self, owner: CppClass, function: CppFunction) -> bool:
+        """Whether a function that people added is none of the model, whatever calls it."""
+        if self._served(owner, function) is not None or not self._has_mailbox(owner):
+            return False
+        return only_logs(function) or stands_in(self.code, owner, function)
 
     def _declares(self, owner: CppClass, function: CppFunction) -> bool:
         """Whether the model declares an abstract function here, not only an interface above."""
@@ -222,20 +240,6 @@ class Classes:
             )
         return True
 
-    def _only_forwards(self, owner: CppClass, function: CppFunction) -> bool:
-        """Whether it only makes an inherited function that of an interface as well."""
-        statements = named(function.body) if function.body is not None else []
-        same = (f for f in owner.functions if (f.name, f.types) == (function.name, function.types))
-        if len(statements) != 1 or not any(f.overrides for f in (function, *same)):
-            return False
-        inner = named(statements[0])
-        call = call_of(inner[0]) if inner else None
-        if call is None or any(x.startswith(("msgsrv ", "method ")) for x in function.markers):
-            return False
-        passed = [text_of(a) for a in call.arguments]
-        inherited = {f"{c.name}::{function.name}" for c in self.code.lineage(owner.name)[1:]}
-        return call.name in inherited and passed == [p.name for p in function.parameters]
-
     def _served(self, owner: CppClass, function: CppFunction) -> str | None:
         """The server whose messages a function serves, here or in a class above."""
         for above in self.code.lineage(owner.name):
@@ -247,14 +251,6 @@ class Classes:
             ):
                 return plain_name(function, self.types)
         return None
-
-    def _free(self, owner: CppClass) -> list[CppFunction]:
-        """The free functions that the functions of a class call, not those of its ancestors."""
-        above = [f for c in self.code.lineage(owner.name)[1:] for f in self.code.functions_of(c)]
-        known = {f.name for f in free_functions(self.code, above)}
-        known |= {f.name for c in self.code.lineage(owner.name) for f in c.functions}
-        own = free_functions(self.code, self.code.functions_of(owner))
-        return [f for f in own if f.name not in known]
 
     def _server(self, owner: CppClass, function: CppFunction, name: str) -> m.MessageServer:
         bodies, within = self._bodies(owner), f"{owner.name}.{name}"
@@ -338,7 +334,10 @@ class Classes:
             yield m.Constructor(name, (), m.Block((*given, *started)))
 
     def _bodies(self, owner: CppClass) -> Bodies:
-        return Bodies(self.code, self.scope(owner), self.findings)
+        def by_hand(scope: Scope) -> Scope:
+            return as_by_hand(self.code, owner, scope)
+
+        return Bodies(self.code, self.scope(owner), self.findings, by_hand)
 
     # --- names ----------------------------------------------------------------------------------
 
@@ -354,7 +353,7 @@ class Classes:
         if (advertised := roles.publishers.get(member.name)) is not None:
             return publisher(advertised, self.served.servers, self.messages)
         if declared_type(self.code, member.type) is None:
-            return Outside(reaches=text_of(member.type).startswith(("ros::", "rclcpp::")))
+            return Outside(reaches=acts(text_of(member.type)))
         return Variable(variable_name(roles, member), declared_type(self.code, member.type))
 
     def _called(self, function: CppFunction) -> Called:
@@ -378,10 +377,12 @@ class Classes:
                 elif self._is_of_model(above, function):
                     functions[function.name] = self._called(function)
                     callable_.add(function.name)
+                elif only_logs(function) and self._is_by_hand(above, function):
+                    functions.setdefault(function.name, Ignored())
                 else:
                     functions.setdefault(function.name, Around())
             callable_ |= roles.constants | set(roles.sends)
-        for function in self._free(owner):
+        for function in free_beside(self.code, owner):
             functions[function.name] = self._called(function)
             callable_.add(function.name)
         bases = {c.name: class_name(c.name) for c in self.code.lineage(owner.name)[1:]}

@@ -6,7 +6,9 @@ from collections.abc import Iterable, Iterator
 
 from rebsync.reserved import RUNTIME_FUNCTIONS
 from rebsync.reverse.bodies.cpp_types import type_of
-from rebsync.reverse.syntax.cpp_index import Code, CppFunction
+from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
+
+_LIBRARIES = frozenset({"std", "ros", "rclcpp", "boost", "tf2", "Eigen"})
 
 
 def free_functions(code: Code, bodies: Iterable[CppFunction]) -> Iterator[CppFunction]:
@@ -18,17 +20,33 @@ def free_functions(code: Code, bodies: Iterable[CppFunction]) -> Iterator[CppFun
     waiting = list(bodies)
     while waiting:
         for call in code.calls_of(waiting.pop(0)):
-            found = code.definitions.get(("", call.name), [])
-            if call.target is not None or call.name in seen or len(found) != 1:
+            space, _, name = call.name.rpartition("::")
+            found = code.definitions.get(("", name), [])
+            if call.target is not None or name in seen or len(found) != 1:
                 continue
             (function,) = found
-            if call.name not in RUNTIME_FUNCTIONS and _has_plain_types(function):
-                seen.add(call.name)
+            is_library = space.partition("::")[0] in _LIBRARIES
+            if name not in RUNTIME_FUNCTIONS and not is_library and _is_method(function):
+                seen.add(name)
                 waiting.append(function)
                 yield function
 
 
-def _has_plain_types(function: CppFunction) -> bool:
+def free_beside(code: Code, owner: CppClass) -> list[CppFunction]:
+    """The free functions that the functions of a class call, not those of its ancestors."""
+    above = [f for c in code.lineage(owner.name)[1:] for f in code.functions_of(c)]
+    known = {f.name for f in free_functions(code, above)}
+    known |= {f.name for c in code.lineage(owner.name) for f in c.functions}
+    own = free_functions(code, code.functions_of(owner))
+    return [f for f in own if f.name not in known]
+
+
+def _is_method(function: CppFunction) -> bool:
+    return has_plain_types(function) and not list(passed_by_reference(function))
+
+
+def has_plain_types(function: CppFunction) -> bool:
+    """Whether parameters and result are of types of the model."""
     typed = all(type_of(p.type) is not None for p in function.parameters)
     return function.result is not None and type_of(function.result) is not None and typed
 

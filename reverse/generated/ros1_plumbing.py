@@ -24,7 +24,7 @@ from rebsync.reverse.generated.ros1_roles import (
     number_of,
     odd_priorities,
 )
-from rebsync.reverse.generated.ros1_timers import MAKES, timers_of
+from rebsync.reverse.generated.ros1_timers import idle_timers, makes, timers_of
 from rebsync.reverse.generated.ros2_words import SETS_UP, arguments_in
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
@@ -118,6 +118,7 @@ def _odd_in_constructor(
 ) -> Iterator[Node]:
     """Statements that neither set up anything nor prepare that."""
     timers = {t.call.node.id for t in timers_of(code, owner, roles)}
+    timers |= {call.node.id for call in idle_timers(code, owner)}
     arguments = dict(arguments_in(function))
     for statement in working(function.body):
         given = text_of(statement).partition("=")[0].removeprefix("this->")
@@ -147,7 +148,7 @@ def _sets_up(statement: Node, function: CppFunction, roles: Roles, timers: Conta
     if call is None:
         return False
     match call.name:
-        case name if name in MAKES:
+        case _ if makes(call):
             return call.node.id in timers
         case "onServed":
             return _hands_on(call, "publishState", None)

@@ -21,12 +21,17 @@ from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_roles import Roles, call_in
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
-from rebsync.reverse.syntax.cpp_tree import last_name, named, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, last_name, named, part, text_of
 
 MAKES = frozenset(
     {"createTimer", "createWallTimer", "createSteadyTimer", "create_timer", "create_wall_timer"}
 )
-_DURATIONS = frozenset({"ros::Duration", "ros::WallDuration", "ros::SteadyDuration"})
+_DURATIONS = frozenset(
+    {
+        *("ros::Duration", "ros::WallDuration", "ros::SteadyDuration"),
+        *("rclcpp::Duration::from_seconds", "std::chrono::duration<double>"),
+    }
+)
 _SPANS = {
     "minutes": Fraction(60),
     "seconds": Fraction(1),
@@ -67,20 +72,38 @@ def timers_of(code: Code, owner: CppClass, roles: Roles) -> Iterator[Timer]:
     """The timers that the functions of a class make, but for those of which that is not plain."""
     for function in code.functions_of(owner):
         for call in code.calls_of(function):
-            if call.name in MAKES and (timer := _timer(code, owner, roles, function, call)):
+            if makes(call) and (timer := _timer(code, owner, roles, function, call)):
                 yield timer
 
 
-def _timer(
-    code: Code, owner: CppClass, roles: Roles, function: CppFunction, call: CppCall
-) -> Timer | None:
-    if len(call.arguments) < 2:
-        return None
-    period, callback, *flags = call.arguments
-    lasts = _lasting(period)
-    if lasts is None or (flags and call.name.startswith("create_")):
-        return None
-    name, lambda_ = "", None
+def makes(call: CppCall) -> bool:
+    """Whether a call makes a timer."""
+    return call.name.removeprefix("rclcpp::") in MAKES
+
+
+def idle_timers(code: Code, owner: CppClass) -> Iterator[CppCall]:
+    """The calls that make timers whose callbacks do nothing but to log."""
+    for function in code.functions_of(owner):
+        for call in code.calls_of(function):
+            body = _called_back(code, owner, call)[2] if makes(call) else None
+            if body is not None and named(body) and not working(body):
+                yield call
+
+
+def _arguments(call: CppCall) -> list[Node]:
+    """Period, callback and flags, without the node and the clock that a free function is given."""
+    given = list(call.arguments)
+    return given[2:] if call.name.startswith("rclcpp::") else given
+
+
+def _called_back(
+    code: Code, owner: CppClass, call: CppCall
+) -> tuple[str, Node | None, Node | None, list[Node]]:
+    """What a timer calls: a function by its name, or a lambda; its body; and flags behind it."""
+    name, lambda_, flags = "", None, _arguments(call)
+    if len(flags) < 2:
+        return name, lambda_, None, flags
+    _, callback, *flags = flags
     if callback.type == "lambda_expression":
         lambda_ = callback
     elif callback.type == "pointer_expression" and flags and flags[0].type == "this":
@@ -88,39 +111,115 @@ def _timer(
     elif (bound := call_in(callback)) is not None:
         name = bound[0]
     own = next((f for f in code.functions_of(owner) if f.name == name), None)
+    body = part(lambda_, "body") if lambda_ is not None else own.body if own is not None else None
+    return name, lambda_, body, flags
+
+
+def _timer(
+    code: Code, owner: CppClass, roles: Roles, function: CppFunction, call: CppCall
+) -> Timer | None:
+    given = _arguments(call)
+    lasts = _lasting(code, owner, function.cpp, given[0]) if len(given) > 1 else None
+    name, lambda_, body, flags = _called_back(code, owner, call)
+    if lasts is None or (flags and call.name.removeprefix("rclcpp::").startswith("create_")):
+        return None
+    if body is not None and named(body) and not working(body):
+        return None  # it only logs
+    own = next((f for f in code.functions_of(owner) if f.name == name), None)
     one_shot = text_of(flags[0]) if flags else "false"
     if (lambda_ is None and own is None) or one_shot not in ("true", "false") or len(flags) > 1:
         return None
-    body = lambda_ or (own.body if own is not None else None)
-    posts = _posts(roles, body) if body is not None else None
     seconds, scale = lasts
-    return Timer(call, function, seconds, one_shot == "true", name, lambda_, posts, scale)
+    statements = working(body)
+    stops = [s for s in statements if _stops(s, _kept(call))]
+    posts = _posts(roles, [s for s in statements if s not in stops])
+    once = one_shot == "true" or (bool(stops) and posts is not None)
+    return Timer(call, function, seconds, once, name, lambda_, posts, scale)
 
 
-def _lasting(period: Node) -> tuple[Node, Fraction] | None:
+def _kept(call: CppCall) -> str:
+    """The member that keeps a timer."""
+    above = call.node.parent
+    is_kept = above is not None and above.type == "assignment_expression"
+    return text_of(part(above, "left")).removeprefix("this->") if above and is_kept else ""
+
+
+def _stops(statement: Node, timer: str) -> bool:
+    """Whether a statement is `timer->cancel();`, or `timer.stop();`."""
+    text = "".join(text_of(statement).split()).removeprefix("this->")
+    return bool(timer) and text in (f"{timer}->cancel();", f"{timer}.stop();")
+
+
+def _lasting(code: Code, owner: CppClass, cpp: Cpp, period: Node) -> tuple[Node, Fraction] | None:
     """The number that says how long something lasts, and how many seconds its unit has."""
     given = call_of(period)
     if given is None:
         literal = _LITERAL.match(text_of(period))
-        return (period, _SPANS[literal[2]]) if literal is not None else None
+        if literal is not None:
+            return period, _SPANS[literal[2]]
+        return _named_span(code, owner, cpp, text_of(period).removeprefix("this->"))
     if len(given.arguments) != 1:
         return None
-    span = _SPAN.match(given.name)
-    if span is not None:
-        return given.arguments[0], _SPANS[span[1]]
-    return (given.arguments[0], Fraction(1)) if given.name in _DURATIONS else None
+    scale = _scale(given.name)
+    if scale is None:
+        return None
+    (number,) = given.arguments
+    constant = code.constant(cpp, text_of(number)) if number.type == "identifier" else None
+    if constant is not None and (value := _number(constant[1])) is not None:
+        return value, scale
+    return number, scale
 
 
-def _posts(roles: Roles, body: Node) -> str | None:
-    """The server to which a callback posts a message without arguments, if that is all."""
-    if body.type == "lambda_expression":
-        called = call_in(body)
+def _named_span(code: Code, owner: CppClass, cpp: Cpp, name: str) -> tuple[Node, Fraction] | None:
+    """The same of a constant or a member that is a span of time, and that nothing writes."""
+    field = next((f for f in owner.fields if f.name == name), None)
+    constant = code.constant(cpp, name) if field is None else None
+    if field is not None and field.value is not None:
+        writes = re.compile(rf"\b{name}\s*(?:[-+*/]?=[^=]|\.)")
+        texts = (text_of(f.body) for f in code.functions_of(owner) if f.body is not None)
+        declared, value = field.type, field.value
+        if any(writes.search(text) for text in texts):
+            return None
+    elif constant is not None:
+        value, above = constant[1], constant[1].parent
+        while above is not None and above.type not in ("declaration", "field_declaration"):
+            above = above.parent
+        if above is None:
+            return None
+        declared = part(above, "type")
     else:
-        statements = working(body)
-        inner = named(statements[0]) if len(statements) == 1 else []
-        call = call_of(inner[0]) if len(inner) == 1 else None
-        plain = call is not None and (call.target is None or call.target.type == "this")
-        called = (call.name, list(call.arguments)) if call is not None and plain else None
+        return None
+    scale, number = _scale(text_of(declared)), _number(value)
+    if scale is not None and number is not None:
+        return number, scale
+    return _lasting(code, owner, cpp, value) if call_of(value) or _is_span(value) else None
+
+
+def _is_span(value: Node) -> bool:
+    return _LITERAL.match(text_of(value)) is not None
+
+
+def _number(value: Node) -> Node | None:
+    """The number in parentheses or braces."""
+    while value.type in ("initializer_list", "argument_list") and len(named(value)) == 1:
+        value = named(value)[0]
+    return value if value.type == "number_literal" else None
+
+
+def _scale(type_: str) -> Fraction | None:
+    """The seconds that a unit of a type has, or of what a function makes a span of time of."""
+    span = _SPAN.match(type_)
+    if span is not None:
+        return _SPANS[span[1]]
+    return Fraction(1) if type_ in _DURATIONS else None
+
+
+def _posts(roles: Roles, statements: list[Node]) -> str | None:
+    """The server to which a callback posts a message without arguments, if that is all."""
+    inner = named(statements[0]) if len(statements) == 1 else []
+    call = call_of(inner[0]) if len(inner) == 1 else None
+    plain = call is not None and (call.target is None or call.target.type == "this")
+    called = (call.name, list(call.arguments)) if call is not None and plain else None
     sends = roles.sends.get(called[0]) if called is not None and not called[1] else None
     return sends.server if sends is not None and sends.known == "self" else None
 

@@ -25,7 +25,7 @@ else:
     import tomli as tomllib
 
 HERE = Path(__file__).parent
-FILES = ("python.toml", "rclcpp.toml", "mixed.toml")
+FILES = ("python.toml", "rclcpp.toml", "cpp.toml", "mixed.toml")
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 
 # A later change of the model of each example, in code that few of the edits touch.
@@ -122,7 +122,7 @@ class Trial:
             if not old:
                 (self.package / end).write_text(new, encoding="utf-8")
                 continue
-            found = [p for p in self._files() if p.as_posix().endswith(end)]
+            found = [p for p in self._files() if p.as_posix().endswith(self._ending(end))]
             assert len(found) == 1, (end, found)
             text = found[0].read_text(encoding="utf-8")
             assert old in text, (end, old)
@@ -130,6 +130,11 @@ class Trial:
         for path, text in self.case.added():
             (self.package / path).parent.mkdir(parents=True, exist_ok=True)
             (self.package / path).write_text(text, encoding="utf-8")
+
+    def _ending(self, end: str) -> str:
+        """The end of a path, of a header as the dialect has it."""
+        is_header = end.endswith(".h") and self.case.dialect == "ros2-cpp"
+        return f"{end}pp" if is_header else end
 
     def _files(self) -> list[Path]:
         return [p for p in self.package.rglob("*") if p.is_file() and ".rebsync" not in p.parts]

@@ -1,0 +1,101 @@
+"""What people put into classes of generated code that no generator writes.
+
+A body that has such forms in it is read as people's own code is: by what it does.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+
+from rebsync.reserved import RUNTIME_FUNCTIONS
+from rebsync.reverse.bodies.scope import Around, Function, Inline, Member, Outside, Scope
+from rebsync.reverse.generated.ros1_free import has_plain_types, passed_by_reference
+from rebsync.reverse.generated.ros1_idle import working
+from rebsync.reverse.syntax.cpp_calls import calls_in
+from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
+from rebsync.reverse.syntax.cpp_tree import inside, text_of
+
+# Types whose objects do nothing by themselves, and know of no node.
+_PASSIVE = re.compile(
+    r"(?:mutable\s+)?(?:std::(?:(?:recursive_|timed_|shared_)?mutex|string|vector<.*>|map<.*>"
+    r"|set<.*>|deque<.*>|list<.*>|queue<.*>|optional<.*>|unordered_map<.*>|pair<.*>|tuple<.*>"
+    r"|o?stringstream|ofstream|mt19937(?:_64)?|default_random_engine|random_device"
+    r"|uniform_int_distribution<.*>|chrono::[\w:<>, ]+)"
+    r"|(?:ros|rclcpp)::(?:Wall)?(?:Time|Duration)|rclcpp::Logger|rclcpp::Clock(?:::SharedPtr)?)\Z",
+    re.DOTALL,
+)
+_REFERS = ("pointer_declarator", "reference_declarator")
+
+
+def as_by_hand(code: Code, owner: CppClass, scope: Scope) -> Scope:
+    """What a body of a class can name, for a reader of what people write."""
+    members: dict[str, Member] = dict(scope.members)
+    for above in code.lineage(owner.name):
+        for name in _referring(above):
+            members[name] = Outside(reaches=True)
+    functions: dict[str, Function] = dict(scope.functions)
+    free = (f for (of, _), found in code.definitions.items() if not of for f in found)
+    own = (f for above in code.lineage(owner.name) for f in code.functions_of(above))
+    for function in (*free, *own):
+        known = functions.get(function.name, Around())
+        if isinstance(known, Around) and stands_in(code, owner, function):
+            made = _with_defaults(owner, function)
+            functions[function.name] = Inline(made, code.constants_for(function.cpp))
+    return replace(scope, members=members, functions=functions, open=True, macros=code.macros)
+
+
+def stands_in(code: Code, owner: CppClass, function: CppFunction) -> bool:
+    """Whether the body of a function can stand where it is called: no method says what it does."""
+    of = function.owner
+    same = [f for f in code.functions_of(owner) if f.name == function.name] if of else []
+    known = function.markers or function.name in RUNTIME_FUNCTIONS or function.name == "main"
+    if known or len(same) > 1 or function.body is None or function.pure:
+        return False
+    if not of and len(code.definitions.get(("", function.name), ())) != 1:
+        return False
+    refers = any(True for _ in passed_by_reference(function))
+    defaults = any(p.default is not None for p in _with_defaults(owner, function).parameters)
+    return refers or defaults or not has_plain_types(function)
+
+
+def only_logs(function: CppFunction) -> bool:
+    """Whether a function does nothing but to log: the model does not have it."""
+    void = function.result is not None and text_of(function.result) == "void"
+    known = function.markers or function.pure or function.body is None
+    logs = next(calls_in(function.body), None) is not None
+    return void and not known and logs and not working(function.body)
+
+
+def _with_defaults(owner: CppClass, function: CppFunction) -> CppFunction:
+    """A function with what its parameters are by default: its declaration says so."""
+    same = (f for f in owner.functions if (f.name, f.types) == (function.name, function.types))
+    parameters = list(function.parameters)
+    for known in (*same, function):
+        for number, parameter in enumerate(known.parameters):
+            value = parameter.node.child_by_field_name("default_value")
+            if value is not None:
+                parameters[number] = replace(parameters[number], default=(known.cpp, value))
+    return replace(function, parameters=tuple(parameters))
+
+
+def is_passive(type_: str) -> bool:
+    """Whether objects of a type that the model lacks do nothing by themselves.
+
+    What bodies do with them is found there.
+    """
+    return _PASSIVE.match(" ".join(type_.split())) is not None
+
+
+def acts(type_: str) -> bool:
+    """Whether functions of an object of such a type may act on the node."""
+    return type_.startswith(("ros::", "rclcpp::")) and not is_passive(type_)
+
+
+def _referring(owner: CppClass) -> Iterator[str]:
+    """The members that are pointers or references: to what, is not known."""
+    for field in inside(owner.node, "field_declaration"):
+        for declarator in field.children_by_field_name("declarator"):
+            if declarator.type in _REFERS:
+                yield text_of(declarator.named_children[-1])
