@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
+from functools import lru_cache
 from itertools import chain
 from pathlib import Path
 from typing import TypeAlias
@@ -100,9 +101,14 @@ def facts_of(paths: Mapping[str, str], package: str = "") -> Facts:
     for name, path in sorted(paths.items()):
         with suppress(RebsyncError):  # what cannot be read, extraction lists
             source = Source(path, _text(read_bytes(path)))
-            for fact in _of_file(name, source, package):
+            for fact in _told(name, source, package):
                 found.setdefault(fact.key, []).append(fact)
     return found
+
+
+@lru_cache(maxsize=256)  # most texts are there as they were and as they are, and asked for again
+def _told(name: str, source: Source, package: str) -> tuple[Fact, ...]:
+    return tuple(_of_file(name, source, package))
 
 
 def _text(data: bytes) -> str:
