@@ -48,10 +48,16 @@ _BEARING = {
     "drive": ("cell_size", "kind", "heading", "move_time"),
 }
 _PROGRAM = re.compile(r"\b(add_executable|set_target_properties)\s*\(\s*(\S+)\s+([^)]*)\)")
+_NAMED = re.compile(r"\bset_target_properties\s*\(\s*(\S+)\s[^)]*\bOUTPUT_NAME\s+(\w+)")
+_TARGETS = re.compile(r"\binstall\s*\(\s*TARGETS\s+([^)]*)\)")
 _SCRIPT = re.compile(r"^[ \t]*scripts/(\w+)[ \t]*$", re.MULTILINE)
 _MODULES = re.compile(r"\bcatkin_python_setup\s*\(\s*\)")
 _GENERATED = re.compile(r"\bgenerate_messages\s*\(")
 _FOLDERS = re.compile(r"\bDIRECTORY\s+([\w\s]+?)\s+DESTINATION\b")
+# A section of parameters in ROS 2 that is not for all nodes.
+_ONE_NODE = re.compile(r"^(?!/\*\*:)([^\s#][^\n]*):[ \t]*\n[ \t]+ros__parameters:", re.MULTILINE)
+# The environment that has to do with what is shown only.
+_SHOWN = ("ROSCONSOLE_", "RCUTILS_", "ROS_LOG_DIR")
 _TYPES = {
     "a whole number": re.compile(r"[+-]?(?:0x[\da-fA-F]+|\d[\d_]*)"),
     "a fraction": re.compile(r"[+-]?(?:\d+\.\d*|\.\d+)(?:[eE][+-]?\d+)?"),
@@ -214,11 +220,16 @@ def _launched(source: Source, text: str, package: str) -> Iterator[Fact]:
                 if given.get("pkg") == package:
                     given["pkg"] = OWN
                 given["ns"] = "/".join(filter(None, (*spaces, given.get("ns"))))
-                for key in ("pkg", "respawn", "ns"):
+                for key in ("pkg", "respawn", "ns", "args"):
                     yield Fact("node", name, key, given.get(key) or NOT_GIVEN, source, span)
                 yield Fact(TYPE, name, "", given.get("type", ""), source, span)
             case "node":
                 node = ""
+            case "env" if not end and not given.get("name", "").startswith(_SHOWN):
+                name, value = given.get("name", ""), given.get("value", "")
+                yield Fact("environment", node, name, value, source, span)
+            case "include" if not end and not _is_own(given.get("file", ""), package):
+                yield Fact("launch file", "", given.get("file", ""), "included", source, span)
             case "remap":
                 yield Fact("remap", node, given.get("from", ""), given.get("to", ""), source, span)
             case "rosparam" if not end and not closed and "param" in given:
@@ -236,7 +247,12 @@ def _launched(source: Source, text: str, package: str) -> Iterator[Fact]:
 
 def _declared(source: Source, package: str) -> Iterator[Fact]:
     """The same of a launch file in Python, but for what a node is made of."""
-    for node in read_ros2_launch(source, lambda _: None).nodes:
+    launch = read_ros2_launch(source, lambda _: None)
+    for unknown in launch.unknowns:
+        said = source.text[unknown.span.start : unknown.span.end]
+        if not _is_own(said, package):
+            yield Fact("unknown", "", unknown.what, unknown.why, source, unknown.span)
+    for node in launch.nodes:
         name = str(node.name)
         of = OWN if node.package == package else str(node.package)
         facts = {"pkg": of, "ns": str(node.namespace), "if": " ".join(node.only_if)}
@@ -251,6 +267,11 @@ def _declared(source: Source, package: str) -> Iterator[Fact]:
     yield from (Fact(*told) for told in wiring_ros2.of_launch(source))
 
 
+def _is_own(said: str, package: str) -> bool:
+    """Whether what is said of a file is of the package itself, where extraction reads it."""
+    return f"$(find {package})" in said or "$(dirname)" in said or f'("{package}")' in said
+
+
 def _fields(source: Source, package: str) -> Iterator[Fact]:
     message = Path(source.path).stem
     if _STATE.search(source.text):
@@ -263,6 +284,10 @@ def _fields(source: Source, package: str) -> Iterator[Fact]:
 def _settings(source: Source) -> Iterator[Fact]:
     """What in the parameters has a bearing on what nodes do, but for the values of constants."""
     section = ""
+    for m in _ONE_NODE.finditer(source.text):
+        yield Fact(
+            "parameters", "", m[1].strip("\"'"), "given for it alone", source, Span(*m.span(1))
+        )
     for m in _ENTRY.finditer(source.text):
         if m[3] and (not m[1] or section == "env"):
             yield Fact(CONSTANT, "", m[2], _type_of(m[3]), source, Span(*m.span(2)))
@@ -301,6 +326,11 @@ def _programs(source: Source) -> Iterator[Fact]:
     for m in _COMPILED.finditer(_HASH.sub(lambda m: " " * len(m[0]), source.text)):
         for option in _OPTION.findall(m[1] or m[2] or ""):
             yield Fact("compiler option", "", _squeezed(option), "given", source, Span(*m.span()))
+    named = {m[1]: m[2] for m in _NAMED.finditer(source.text)}
+    for m in _TARGETS.finditer(source.text):
+        for target in re.split(r"\b[A-Z]+\b(?! *\})", m[1])[0].split():
+            name = named.get(target, target)
+            yield Fact("installed program", "", name, "there", source, Span(*m.span(1)))
     for m in _SCRIPT.finditer(source.text):
         yield Fact("installed program", "", m[1], "there", source, Span(*m.span()))
     for m in _FOLDERS.finditer(source.text):
@@ -312,7 +342,7 @@ def _programs(source: Source) -> Iterator[Fact]:
         yield Fact("Python package", "", "", "built", source, Span(*m.span()))
     for m in _PROGRAM.finditer(source.text):
         command, target, rest = m.groups()
-        span = Span(*m.span(2))
+        target, span = named.get(target, target), Span(*m.span(2))
         if command == "set_target_properties":
             yield Fact("name of a program", target, "", _squeezed(rest), source, span)
             continue
