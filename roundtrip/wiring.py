@@ -278,7 +278,8 @@ class _Excuses:
         """Whether it makes a difference that there is something that was not generated."""
         if fact.kind != "remap":
             return fact.kind in _UNWANTED
-        is_own = not fact.owner or (TYPE, fact.owner, "") in self.base
+        was = {(TYPE, fact.owner, ""), ("node", fact.owner, "pkg")}
+        is_own = not fact.owner or not was.isdisjoint(self.base)
         return is_own and is_about(self.now, self.today, fact)
 
     def _same_are_joined(self, key: tuple[str, str, str]) -> bool:

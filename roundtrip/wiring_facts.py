@@ -261,8 +261,10 @@ def _declared(source: Source, package: str) -> Iterator[Fact]:
         for remap in node.remaps:
             yield Fact("remap", name, remap.private, str(remap.target), source, remap.span)
         for given in node.parameters:
-            kind = "setting" if _has_bearing(given.name) else "parameter"
-            if given.name.partition("/")[0] in _BEARING:
+            section = given.name.partition("/")[0]
+            is_constant = section == "env"  # whose value is read where parameters are
+            kind = "setting" if is_constant or _has_bearing(given.name) else "parameter"
+            if is_constant or section in _BEARING:
                 yield Fact(kind, name, given.name, repr(given.value), source, given.span)
     yield from (Fact(*told) for told in wiring_ros2.of_launch(source))
 
