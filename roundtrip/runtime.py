@@ -7,7 +7,7 @@ of the system. Layout and comments do not count, nor does another name of the pa
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from itertools import zip_longest
 
@@ -32,6 +32,8 @@ _INCLUDE = re.compile(
     r'^[ \t]*#[ \t]*(?:include[ \t]*(?:<[^>\n]*>|("[^"\n]*"))|pragma once\b)', re.M
 )
 _OWN_NAME = re.compile(r'#include "(\w+)/|#ifndef (\w+)_\w+_H\b|#ifndef (\w+)__\w+_HPP_')
+# The end of a literal that would take what follows it for a part of its last character.
+_OPEN_ESCAPE = re.compile(r'\\(?:x[0-9a-fA-F]+|[0-7]{1,2})"\Z')
 # What a rebec is made of, extraction reads.
 _REBEC = re.compile(r"::\w+rebec\(node[,)]|.*(?:node\.param|readArray)\(")
 _LOGS = ("ROS_", "RCLCPP_", "printf(", "std::cout", "std::cerr")
@@ -140,27 +142,30 @@ def _tokens(source: Source, own: frozenset[str]) -> Iterator[_Piece]:
     tokens = [_Piece(m[0], Span(*m.span())) for m in TOKEN.finditer(rest)]
     tokens = [t for t in tokens if not t.text.startswith(("//", "/*"))]
     headers = sorted((h for h in headers if h.text), key=lambda h: h.text.rpartition("/")[2])
-    for piece in (*headers, *_joined(tokens)):
+    for piece in (*headers, *_with_whole_literals(tokens)):
         text = piece.text
         for name in names:
             text = text.replace(name, "")
         yield _Piece(text, piece.span)
 
 
-def _joined(tokens: list[_Piece]) -> Iterator[_Piece]:
-    """Tokens, with literals that follow each other as one: formatters break long ones."""
-    held: _Piece | None = None
+def _with_whole_literals(tokens: Iterable[_Piece]) -> Iterator[_Piece]:
+    """The tokens, with literals side by side as the one that they are to a compiler."""
+    last: _Piece | None = None
     for token in tokens:
-        if held is not None and token.text.startswith('"'):
-            held = _Piece(held.text[:-1] + token.text[1:], Span(held.span.start, token.span.end))
+        if last is not None and _continues(last.text, token.text):
+            last = _Piece(last.text[:-1] + token.text[1:], last.span.to(token.span))
             continue
-        if held is not None:
-            yield held
-        held = token if token.text.startswith('"') else None
-        if held is None:
-            yield token
-    if held is not None:
-        yield held
+        if last is not None:
+            yield last
+        last = token
+    if last is not None:
+        yield last
+
+
+def _continues(literal: str, other: str) -> bool:
+    are_both = literal[0] == '"' == other[0] and len(literal) > 1 and len(other) > 1
+    return are_both and _OPEN_ESCAPE.search(literal) is None
 
 
 def _statements(source: Source, own: frozenset[str]) -> Iterator[_Piece]:

@@ -16,6 +16,7 @@ PYTHON = re.compile(r"(?:.*\.py|(?:.*/)?scripts/\w+)\Z")
 _CLASS = re.compile(r"^# rebsync: (?:reactiveclass|interface) ", re.M)
 _READS = re.compile(r"(?:rospy\.get_param|declared|read_array|declare_array)\(")
 _IMPORTS = (ast.Import, ast.ImportFrom)
+_TOLD = frozenset({"__version__", "__author__", "__license__", "__copyright__"})
 
 
 def is_python_runtime(name: str, generated: str) -> bool:
@@ -58,10 +59,19 @@ def _without(text: str, own: frozenset[str]) -> str:
     return text
 
 
+def _is_told_to_people(statement: ast.stmt) -> bool:
+    """Whether it says who made a module, or which one it is."""
+    match statement:
+        case ast.Assign(targets=[ast.Name(id=name)], value=ast.Constant()):
+            return name in _TOLD
+        case _:
+            return False
+
+
 def _parts(body: list[ast.stmt], own: frozenset[str]) -> Iterator[tuple[str, ast.stmt]]:
     """Each statement, what is inside of it apart, with its text."""
     for statement in said(body):
-        if isinstance(statement, _IMPORTS):
+        if isinstance(statement, _IMPORTS) or _is_told_to_people(statement):
             continue
         inner = [getattr(statement, name, []) for name in ("body", "orelse", "finalbody")]
         handlers = getattr(statement, "handlers", [])

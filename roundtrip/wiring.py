@@ -57,7 +57,12 @@ _MISSED = frozenset(
     {"subscription", "publisher", "sensor", "priority", "sending", "type of the parameter"}
 )
 # What was not there when the code was generated makes a difference too.
-_UNWANTED = frozenset({"setting", "compiler option", RANGE})
+_UNWANTED = frozenset(
+    {
+        *("setting", "compiler option", RANGE),
+        *("environment", "launch file", "unknown", "parameters"),
+    }
+)
 _SAYING = frozenset({"receiving", "sending", "set-up"})
 _HELPING = frozenset({PROGRAM, PLAYED, TYPE, SPACE})
 _HINT = "take the edit back: no model tells this"
@@ -189,8 +194,12 @@ def _unseen(kept: Kept, excuses: _Excuses) -> Iterator[Odd]:
     if (what := excuses.before.lacks(excuses.now)) is not None:
         message = f"nodes are joined otherwise: {what}"
         hint = "look at the names of topics in the code and in the launch file"
-        diagnostic = Diagnostic("RS956", NOWHERE, message, hint)
-        yield Odd((), (), Findings(Source(kept.root, ""), (diagnostic,)))
+        new = (f for key, facts in excuses.today.items() if key not in excuses.base for f in facts)
+        remap = next((f for f in new if f.kind == "remap"), None)
+        source = remap.source if remap is not None else Source(kept.root, "")
+        span = remap.span if remap is not None else NOWHERE
+        diagnostic = Diagnostic("RS956", span, message, hint)
+        yield Odd((), (), Findings(source, (diagnostic,)))
 
 
 def _inside(kept: Kept, fact: Fact) -> str:
@@ -269,7 +278,8 @@ class _Excuses:
         """Whether it makes a difference that there is something that was not generated."""
         if fact.kind != "remap":
             return fact.kind in _UNWANTED
-        is_own = not fact.owner or (TYPE, fact.owner, "") in self.base
+        was = {(TYPE, fact.owner, ""), ("node", fact.owner, "pkg")}
+        is_own = not fact.owner or not was.isdisjoint(self.base)
         return is_own and is_about(self.now, self.today, fact)
 
     def _same_are_joined(self, key: tuple[str, str, str]) -> bool:

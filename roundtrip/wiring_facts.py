@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
+from functools import lru_cache
 from itertools import chain
 from pathlib import Path
 from typing import TypeAlias
@@ -50,10 +51,16 @@ _BEARING = {
     "drive": ("cell_size", "kind", "heading", "move_time"),
 }
 _PROGRAM = re.compile(r"\b(add_executable|set_target_properties)\s*\(\s*(\S+)\s+([^)]*)\)")
+_NAMED = re.compile(r"\bset_target_properties\s*\(\s*(\S+)\s[^)]*\bOUTPUT_NAME\s+(\w+)")
+_TARGETS = re.compile(r"\binstall\s*\(\s*TARGETS\s+([^)]*)\)")
 _SCRIPT = re.compile(r"^[ \t]*scripts/(\w+)[ \t]*$", re.MULTILINE)
 _MODULES = re.compile(r"\bcatkin_python_setup\s*\(\s*\)")
 _GENERATED = re.compile(r"\bgenerate_messages\s*\(")
 _FOLDERS = re.compile(r"\bDIRECTORY\s+([\w\s]+?)\s+DESTINATION\b")
+# A section of parameters in ROS 2 that is not for all nodes.
+_ONE_NODE = re.compile(r"^(?!/\*\*:)([^\s#][^\n]*):[ \t]*\n[ \t]+ros__parameters:", re.MULTILINE)
+# The environment that has to do with what is shown only.
+_SHOWN = ("ROSCONSOLE_", "RCUTILS_", "ROS_LOG_DIR")
 _TYPES = {
     "a whole number": re.compile(r"[+-]?(?:0x[\da-fA-F]+|\d[\d_]*)"),
     "a fraction": re.compile(r"[+-]?(?:\d+\.\d*|\.\d+)(?:[eE][+-]?\d+)?"),
@@ -103,9 +110,14 @@ def facts_of(paths: Mapping[str, str], package: str = "") -> Facts:
     for name, path in sorted(paths.items()):
         with suppress(RebsyncError):  # what cannot be read, extraction lists
             source = Source(path, _text(read_bytes(path)))
-            for fact in _of_file(name, source, package):
+            for fact in _told(name, source, package):
                 found.setdefault(fact.key, []).append(fact)
     return found
+
+
+@lru_cache(maxsize=256)  # most texts are there as they were and as they are, and asked for again
+def _told(name: str, source: Source, package: str) -> tuple[Fact, ...]:
+    return tuple(_of_file(name, source, package))
 
 
 def _text(data: bytes) -> str:
@@ -211,11 +223,16 @@ def _launched(source: Source, text: str, package: str) -> Iterator[Fact]:
                 if given.get("pkg") == package:
                     given["pkg"] = OWN
                 given["ns"] = "/".join(filter(None, (*spaces, given.get("ns"))))
-                for key in ("pkg", "respawn", "ns"):
+                for key in ("pkg", "respawn", "ns", "args"):
                     yield Fact("node", name, key, given.get(key) or NOT_GIVEN, source, span)
                 yield Fact(TYPE, name, "", given.get("type", ""), source, span)
             case "node":
                 node = ""
+            case "env" if not end and not given.get("name", "").startswith(_SHOWN):
+                name, value = given.get("name", ""), given.get("value", "")
+                yield Fact("environment", node, name, value, source, span)
+            case "include" if not end and not _is_own(given.get("file", ""), package):
+                yield Fact("launch file", "", given.get("file", ""), "included", source, span)
             case "remap":
                 yield Fact("remap", node, given.get("from", ""), given.get("to", ""), source, span)
             case "rosparam" if not end and not closed and "param" in given:
@@ -233,7 +250,12 @@ def _launched(source: Source, text: str, package: str) -> Iterator[Fact]:
 
 def _declared(source: Source, package: str) -> Iterator[Fact]:
     """The same of a launch file in Python, but for what a node is made of."""
-    for node in read_ros2_launch(source, lambda _: None).nodes:
+    launch = read_ros2_launch(source, lambda _: None)
+    for unknown in launch.unknowns:
+        said = source.text[unknown.span.start : unknown.span.end]
+        if not _is_own(said, package):
+            yield Fact("unknown", "", unknown.what, unknown.why, source, unknown.span)
+    for node in launch.nodes:
         name = str(node.name)
         of = OWN if node.package == package else str(node.package)
         facts = {"pkg": of, "ns": str(node.namespace), "if": " ".join(node.only_if)}
@@ -243,10 +265,17 @@ def _declared(source: Source, package: str) -> Iterator[Fact]:
         for remap in node.remaps:
             yield Fact("remap", name, remap.private, str(remap.target), source, remap.span)
         for given in node.parameters:
-            kind = "setting" if _has_bearing(given.name) else "parameter"
-            if given.name.partition("/")[0] in _BEARING:
+            section = given.name.partition("/")[0]
+            is_constant = section == "env"  # whose value is read where parameters are
+            kind = "setting" if is_constant or _has_bearing(given.name) else "parameter"
+            if is_constant or section in _BEARING:
                 yield Fact(kind, name, given.name, repr(given.value), source, given.span)
     yield from (Fact(*told) for told in wiring_ros2.of_launch(source))
+
+
+def _is_own(said: str, package: str) -> bool:
+    """Whether what is said of a file is of the package itself, where extraction reads it."""
+    return f"$(find {package})" in said or "$(dirname)" in said or f'("{package}")' in said
 
 
 def _fields(source: Source, package: str) -> Iterator[Fact]:
@@ -261,6 +290,10 @@ def _fields(source: Source, package: str) -> Iterator[Fact]:
 def _settings(source: Source) -> Iterator[Fact]:
     """What in the parameters has a bearing on what nodes do, but for the values of constants."""
     section = ""
+    for m in _ONE_NODE.finditer(source.text):
+        yield Fact(
+            "parameters", "", m[1].strip("\"'"), "given for it alone", source, Span(*m.span(1))
+        )
     for m in _ENTRY.finditer(source.text):
         if m[3] and (not m[1] or section == "env"):
             yield Fact(CONSTANT, "", m[2], _type_of(m[3]), source, Span(*m.span(2)))
@@ -299,6 +332,11 @@ def _programs(source: Source) -> Iterator[Fact]:
     for m in _COMPILED.finditer(_HASH.sub(lambda m: " " * len(m[0]), source.text)):
         for option in _OPTION.findall(m[1] or m[2] or ""):
             yield Fact("compiler option", "", _squeezed(option), "given", source, Span(*m.span()))
+    named = {m[1]: m[2] for m in _NAMED.finditer(source.text)}
+    for m in _TARGETS.finditer(source.text):
+        for target in re.split(r"\b[A-Z]+\b(?! *\})", m[1])[0].split():
+            name = named.get(target, target)
+            yield Fact("installed program", "", name, "there", source, Span(*m.span(1)))
     for m in _SCRIPT.finditer(source.text):
         yield Fact("installed program", "", m[1], "there", source, Span(*m.span()))
     for m in _FOLDERS.finditer(source.text):
@@ -310,7 +348,7 @@ def _programs(source: Source) -> Iterator[Fact]:
         yield Fact("Python package", "", "", "built", source, Span(*m.span()))
     for m in _PROGRAM.finditer(source.text):
         command, target, rest = m.groups()
-        span = Span(*m.span(2))
+        target, span = named.get(target, target), Span(*m.span(2))
         if command == "set_target_properties":
             yield Fact("name of a program", target, "", _squeezed(rest), source, span)
             continue

@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Sequence
 
 from tests.roundtrip.mutations.harness import Result, Said, Task, results
-from tests.roundtrip.mutations.kinds import BEHAVIOUR, NEUTRAL
+from tests.roundtrip.mutations.kinds import BEHAVIOUR, NEUTRAL, made_by
 from tests.roundtrip.mutations.package import BY_NAME, DIALECTS, Kind
 
 _FINE = {True: (Said.AT_ELEMENT, Said.AT_FILE), False: (Said.IN_STEP,)}
@@ -24,9 +24,12 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2, help="processes")
     parser.add_argument("--only", default="", help="kinds with this in their name")
+    parser.add_argument("--module", default="", help="kinds of modules whose names begin so")
     given = parser.parse_args(arguments)
     changing, quiet = BEHAVIOUR[given.dialect], NEUTRAL[given.dialect]
+    own = {k.name for k in made_by(given.module)} if given.module else None
     kinds = [k for k in (*changing, *quiet) if given.only in k.name]
+    kinds = [k for k in kinds if own is None or k.name in own]
     names = [k.name for k in kinds]
     parts = [tuple(names[i : i + 20]) for i in range(0, len(names), 20)]
     tasks = [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import random
 import shutil
@@ -112,12 +113,15 @@ def written(package: Package, root: Path) -> None:
 
 @contextmanager
 def _cache(folder: str) -> Iterator[None]:
-    """A cache of its own, so that what others have read does not count."""
-    before = os.environ.get("REBSYNC_CACHE")
+    """A cache of its own, so that what others have read does not count; as the CLI, uncollected."""
+    before, collects = os.environ.get("REBSYNC_CACHE"), gc.isenabled()
     os.environ["REBSYNC_CACHE"] = folder
+    gc.disable()
     try:
         yield
     finally:
+        if collects:
+            gc.enable()
         if before is None:
             del os.environ["REBSYNC_CACHE"]
         else:

@@ -8,6 +8,8 @@ from functools import cache
 from tests.roundtrip.mutations import (
     bodies,
     building,
+    interplay,
+    interplay_launch,
     joints,
     launch_py,
     launch_xml,
@@ -27,12 +29,14 @@ from tests.roundtrip.mutations import (
 )
 from tests.roundtrip.mutations.package import Kind
 
-_CPP = (*bodies.KINDS, *sending.KINDS, *joints.KINDS, *building.KINDS)
+_CPP = (*bodies.KINDS, *sending.KINDS, *joints.KINDS, *building.KINDS, *interplay.CPP)
 _CPP_NEUTRAL = (
     *neutral.KINDS,
     *spelling.KINDS,
     *surroundings.NEUTRAL,
     *building.NEUTRAL,
+    *interplay.CPP_NEUTRAL,
+    *interplay.ALL_NEUTRAL,
     *layout.KINDS,
 )
 
@@ -42,16 +46,26 @@ _PY = (
     *py_joints.KINDS,
     *py_surroundings.KINDS,
     *slips.PYTHON,
+    *interplay.PYTHON,
 )
 _PY_NEUTRAL = (
     *py_neutral.KINDS,
     *slips.PYTHON_NEUTRAL,
+    *interplay.PYTHON_NEUTRAL,
+    *interplay.ALL_NEUTRAL,
     *surroundings.NEUTRAL,
     *layout.KINDS,
 )
-_ALL = (*surroundings.KINDS, *slips.ANY)
-_XML, _LAUNCH_PY = (*launch_xml.KINDS, *slips.LAUNCH_XML), (*launch_py.KINDS, *slips.LAUNCH_PY)
-_LAUNCH_PY_NEUTRAL = (*launch_py.NEUTRAL, *slips.LAUNCH_PY_NEUTRAL)
+_ALL = (*surroundings.KINDS, *slips.ANY, *interplay.ALL)
+_XML = (*launch_xml.KINDS, *slips.LAUNCH_XML, *interplay_launch.XML, *interplay.ROS1)
+_LAUNCH_PY = (*launch_py.KINDS, *slips.LAUNCH_PY, *interplay_launch.PY, *interplay.ROS2)
+_XML_NEUTRAL = (*launch_xml.NEUTRAL, *interplay_launch.XML_NEUTRAL)
+_LAUNCH_PY_NEUTRAL = (
+    *launch_py.NEUTRAL,
+    *slips.LAUNCH_PY_NEUTRAL,
+    *interplay_launch.PY_NEUTRAL,
+    *interplay.ROS2_NEUTRAL,
+)
 
 BEHAVIOUR: Mapping[str, tuple[Kind, ...]] = {
     "ros1-cpp": (*_CPP, *_ALL, *roscpp.KINDS, *_XML),
@@ -60,11 +74,18 @@ BEHAVIOUR: Mapping[str, tuple[Kind, ...]] = {
     "ros2-py": (*_PY, *_ALL, *py_surroundings.RCLPY, *slips.RCLPY, *_LAUNCH_PY),
 }
 NEUTRAL: Mapping[str, tuple[Kind, ...]] = {
-    "ros1-cpp": (*_CPP_NEUTRAL, *roscpp.NEUTRAL, *launch_xml.NEUTRAL),
+    "ros1-cpp": (*_CPP_NEUTRAL, *roscpp.NEUTRAL, *_XML_NEUTRAL),
     "ros2-cpp": (*_CPP_NEUTRAL, *rclcpp.NEUTRAL, *_LAUNCH_PY_NEUTRAL),
-    "ros1-py": (*_PY_NEUTRAL, *py_neutral.ROSPY, *launch_xml.NEUTRAL),
+    "ros1-py": (*_PY_NEUTRAL, *py_neutral.ROSPY, *_XML_NEUTRAL),
     "ros2-py": (*_PY_NEUTRAL, *py_neutral.RCLPY, *_LAUNCH_PY_NEUTRAL),
 }
+
+
+def made_by(module: str) -> list[Kind]:
+    """The kinds of all dialects that modules of changes have whose names begin so."""
+    modules = (vars(m) for name, m in globals().items() if name.startswith(module))
+    every = (value for m in modules for value in m.values() if isinstance(value, tuple))
+    return [kind for value in every for kind in value if isinstance(kind, Kind)]
 
 
 @cache

@@ -14,7 +14,7 @@ _NAME = re.compile(r'^ +name="(\w+)",$', re.MULTILINE)
 _PROGRAM = re.compile(r'^ +executable="(\w+)",$', re.MULTILINE)
 
 
-def _nodes(package: Package) -> Iterator[tuple[str, str, re.Match[str]]]:
+def rebecs(package: Package) -> Iterator[tuple[str, str, re.Match[str]]]:
     """The files and names of the rebecs that launch files start, and their extents."""
     for path in package.paths(_FILE):
         for found in _NODE.finditer(package.files[path]):
@@ -28,7 +28,7 @@ def _in_nodes(pattern: str, text: str) -> Maker:
     compiled = re.compile(pattern, re.MULTILINE)
 
     def make(package: Package) -> Iterator[Edit]:
-        for path, name, node in _nodes(package):
+        for path, name, node in rebecs(package):
             for found in compiled.finditer(package.files[path], node.start(), node.end()):
                 yield Edit(path, *found.span(), found.expand(text), name)
 
@@ -39,21 +39,21 @@ def _whole_nodes(text: str) -> Maker:
     """Puts a text in place of whole nodes."""
 
     def make(package: Package) -> Iterator[Edit]:
-        for path, name, node in _nodes(package):
+        for path, name, node in rebecs(package):
             yield Edit(path, *node.span(), text, name)
 
     return make
 
 
 def _copied_node(package: Package) -> Iterator[Edit]:
-    for path, name, node in _nodes(package):
+    for path, name, node in rebecs(package):
         copy = node[0].replace(f'name="{name}"', f'name="{name}_2"')
         yield Edit(path, node.end(), node.end(), copy, f"{name}_2")
 
 
 def _greater(package: Package) -> Iterator[Edit]:
     """An argument of a rebec that is one greater."""
-    for path, name, node in _nodes(package):
+    for path, name, node in rebecs(package):
         for found in re.finditer(r'"\w+": (-?\d+),', node[0]):
             start = node.start() + found.start(1)
             yield Edit(path, start, start + len(found[1]), str(int(found[1]) + 1), name)
@@ -61,7 +61,7 @@ def _greater(package: Package) -> Iterator[Edit]:
 
 def _swapped_arguments(package: Package) -> Iterator[Edit]:
     pattern = re.compile(r'("\w+": )(-?\d+)(,\n *"\w+": )(-?\d+),')
-    for path, name, node in _nodes(package):
+    for path, name, node in rebecs(package):
         for found in pattern.finditer(node[0]):
             if found[2] != found[4]:
                 start = node.start() + found.start()
@@ -71,8 +71,8 @@ def _swapped_arguments(package: Package) -> Iterator[Edit]:
 
 def _other_rebec(package: Package) -> Iterator[Edit]:
     """A known rebec that is another."""
-    names = [name for _, name, _ in _nodes(package)]
-    for path, name, node in _nodes(package):
+    names = [name for _, name, _ in rebecs(package)]
+    for path, name, node in rebecs(package):
         for found in re.finditer(r'"knownrebecs\.\w+": "(\w+)"', node[0]):
             others = [n for n in names if n != found[1]]
             start = node.start() + found.start(1)
@@ -81,8 +81,8 @@ def _other_rebec(package: Package) -> Iterator[Edit]:
 
 
 def _other_program(package: Package) -> Iterator[Edit]:
-    types = sorted({m[1] for _, _, node in _nodes(package) for m in _PROGRAM.finditer(node[0])})
-    for path, _, node in _nodes(package):
+    types = sorted({m[1] for _, _, node in rebecs(package) for m in _PROGRAM.finditer(node[0])})
+    for path, _, node in rebecs(package):
         for found in _PROGRAM.finditer(node[0]):
             others = [t for t in types if t != found[1]]
             start = node.start() + found.start(1)
@@ -92,7 +92,7 @@ def _other_program(package: Package) -> Iterator[Edit]:
 
 def _condition(package: Package) -> Iterator[list[Edit]]:
     """A node that a condition keeps from being started."""
-    for path, name, node in _nodes(package):
+    for path, name, node in rebecs(package):
         found = re.search(r"^from launch\.sub", package.files[path], re.MULTILINE)
         if found is not None:
             line = "from launch.conditions import IfCondition\n"
@@ -106,7 +106,7 @@ def _condition(package: Package) -> Iterator[list[Edit]]:
 
 def _extracted(package: Package) -> Iterator[list[Edit]]:
     """An argument that is named before."""
-    for path, name, node in _nodes(package):
+    for path, name, node in rebecs(package):
         head = re.search(r"^    return LaunchDescription", package.files[path], re.MULTILINE)
         for found in re.finditer(r'"\w+": (-?\d+),', node[0]):
             start = node.start() + found.start(1)

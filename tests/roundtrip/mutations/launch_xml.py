@@ -11,7 +11,7 @@ from tests.roundtrip.mutations.package import Edit, Kind, Maker, Package, in_fil
 _NODE = re.compile(r'^  <node name="(\w+)"(?:[^>]*/>|.*?</node>)\n', re.MULTILINE | re.DOTALL)
 
 
-def _nodes(package: Package) -> Iterator[tuple[str, re.Match[str]]]:
+def rebecs(package: Package) -> Iterator[tuple[str, re.Match[str]]]:
     """The nodes of launch files that are rebecs."""
     for path in package.paths(".launch"):
         for found in _NODE.finditer(package.files[path]):
@@ -23,7 +23,7 @@ def _in_nodes(pattern: str, text: str) -> Maker:
     """In the nodes of launch files; what changes is the rebec."""
 
     def make(package: Package) -> Iterator[Edit]:
-        for path, node in _nodes(package):
+        for path, node in rebecs(package):
             for found in re.compile(pattern, re.MULTILINE).finditer(
                 package.files[path], node.start(), node.end()
             ):
@@ -36,21 +36,21 @@ def _whole_nodes(text: str) -> Maker:
     """Puts a text in place of whole nodes; `\\g<0>` is the node."""
 
     def make(package: Package) -> Iterator[Edit]:
-        for path, node in _nodes(package):
+        for path, node in rebecs(package):
             yield Edit(path, *node.span(), node.expand(text), node[1])
 
     return make
 
 
 def _copied_node(package: Package) -> Iterator[Edit]:
-    for path, node in _nodes(package):
+    for path, node in rebecs(package):
         copy = node[0].replace(f'name="{node[1]}"', f'name="{node[1]}_2"')
         yield Edit(path, node.end(), node.end(), copy, f"{node[1]}_2")
 
 
 def _greater(package: Package) -> Iterator[Edit]:
     """An argument of a rebec that is one greater."""
-    for path, node in _nodes(package):
+    for path, node in rebecs(package):
         for found in re.finditer(r'value="(-?\d+)"', node[0]):
             start = node.start() + found.start(1)
             yield Edit(path, start, start + len(found[1]), str(int(found[1]) + 1), node[1])
@@ -58,8 +58,8 @@ def _greater(package: Package) -> Iterator[Edit]:
 
 def _other_rebec(package: Package) -> Iterator[Edit]:
     """A known rebec that is another."""
-    names = [node[1] for _, node in _nodes(package)]
-    for path, node in _nodes(package):
+    names = [node[1] for _, node in rebecs(package)]
+    for path, node in rebecs(package):
         for found in re.finditer(r'value="(\w+)" type="str"', node[0]):
             others = [n for n in names if n != found[1] and "stand_in" not in n]
             start = node.start() + found.start(1)
@@ -68,8 +68,8 @@ def _other_rebec(package: Package) -> Iterator[Edit]:
 
 
 def _other_program(package: Package) -> Iterator[Edit]:
-    types = sorted({m[1] for _, n in _nodes(package) if (m := re.search(r'type="(\w+)"', n[0]))})
-    for path, node in _nodes(package):
+    types = sorted({m[1] for _, n in rebecs(package) if (m := re.search(r'type="(\w+)"', n[0]))})
+    for path, node in rebecs(package):
         found = re.search(r'type="(\w+)"', node[0])
         others = [t for t in types if found is not None and t != found[1]]
         if found is not None and others:

@@ -41,6 +41,7 @@ __all__ = [
     "at_start",
     "generated",
     "in_files",
+    "kinds_in",
     "within",
 ]
 
@@ -257,6 +258,11 @@ def in_files(suffix: str, pattern: str, text: str, *, comments: bool = False) ->
                 yield Edit(path, *found.span(), new, package.owners.get(path, ""))
 
     return make
+
+
+def kinds_in(suffix: str, rows: Mapping[str, tuple[str, str]]) -> tuple[Kind, ...]:
+    """Kinds of changes in such files by their names, each a pattern and the text in its place."""
+    return tuple(Kind(name, in_files(suffix, *row)) for name, row in rows.items())
 
 
 def at_start(text: str, *kinds: str) -> Maker:

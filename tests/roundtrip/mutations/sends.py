@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from tests.roundtrip.mutations.package import Package, Part, Texts
+from tests.roundtrip.mutations.package import Kind, Package, Part, Texts, within
 
 
 @dataclass(frozen=True)
@@ -16,8 +16,19 @@ class Sends:
     `line` has places for these three; `to_self` begins the names of what a rebec sends to itself.
     `integer` is the type of numbers, `greater` one that is one more than another. `arguments` tells
     the arguments from what is said of times, which `timed` writes, and `also` beside another time.
+
+    `send` finds a send, `statement` its whole line with the indent apart, and `nothing` stands for
+    one that is not there. `time` has places for a kind of time and its amount, which `given` finds;
+    `alone` finds a time with no other beside it, and `later` is the amount found and one more.
     """
 
+    send: str
+    statement: str
+    nothing: str
+    time: str
+    given: str
+    alone: str
+    later: str
     line: str
     call: str
     to_self: str
@@ -26,6 +37,27 @@ class Sends:
     arguments: Callable[[str], tuple[list[str], str]]
     timed: Callable[[str], str]
     also: Callable[[str, str], str | None]
+
+    def kinds(self) -> Iterator[Kind]:
+        """What is changed alike in every language."""
+        line = self.statement
+        yield Kind("send removed", within(line, self.nothing))
+        yield Kind("send twice", within(line, r"\g<0>\g<0>"))
+        yield Kind("sends swapped", within(rf"({line})(?!\1)({line})", r"\4\1"))
+        yield Kind("send to another", within(self.send, self.another))
+        yield Kind("another message to itself", within(self.send, self.another_message))
+        yield Kind("arguments of a send swapped", within(self.send, self.swapped))
+        yield Kind("argument of a send greater", within(self.send, self.greater_last))
+        yield Kind("call in place of a send", within(self.send, self.called_at_once))
+        for time, other, amount in (("after", "deadline", "9"), ("deadline", "after", "1")):
+            added, beside = self.time.format(time, 1), self.time.format(other, amount)
+            found, article = self.given.format(time), "" if time == "after" else "a "
+            later, made = self.time.format(time, self.later), self.time.format(other, r"\1")
+            yield Kind(f"{time} added", within(self.send, self.at(added)))
+            yield Kind(f"{time} removed", within(self.alone.format(time), ""))
+            yield Kind(f"{time} one later", within(found, later))
+            yield Kind(f"{time} made {other}", within(found, made))
+            yield Kind(f"{other} besides {article}{time}", within(self.send, self.besides(beside)))
 
     def another(self, package: Package, part: Part, found: re.Match[str]) -> str | None:
         """To another receiver: one is the sender itself, or both are not."""

@@ -18,6 +18,7 @@ from tests.roundtrip.mutations.package import (
     Texts,
     anywhere,
     in_files,
+    kinds_in,
     within,
 )
 from tests.roundtrip.mutations.surroundings import constants, run_time
@@ -151,43 +152,36 @@ ANY = (
     Kind("package of another name", _renamed_package),
 )
 
-LAUNCH_PY = (
-    Kind(
-        "parameter of one node",
-        in_files(".launch.py", r"^( +)(system,)$", r'\1\2\n\1{"mailbox.time_unit": 2.0},'),
-    ),
-    Kind(
-        "argument set again",
-        in_files(".launch.py", r'^( +)("\w+": )(\d+),$', r"\1\2\3,\n\1\g<2>9\3,"),
-    ),
+LAUNCH_PY = kinds_in(
+    ".launch.py",
+    {
+        "parameter of one node": (
+            r"^( +)(system,)$",
+            r'\1\2\n\1{"mailbox.time_unit": 2.0},',
+        ),
+        "argument set again": (r'^( +)("\w+": )(\d+),$', r"\1\2\3,\n\1\g<2>9\3,"),
+    },
 )
 
 # What launch_ros reads as YAML, where a node takes a number.
-LAUNCH_PY_NEUTRAL = (
-    Kind(
-        "argument given as a text", in_files(".launch.py", r'^( +"\w+": )([1-9]\d*),$', r'\1"\2",')
-    ),
+LAUNCH_PY_NEUTRAL = kinds_in(
+    ".launch.py", {"argument given as a text": (r'^( +"\w+": )([1-9]\d*),$', r'\1"\2",')}
 )
 
-LAUNCH_XML = (
-    Kind(
-        "argument given as a text",
-        in_files(".launch", r'(<param name="\w+" )value="([1-9]\d*)"', r'\1value="\2" type="str"'),
-    ),
-    Kind(
-        "unit of time set again",
-        in_files(
-            ".launch",
+LAUNCH_XML = kinds_in(
+    ".launch",
+    {
+        "argument given as a text": (
+            r'(<param name="\w+" )value="([1-9]\d*)"',
+            r'\1value="\2" type="str"',
+        ),
+        "unit of time set again": (
             r"\A<launch>\n",
             '<launch>\n  <param name="mailbox/time_unit" value="2.0"/>\n',
         ),
-    ),
-    Kind(
-        "argument set again",
-        in_files(
-            ".launch",
+        "argument set again": (
             r'^( *)(<param name="\w+" value=")(\d+)("/>)$',
             r"\1\2\3\4\n\1\g<2>9\3\4",
         ),
-    ),
+    },
 )
