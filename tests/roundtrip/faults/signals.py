@@ -28,8 +28,13 @@ def statuses(number: signal.Signals) -> tuple[int, ...]:
     return -number, 128 + number, 0
 
 
+def _heed() -> None:
+    """Ends on Ctrl-C even if what has started the tests does not, as in the background."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def started(folder: Path) -> subprocess.Popen[str]:
-    """A sync in a process of its own, as a shell starts it."""
+    """A sync in a process of its own, as a shell starts it: Ctrl-C ends it."""
     return subprocess.Popen(
         [sys.executable, "-m", "rebsync", "sync"],
         cwd=folder,
@@ -37,6 +42,7 @@ def started(folder: Path) -> subprocess.Popen[str]:
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
+        preexec_fn=_heed,
     )
 
 

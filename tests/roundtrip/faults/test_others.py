@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+from tests.cli.run import environment
 from tests.roundtrip.faults.package import MODEL_FILE, PATROLS, copied, prepare, run, snapshot
 from tests.roundtrip.faults.signals import ENDING, signalled, statuses
 
@@ -81,3 +83,26 @@ def test_a_signal_loses_nothing(number: signal.Signals, made: Path, tmp_path: Pa
     status, wrong = signalled(made, wanted, tmp_path / "tried", number, 0.5)
     assert wrong == []
     assert status in statuses(number)
+
+
+# Before Python 3.12 what is raised in there comes out as a RuntimeError.
+_WHILE_A_CLASS_IS_MADE = """
+import os, signal, sys
+from rebsync import cli
+
+class Field:
+    def __set_name__(self, owner, name):
+        os.kill(os.getpid(), signal.{name})
+
+cli.rebsync.main = lambda *_, **__: type("Made", (), {{"field": Field()}})
+signal.signal(signal.SIGINT, signal.default_int_handler)
+sys.exit(cli.main())
+"""
+
+
+@pytest.mark.parametrize("number", ENDING, ids=lambda number: number.name)
+def test_a_signal_while_a_class_is_made(number: signal.Signals) -> None:
+    code = _WHILE_A_CLASS_IS_MADE.format(name=number.name)
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, env=environment(), capture_output=True, text=True)
+    assert (done.returncode, "Traceback" in done.stderr) == (128 + number, False), done.stderr
