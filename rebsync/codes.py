@@ -160,6 +160,7 @@ FILES = {
     "RS809": "a value that a key of a configuration file cannot have",
     "RS810": "a missing key in a configuration file",
     "RS811": "a directory without anything to read",
+    "RS812": "a file that somebody changed while rebsync was about to write it",
 }
 
 PROPERTIES = {

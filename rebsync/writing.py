@@ -9,7 +9,7 @@ import secrets
 import shutil
 import signal
 import stat
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
@@ -46,8 +46,11 @@ def replace_tree(
     texts: Mapping[str, str],
     executable: Collection[str] = (),
     remove: Collection[str] = (),
+    ready: Callable[[], None] = lambda: None,
 ) -> tuple[str, ...]:
     """Make files below `root` hold `texts`, and delete `remove`: all of it or nothing.
+
+    `ready` is called at the last moment before; what it raises leaves all as it was.
 
     The paths are relative, with `/`. Gives those written or deleted; the others already were so.
     Files appear in the order given, and go last: so a machine that dies half-way leaves a prefix.
@@ -64,7 +67,7 @@ def replace_tree(
         if replacements and not folder.exists() and not folder.is_symlink():
             _create_tree(folder, replacements)
         else:
-            _replace_all(replacements)
+            _replace_all(replacements, ready)
     return tuple(each.path.relative_to(folder).as_posix() for each in replacements)
 
 
@@ -111,7 +114,9 @@ def _create_tree(root: Path, replacements: list[_Replacement]) -> None:
     _sync_directory(root.parent)
 
 
-def _replace_all(replacements: list[_Replacement]) -> None:
+def _replace_all(
+    replacements: list[_Replacement], ready: Callable[[], None] = lambda: None
+) -> None:
     """Stage every file, then put all in place; on any failure the old ones come back."""
     created: list[Path] = []
     try:
@@ -121,6 +126,7 @@ def _replace_all(replacements: list[_Replacement]) -> None:
                 if len(replacements) > 1:
                     _save(each)
         with _undisturbed():
+            ready()
             _put_all(replacements)
             created = []
     except BaseException:

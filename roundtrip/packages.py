@@ -38,20 +38,26 @@ def find(paths: Iterable[str], model: str | None = None) -> Iterator[Kept]:
     """
     seen: set[tuple[int, int]] = set()
     for path in paths:
-        found = list(_packages(path, model))
-        if not found:
+        every = list(_packages(path, model))
+        if not every:
             message = "there is no package here that was made from a model"
             hint = f"`rebsync generate` makes one, with a folder {FOLDER} that is to be committed"
             raise RebsyncError.of(path, "RS960", message, hint)
+        found = [kept for kept in every if _is_new(kept, seen)]
         if model is not None and len(found) > 1:
             message = f"--model is for one package, and here are {len(found)}"
             raise RebsyncError.of(path, "RS960", message, "name the package")
-        for kept in found:
-            with operating_on(kept.root):
-                status = Path(kept.root).stat()
-            if (status.st_dev, status.st_ino) not in seen:
-                seen.add((status.st_dev, status.st_ino))
-                yield kept
+        yield from found
+
+
+def _is_new(kept: Kept, seen: set[tuple[int, int]]) -> bool:
+    """Whether a package is not one of those seen, by another path or a link; it is from now on."""
+    with operating_on(kept.root):
+        status = Path(kept.root).stat()
+    key = status.st_dev, status.st_ino
+    is_new = key not in seen
+    seen.add(key)
+    return is_new
 
 
 def _packages(path: str, model: str | None) -> Iterator[Kept]:

@@ -13,13 +13,15 @@ from rebsync.roundtrip.merge_code import Stages
 from rebsync.roundtrip.sync import Sync, relative
 from rebsync.roundtrip.sync_records import marked
 from rebsync.source import Source
+from rebsync.stamps import Stamps
 from rebsync.writing import replace_tree
 
 
-def write(sync: Sync) -> tuple[str, ...]:
+def write(sync: Sync, before: Stamps) -> tuple[str, ...]:
     """Writes it all or nothing; gives the paths of model and code that are written.
 
-    RebsyncError: a file cannot be written, or a link leads out of what belongs together.
+    `before` are the files from when it was begun. RebsyncError: a file cannot be written, somebody
+    has changed it since, or a link leads out of what belongs together.
     """
     root = os.path.realpath(sync.checked.kept.root)
     model = relative(os.path.realpath(sync.checked.model), root)
@@ -35,8 +37,12 @@ def write(sync: Sync) -> tuple[str, ...]:
     ordered = sorted(sync.records.items(), key=lambda r: (r[0] == MANIFEST, r[0] == BASE_MODEL))
     texts |= {path: text for path, text in ordered if text is not None}
     gone = [p for each in (sync.texts, sync.records) for p, t in each.items() if t is None]
+
+    def refuse_changed() -> None:
+        before.refuse_changed(str(Path(root, path)) for path in (*texts, *gone))
+
     try:
-        written = replace_tree(root, texts, remove=gone)
+        written = replace_tree(root, texts, remove=gone, ready=refuse_changed)
     except RebsyncError as error:
         raise RebsyncError([_as_shown(f, root, sync, shown) for f in error.findings]) from None
     _tell_git(sync)

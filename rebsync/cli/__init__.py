@@ -56,6 +56,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         status = _os_error(error)
     except MemoryError:
         status = _say("there is not enough memory for this", Status.UNUSABLE)
+    except RuntimeError as error:  # what a signal raises within __set_name__, before Python 3.12
+        match error.__cause__:
+            case SystemExit(code=int(code)):
+                status = code
+            case KeyboardInterrupt():
+                status = _say("interrupted", Status.INTERRUPTED)
+            case _:
+                raise
     except SystemExit as error:  # click's own answer to a broken pipe
         status = Status.BROKEN_PIPE if error.code == 1 else error.code
     return _closed(int(status or Status.CLEAN))

@@ -16,6 +16,7 @@ from rebsync.files import read_source
 from rebsync.report import print_report
 from rebsync.roundtrip.plan import Action, Step, aside, name_to_keep, plan
 from rebsync.source import NOWHERE, Source
+from rebsync.stamps import Stamps, stamps
 from rebsync.writing import alone_in, replace_tree
 
 _SHOWN = (Action.CREATE, Action.UPDATE, Action.MERGE, Action.DELETE)
@@ -57,10 +58,13 @@ def command(
     with alone_in(str(folder)):
         if not force:
             _refuse_another_model(folder, f"{_stem(model)}.rebeca")
-        return _merged(folder, plan(folder, files), source, force)
+        before = stamps(str(folder))
+        return _merged(folder, plan(folder, files), source, force, before)
 
 
-def _merged(folder: Path, steps: tuple[Step, ...], source: Source, force: bool) -> Status:
+def _merged(
+    folder: Path, steps: tuple[Step, ...], source: Source, force: bool, before: Stamps
+) -> Status:
     """Writes the files, if what is merged with edits says what the model says."""
     if any(step.action in (Action.KEEP, Action.MERGE) for step in steps):
         from rebsync.roundtrip.plan_proof import wrong_in
@@ -71,7 +75,7 @@ def _merged(folder: Path, steps: tuple[Step, ...], source: Source, force: bool) 
             click.echo(f"{folder}: nothing was written", err=True)
             return Status.FINDINGS
         steps = tuple(aside(step) for step in steps) if wrong else steps
-    return _write(folder, steps, force)
+    return _write(folder, steps, force, before)
 
 
 def _with_accepted(folder: Path, files: dict[str, str]) -> dict[str, str]:
@@ -151,7 +155,7 @@ def _show(steps: tuple[Step, ...]) -> Status:
     return Status.FINDINGS if changes else Status.CLEAN
 
 
-def _write(folder: Path, steps: tuple[Step, ...], force: bool) -> Status:
+def _write(folder: Path, steps: tuple[Step, ...], force: bool, before: Stamps) -> Status:
     conflicts = [s for s in steps if s.action is Action.CONFLICT]
     if conflicts and not force:
         print_report([_refusal(folder, s) for s in conflicts], sys.stderr)
@@ -160,7 +164,11 @@ def _write(folder: Path, steps: tuple[Step, ...], force: bool) -> Status:
     texts = {kept[s.path]: s.old for s in conflicts if s.old is not None}
     texts |= {s.path: s.new for s in steps if s.new is not None and s.action is not Action.KEEP}
     remove = [s.path for s in steps if s.new is None]
-    written = replace_tree(str(folder), texts, remove=remove)
+
+    def refuse_changed() -> None:
+        before.refuse_changed(str(folder / path) for path in (*texts, *remove))
+
+    written = replace_tree(str(folder), texts, remove=remove, ready=refuse_changed)
     own = [path for path in written if not path.startswith(".rebsync/")]
     total = sum(not s.path.startswith(".rebsync/") and s.new is not None for s in steps)
     click.echo(f"{folder}: {total} files, {len(own)} of them written")

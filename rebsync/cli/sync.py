@@ -17,6 +17,7 @@ from rebsync.report import print_report
 from rebsync.roundtrip.checked import check_merged
 from rebsync.roundtrip.packages import Kept, find
 from rebsync.source import NOWHERE, Source
+from rebsync.stamps import Stamps, stamps
 from rebsync.writing import alone_in
 
 if TYPE_CHECKING:
@@ -50,8 +51,10 @@ def _one(kept: Kept, conflict: str, dry_run: bool) -> Status:
     try:
         if dry_run:
             return _shown(_worked_out(kept, conflict))
-        with alone_in(kept.root, *_models_of(kept)):
-            return _done(_worked_out(kept, conflict))
+        models = _models_of(kept)
+        with alone_in(kept.root, *models):
+            before = stamps(kept.root, *models)
+            return _done(_worked_out(kept, conflict), before)
     except RebsyncError as error:
         print_report(error.findings, sys.stderr)
         unmerged = {"RS955", "RS967"}
@@ -84,14 +87,14 @@ def _worked_out(kept: Kept, conflict: str) -> Sync:
     return synced(check_merged(kept), Favour(conflict))
 
 
-def _done(sync: Sync) -> Status:
+def _done(sync: Sync, before: Stamps) -> Status:
     """Writes it, and tells what was done."""
     root = sync.checked.kept.root
     if sync.refused:
         return _refused(sync)
     from rebsync.roundtrip.sync_writing import write
 
-    written = write(sync)
+    written = write(sync, before)
     for path in written:
         click.echo(f"wrote {path}" if Path(path).exists() else f"deleted {path}")
     print_report(sync.findings, sys.stderr)

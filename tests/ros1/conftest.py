@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import shutil
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from pathlib import Path
 
 import jinja2
@@ -34,8 +33,6 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         ):
             continue
         item.add_marker(pytest.mark.ros1)
-        # On a busy machine real nodes may be too late for the clock of a test: it is tried again.
-        item.add_marker(pytest.mark.flaky(reruns=2))
         if reason is not None and os.environ.get("CI") != "true":
             item.add_marker(pytest.mark.skip(reason=reason))
 
@@ -70,16 +67,11 @@ def probe(
         shutil.copytree(_HERE / "packages" / "probe_py", package)
         for name, path in MODULES.items():
             (package / "src" / "probe" / f"{name}.py").write_text(rendered(path, "probe"))
-        return paced(build_workspace("probe_py", [package]), dialect)
+        return build_workspace("probe_py", [package])
     shutil.copytree(_HERE / "packages" / "probe", package)
     for name in HEADERS:
         (package / "include" / "probe" / name).write_text(render(name, "probe"))
     return build_workspace("probe", [package])
-
-
-def paced(workspace: Workspace, dialect: str) -> Workspace:
-    """The workspace, its clock no faster than the nodes of a dialect can follow."""
-    return replace(workspace, rate=4.0, step=0.02) if dialect == "ros1-py" else workspace
 
 
 def render(name: str, package: str) -> str:

@@ -25,16 +25,17 @@ _STOP = 25.0
 class Clock:
     """How the clock runs, until a time of the model or until nothing was served for a while.
 
-    `rate` is model seconds in a second, or None for the real clock; times are in seconds.
+    `rate` is model seconds in a second at the most, or None for the real clock; times are in
+    seconds. Its nodes are never behind it, however busy the machine is.
     """
 
     until: float = 60.0
     quiet: float = 10.0
-    rate: float | None = 15.0
-    step: float = 0.01
+    rate: float | None = 100.0
+    step: float = 0.02
     settle: float = 0.3
     startup: float = 15.0
-    timeout: float = 90.0
+    timeout: float = 180.0
 
 
 USUAL = Clock()

@@ -16,8 +16,6 @@ from tests.ros1.workspace import Workspace
 
 STEPS = ((1, 0), (0, 1), (-1, 0), (1, 1), (-1, -1), (0, -1), (1, -1))
 TOLERANCE = 0.2
-# Twists bear no stamp, and the recorder's is late by its latency times the rate of the clock.
-SLOW = 4.0
 
 
 def robot(lines: tuple[str, ...], **drive: object) -> Rebec:
@@ -49,7 +47,7 @@ def tour(probe: Workspace, tmp_path_factory: pytest.TempPathFactory) -> Recordin
         "small": robot(lines, kind="differential", heading=math.pi / 2, cell_size=0.5),
     }
     directory = tmp_path_factory.mktemp("tour")
-    return play(probe, directory, rebecs, Clock(until=40, quiet=37, rate=SLOW))
+    return play(probe, directory, rebecs, Clock(until=40, quiet=37))
 
 
 @pytest.mark.parametrize(
@@ -121,7 +119,7 @@ def test_a_move_takes_the_time_of_the_next_delay_or_the_last_or_a_parameter(
         "none": robot(("move 1 0",), move_time=2.0),
         "quick": robot(("move 1 0", "send self low 0")),
     }
-    recording = play(probe, tmp_path, rebecs, Clock(until=30, quiet=6, rate=SLOW))
+    recording = play(probe, tmp_path, rebecs, Clock(until=30, quiet=6))
     assert near(pose_at(recording, "next", 0.9 + 1), 0.45, 0)
     assert near(pose_at(recording, "next", 3.1), 1, 0)
     assert near(pose_at(recording, "next", 5.3), 1, 1)
@@ -137,5 +135,5 @@ def test_a_move_takes_the_time_of_the_next_delay_or_the_last_or_a_parameter(
 def test_moves_queue_up_when_the_model_is_faster(probe: Workspace, tmp_path: Path) -> None:
     lines = ("move 1 0", "send self low 0")
     rebecs = {"a": replace(robot(lines, move_time=1.0), low=("move 1 0",))}
-    recording = play(probe, tmp_path, rebecs, Clock(until=30, quiet=4, rate=SLOW))
+    recording = play(probe, tmp_path, rebecs, Clock(until=30, quiet=4))
     assert near(pose_at(recording, "a", 9), 2, 0)

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.forward.compiling import CASES, case_config, case_files, written
-from tests.ros1.conftest import Build, paced
+from tests.ros1.conftest import Build
 from tests.ros1.recording import Recording
 from tests.ros1.run import Clock, run
 from tests.ros1.workspace import Workspace
@@ -25,7 +25,7 @@ def hard(
     directory = tmp_path_factory.mktemp("hard")
     cases = [CASES / f"{name}.rebeca" for name in NAMES]
     packages = [written(case_files(c, dialect), directory, c.stem, case_config(c)) for c in cases]
-    return paced(build_workspace(f"hard_{dialect}", packages), dialect)
+    return build_workspace(f"hard_{dialect}", packages)
 
 
 @pytest.fixture

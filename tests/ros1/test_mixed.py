@@ -13,7 +13,7 @@ from rebsync.config import ClassTarget, Config, parse_config
 from rebsync.source import Source
 from tests.forward.compiling import generated, written
 from tests.ros1 import test_examples as behaviour
-from tests.ros1.conftest import Build, paced
+from tests.ros1.conftest import Build
 from tests.ros1.run import Clock, run
 from tests.ros1.test_examples import (
     Example,
@@ -51,9 +51,9 @@ def example(
     folder = tmp_path_factory.mktemp(name)
     package = _package(name, folder)
     assert (package / "CMakeLists.txt").read_text().count("catkin_python_setup()") == 1
-    workspace = paced(build_workspace(f"mixed_{name}", [package]), "ros1-py")
+    workspace = build_workspace(f"mixed_{name}", [package])
     expected = json.loads((behaviour.EXPECTED / f"{name}.json").read_text())
-    clock = Clock(until=expected["until"] + 0.5, quiet=behaviour.QUIET, rate=behaviour.SLOW)
+    clock = Clock(until=expected["until"] + 0.5, quiet=behaviour.QUIET)
     recording = run(workspace, package / "launch" / f"{name}.launch", folder, clock)
     return Example(name, expected, recording)
 

@@ -2,17 +2,24 @@
 
 Runs under the system's Python, which has rospy: `recorder.py CONFIG.json`. The clock stands still
 until this node is connected to everything that the expected nodes publish, so nothing is missed.
+It goes on only when the nodes have done all that they do at a moment: a busy machine slows the
+model, and nothing else.
 Says `done` when the run is over, and listens on until its standard input ends.
 """
 
 from __future__ import annotations
 
 import json
+import os
+import subprocess
 import sys
 import threading
 import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+from xmlrpc.client import ServerProxy
 
 import genpy
 import rosgraph
@@ -21,6 +28,11 @@ import rospy
 from rosgraph_msgs.msg import Clock, Log
 
 FIRST_TICK = 100.0
+# What another node sends at a moment may come before that moment of the clock. So the clock goes in
+# finer steps just after whole times, where nodes wait for what is sent at once.
+_FINER = 4
+_SETTLED = 0.08
+_STILLNESS = Path(__file__).with_name("stillness.py")
 SILENT = ("/clock", "/rosout", "/rosout_agg")
 
 
@@ -124,6 +136,13 @@ class Recorder:
             for topic, subscriber in self.subscribers.items()
         )
 
+    def processes(self) -> list[int]:
+        """Those of the nodes, and this one."""
+        return [os.getpid(), *map(self.process, self.config["nodes"])]
+
+    def process(self, node: str) -> int:
+        return int(ServerProxy(self.master.lookupNode(node)).getPid("/recorder")[2])
+
     def rebecs(self) -> set[str]:
         """The rebecs that start together, in any namespace."""
         names = [n for n in rospy.get_param_names() if n.endswith("/mailbox/rebecs")]
@@ -143,19 +162,38 @@ class Recorder:
         if self.simulated:
             clock.publish(Clock(rospy.Time.from_sec(self.tick)))
 
-    def run_clock(self, clock: rospy.Publisher) -> None:
-        """Step the clock to the end of the run; a machine that is too slow slows the model."""
-        step, pause = self.config["step"], self.config["step"] / (self.config["rate"] or 1)
+    @contextmanager
+    def watched(self) -> Iterator[Callable[[], None]]:
+        """What waits until the nodes and this one have nothing to do, on a simulated clock."""
+        if not self.simulated:
+            yield lambda: None
+            return
+        command = [sys.executable, str(_STILLNESS), *map(str, self.processes())]
+        with subprocess.Popen(
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, bufsize=1
+        ) as watch:
+
+            def await_stillness() -> None:
+                watch.stdin.write("\n")
+                watch.stdout.readline()
+
+            yield await_stillness
+            watch.stdin.close()
+
+    def run_clock(self, clock: rospy.Publisher, await_stillness: Callable[[], None]) -> None:
+        """Step the clock to the end of the run, each time when all nodes wait."""
+        fine = self.config["step"] / _FINER
         started, ticks = time.monotonic(), 0
         while not self.finished():
-            ticks += 1
-            self.tick = FIRST_TICK + ticks * step
+            ticks += 1 if ticks * fine % 1 < _SETTLED else _FINER
+            self.tick = FIRST_TICK + ticks * fine
             self.publish(clock)
-            ahead = started + ticks * pause - time.monotonic()
+            await_stillness()
+            ahead = started + ticks * fine / (self.config["rate"] or 1) - time.monotonic()
             if ahead > 0:
                 time.sleep(ahead)
             else:
-                started = time.monotonic() - ticks * pause
+                started -= ahead
 
     def finished(self) -> bool:
         quiet = self.clock - self.last_served
@@ -172,7 +210,8 @@ class Recorder:
         self.subscribe()
         self.await_connections(clock)
         self.await_startup(clock)
-        self.run_clock(clock)
+        with self.watched() as await_stillness:
+            self.run_clock(clock, await_stillness)
         time.sleep(self.config["settle"])
         self.write("end", "", {"announced": self.announced})
         print("done", flush=True)

@@ -2,4 +2,5 @@
 
 `python -m tests.roundtrip.faults` makes every fault, interrupts a sync at every operation that
 writes, and prints a table.
+`python -m tests.roundtrip.faults.signals` ends real commands by signals at any moment.
 """

@@ -148,6 +148,16 @@ def linked(path: str, is_out: bool) -> Callable[[Path], None]:
     return make
 
 
+def linked_folder(path: str, target: str) -> Callable[[Path], None]:
+    """Puts a link in place of a directory, to where it is now, in the tree."""
+
+    def make(folder: Path) -> None:
+        moved(path, target)(folder)
+        (folder / path).symlink_to(target)
+
+    return make
+
+
 def entry(path: str, make: Callable[[Path], None]) -> Callable[[Path], None]:
     """Puts something where nothing is."""
     return lambda folder: make(folder / path)
@@ -171,6 +181,14 @@ def _nothing(folder: Path) -> None:
 
 def _crlf(file: str) -> str:
     return file.replace("\n", "\r\n")
+
+
+def _bom(file: str) -> str:
+    return f"\ufeff{file}"
+
+
+def _unended(file: str) -> str:
+    return file.rstrip("\n")
 
 
 def _half(file: str) -> str:
@@ -252,7 +270,9 @@ def _of_texts(patrol: Patrol) -> Iterator[Fault]:
     is_python = source.endswith(".py")
     status, code = (1, "RS967") if is_python else (4, "RS959")
     yield Fault("a source half written", text(source, _half), status, code)
-    yield Fault("files with CRLF", all_of(text(source, _crlf), text(MODEL_FILE, _crlf)), 0)
+    for name, change in (("CRLF", _crlf), ("a BOM", _bom), ("no end of line at the end", _unended)):
+        both = (text(path, change) for path in dict.fromkeys((source, written, MODEL_FILE)))
+        yield Fault(f"files with {name}", all_of(*both), 0)
 
 
 def _of_entries(patrol: Patrol) -> Iterator[Fault]:
@@ -268,6 +288,8 @@ def _of_entries(patrol: Patrol) -> Iterator[Fault]:
     yield Fault("a link in the tree", linked(source, is_out=False), 0)
     yield Fault("a link out of the tree", linked(source, is_out=True), 4, "RS941")
     nowhere = entry(f"{folder}/x.{suffix}", lambda p: p.symlink_to("nowhere"))
+    away = linked_folder("patrol", "elsewhere/patrol")
+    yield Fault("a package that is a link", away, 2, "RS965", _MODEL_HERE)
     yield Fault("a link that leads nowhere", nowhere, 4, "RS941")
     yield Fault("a link to itself", entry(f"{folder}/loop", lambda p: p.symlink_to(".")), 0)
     left = entry(f"{folder}/.{name}.0123abcd.rebsync.tmp", lambda p: _write(p, "x"))

@@ -119,17 +119,21 @@ def tried(made: Path, wanted: Snapshot, folder: Path, stop: Stop) -> Tried:
     old = snapshot(action.begun(made, folder))
     ended = run(folder, *action.arguments, before=stopping(folder, stop))
     left = snapshot(folder)
-    wrong = list(_mixed(old, wanted, left))
+    wrong = []
     if not stop.is_killed and ended.status not in (action.status, KILLED):
         wrong += [] if left == old else ["an error, and something is not as it was"]
         wrong += [] if "RS805" in ended.told else [f"told: {ended.told}"]
+    return Tried(stop, ended, (*wrong, *after(action, old, wanted, folder)))
+
+
+def after(action: Action, old: Snapshot, wanted: Snapshot, folder: Path) -> list[str]:
+    """What is wrong after a command that was stopped; the same command then makes it good."""
+    wrong = _mixed(old, wanted, snapshot(folder))
     again = run(folder, *action.arguments)
     if again.status != action.status:
-        wrong.append(f"the next {action.name}: {again.status} {again.told}")
-    else:
-        now = snapshot(folder)
-        wrong += [f"after the next {action.name}: {n}" for n in _differing(now, wanted)]
-    return Tried(stop, ended, tuple(wrong))
+        return [*wrong, f"the next {action.name}: {again.status} {again.told}"]
+    now = snapshot(folder)
+    return wrong + [f"after the next {action.name}: {n}" for n in _differing(now, wanted)]
 
 
 def _mixed(old: Snapshot, new: Snapshot, left: Snapshot) -> list[str]:

@@ -20,14 +20,22 @@ int main(int argc, char** argv) {
   ros::NodeHandle node("~");
   const double time_unit = ros::NodeHandle().param("mailbox/time_unit", 1.0);
   std::mt19937 random(static_cast<uint32_t>(ros::NodeHandle().param("mailbox/seed", 0)));
+  ros::Time::waitForValid();
 
   const ros::Publisher lidar_pub = node.advertise<experiment3::R1LidarData>("lidar", 10);
-  const ros::Timer lidar_timer = node.createTimer(
-      ros::Duration(1.0 * time_unit), [&](const ros::TimerEvent& /* event */) {
-        experiment3::R1LidarData msg;
-        msg.obstacle = draw(random, std::initializer_list<bool>{false, true});
-        lidar_pub.publish(msg);
-      });
+  const auto play_lidar = [&](const ros::TimerEvent& /* event */) {
+    experiment3::R1LidarData msg;
+    msg.obstacle = draw(random, std::initializer_list<bool>{false, true});
+    lidar_pub.publish(msg);
+  };
+  // Half a period from when the model samples, so that it is no chance which data it meets.
+  const ros::Duration lidar_period(1.0 * time_unit);
+  ros::Timer lidar_timer;
+  const auto start_lidar = [&](const ros::TimerEvent& event) {
+    play_lidar(event);
+    lidar_timer = node.createTimer(lidar_period, play_lidar);
+  };
+  const ros::Timer lidar_start = node.createTimer(lidar_period * 0.5, start_lidar, true);
 
   ros::spin();
   return 0;

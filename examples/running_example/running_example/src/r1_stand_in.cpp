@@ -20,14 +20,22 @@ int main(int argc, char** argv) {
   ros::NodeHandle node("~");
   const double time_unit = ros::NodeHandle().param("mailbox/time_unit", 1.0);
   std::mt19937 random(static_cast<uint32_t>(ros::NodeHandle().param("mailbox/seed", 0)));
+  ros::Time::waitForValid();
 
   const ros::Publisher s11_pub = node.advertise<running_example::R1S11Data>("s11", 10);
-  const ros::Timer s11_timer = node.createTimer(
-      ros::Duration(2.0 * time_unit), [&](const ros::TimerEvent& /* event */) {
-        running_example::R1S11Data msg;
-        msg.data = draw(random, std::initializer_list<int32_t>{0, 1});
-        s11_pub.publish(msg);
-      });
+  const auto play_s11 = [&](const ros::TimerEvent& /* event */) {
+    running_example::R1S11Data msg;
+    msg.data = draw(random, std::initializer_list<int32_t>{0, 1});
+    s11_pub.publish(msg);
+  };
+  // Half a period from when the model samples, so that it is no chance which data it meets.
+  const ros::Duration s11_period(2.0 * time_unit);
+  ros::Timer s11_timer;
+  const auto start_s11 = [&](const ros::TimerEvent& event) {
+    play_s11(event);
+    s11_timer = node.createTimer(s11_period, play_s11);
+  };
+  const ros::Timer s11_start = node.createTimer(s11_period * 0.5, start_s11, true);
 
   ros::spin();
   return 0;

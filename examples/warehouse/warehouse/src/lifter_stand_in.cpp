@@ -20,14 +20,22 @@ int main(int argc, char** argv) {
   ros::NodeHandle node("~");
   const double time_unit = ros::NodeHandle().param("mailbox/time_unit", 1.0);
   std::mt19937 random(static_cast<uint32_t>(ros::NodeHandle().param("mailbox/seed", 0)));
+  ros::Time::waitForValid();
 
   const ros::Publisher weigh_pub = node.advertise<warehouse::LifterWeighData>("weigh", 10);
-  const ros::Timer weigh_timer = node.createTimer(
-      ros::Duration(2.0 * time_unit), [&](const ros::TimerEvent& /* event */) {
-        warehouse::LifterWeighData msg;
-        msg.heavy = draw(random, std::initializer_list<bool>{false, true});
-        weigh_pub.publish(msg);
-      });
+  const auto play_weigh = [&](const ros::TimerEvent& /* event */) {
+    warehouse::LifterWeighData msg;
+    msg.heavy = draw(random, std::initializer_list<bool>{false, true});
+    weigh_pub.publish(msg);
+  };
+  // Half a period from when the model samples, so that it is no chance which data it meets.
+  const ros::Duration weigh_period(2.0 * time_unit);
+  ros::Timer weigh_timer;
+  const auto start_weigh = [&](const ros::TimerEvent& event) {
+    play_weigh(event);
+    weigh_timer = node.createTimer(weigh_period, play_weigh);
+  };
+  const ros::Timer weigh_start = node.createTimer(weigh_period * 0.5, start_weigh, true);
 
   ros::spin();
   return 0;

@@ -20,14 +20,22 @@ int main(int argc, char** argv) {
   ros::NodeHandle node("~");
   const double time_unit = ros::NodeHandle().param("mailbox/time_unit", 1.0);
   std::mt19937 random(static_cast<uint32_t>(ros::NodeHandle().param("mailbox/seed", 0)));
+  ros::Time::waitForValid();
 
   const ros::Publisher s21_pub = node.advertise<running_example::R2S21Data>("s21", 10);
-  const ros::Timer s21_timer = node.createTimer(
-      ros::Duration(2.0 * time_unit), [&](const ros::TimerEvent& /* event */) {
-        running_example::R2S21Data msg;
-        msg.data = draw(random, std::initializer_list<int32_t>{0, 1});
-        s21_pub.publish(msg);
-      });
+  const auto play_s21 = [&](const ros::TimerEvent& /* event */) {
+    running_example::R2S21Data msg;
+    msg.data = draw(random, std::initializer_list<int32_t>{0, 1});
+    s21_pub.publish(msg);
+  };
+  // Half a period from when the model samples, so that it is no chance which data it meets.
+  const ros::Duration s21_period(2.0 * time_unit);
+  ros::Timer s21_timer;
+  const auto start_s21 = [&](const ros::TimerEvent& event) {
+    play_s21(event);
+    s21_timer = node.createTimer(s21_period, play_s21);
+  };
+  const ros::Timer s21_start = node.createTimer(s21_period * 0.5, start_s21, true);
 
   ros::spin();
   return 0;
