@@ -32,6 +32,8 @@ _LAYOUT = re.compile(r" ?([^\w \"]) ?")
 _STARTED = re.compile(r"\bmailbox_\s*\.\s*start\s*\(\s*\)")
 _HASH = re.compile(r"#[^\n]*")
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+# Names and literals that a formatter broke.
+_BROKEN = re.compile(r'\w+(?:\s*::\s*\w+)+|"[^"\n\\]*"(?:\s*"[^"\n\\]*")+')
 _REMARK = re.compile(r"<!--.*?-->", re.DOTALL)
 _SENSOR = re.compile(r'[:,]\s*(\w+)\s*[({]\s*\w+\s*,\s*("[^"]*")\s*[)}]')
 _PLAYED = re.compile(r'\bnode\s*\.\s*advertise\s*<[^;()]*>\s*\(\s*"([^"]*)"')
@@ -144,6 +146,8 @@ def _of_file(name: str, source: Source, package: str) -> Iterable[Fact]:
         return facts_in_python(name, source, package)
     is_launch = name.endswith(".launch")
     text = (_REMARK if is_launch else _COMMENT).sub(lambda m: " " * len(m[0]), source.text)
+    if not is_launch:
+        text = _BROKEN.sub(_joined, text)
     if is_launch:
         return _launched(source, text, package)
     program = Path(name).stem
@@ -355,6 +359,13 @@ def _programs(source: Source) -> Iterator[Fact]:
         for path in rest.split():
             name = path.rpartition("/")[2]
             yield Fact("source of a program", target, name, "there", source, span)
+
+
+def _joined(found: re.Match[str]) -> str:
+    """A name or literal in one piece; what follows it keeps its place."""
+    whole = found[0]
+    parts = re.split(r"\s*::\s*", whole) if whole[0] != '"' else re.split(r'"\s*"', whole)
+    return ("::" if whole[0] != '"' else "").join(parts).ljust(len(whole))
 
 
 def _squeezed(text: str) -> str:

@@ -145,7 +145,7 @@ def _qualified(
     reader: CppExpressions, node: Node, function: Node, arguments: Sequence[Node]
 ) -> m.Expression:
     """A call of a function of a class or of a library, by its full name."""
-    owner, _, name = text_of(function).rpartition("::")
+    owner, _, name = "".join(text_of(function).split()).rpartition("::")
     if owner == "std" and name in _MATHEMATICS:
         return reader.calls(node, None, name, arguments)
     called = reader.scope.functions.get(name)

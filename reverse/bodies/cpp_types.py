@@ -66,7 +66,7 @@ def _of_template(node: Node) -> Type | None:
 
 def class_name(text: str) -> str:
     """The reactive class of a C++ class."""
-    return uncarry(text.rpartition("::")[2], NO_CLASSES)
+    return uncarry(text.rpartition("::")[2].strip(), NO_CLASSES)
 
 
 # --- types that people write --------------------------------------------------------------------

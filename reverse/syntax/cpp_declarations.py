@@ -261,7 +261,7 @@ def bases_of(node: Node) -> Iterator[str]:
     for clause in node.named_children:
         if clause.type == "base_class_clause":
             for base in clause.named_children:
-                if text_of(base) in _ROOTS:
+                if "".join(text_of(base).split()) in _ROOTS:
                     continue
                 if base.type in ("type_identifier", "qualified_identifier", "template_type"):
                     yield unscoped(base)
@@ -271,5 +271,7 @@ def roots_of(node: Node) -> Iterator[str]:
     """The classes of rclcpp that a class is derived from itself: `Node` for `rclcpp::Node`."""
     for clause in node.named_children:
         if clause.type == "base_class_clause":
-            named_ = (base for base in clause.named_children if text_of(base) in _ROOTS)
+            named_ = (
+                base for base in clause.named_children if "".join(text_of(base).split()) in _ROOTS
+            )
             yield from (unscoped(base) for base in named_)
