@@ -5,19 +5,20 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies import cpp_mailbox
-from rebsync.reverse.bodies.cpp_conversions import converted_to
+from rebsync.reverse.bodies import cpp_mailbox, overloads
+from rebsync.reverse.bodies.cpp_conversions import converted_to, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_places import field_of, resolve
 from rebsync.reverse.bodies.cpp_roots import path_in
 from rebsync.reverse.bodies.cpp_types import wider
 from rebsync.reverse.bodies.cpp_unknowns import HINT, Demote, Unknown, choice, domain_near
+from rebsync.reverse.bodies.overloads import plain, telling
 from rebsync.reverse.bodies.scope import (
     Called,
     Inline,
@@ -302,10 +303,28 @@ def _sends(
         Effects(reader.cpp, reader.scope).check(_moved(argument))
     for target in publishes.targets:
         values = _values(reader, argument, target, record, fresh, publishes.type)
+        if target.rivals:
+            values = _told(reader, node, target, values, publishes.type)
         to = m.Name(target.known) if target.known is not None else m.Self()
         after, deadline = times.get("after"), times.get("deadline")
         call = m.Call(to, target.server, values, after, deadline, span)
         yield m.ExpressionStatement(call, (), span)
+
+
+def _told(
+    reader: CppStatements,
+    node: Node,
+    target: Target,
+    values: tuple[m.Expression, ...],
+    message: str,
+) -> tuple[m.Expression, ...]:
+    """What is sent, by which the model chooses this server among overloads."""
+    types = reader.scope.messages.get(message, {})
+    own = plain([types.get(path) for path in target.fields])
+    told = telling(values, own, target.rivals, partial(type_in, reader.scope))
+    if told is None:
+        raise reader.expressions.unread(node, overloads.WHY, overloads.HINT)
+    return told
 
 
 def _moved(argument: Node) -> Node:

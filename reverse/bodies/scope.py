@@ -83,12 +83,14 @@ class Record:
 class Target:
     """A receiver of what a publisher sends: a known rebec (None: the class itself) and its server.
 
-    `fields` are the paths of the message's fields that the server's parameters get, in their order.
+    `fields` are the paths of the message's fields that the server's parameters get, in their order,
+    `rivals` the types that other servers of the name take.
     """
 
     known: str | None
     server: str
     fields: tuple[str, ...] = ()
+    rivals: frozenset[tuple[Type | None, ...]] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)

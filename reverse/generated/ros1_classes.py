@@ -351,7 +351,7 @@ class Classes:
         if (runtime := runtime_of(member)) is not None:
             return runtime
         if (advertised := roles.publishers.get(member.name)) is not None:
-            return publisher(advertised, self.served.servers, self.messages)
+            return publisher(advertised, self.served, self.messages)
         if declared_type(self.code, member.type) is None:
             return Outside(reaches=acts(text_of(member.type)))
         return Variable(variable_name(roles, member), declared_type(self.code, member.type))

@@ -7,22 +7,26 @@ from collections.abc import Mapping
 from rebsync.model import Type
 from rebsync.names import uncarry
 from rebsync.reserved import RUNTIME_TOPICS
+from rebsync.reverse.bodies.overloads import Served, plain
 from rebsync.reverse.bodies.scope import Outside, Publishes, Target
 from rebsync.reverse.generated.ros1_roles import Advertised
 
 
 def publisher(
     advertised: Advertised,
-    servers: Mapping[str, str],
+    served: Served,
     messages: Mapping[str, Mapping[str, Type | None]],
 ) -> Publishes | Outside:
     """What a publisher sends, and to whom; one to all rebecs of a class is used by sends only.
 
-    `servers` are those of all classes by the types of their messages.
+    `served` is what all classes serve.
     """
     if advertised.known is None:
         return Outside(reaches=True)
-    server = servers.get(advertised.message) or uncarry(advertised.key, RUNTIME_TOPICS)
-    full = next((t for t in messages if t.rpartition("/")[2] == advertised.message), "")
-    fields = tuple(messages.get(full, ()))
-    return Publishes((Target(advertised.known, server, fields),), full, timed=True)
+    message = advertised.message
+    server = served.servers.get(message) or uncarry(advertised.key, RUNTIME_TOPICS)
+    full = next((t for t in messages if t.rpartition("/")[2] == message), "")
+    fields = messages.get(full, {})
+    rivals = served.rivals(message, plain([*fields.values()]))
+    target = Target(advertised.known, server, tuple(fields), rivals)
+    return Publishes((target,), full, timed=True)
