@@ -40,7 +40,7 @@ reactiveclass Client(5) {
   }
   msgsrv order() { server.plain(5, where); server.plain(6, where); server.urgent(7); }
   msgsrv late() { server.plain(8, where); server.plain(9, where) deadline(1); }
-  msgsrv broken() { server.wrong(0); server.claims(2); server.urgent(11) after(3); }
+  msgsrv broken() { server.wrong(0); server.claims(2) after(1); server.urgent(11) after(3); }
   msgsrv answer(int x) { got = x; }
 }
 main { Server s(c):(4, true); Client c(s):(); }

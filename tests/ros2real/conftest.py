@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Protocol
 
 import pytest
 
@@ -21,10 +22,14 @@ from tests.ros2real.workspace import Workspace, build, missing_ros2
 
 _HERE = Path(__file__).parent
 _TIMEOUT = 1800  # s: the first test of a package builds it
-_BUSIEST = 4.0  # processes for a processor, above which the clock is not slowed down further
+_BUSIEST = 16.0  # processes for a processor, above which the clock is not slowed down further
 DIALECTS = ("ros2-cpp", "ros2-py")
 
-Builder = Callable[[Path, str], Workspace]
+
+class Builder(Protocol):
+    """Builds the packages in a folder in a workspace of the given name, upon another one."""
+
+    def __call__(self, folder: Path, name: str, below: Workspace | None = None) -> Workspace: ...
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
@@ -45,13 +50,13 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 @pytest.fixture(scope="session")
 def build_real(tmp_path_factory: pytest.TempPathFactory) -> Builder:
-    """Builds the packages in a folder in a workspace of the given name.
+    """Builds packages.
 
     REBSYNC_ROS_WORKSPACE names a directory that keeps workspaces from run to run.
     """
     kept = os.environ.get("REBSYNC_ROS_WORKSPACE")
     root = Path(kept) if kept else shared(tmp_path_factory)
-    return lambda folder, name: build(folder, root / "ros2" / name)
+    return lambda folder, name, below=None: build(folder, root / "ros2" / name, below)
 
 
 @dataclass(frozen=True)

@@ -38,7 +38,7 @@ __all__ = [
 ]
 
 _NAME, _PYTHON = "experiment2", "experiment2_robots"
-_ROBOTS = ("r1_node", "r2_node")  # in Python; the controller is in C++
+_CONTROLLER = "control_node_node"  # in C++; the robots are in Python
 
 
 @pytest.fixture(scope="module")
@@ -46,15 +46,13 @@ def example(
     build_real: Builder, play_real: Play, tmp_path_factory: pytest.TempPathFactory
 ) -> Example:
     folder = tmp_path_factory.mktemp("mixed")
-    package = _package("ros2-cpp", _NAME, folder)
-    _robots(_package("ros2-py", _PYTHON, folder))
-    launch = package / "launch" / f"{_NAME}.launch.py"
-    launch.write_text(_moved(launch.read_text()))
-    workspace = build_real(folder, f"{_NAME}_mixed")
+    below = build_real(_package("ros2-cpp", _NAME, folder), f"{_NAME}_ros2-cpp")
+    robots = _robots(_package("ros2-py", _PYTHON, folder))
+    workspace = build_real(robots, f"{_NAME}_mixed", below)
     expected = json.loads((behaviour.EXPECTED / f"{_NAME}.json").read_text())
     rate = expected.get("rate", behaviour.SLOW)
     clock = Clock(until=expected["until"] + 0.5, quiet=behaviour.QUIET, rate=rate)
-    recording = play_real.launched(workspace, package, "ros2-py", clock)
+    recording = play_real.launched(workspace, robots / _PYTHON, "ros2-py", clock)
     return Example(_NAME, expected, recording)
 
 
@@ -68,16 +66,14 @@ def _package(dialect: str, name: str, folder: Path) -> Path:
     return written(generated(text, _NAME, config), folder, _NAME, config)
 
 
-def _robots(package: Path) -> None:
-    """Have the nodes in Python use the messages of the package in C++."""
+def _robots(package: Path) -> Path:
+    """Have a package in Python use the messages and the controller of the one in C++."""
     shutil.rmtree(package / f"{_PYTHON}_interfaces")
     for path in (p for p in package.rglob("*") if p.is_file()):
         path.write_text(path.read_text().replace(f"{_PYTHON}_interfaces", _NAME))
-
-
-def _moved(launch: str) -> str:
-    """A launch file that takes the robots from the package in Python."""
-    pattern = rf'package="{_NAME}",(\s+executable="(?:{"|".join(_ROBOTS)})")'
-    moved, count = re.subn(pattern, rf'package="{_PYTHON}",\1', launch)
-    assert count == len(_ROBOTS)
-    return moved
+    launch = package / _PYTHON / "launch" / f"{_PYTHON}.launch.py"
+    pattern = rf'package="{_PYTHON}",(\s+executable="{_CONTROLLER}")'
+    moved, count = re.subn(pattern, rf'package="{_NAME}",\1', launch.read_text())
+    assert count == 1
+    launch.write_text(moved)
+    return package

@@ -80,22 +80,29 @@ def sourced() -> dict[str, str]:
     return {name: value for name, value in variables.items() if name not in dropped}
 
 
-def build(folder: Path, root: Path) -> Workspace:
-    """Build the package in a folder, or all those below it, without a warning of the compiler."""
-    build_once([folder], root, _make)
+def build(folder: Path, root: Path, below: Workspace | None = None) -> Workspace:
+    """Build the package in a folder, or all those below it, without a warning of the compiler.
+
+    They may use the packages of the workspace `below`.
+    """
+    environment = sourced() if below is None else below.environment(root)
+    build_once([folder], root, lambda made: _make(made, environment))
     return Workspace(root)
 
 
-def _make(root: Path) -> None:
+def _make(root: Path, environment: Mapping[str, str]) -> None:
     command = [
         *("colcon", "--log-base", str(root / "log"), "build", "--merge-install"),
         *("--base-paths", str(root / "src"), "--build-base", str(root / "build")),
         *("--install-base", str(root / "install"), "--parallel-workers", "2"),
         *("--cmake-args", "-DBUILD_TESTING=OFF", "-DCMAKE_CXX_FLAGS=-Werror"),
     ]
-    environment = {**sourced(), "MAKEFLAGS": "-j2"}
     done = subprocess.run(
-        command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        command,
+        env={**environment, "MAKEFLAGS": "-j2"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
     )
     if done.returncode != 0:
         raise BuildError(done.stdout)
