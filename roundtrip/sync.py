@@ -69,7 +69,15 @@ def synced(checked: Checked, favour: Favour) -> Sync:
     asks_again = any(d.code in ("RS955", "RS964") for f in checked.findings for d in f.diagnostics)
     if checked.drift is None and not asks_again:
         return Sync(checked, findings=checked.findings)
-    return with_what_holds(_Syncing(checked, record, favour, Compared()).result())
+    syncing = _Syncing(checked, record, favour, Compared())
+    try:
+        return with_what_holds(syncing.result())
+    except RebsyncError as error:
+        if not all(d.code == "RS967" for f in error.findings for d in f.diagnostics):
+            raise
+        if not code_given(checked.kept, checked.standing).given.unread:
+            raise
+        return Sync(checked, refused=tuple(error.findings), is_undetermined=True)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -7,6 +7,7 @@ there they follow the change. A topic may have another name where it still joins
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 
 from rebsync.diagnostics import Diagnostic, Findings
@@ -66,6 +67,7 @@ _UNWANTED = frozenset(
 _SAYING = frozenset({"receiving", "sending", "set-up"})
 _HELPING = frozenset({PROGRAM, PLAYED, TYPE, SPACE})
 _HINT = "take the edit back: no model tells this"
+_CUT = re.compile(r"not cut to (8|16|32) bits")
 # Run-time parameters that are settings of the model.
 _SETTINGS = {
     parameter: f"set `{name}` in rebsync.toml instead; then `rebsync sync` says it here"
@@ -175,6 +177,8 @@ def _shown(values: Iterable[str]) -> str:
 def _hint(fact: Fact) -> str:
     """What to do about a fact that is another."""
     match fact.kind:
+        case "range" if (cut := _CUT.search(fact.value)) is not None:
+            return f"write int{cut[1]}({fact.name})"
         case "range":
             return "let the model's own functions say it: int32(...), int8(...), divide, remainder"
         case "remap" | "publisher" | "subscription" | "sensor":

@@ -224,6 +224,32 @@ def test_both_sides_of_a_difference_may_be_packages(
     assert "constructor R1: expression of data changed from 0 to 1" in capsys.readouterr().out
 
 
+# What is left of a file of the running example, as a part of its text.
+CUT = {"in a statement": ("r1.py", 0.2), "in a body": ("r1.py", 0.5), "launch": (".launch", 0.5)}
+
+
+@pytest.mark.parametrize("name", CUT)
+def test_what_a_cut_file_lacks_stays_in_the_model(name: str, here: Path) -> None:
+    root = made("running_example", "ros1-py", here)
+    end, part = CUT[name]
+    path = next(p for p in root.rglob(f"*{end}") if ".rebsync" not in p.parts)
+    text = path.read_text()
+    path.write_text(text[: int(len(text) * part)])
+    before = _files(here)
+    assert main(["check", "."]) == 4
+    assert main(["sync", "."]) == 4
+    assert _files(here) == before
+
+
+def test_check_says_of_a_lost_file_what_sync_says(here: Path) -> None:
+    root = made("running_example", "ros2-py", here)
+    _file(root, "/r1.py").unlink()
+    before = _files(here)
+    assert main(["check", "."]) == 4
+    assert main(["sync", "."]) == 4
+    assert _files(here) == before
+
+
 # --- files --------------------------------------------------------------------------------------
 
 
