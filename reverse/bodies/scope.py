@@ -324,8 +324,11 @@ class Scope:
         return self.locals.get(name) or self.members.get(name)
 
     def hides(self, name: str) -> bool:
-        """Whether a local or parameter has a name of the model."""
-        return any(isinstance(x, Variable | Name) and x.name == name for x in self.locals.values())
+        """Whether a local of generated code has a name of the model: people's get others there."""
+        if self.open:
+            return False
+        own = (x for x in self.locals.values() if x not in self.members.values())
+        return any(isinstance(x, Variable | Name) and x.name == name for x in own)
 
     def with_locals(self, found: Mapping[str, Meaning]) -> Scope:
         """The same with more locals, which hide what has their names."""
