@@ -282,9 +282,16 @@ class _Excuses:
         """Whether it makes a difference that there is something that was not generated."""
         if fact.kind != "remap":
             return fact.kind in _UNWANTED
-        was = {(TYPE, fact.owner, ""), ("node", fact.owner, "pkg")}
-        is_own = not fact.owner or not was.isdisjoint(self.base)
+        if ("node", fact.owner, "pkg") in self.base and (TYPE, fact.owner, "") not in self.base:
+            return self._is_of_a_topic(fact)
+        is_own = not fact.owner or (TYPE, fact.owner, "") in self.base
         return is_own and is_about(self.now, self.today, fact)
+
+    def _is_of_a_topic(self, remap: Fact) -> bool:
+        """Whether a remap has the last name of a topic of the package, where no more is known."""
+        last = remap.name.rpartition("/")[2].lstrip("~")
+        topics = (found for (kind, *_), found in self.today.items() if kind in TOPICS)
+        return any(last in re.findall(r"\w+", fact.value) for found in topics for fact in found)
 
     def _same_are_joined(self, key: tuple[str, str, str]) -> bool:
         """Whether all are joined as they were, whatever topics are called."""

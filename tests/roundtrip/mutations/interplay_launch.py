@@ -271,6 +271,7 @@ PY = (
 PY_NEUTRAL = kinds_in(
     _PY,
     {
+        "remap of something else": (r'^( {20})(\("~/[^\n]*\n)', r'\1("/tf", "/robot/tf"),\n\1\2'),
         "terminal as it is": (_INNER, r"\1emulate_tty=True,\n\1\2"),
     },
 )
