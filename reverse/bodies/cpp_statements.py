@@ -222,11 +222,8 @@ class CppStatements:
             case "declaration":
                 yield from self.declaration(node, annotations, local)
             case "compound_statement" | "initializer_list":
-                block = self.inner(node)
-                if cpp_locals.is_hoisting(node):
-                    yield from block.statements
-                else:
-                    yield m.Block(block.statements, annotations, span)
+                block = m.Block(self.inner(node).statements, annotations, span)
+                yield from block.statements if cpp_locals.is_hoisting(node) else (block,)
             case "if_statement" if cpp_users.only_logs(self, node):
                 pass
             case "if_statement":
@@ -371,8 +368,8 @@ class CppStatements:
             return
         declaration = cpp_plain_locals.declared(self, node)
         if hoisted:
-            for name in cpp_plain_locals.declared_names(node):
-                self.hoisted[name] = declaration.type
+            names = cpp_plain_locals.declared_names(node)
+            self.hoisted |= dict.fromkeys(names, declaration.type)
             return
         yield m.Local(declaration, annotations, self.cpp.span(node))
 

@@ -382,9 +382,8 @@ class Classes:
                 else:
                     functions.setdefault(function.name, Around())
             callable_ |= roles.constants | set(roles.sends)
-        for function in free_beside(self.code, owner):
-            functions[function.name] = self._called(function)
-            callable_.add(function.name)
+        functions |= (free := {f.name: self._called(f) for f in free_beside(self.code, owner)})
+        callable_ |= free.keys()
         bases = {c.name: class_name(c.name) for c in self.code.lineage(owner.name)[1:]}
         timers = {t.call.node.id: server_of_timer(t, n) for t, n in self._timed_servers(owner)}
         return Scope(
