@@ -387,9 +387,7 @@ class CppStatements:
 
     def branch(self, node: Node) -> m.Block:
         """The body of a branch or loop, in braces or not."""
-        if node.type == "compound_statement":
-            return self.inner(node)
-        return self._nested(node, [node])
+        return self.inner(node) if node.type == "compound_statement" else self._nested(node, [node])
 
     def inner(self, node: Node) -> m.Block:
         return self._nested(node, node.named_children)
