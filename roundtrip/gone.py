@@ -5,18 +5,21 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
+from typing import TYPE_CHECKING
 
 from rebsync import model as m
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.files import read_source
 from rebsync.records import dataclass
 from rebsync.reverse.syntax.unparsed import NO_CPP, NO_PYTHON
-from rebsync.roundtrip.checked import Checked
 from rebsync.roundtrip.difference import Comparison, Difference, Place, Removed
 from rebsync.roundtrip.merge_check import finding
 from rebsync.roundtrip.recorded import Record
 from rebsync.roundtrip.verdict import Mover
 from rebsync.source import NOWHERE, Source
+
+if TYPE_CHECKING:
+    from rebsync.roundtrip.checked import Checked
 
 _LAUNCH = (".launch", ".launch.py")
 _LAUNCHING = re.compile(r".*\.launch(?:\.py)?\Z")
