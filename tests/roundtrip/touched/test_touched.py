@@ -26,6 +26,7 @@ KNOWN = (
     ("tests/forward/cases/annotations.rebeca", "ros1-cpp"),
     ("tests/forward/cases/annotations.rebeca", "ros2-cpp"),
     ("tests/roundtrip/differences/cases/elements.right.rebeca", "ros1-cpp"),
+    ("tests/forward/cases/names.rebeca", "mixed-others"),
 )
 
 
