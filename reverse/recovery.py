@@ -124,7 +124,8 @@ def extract(
         nodes = of_cpp.read(people, joined if joined is not None else Joined.of([part]))
     is_made = bool(python is not None and python.classes)
     if system is not None and only is None and (read or nodes.classes or is_made):
-        system.note(findings)
+        by_hand = bool(nodes.classes)
+        system.note(findings, python is not None and not by_hand and python.starts(system.launch))
     findings.take(listed)
     if python is not None:
         read = (*read, *python.classes)

@@ -7,9 +7,9 @@ from dataclasses import field, replace
 from fractions import Fraction
 
 from rebsync import model as m
-from rebsync.names import uncarry
+from rebsync.names import carry, uncarry
 from rebsync.records import dataclass
-from rebsync.reserved import RESERVED
+from rebsync.reserved import NO_CLASSES, RESERVED
 from rebsync.reverse.bodies.cpp_types import class_name
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.bodies.scope import (
@@ -84,21 +84,20 @@ class Classes:
 
     def __post_init__(self) -> None:
         self.fields = {t.rpartition("/")[2]: f for t, f in self.messages.items()}
+        self.types = frozenset(self.code.classes)
         if all("Mailbox" not in cpp.source.text for cpp in self.code.files):
             self.roles = {name: Roles() for name in self.code.classes}
-            self.types = frozenset(self.code.classes)
             return  # nothing here is generated
         self.meanings = other_meanings(self.code)
         for owner in self.code.classes.values():
             self.roles[owner.name] = roles_of(self.code, owner)
+        self.types |= {carry(name, NO_CLASSES) for name in self.served.classes}  # of Python
         self.served = self.served.joined(families_of(self.code, self.roles))
         for owner in self.code.classes.values():
             add_sends(self.code, owner, self.roles, self.fields, self.served)
         sent = (p.message for roles in self.roles.values() for p in roles.publishers.values())
         states = (s for c in self.code.classes.values() for s in state_types(self.code, c))
-        self.types = frozenset(self.code.classes).union(
-            self.fields, self.served.servers, sent, states
-        )
+        self.types = self.types.union(self.fields, self.served.servers, sent, states)
         for owner in self.code.classes.values():
             self.timers[owner.name] = tuple(self._timed(owner))
 

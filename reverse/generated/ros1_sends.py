@@ -11,7 +11,7 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync.names import uncarry
-from rebsync.reserved import RUNTIME_TOPICS
+from rebsync.reserved import RUNTIME_CLASSES, RUNTIME_TOPICS
 from rebsync.reverse.bodies.cpp_types import class_name
 from rebsync.reverse.bodies.overloads import Served, plain
 from rebsync.reverse.bodies.scope import Sends
@@ -60,6 +60,8 @@ def families_of(code: Code, all_roles: Mapping[str, Roles]) -> dict[str, dict[st
     """By class the servers, those above included, by the types of their messages."""
     found = {}
     for name in code.classes:
+        if name in RUNTIME_CLASSES:
+            continue  # a class of the model may be called alike
         lines = [all_roles[above.name].messages for above in reversed(code.lineage(name))]
         found[class_name(name)] = {t: s for line in lines for t, s in line.items()}
     return found

@@ -32,9 +32,12 @@ class System:
     others: tuple[tuple[Source, Launch], ...]
     starts: bool = True
 
-    def note(self, findings: Findings) -> None:
-        """Lists the systems that the model is not of."""
-        if not self.starts and self.launch.nodes:
+    def note(self, findings: Findings, in_python: bool) -> None:
+        """Lists the systems that the model is not of.
+
+        `in_python` says that it starts generated classes, and no C++ beside it is written by hand.
+        """
+        if not self.starts and not in_python and self.launch.nodes:
             first = self.launch.nodes[0]
             findings.approximated(first.source, first.span, _ELSEWHERE)
             return

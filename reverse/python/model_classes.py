@@ -10,8 +10,9 @@ from functools import cached_property
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.names import original
+from rebsync.names import carry, original
 from rebsync.records import dataclass
+from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
@@ -70,13 +71,14 @@ class Classes:
 
     @cached_property
     def _bodies(self) -> Bodies:
+        in_cpp = (carry(name, NO_PYTHON_CLASSES) for name in self.served.classes)
         return Bodies(
             self.code,
             self.findings,
             self.line,
             self._of,
             self._served,
-            self._types,
+            self._types.union(in_cpp),
             self.served,
             self.fields,
         )

@@ -67,6 +67,11 @@ class PythonPart:
     nodes: PyNodes = PyNodes()
     scripts: Mapping[str, str] = with_default(default_factory=dict)
 
+    def starts(self, launch: Launch) -> bool:
+        """Whether a launch file starts any class of these files."""
+        types = (n.type for n in launch.nodes)
+        return any(isinstance(t, str) and self.started(t) is not None for t in types)
+
     def started(self, program: str) -> tuple[str, list[str]] | None:
         """The class that a program makes a rebec of, and its private parameters."""
         names = {c.name for c in self.classes}

@@ -26,6 +26,10 @@ KNOWN = (
     ("tests/forward/cases/annotations.rebeca", "ros1-cpp"),
     ("tests/forward/cases/annotations.rebeca", "ros2-cpp"),
     ("tests/roundtrip/differences/cases/elements.right.rebeca", "ros1-cpp"),
+    ("tests/forward/cases/names.rebeca", "mixed-others"),
+    ("tests/new/cases/fleet.rebeca", "mixed"),
+    ("tests/new/cases/fleet.rebeca", "mixed-others"),
+    ("tests/reverse/nodes/cases/remade/expected.rebeca", "mixed-others"),
 )
 
 
