@@ -327,7 +327,9 @@ class Scope:
         """Whether a local of generated code has a name of the model: people's get others there."""
         if self.open:
             return False
-        own = (x for x in self.locals.values() if x not in self.members.values())
+        # A reference to a member is that very member; a local of its name and type only equals it.
+        members = {id(x) for x in self.members.values()}
+        own = (x for x in self.locals.values() if id(x) not in members)
         return any(isinstance(x, Variable | Name) and x.name == name for x in own)
 
     def with_locals(self, found: Mapping[str, Meaning]) -> Scope:

@@ -48,7 +48,8 @@ def add_sends(
             sends = _sent(code, function, call, publishers, servers)
             if sends is None:
                 continue
-            if odd := _odd_send(function, sends, lineage, fields, senders):
+            message = publishers[_publisher(call)].message if call.name == "publish" else ""
+            if odd := _odd_send(function, sends, message, lineage, fields, senders):
                 roles.odd_sends[function.name] = odd
             else:
                 told = _told(code, owner, function, call, publishers, sends, served)
@@ -138,16 +139,22 @@ def _publisher(call: CppCall) -> str:
 def _odd_send(
     function: CppFunction,
     sends: Sends,
+    message: str,
     lineage: Sequence[Roles],
     fields: Mapping[str, Collection[str]],
     senders: Collection[str],
 ) -> list[Node]:
-    """What a function does besides sending; `senders` are the messages that say who sends them."""
+    """What a function does besides sending the `message` that its publisher is for.
+
+    `senders` are the messages that say who sends them.
+    """
     handlers = {f: s for roles in reversed(lineage) for f, s in roles.handlers.items()}
     made = next((s for s in working(function.body) if s.type == "declaration"), None)
     type_ = last_name(part(made, "type")) if made is not None else ""
     order = list(fields[type_]) if type_ in fields else None
     odd = list(_odd_in_send(function, sends, handlers, order))
+    if made is not None and message and type_ != message and order is not None:
+        return [made, *odd]
     if made is not None and type_ in senders and not _tells_sender(function, _declared(made)):
         return [*odd, made]
     # What is left out is told by itself only: it follows from what stands there instead.
