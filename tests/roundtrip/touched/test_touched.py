@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from rebsync import model as m
 from rebsync.printing import print_model
-from tests.roundtrip.touched.__main__ import tried
+from tests.roundtrip.touched.__main__ import of_mixed, tried
 from tests.roundtrip.touched.forms import SPREAD, TOUCHED
 from tests.roundtrip.touched.packages import DIALECTS, ROOT, Case, case_of
 from tests.strategies import models
@@ -64,3 +64,9 @@ def test_layout_of_names_and_literals_does_not_matter(target: str) -> None:
 def test_touched_packages_of_drawn_models_are_in_step(model: m.Model, target: str) -> None:
     case = Case("drawn", print_model(model), model)
     assert tried((case, target, (TOUCHED,))) == ([], 1)
+
+
+@FEW
+@given(of_mixed())
+def test_touched_packages_of_two_languages_are_in_step(case: Case) -> None:
+    assert tried((case, "mixed", (TOUCHED,))) == ([], 1)
