@@ -52,9 +52,11 @@ def test_touched_packages_are_in_step(name: str, target: str) -> None:
     assert tried((case, target, (TOUCHED,))) == ([], 1)
 
 
-@pytest.mark.parametrize("target", ["ros1-cpp", "ros2-cpp"])
-def test_layout_of_names_and_literals_does_not_matter(target: str) -> None:
-    case = case_of(ROOT / HARD / "inheritance.rebeca")
+@pytest.mark.parametrize(
+    ("name", "target"), [("inheritance", "ros1-cpp"), ("interfaces", "ros2-cpp")]
+)
+def test_layout_of_names_and_literals_does_not_matter(name: str, target: str) -> None:
+    case = case_of(ROOT / HARD / f"{name}.rebeca")
     assert case is not None
     assert tried((case, target, (SPREAD,))) == ([], 1)
 
