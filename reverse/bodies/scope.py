@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import field, fields, replace
 from fractions import Fraction
@@ -325,7 +326,10 @@ class Scope:
 
     def hides(self, name: str) -> bool:
         """Whether a local or parameter has a name of the model."""
-        return any(isinstance(x, Variable | Name) and x.name == name for x in self.locals.values())
+        return any(
+            isinstance(x, Variable | Name) and x.name == name and not _OPERAND.fullmatch(n)
+            for n, x in self.locals.items()
+        )
 
     def with_locals(self, found: Mapping[str, Meaning]) -> Scope:
         """The same with more locals, which hide what has their names."""
@@ -348,5 +352,6 @@ class Scope:
 
 
 _ALL = tuple(f.name for f in fields(Scope))
+_OPERAND = re.compile(r"op\d+_")  # what keeps operands in order stands for what is named there
 _LOCALS = _ALL.index("locals")
 _BEFORE, _BEHIND = attrgetter(*_ALL[:_LOCALS]), attrgetter(*_ALL[_LOCALS + 1 :])
