@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import field, fields, replace
 from fractions import Fraction
@@ -329,7 +330,9 @@ class Scope:
             return False
         # A reference to a member is that very member; a local of its name and type only equals it.
         members = {id(x) for x in self.members.values()}
-        own = (x for x in self.locals.values() if id(x) not in members)
+        own = (
+            x for n, x in self.locals.items() if id(x) not in members and not _OPERAND.fullmatch(n)
+        )
         return any(isinstance(x, Variable | Name) and x.name == name for x in own)
 
     def with_locals(self, found: Mapping[str, Meaning]) -> Scope:
@@ -353,5 +356,6 @@ class Scope:
 
 
 _ALL = tuple(f.name for f in fields(Scope))
+_OPERAND = re.compile(r"op\d+_")  # what keeps operands in order stands for what is named there
 _LOCALS = _ALL.index("locals")
 _BEFORE, _BEHIND = attrgetter(*_ALL[:_LOCALS]), attrgetter(*_ALL[_LOCALS + 1 :])

@@ -19,4 +19,5 @@ def only_forwards(code: Code, owner: CppClass, function: CppFunction) -> bool:
         return False
     passed = [text_of(a) for a in call.arguments]
     inherited = {f"{c.name}::{function.name}" for c in code.lineage(owner.name)[1:]}
-    return call.name in inherited and passed == [p.name for p in function.parameters]
+    called = "".join(call.name.split())  # a formatter may break it
+    return called in inherited and passed == [p.name for p in function.parameters]

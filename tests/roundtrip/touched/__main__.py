@@ -1,7 +1,8 @@
 """python -m tests.roundtrip.touched [--form NAME] [--target NAME] [--drawn N] [WORD]
 
 Touches the package of every model in every dialect, in every form, and lists what `rebsync check`
-then says that it should not; `--drawn` takes so many drawn models in place of those of the tests.
+then says that it should not; `--drawn` takes so many drawn models in place of those of the tests,
+with `--target mixed` alone those whose classes have drawn languages.
 """
 
 from __future__ import annotations
@@ -15,13 +16,17 @@ import time
 import traceback
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from hypothesis import HealthCheck, Phase, given, seed, settings
+from hypothesis.strategies import SearchStrategy
 
 from rebsync import model as m
+from rebsync.config import ClassTarget
 from rebsync.printing import print_model
+from tests.reverse.mixed import mixed
 from tests.roundtrip.touched.forms import TOUCHED, files_of, forms
 from tests.roundtrip.touched.packages import DIALECTS, MIXED, Case, cases, made, out_of_step
 from tests.strategies import models
@@ -37,7 +42,8 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--seed", type=int, default=1, help="of drawn models")
     parser.add_argument("--jobs", type=int, default=1, help="processes")
     asked = parser.parse_args(arguments)
-    known = drawn(asked.drawn, asked.seed) if asked.drawn else [*cases().values()]
+    one = of_models() if asked.target != [MIXED[0]] else of_mixed()
+    known = drawn(one, asked.drawn, asked.seed) if asked.drawn else [*cases().values()]
     tasks = [
         (case, target, tuple(asked.form or forms()))
         for case in known
@@ -55,8 +61,24 @@ def main(arguments: Sequence[str]) -> int:
     return int(bool(wrong))
 
 
-def drawn(count: int, number: int) -> list[Case]:
+def of_models() -> SearchStrategy[Case]:
     """Models of the strategy of the tests."""
+    return models().map(lambda model: Case("drawn", print_model(model), model))
+
+
+def of_mixed() -> SearchStrategy[Case]:
+    """The same with classes in two languages, each in one that is drawn."""
+    return mixed().map(_with_languages)
+
+
+def _with_languages(found: tuple[m.Model, tuple[ClassTarget, ...]]) -> Case:
+    model, targets = found
+    in_python = frozenset(c.name for c in targets if c.target.endswith("-py"))
+    return Case("drawn", print_model(model), model, in_python=in_python)
+
+
+def drawn(one: SearchStrategy[Case], count: int, number: int) -> list[Case]:
+    """So many cases of a strategy."""
     found: list[Case] = []
 
     @seed(number)
@@ -67,9 +89,9 @@ def drawn(count: int, number: int) -> list[Case]:
         phases=(Phase.generate,),
         suppress_health_check=list(HealthCheck),
     )
-    @given(models())
-    def draw(model: m.Model) -> None:
-        found.append(Case(f"drawn {number}.{len(found)}", print_model(model), model))
+    @given(one)
+    def draw(case: Case) -> None:
+        found.append(replace(case, name=f"drawn {number}.{len(found)}"))
 
     draw()
     return found

@@ -31,15 +31,21 @@ _FOLDERS = (
 
 @dataclass(frozen=True)
 class Case:
-    """A model without mistakes; `settings` are those that it needs, in TOML."""
+    """A model without mistakes; `settings` are those that it needs, in TOML.
+
+    `in_python` are the classes that are in Python where it is mixed, if that was drawn.
+    """
 
     name: str
     text: str
     model: Model
     settings: str = ""
+    in_python: frozenset[str] = frozenset()
 
     def targets(self) -> tuple[str, ...]:
         """The dialects, and the mixed forms that its classes allow."""
+        if self.in_python:
+            return MIXED[:1]
         return (*DIALECTS, *(MIXED if len(families(self.model)) > 1 else ()))
 
 
@@ -83,12 +89,17 @@ def families(model: Model) -> list[set[str]]:
     return found
 
 
+def of_form(model: Model, target: str) -> set[str]:
+    """The classes of a model that are in Python in a mixed form."""
+    first, *others = families(model)
+    return first if target == MIXED[0] else {name for family in others for name in family}
+
+
 def made(case: Case, target: str, folder: Path) -> Path:
     """The folder of the package, generated beside a copy of its model."""
     lines = ['package = "touched"', f'target = "{"ros1-cpp" if target in MIXED else target}"']
     if target in MIXED:
-        first, *others = families(case.model)
-        in_python = first if target == MIXED[0] else {name for family in others for name in family}
+        in_python = case.in_python or of_form(case.model, target)
         lines += ["[targets]", *(f'"{name}" = "ros1-py"' for name in sorted(in_python))]
     needed = case.settings
     if target.endswith("-py"):

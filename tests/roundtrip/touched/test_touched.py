@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from rebsync import model as m
 from rebsync.printing import print_model
-from tests.roundtrip.touched.__main__ import tried
+from tests.roundtrip.touched.__main__ import of_mixed, tried
 from tests.roundtrip.touched.forms import SPREAD, TOUCHED
 from tests.roundtrip.touched.packages import DIALECTS, ROOT, Case, case_of
 from tests.strategies import models
@@ -52,9 +52,11 @@ def test_touched_packages_are_in_step(name: str, target: str) -> None:
     assert tried((case, target, (TOUCHED,))) == ([], 1)
 
 
-@pytest.mark.parametrize("target", ["ros1-cpp", "ros2-cpp"])
-def test_layout_of_names_and_literals_does_not_matter(target: str) -> None:
-    case = case_of(ROOT / HARD / "inheritance.rebeca")
+@pytest.mark.parametrize(
+    ("name", "target"), [("inheritance", "ros1-cpp"), ("interfaces", "ros2-cpp")]
+)
+def test_layout_of_names_and_literals_does_not_matter(name: str, target: str) -> None:
+    case = case_of(ROOT / HARD / f"{name}.rebeca")
     assert case is not None
     assert tried((case, target, (SPREAD,))) == ([], 1)
 
@@ -64,3 +66,9 @@ def test_layout_of_names_and_literals_does_not_matter(target: str) -> None:
 def test_touched_packages_of_drawn_models_are_in_step(model: m.Model, target: str) -> None:
     case = Case("drawn", print_model(model), model)
     assert tried((case, target, (TOUCHED,))) == ([], 1)
+
+
+@FEW
+@given(of_mixed())
+def test_touched_packages_of_two_languages_are_in_step(case: Case) -> None:
+    assert tried((case, "mixed", (TOUCHED,))) == ([], 1)
