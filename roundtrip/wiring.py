@@ -40,7 +40,7 @@ from rebsync.roundtrip.wiring_facts import (
     package_name,
 )
 from rebsync.roundtrip.wiring_names import TOPICS, Joined, is_about, joined, replaced
-from rebsync.roundtrip.wiring_ranges import RANGE
+from rebsync.roundtrip.wiring_ranges import RANGE, range_hint
 from rebsync.source import NOWHERE, Source
 
 _WIRED = (
@@ -67,7 +67,6 @@ _UNWANTED = frozenset(
 _SAYING = frozenset({"receiving", "sending", "set-up"})
 _HELPING = frozenset({PROGRAM, PLAYED, TYPE, SPACE})
 _HINT = "take the edit back: no model tells this"
-_CUT = re.compile(r"not cut to (8|16|32) bits")
 # Run-time parameters that are settings of the model.
 _SETTINGS = {
     parameter: f"set `{name}` in rebsync.toml instead; then `rebsync sync` says it here"
@@ -177,10 +176,8 @@ def _shown(values: Iterable[str]) -> str:
 def _hint(fact: Fact) -> str:
     """What to do about a fact that is another."""
     match fact.kind:
-        case "range" if (cut := _CUT.search(fact.value)) is not None:
-            return f"write int{cut[1]}({fact.name})"
         case "range":
-            return "let the model's own functions say it: int32(...), int8(...), divide, remainder"
+            return range_hint(fact.name, fact.value)
         case "remap" | "publisher" | "subscription" | "sensor":
             return "let the other end have the same name, or take the edit back"
         case "priority" | "best priority":

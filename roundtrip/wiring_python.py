@@ -56,6 +56,11 @@ def facts_in_python(name: str, source: Source, package: str) -> Iterator[Fact]:
         yield replace(fact, value=f"{again}{fact.value}")
 
 
+def has_nodes(tree: ast.Module) -> bool:
+    """Whether a module has a generated class."""
+    return any(_is_node(c) for c in tree.body if isinstance(c, ast.ClassDef))
+
+
 def _is_node(node: ast.ClassDef) -> bool:
     """Whether it uses a mailbox that it does not make for others, as the run-time part does."""
     functions = {f.name for f in node.body if isinstance(f, ast.FunctionDef)}

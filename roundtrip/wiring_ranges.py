@@ -8,6 +8,7 @@ and remainder of Python are not those of the model either.
 from __future__ import annotations
 
 import ast
+import re
 from collections import deque
 from collections.abc import Iterator, Mapping
 from itertools import chain
@@ -29,10 +30,18 @@ _CUTS = {"int8": "Byte", "int16": "Short", "int32": "int"}
 _CASTS = {"to_byte": "Byte", "to_short": "Short", "to_int": "int"}
 _SUMS = (ast.Add, ast.Sub, ast.Mult, ast.BitAnd, ast.BitOr, ast.BitXor)
 _FURTHEST = 31  # the largest distance of a shift
+_CUT = re.compile(r"not cut to (8|16|32) bits")
 _MANY = 2**16  # more values than an array has
 _WITH_A_POINT = frozenset(
     {"bool", "float32", "float64", "to_float", "to_double", "to_boolean", "square_root", "power"}
 )
+
+
+def range_hint(text: str, why: str) -> str:
+    """What to write for an expression, by why it is another than that of the model."""
+    if (cut := _CUT.search(why)) is not None:
+        return f"write int{cut[1]}({text})"
+    return "let the model's own functions say it: int32(...), int8(...), divide, remainder"
 
 
 def types_of_functions(tree: ast.Module) -> dict[str, str]:
@@ -250,8 +259,12 @@ def _used(node: ast.AST, inner: set[int]) -> Iterator[tuple[ast.expr, str]]:
     match node:
         case ast.Assign(_, value) | ast.AnnAssign(value=value) | ast.Return(value):
             inner.add(id(value))
+        case ast.Expr(value):
+            inner.add(id(value))  # nobody looks at it
         case ast.Call(ast.Name(name), [value]) if name in _CUTS or name in _CASTS:
             inner.add(id(value))
+        case ast.Call(ast.Attribute(ast.Attribute(ast.Name("self"), "_drive"), "move"), given):
+            inner |= {id(g) for g in given if isinstance(g, ast.UnaryOp)}  # a cell less
         case ast.Call(ast.Attribute(ast.Name("self"), _), given):
             inner |= set(map(id, given))
         case _:

@@ -55,12 +55,13 @@ def command(paths: tuple[str, ...], form: str, style: str | None, output: str) -
     """
     from rebsync.reverse.answer import answer
     from rebsync.reverse.files.parallel import each
+    from rebsync.roundtrip.ranges_told import unwrapped
 
     if style is not None and form == "json":
         raise click.UsageError("--format json has the report in it: leave out --report")
     for path in paths:
         refuse_to_overwrite(path, output)
-    answers = each(paths, partial(answer, style=style, whole=form == "json"))
+    answers = each(paths, partial(answer, style=style, whole=form == "json", also=unwrapped))
     first = list(islice(answers, 2))
     told = _Told(output, len(first) > 1)
     told.check()

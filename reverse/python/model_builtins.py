@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 _LARGEST = 24  # parts of what is repeated where values are compared
 _MOST = 16  # elements that are said one by one
 _TESTS = {"any": "||", "all": "&&"}
+_OF_SETS = frozenset({"any", "all", "min", "max"})  # for which order and number are nothing
 NO_LENGTH = 'an array of the model has no "{}" in Python: say its length as a number'
 
 
@@ -37,7 +38,7 @@ def of_python(
         case ("any" | "all" | "sum", [given]):
             return grouped(node, _folded(reader, node, called, given))
         case ("min" | "max", [given]):
-            values = [e for e, _ in _elements(reader, given, called)]
+            values = _certain(reader, given, called)
             return grouped(node, _extreme(reader, node, called, values))
         case ("min" | "max", _) if len(arguments) > 1 and all(map(is_plain, arguments)):
             return grouped(node, _extreme(reader, node, called, list(map(reader.read, arguments))))
@@ -95,7 +96,7 @@ def array_elements(reader: Expressions, node: Node) -> list[m.Expression] | None
 
 def listed(reader: Expressions, node: Node) -> list[m.Expression]:
     """The elements of a list, an array or a comprehension. Unread: nobody knows these."""
-    return [e for e, condition in _elements(reader, node, "this") if condition is None]
+    return _certain(reader, node, "this")
 
 
 def _array(reader: Expressions, node: Node) -> tuple[m.Expression, int] | None:
@@ -116,6 +117,8 @@ def _elements(
     reader: Expressions, node: Node, called: str
 ) -> list[tuple[m.Expression, m.Expression | None]]:
     """Each value that something goes through, with the condition under which it is there."""
+    if node.type == "set" and called not in _OF_SETS:
+        raise reader.unread(node, "nobody knows how many values this set has, in which order")
     if node.type in ("list", "tuple", "set") and is_plain_list(node):
         found: list[tuple[m.Expression, m.Expression | None]] = [
             (reader.read(n), None) for n in named(node)
@@ -130,6 +133,14 @@ def _elements(
     if len(found) > _MOST:
         raise reader.unread(node, "this goes through too many values to say each")
     return found
+
+
+def _certain(reader: Expressions, node: Node, called: str) -> list[m.Expression]:
+    """Each value that something goes through. Unread: one may not be there."""
+    found = _elements(reader, node, called)
+    if any(condition is not None for _, condition in found):
+        raise reader.unread(node, f'nobody knows how many values "{called}" goes through here')
+    return [value for value, _ in found]
 
 
 def _comprehended(
@@ -175,13 +186,13 @@ def _rows(reader: Expressions, node: Node, width: int) -> list[tuple[m.Expressio
         if len(numbers) <= _MOST:
             return [(m.IntLiteral(n),) for n in numbers]
     if called == "enumerate" and width == 2 and len(arguments) == 1:
-        values = [e for e, _ in _elements(reader, arguments[0], called)]
+        values = _certain(reader, arguments[0], called)
         return [(m.IntLiteral(i), value) for i, value in enumerate(values)]
     if called == "zip" and width == len(arguments):
-        each = [[e for e, _ in _elements(reader, a, called)] for a in arguments]
+        each = [_certain(reader, a, called) for a in arguments]
         return list(zip(*each, strict=False))
     if width == 1 and node.type not in ("generator_expression", "list_comprehension"):
-        return [(e,) for e, _ in _elements(reader, node, called or "this")]
+        return [(e,) for e in _certain(reader, node, called or "this")]
     raise reader.unread(node, "nobody knows what this goes through")
 
 

@@ -194,6 +194,7 @@ class Expressions:
             return idioms.comparison(self, node)
         level = _COMPARISON + 1
         left, right = (self._operand(o, level) for o in operands)
+        idioms.assert_alike(self, node, operators[0], (left, right))
         return m.Binary(operators[0], left, right, self.py.span(node))
 
     def _operand(self, node: Node, least: int) -> m.Expression:

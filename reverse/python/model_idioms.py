@@ -46,10 +46,22 @@ def comparison(reader: Expressions, node: Node) -> m.Expression:
         raise reader.unread(node, "what this compares more than once is to be in a variable first")
     found = None
     for left, operator, right in pairs:
-        each = binary(operator, reader.read(left), reader.read(right), reader.py.span(node))
+        read = reader.read(left), reader.read(right)
+        assert_alike(reader, node, operator, read)
+        each = binary(operator, *read, reader.py.span(node))
         found = each if found is None else m.Binary(word, found, each, reader.py.span(node))
     assert found is not None
     return found if len(pairs) == 1 else grouped(node, found)
+
+
+def assert_alike(
+    reader: Expressions, node: Node, operator: str, sides: tuple[m.Expression, m.Expression]
+) -> None:
+    """Unread: what is compared are a number and a truth value, or which of two of these is less."""
+    kinds = [reader.kind(side) for side in sides]
+    truths = kinds.count(m.Type("boolean"))
+    if (truths == 1 and None not in kinds) or (truths == 2 and operator not in ("==", "!=")):
+        raise reader.unread(node, "the model compares no truth value with a number")
 
 
 def grouped(node: Node, found: m.Expression) -> m.Expression:
@@ -187,16 +199,21 @@ def _values(reader: Expressions, pattern: Node) -> Iterator[m.Expression]:
     inner = named(pattern)
     if not inner and text_of(pattern) == "_":
         return
-    if len(inner) == 1 and inner[0].type == "union_pattern":
-        inner = named(inner[0])
-    for each in inner:
+    of = inner[0] if len(inner) == 1 and inner[0].type == "union_pattern" else pattern
+    is_below = False
+    for each in of.children:
         text = text_of(each)
+        if text == "-":  # it stands beside the number
+            is_below = True
+            continue
         if "." in text and text in reader.names.constants:
             yield reader.names.constants[text]
         elif each.type == "integer":
-            yield reader.read(each)
-        else:
+            read = reader.read(each)
+            yield m.Unary("-", read, reader.py.span(of)) if is_below else read
+        elif text != "|":
             raise reader.unread(pattern, "the model has no such case")
+        is_below = False
 
 
 def rounds(reader: Expressions, node: Node) -> tuple[m.Expression, m.Expression, m.Expression]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from itertools import chain, count
 from typing import TYPE_CHECKING
@@ -50,6 +51,8 @@ def _numbered(
     each_ = [builtins.array_elements(reader.expressions, a) for a in arrays]
     if None in each_ or len({*names, number}) != len(names) + 1:
         raise reader.expressions.unread(node, "the model has no such loop")
+    for array in arrays:
+        _assert_kept(reader, node, array)
     length = min(len(elements) for elements in each_ if elements is not None)
     index = reader.local(number) if number else _free(reader, node, names[0])
     first: list[tuple[str, m.Type, m.Expression]] = []
@@ -134,6 +137,7 @@ def each(reader: Statements, node: Node, name: str) -> m.For:
     type_ = reader.expressions.types.get(variable, reader.expressions.names.types.get(variable))
     if type_ is None or len(type_.dimensions) != 1:
         raise reader.expressions.unread(node, "the model has no such loop")
+    _assert_kept(reader, node, field(node, "right"))
     index = _free(reader, node, name)
     read = m.Index(values, m.Name(index))
     element = reader.expressions.kind(read) or m.Type(type_.name)
@@ -143,6 +147,22 @@ def each(reader: Statements, node: Node, name: str) -> m.For:
     del reader.expressions.locals[f"index of {name}"]
     zero, end, one = m.IntLiteral(0), m.IntLiteral(type_.dimensions[0]), m.IntLiteral(1)
     return _for(reader, node, index, zero, end, one, body)
+
+
+def _assert_kept(reader: Statements, node: Node, array: Node) -> None:
+    """Python goes on through the array that there was at the start. Unread: another is stored."""
+    body, name = field(node, "body"), text_of(array)
+    store = re.compile(rf"(?<![\w.]){re.escape(name)}(?:, [^\n=]+)?\s*=(?!=)")
+    is_ours = store.search(text_of(body)) is not None
+    if (
+        "." in name
+        and not is_ours
+        and re.search(r"\b(?:self|super\(\))\.(?!send_)\w+\(", text_of(body))
+    ):
+        is_ours = store.search(reader.expressions.py.source.text) is not None
+    if is_ours:
+        why = "what is stored here in the array is not gone through: store it behind the loop"
+        raise reader.expressions.unread(node, why)
 
 
 def _free(reader: Statements, node: Node, name: str) -> str:

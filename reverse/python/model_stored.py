@@ -150,6 +150,8 @@ def declared_before(reader: Statements, node: Node, after: list[Node]) -> list[m
     `:=` stores where it stands; what all branches store is known behind them.
     """
     names = {text_of(field(w, "name")): field(w, "value") for w in _walruses(node)}
+    for unsure in _unsure(node, after):
+        names.pop(unsure, None)
     if node.type == "if_statement" and after:
         wanted = {n for each in after for n in idioms.names_in(each)}
         names |= {k: v for k, v in _of_all_branches(node).items() if k in wanted}
@@ -175,6 +177,36 @@ def _walruses(node: Node) -> Iterator[Node]:
         if child.type == "named_expression" and not text_of(field(child, "name")).endswith("_"):
             yield child
         yield from _walruses(child)
+
+
+def _unsure(node: Node, after: list[Node]) -> Iterator[str]:
+    """What `:=` may leave as it is, and is looked at all the same: a round before may have set it.
+
+    Behind `and` a variable is set wherever all of the condition holds.
+    """
+    behind = {name for each in after for name in idioms.names_in(each)}
+    for walrus in _walruses(node):
+        name, way = text_of(field(walrus, "name")), list(_may_skip(walrus, node))
+        if way and (name in behind or (set(way) != {"and"} and _count(node, name) > 1)):
+            yield name
+
+
+def _may_skip(walrus: Node, node: Node) -> Iterator[str]:
+    """What may leave out a part of a statement."""
+    inner, above = walrus, walrus.parent
+    while above is not None and inner != node:
+        if above.type == "boolean_operator" and field(above, "right") == inner:
+            yield text_of(field(above, "operator"))
+        elif above.type == "conditional_expression" and named(above)[1] != inner:
+            yield "if"
+        elif above.type == "elif_clause":
+            yield "elif"
+        inner, above = above, above.parent
+
+
+def _count(node: Node, name: str) -> int:
+    is_it = node.type == "identifier" and text_of(node) == name
+    return is_it + sum(_count(each, name) for each in node.named_children)
 
 
 def _of_all_branches(node: Node) -> dict[str, Node]:
