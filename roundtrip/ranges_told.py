@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator, Mapping
 
 from rebsync.reverse.findings import Finding, Grade
@@ -12,6 +13,7 @@ from rebsync.roundtrip.wiring_python import facts_in_python, has_nodes
 from rebsync.roundtrip.wiring_ranges import RANGE, range_hint
 from rebsync.source import Source
 
+_OWN = re.compile(r"self\._\w+\b(?!\()")  # what has no type in its file is known to check alone
 _UNREAD = ("a number with a point", "never below zero")  # which reading tells already
 
 
@@ -33,7 +35,8 @@ def _in_file(path: str, source: Source) -> Iterator[Finding]:
     if tree is None or not has_nodes(tree):
         return
     for fact in facts_in_python(path, source, ""):
-        if fact.kind == RANGE and not fact.value.endswith(_UNREAD):
+        is_told = fact.kind == RANGE and not fact.value.endswith(_UNREAD)
+        if is_told and all(f"{name}:" in source.text for name in _OWN.findall(fact.name)):
             what = fact.value.rpartition("again ")[2]
             within = f"{fact.owner}.{_within(source, tree, fact)}"
             hint = range_hint(fact.name, what)

@@ -232,7 +232,7 @@ class _Excuses:
             return True
         if key not in self.base and not self._is_unwanted(first):
             return True
-        if self._has_moved(first) or self._follows(first):
+        if self._has_moved(first) or self._is_renamed(key) or self._follows(first):
             return True
         if first.kind == "node" and first.name == "ns":
             return self._is_in_one_space
@@ -262,6 +262,20 @@ class _Excuses:
         message = f"{fact.owner or fact.name}.msg"
         about = {"source of a program": fact.name, "field": message, "message": message}
         return about.get(fact.kind, fact.name) not in self.files and fact.kind in about
+
+    def _is_renamed(self, key: tuple[str, str, str]) -> bool:
+        """Whether a program is installed by another name, by which launch files start it."""
+        if key[0] != "installed program" or key in self.today:
+            return False
+        values = {fact.value for fact in self.base.get(key, ())}
+        new = {
+            name
+            for (kind, owner, name), facts in self.today.items()
+            if kind == key[0] and (kind, owner, name) not in self.base
+            if values == {fact.value for fact in facts}
+        }
+        starts = {f.value for (k, *_), found in self.today.items() if k == TYPE for f in found}
+        return bool(new & starts) and key[2] not in starts
 
     def _follows(self, fact: Fact) -> bool:
         """Whether it is about what the code has changed on the whole."""

@@ -168,7 +168,7 @@ class _Node:
 
     def _written(self) -> Iterator[tuple[_End, str]]:
         """The ends with their names in the code, private ones with `~`."""
-        program = self._value((TYPE, self.node, ""))
+        program = self._module(self._value((TYPE, self.node, "")))
         if (PROGRAM, program, "") not in self.facts and not self._plays(program):
             return  # a node of others
         if played := self._plays(program):
@@ -179,6 +179,11 @@ class _Node:
             if owner == class_ and kind in TOPICS:
                 for fact in found:
                     yield from self._of(fact, _End(self.node, kind, name))
+
+    def _module(self, program: str) -> str:
+        """The module of a program that `setup.py` installs by another name."""
+        installed = self.facts.get(("installed program", "", program), [])
+        return next((f.value.partition(":")[0] for f in installed if ":" in f.value), program)
 
     def _plays(self, program: str) -> list[str]:
         return [name for kind, owner, name in self.facts if (kind, owner) == (PLAYED, program)]
