@@ -166,7 +166,7 @@ class Expressions:
                 left = self._operand(field(node, "left"), level)
                 right = self._operand(field(node, "right"), level + 1)
                 if operator in _WORDS:
-                    left, right = idioms.truth(self, left), idioms.truth(self, right)
+                    left, right = idioms.sides(self, node, left, right)
                 read = m.Binary(_WORDS.get(operator, operator), left, right, span)
                 return (
                     idioms.divided(self, node, read)
@@ -285,7 +285,9 @@ class Expressions:
                     return m.Postfix(operator * 2, target, span)
                 return m.Unary(operator * 2, target, span)
             return m.Assign(f"{operator}=", target, self.read(arguments[1]), span)
-        return m.Assign("=", target, self.read(value), span)
+        read = self.read(value)
+        idioms.check_copied(self, value, read)
+        return m.Assign("=", target, read, span)
 
     def _put_item(self, node: Node, arguments: list[Node]) -> m.Expression:
         values, index, value = arguments

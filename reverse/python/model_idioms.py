@@ -24,6 +24,8 @@ _AROUND = frozenset(
     }
 )
 _GROWING = frozenset({"+", "-", "*", "<<", ">>", "&", "|", "^"})
+# Functions for which only the truth of what they are given matters.
+_ASKING = frozenset({"bool", "boolean", "to_boolean", "assertion", "any", "all"})
 _WHOLE = {"//": "divide", "/": "divide", "%": "remainder"}
 
 
@@ -104,6 +106,55 @@ def truth(reader: Expressions, read: m.Expression) -> m.Expression:
     if kind is None or kind.name != "int":
         return read
     return binary("!=", read, m.IntLiteral(0))
+
+
+def sides(
+    reader: Expressions, node: Node, left: m.Expression, right: m.Expression
+) -> tuple[m.Expression, m.Expression]:
+    """The sides of `and` and `or` as conditions. Unread: Python gives an integer, not its truth."""
+    asked = truth(reader, left), truth(reader, right)
+    if asked != (left, right) and not _is_condition(node):
+        raise reader.unread(node, "this is one of the two numbers in Python, in the model a truth")
+    return asked
+
+
+def _is_condition(node: Node) -> bool:
+    """Whether only the truth of an expression matters where it stands."""
+    above = node.parent
+    while above is not None and above.type in ("parenthesized_expression", "boolean_operator"):
+        node, above = above, above.parent
+    if above is None or above.type in ("not_operator", "assert_statement", "if_clause"):
+        return above is not None
+    if above.type == "conditional_expression":
+        return named(above)[1] == node
+    call = above.parent if above.type in ("argument_list", "generator_expression") else None
+    if call is not None and call.type == "call":
+        return text_of(field(call, "function")).rpartition(".")[2] in _ASKING
+    return above.child_by_field_name("condition") == node
+
+
+def check_copied(reader: Expressions, node: Node, read: m.Expression) -> None:
+    """Raises `Unread` for an array that Python would only give another name."""
+    if node.type == "parenthesized_expression" and len(named(node)) == 1:
+        check_copied(reader, named(node)[0], read.inner if isinstance(read, m.Paren) else read)
+    elif isinstance(read, m.Conditional) and node.type == "conditional_expression":
+        then, _, otherwise = named(node)
+        check_copied(reader, then, read.then)
+        check_copied(reader, otherwise, read.otherwise)
+    elif node.type != "call" and _is_array(reader, read):
+        why = "this is the same array in Python, and a copy in the model: say copied(...)"
+        raise reader.unread(node, why)
+
+
+def _is_array(reader: Expressions, read: m.Expression) -> bool:
+    """Whether an expression names an array, or one in an array."""
+    depth = 0
+    while isinstance(read, m.Index):
+        read, depth = read.target, depth + 1
+    if not isinstance(read, m.Name | m.Member):
+        return False
+    type_ = reader.types.get(read.name, reader.names.types.get(read.name))
+    return type_ is not None and len(type_.dimensions) > depth
 
 
 # --- sends --------------------------------------------------------------------------------------

@@ -254,7 +254,9 @@ class Statements:
         if called == "Array" and len(arguments) == 1 and arguments[0].type == "list":
             values = tuple(v for a in named(arguments[0]) if (v := self._initial(a)) is not None)
             return m.ArrayInitializer(values, self.expressions.py.span(value))
-        return self.expressions.read(value)
+        read = self.expressions.read(value)
+        idioms.check_copied(self.expressions, value, read)
+        return read
 
     # --- control --------------------------------------------------------------------------------
 
