@@ -33,6 +33,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         ):
             continue
         item.add_marker(pytest.mark.ros1)
+        # The first test of a module builds its packages and plays them, on a clock that waits.
+        item.add_marker(pytest.mark.timeout(900))
         if reason is not None and os.environ.get("CI") != "true":
             item.add_marker(pytest.mark.skip(reason=reason))
 

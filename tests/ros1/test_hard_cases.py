@@ -84,7 +84,8 @@ def test_rebecs_as_values(play_case: PlayCase) -> None:
     for own, other, count in (("a", "b", 6007), ("b", "a", 6008)):
         final = played.final(own)
         assert (final["best"], final["two"], final["count"]) == (other, [other, other], count)
-        assert final["grid"] == [own, own, "", ""]
+        # The last visit and `done` come at one time: each may be the last to store the grid.
+        assert final["grid"] in ([own, own, "", ""], [other, other, "", ""])
         assert (final["none"], final["e"]) == ("", "x")
     kinds = sorted((r.kind, r.rebec, r.server) for r in played.reports())
     assert kinds == [("null", "a", "visit"), ("null", "b", "visit")]
