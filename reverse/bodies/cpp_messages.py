@@ -294,11 +294,13 @@ def _sends(
 ) -> Iterator[m.Statement]:
     span = reader.cpp.span(node)
     record, fresh = Record({}, publishes.type), False
-    if any(target.fields for target in publishes.targets):
+    if publishes.timed or any(target.fields for target in publishes.targets):
         try:
             record, fresh = given(reader, argument)
         except Unknown:
             Effects(reader.cpp, reader.scope).check(_moved(argument))
+        if record.type and publishes.type and record.type != publishes.type:
+            raise reader.unread(node, f'the publisher is for "{publishes.type}", not for this')
     else:
         Effects(reader.cpp, reader.scope).check(_moved(argument))
     for target in publishes.targets:
