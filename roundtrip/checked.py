@@ -154,14 +154,15 @@ def _as_sync_says(checked: Checked, record: Record) -> Checked:
     It would go on to generate the file anew, or wait until it parses.
     """
     from rebsync.roundtrip.difference import Comparison, Removed
-    from rebsync.roundtrip.gone import Gone
-    from rebsync.roundtrip.models import code_given
     from rebsync.roundtrip.verdict import undetermined
 
     drift = checked.drift
     apart = tuple(d for d, _ in drift.differences) if drift is not None else ()
     if drift is None or not any(isinstance(d, Removed) for d in apart):
         return checked
+    from rebsync.roundtrip.gone import Gone
+    from rebsync.roundtrip.models import code_given
+
     gone, code = Gone(checked, record), code_given(checked.kept, checked.standing).given
     causes = (*gone.without_cause(Comparison(apart), code.model), *gone.unparsed())
     if not causes:

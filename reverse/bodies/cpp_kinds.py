@@ -7,6 +7,7 @@ LEAVES = {
     "return_statement": "this leaves the function",
     "throw_statement": "an exception leaves the function",
     "goto_statement": "the model has no goto",
+    "gnu_asm_expression": "the model has no assembly",
     **dict.fromkeys(_COROUTINES, "the model has no coroutines"),
 }
 _LOOPS = frozenset({"for_statement", "while_statement", "do_statement", "for_range_loop"})

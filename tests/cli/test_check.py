@@ -417,7 +417,9 @@ def prints(shown: str) -> set[str]:
 
 
 def test_fingerprints_stay_when_something_else_is_edited(check: Check) -> None:
-    replace(SOURCE, "  mailbox_.delay(1);", "  mailbox_.delay(3);\n  small_ = false;\n  system(a);")
+    replace(
+        SOURCE, "  mailbox_.delay(1);", '  mailbox_.delay(3);\n  small_ = false;\n  asm("nop");'
+    )
     first = prints(check("--format", "sarif")[1])
     assert len(first) == 3
     replace(SOURCE, "  mailbox_.delay(3);", "  small_ = true;\n\n  mailbox_.delay(4);")

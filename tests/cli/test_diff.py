@@ -59,7 +59,7 @@ def test_a_difference_is_a_line_with_both_places(example: Path) -> None:
 
 
 def test_what_cannot_be_read_is_undetermined(example: Path) -> None:
-    edit(example / CODE, "void R_1::moveForward() {\n", "void R_1::moveForward() {\n  f(&x);\n")
+    edit(example / CODE, "void R_1::moveForward() {\n", "void R_1::moveForward() {\n  f(&e11_);\n")
     done = rebsync("diff", MODEL, PACKAGE, "--format", "json", cwd=example)
     assert done.status == 4
     found = json.loads(done.out)
@@ -67,7 +67,7 @@ def test_what_cannot_be_read_is_undetermined(example: Path) -> None:
     assert found["verdict"] == "undetermined"
     assert [d["kind"] for d in found["differences"]] == ["undetermined"]
     assert found["differences"][0]["right"]["region"]["startLine"] == line_of(
-        example / CODE, "f(&x)"
+        example / CODE, "f(&e11_)"
     )
 
 

@@ -54,18 +54,22 @@ def test_a_file_alone(package: Path, tmp_path: Path) -> None:
 
 def test_what_cannot_be_read_is_listed(package: Path) -> None:
     source = package / "src" / "r_1.cpp"
-    edit(source, "void R_1::moveForward() {\n", "void R_1::moveForward() {\n  std::sort(a, b);\n")
+    edit(
+        source,
+        "void R_1::moveForward() {\n",
+        "void R_1::moveForward() {\n  std::sort(&e11_, &e12_);\n",
+    )
     done = rebsync("extract", "experiment1", cwd=package.parent)
     assert done.status == 4
     assert "@Unreadable;" in done.out
-    line = 1 + source.read_text().split("\n").index("  std::sort(a, b);")
+    line = 1 + source.read_text().split("\n").index("  std::sort(&e11_, &e12_);")
     assert f"experiment1/src/r_1.cpp:{line}:3: RS941 unreadable: " in done.err
     assert done.err.endswith("experiment1: 31 of 32 statements exact, 1 unreadable\n")
     report = rebsync("extract", "experiment1", "--report", "json", cwd=package.parent)
     assert report.status == 4
     found = json.loads(report.out)
     assert found["grade"] == "unreadable"
-    assert [f["text"] for f in found["findings"]] == ["std::sort(a, b)"]
+    assert [f["text"] for f in found["findings"]] == ["std::sort(&e11_, &e12_)"]
     assert {b["name"]: b["unreadable"] for b in found["bodies"]}["R_1.moveForward"] == 1
 
 
@@ -117,13 +121,17 @@ def test_one_object_tells_everything(package: Path) -> None:
 
 def test_the_object_lists_what_cannot_be_read(package: Path) -> None:
     source = package / "src" / "r_1.cpp"
-    edit(source, "void R_1::moveForward() {\n", "void R_1::moveForward() {\n  std::sort(a, b);\n")
+    edit(
+        source,
+        "void R_1::moveForward() {\n",
+        "void R_1::moveForward() {\n  std::sort(&e11_, &e12_);\n",
+    )
     done = rebsync("extract", "experiment1/src/r_1.cpp", "--format", "json", cwd=package.parent)
     assert (done.status, done.err) == (4, "")
     found = json.loads(done.out)
     jsonschema.Draft202012Validator(SCHEMA).validate(found)
     assert found["file"] == "src/r_1.cpp"
-    assert [f["text"] for f in found["report"]["findings"]] == ["std::sort(a, b)"]
+    assert [f["text"] for f in found["report"]["findings"]] == ["std::sort(&e11_, &e12_)"]
 
 
 @pytest.fixture
@@ -179,7 +187,11 @@ def test_several_packages_go_to_a_directory(workspace: Path) -> None:
 
 def test_the_worst_of_several_packages_is_the_status(workspace: Path) -> None:
     source = workspace / "src" / "experiment1" / "src" / "r_1.cpp"
-    edit(source, "void R_1::moveForward() {\n", "void R_1::moveForward() {\n  std::sort(a, b);\n")
+    edit(
+        source,
+        "void R_1::moveForward() {\n",
+        "void R_1::moveForward() {\n  std::sort(&e11_, &e12_);\n",
+    )
     assert rebsync("extract", "src", cwd=workspace).status == 4
 
 

@@ -261,13 +261,13 @@ def test_links_that_lead_out_are_not_followed(sync: Run, tmp_path: Path) -> None
     assert snapshot(tmp_path) == before
 
 
-def test_what_makes_no_model_is_told_where_it_is(sync: Run) -> None:
+def test_what_the_model_has_no_type_for_is_told_where_it_is(sync: Run) -> None:
     before = snapshot(Path())
     replace(HEADER, "int32_t x_", "uint64_t x_")
     status, shown = sync()
-    assert status == 1
-    assert f"{HEADER}:43:3: RS967 the changes of the code make no model" in shown
-    assert 'hint: it would say `x = x0;`: unknown variable "x"' in shown
+    assert status == 4
+    assert f"{HEADER}:43:3: RS959 constructor Robot was changed in the code" in shown
+    assert 'the model has no type "uint64_t"' in shown
     replace(HEADER, "uint64_t x_", "int32_t x_")
     assert snapshot(Path()) == before
 

@@ -41,7 +41,7 @@ def page_text(folder: Path) -> str:
     for old, new in (
         ("this->current_segment_ < 10", "this->current_segment_ < 8"),
         ("    sendSelfWaitForCharge();\n", ""),
-        ("void R_1::moveForward() {\n", "void R_1::moveForward() {\n  f(&x);  // <b>\n"),
+        ("void R_1::moveForward() {\n", "void R_1::moveForward() {\n  f(&e11_);  // <b>\n"),
     ):
         assert old in text
         text = text.replace(old, new)
@@ -86,7 +86,7 @@ def test_keys_and_clicks_select(chromium: Browser, page: Path) -> None:
     chromium.click("#d3 strong")
     found = marked(chromium)
     assert found["row"] == ["d3"]
-    assert found["lines"] == ["msgsrv moveForward() {", "f(&x);  // <b>"]
+    assert found["lines"] == ["msgsrv moveForward() {", "f(&e11_);  // <b>"]
     assert found["visible"]
 
 
