@@ -272,6 +272,16 @@ def test_what_the_model_has_no_type_for_is_told_where_it_is(sync: Run) -> None:
     assert snapshot(Path()) == before
 
 
+def test_what_makes_no_model_is_told(sync: Run) -> None:
+    replace(SOURCE, "  sendSelfLook(after(e_));", "  x_ = 0.5 * x_;\n  sendSelfLook(after(e_));")
+    before = snapshot(Path())
+    status, shown = sync()
+    assert status == 1
+    assert "RS967 the changes of the code make no model" in shown
+    assert "hint: it would say `x = 0.5d * x;`" in shown
+    assert snapshot(Path()) == before
+
+
 def test_what_makes_no_model_together_is_told_of_the_model(sync: Run) -> None:
     replace("patrol.rebeca", "    on = n > 3;\n", "")
     replace("patrol.rebeca", "    boolean on;\n", "")
