@@ -279,7 +279,10 @@ def _declared(source: Source, package: str) -> Iterator[Fact]:
 
 def _is_own(said: str, package: str) -> bool:
     """Whether what is said of a file is of the package itself, where extraction reads it."""
-    return f"$(find {package})" in said or "$(dirname)" in said or f'("{package}")' in said
+    if f"$(find {package})" in said or "$(dirname)" in said:
+        return True
+    # formatters choose the quotes and the lines
+    return re.search(rf"""\(\s*(["']){re.escape(package)}\1\s*,?\s*\)""", said) is not None
 
 
 def _fields(source: Source, package: str) -> Iterator[Fact]:

@@ -75,6 +75,20 @@ def test_quotes_do_not_matter(tmp_path: Path) -> None:
     assert found.drift.verdict is Verdict.IN_STEP, found.drift.differences
 
 
+@pytest.mark.parametrize(
+    "laid_out", ["FindPackageShare('{}')", 'FindPackageShare(\n            "{}",\n        )']
+)
+def test_layout_of_what_names_the_package_does_not_matter(laid_out: str, tmp_path: Path) -> None:
+    root = made("counter", "ros2-py", tmp_path, "reactiveclass A(1) { A() {} }\nmain {}\n")
+    (path,) = root.glob("*/launch/*.py")
+    text, named = path.read_text(encoding="utf-8"), 'FindPackageShare("counter")'
+    assert named in text
+    path.write_text(text.replace(named, laid_out.format("counter")), encoding="utf-8")
+    assert told(checked(root)) == []
+    path.write_text(text.replace(named, laid_out.format("other")), encoding="utf-8")
+    assert told(checked(root)) != []
+
+
 PLAIN = """\
 reactiveclass Counter(3) {
   statevars { int a; float f; }
