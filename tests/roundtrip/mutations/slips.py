@@ -104,9 +104,8 @@ RCLCPP = (
         "stand-in by the wall clock",
         in_files(
             "_stand_in.cpp",
-            r"rclcpp::create_timer\(node, node->get_clock\(\),\s*"
-            r"rclcpp::Duration::from_seconds\(([^)]*)\)",
-            r"node->create_wall_timer(std::chrono::duration<double>(\1)",
+            r"rclcpp::create_timer\(node, node->get_clock\(\), (\w+_period)",
+            r"node->create_wall_timer(std::chrono::nanoseconds(\1.nanoseconds())",
         ),
     ),
     Kind(

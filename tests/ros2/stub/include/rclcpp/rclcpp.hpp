@@ -210,6 +210,9 @@ inline void spin(const std::shared_ptr<Node>& node) {
   node->fake_executor()->run([] { return ok(); });
 }
 
+// The clock of the stub has begun before there is a node: nobody waits for it.
+inline void spin_some(const std::shared_ptr<Node>& /* node */) {}
+
 }  // namespace rclcpp
 
 #define RCLCPP_ERROR_STREAM(logger, stream) RCLCPP_FAKE_LOG("ERROR", logger, stream)
