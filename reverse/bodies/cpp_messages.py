@@ -141,7 +141,7 @@ def needed(reader: CppStatements, type_: str) -> Mapping[str, m.Type]:
     text = "\n".join(texts)
     return {
         path: of
-        for path, of in reader.scope.messages[type_].items()
+        for path, of in reader.scope.messages.get(type_, {}).items()
         if of is not None and (path in sent or _is_read(path, text))
     }
 

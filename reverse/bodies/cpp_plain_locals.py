@@ -17,6 +17,8 @@ from rebsync.source import Span
 if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_statements import CppStatements
 
+_MOST_LEFT_OUT = 1000  # elements of an array; each becomes a statement of its own
+
 
 def late(reader: CppStatements, node: Node) -> m.Declaration | None:
     """The assignment that is the declaration of a local which C++ declares before a switch."""
@@ -83,6 +85,8 @@ def braces(reader: CppStatements, node: Node, type_: m.Type) -> m.Initializer | 
         read.append(element if element is not None else _element(reader, value, inner))
     missing = type_.dimensions[0] - len(read)
     if reader.scope.open and missing > 0:
+        if missing > _MOST_LEFT_OUT:
+            raise reader.unread(node, f"{missing} elements are left out here: too many to write")
         zero = cpp_messages.zero_of(inner)
         if zero is None:
             raise reader.unread(node, "what is left out of this array is not written")

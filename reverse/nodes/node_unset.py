@@ -146,8 +146,10 @@ class _Reads:
                 return known | {name}
             case m.Index(m.Name(name), m.IntLiteral(index)):
                 known |= {f"{name}[{index}]"}
-                every = {f"{name}[{i}]" for i in range(_length(self.variables, name))}
-                return known | {name} if every and every <= known else known
+                last = _length(self.variables, name) - 1
+                # from the end, as most are written in their order: so the first that lacks ends it
+                every = last >= 0 and all(f"{name}[{i}]" in known for i in range(last, -1, -1))
+                return known | {name} if every else known
             case m.Index(m.Name(), index):
                 return self._expression(index, known)
             case _:
