@@ -2,7 +2,7 @@
 #include <ros/ros.h>
 #include <std_msgs/Int32.h>
 
-int cells[100000] = {0};
+int cells[1500] = {0};
 int corners[4] = {1, 2};
 
 class Mapper {
