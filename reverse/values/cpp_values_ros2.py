@@ -243,10 +243,10 @@ def declared(values: Values, name: Node, frame: Frame) -> Value:
     found: list[Value] = []
     for cpp, place in values.texts.everywhere(_DECLARE) if isinstance(text, str) else ():
         call = climb(place, lambda n: n.type in ("call_expression", "compound_statement"))
-        given = named(part(call, "arguments")) if call is not None else []
-        if call is None or call.type != "call_expression" or len(given) < 2:
+        if call is None or call.type != "call_expression":
             continue
-        if given[0].type == "string_literal" and string_of(given[0]) == text:
+        given = named(part(call, "arguments"))
+        if len(given) > 1 and given[0].type == "string_literal" and string_of(given[0]) == text:
             around = values.texts.function_around(cpp, call)
             found.append(values.value(given[1], Frame(cpp, around, outside=True)))
     known = choice(found)
