@@ -14,6 +14,7 @@ from tree_sitter import Language, Node, Parser
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Finding, Grade
 from rebsync.reverse.syntax.cpp_tree import Cpp, byte_places
+from rebsync.reverse.syntax.cpp_words import Plain
 from rebsync.reverse.syntax.unparsed import NO_PYTHON
 from rebsync.source import Source
 
@@ -37,7 +38,7 @@ def parse(source: Source) -> Py:
     """The tree of a file; where the text is no Python it has error nodes."""
     data = source.text.encode("utf-8", "surrogatepass")
     root = _parser().parse(data).root_node
-    return Py(source, root, byte_places(source.text, data))
+    return Py(source, root, Plain(data), byte_places(source.text, data))
 
 
 def unparsed(py: Py) -> list[Finding]:

@@ -24,9 +24,8 @@ _UNDEFINED = frozenset(
     }
 )
 _DIRECTIVE = re.compile(
-    r"^[ \t]*#[ \t]*(?P<word>if|ifdef|ifndef|elif|else|endif|define|undef)\b"
-    r"(?P<rest>[^\n\\]*(?:\\(?:\r?\n|.)[^\n\\]*)*)",
-    re.MULTILINE,
+    r"[ \t]*#[ \t]*(?P<word>if|ifdef|ifndef|elif|else|endif|define|undef)\b"
+    r"(?P<rest>[^\n\\]*(?:\\(?:\r?\n|.)[^\n\\]*)*)"
 )
 # What is not closed ends with the text, as otherwise it would be looked for again and again.
 _HIDDEN = re.compile(
@@ -81,9 +80,24 @@ def _blanks(match: re.Match[str]) -> str:
 def conditionals(text: str) -> list[Conditional]:
     """All in a text of which comments are blank, inner ones before those around them."""
     reader = _Reader()
-    for match in _DIRECTIVE.finditer(text):
+    for match in _directives(text):
         reader.directive(match)
     return reader.found
+
+
+def _directives(text: str, start: int = 0) -> Iterator[re.Match[str]]:
+    """All from a place on, each with the blanks before it on its line.
+
+    To look for `#` alone is much quicker than to look at each line.
+    """
+    at = text.find("#", start)
+    while at >= 0:
+        line = text.rfind("\n", start, at) + 1 or start
+        found = _DIRECTIVE.match(text, line) if line == 0 or text[line - 1] == "\n" else None
+        if found is not None:
+            yield found
+            start = found.end()
+        at = text.find("#", max(start, at + 1))
 
 
 @dataclass(slots=True)
@@ -171,13 +185,13 @@ def _defines(ifndef: re.Match[str]) -> bool:
 
     The first directive of a file is a guard as well where these names differ by mistake.
     """
-    following = _DIRECTIVE.search(ifndef.string, ifndef.end())
+    following = next(_directives(ifndef.string, ifndef.end()), None)
     if following is None or following["word"] != "define":
         return False
     names = following["rest"].split()
     if names[:1] == ifndef["rest"].split()[:1]:
         return True
-    first = _DIRECTIVE.search(ifndef.string)
+    first = next(_directives(ifndef.string), None)
     return len(names) == 1 and first is not None and first.start() == ifndef.start()
 
 

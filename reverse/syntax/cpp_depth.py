@@ -20,30 +20,69 @@ _CONTAINERS = frozenset(
     }
 )
 _NO_LINE_END = re.compile(rb"[^\r\n]")
-# The comments that a file begins with, which say who may copy it, often between lines of stars.
-_HEAD = re.compile(rb"(?:\s*(?:/\*.*?\*/|//[^\n]*\n))*", re.DOTALL)
-_BRACKETS = b"(){}[]"
-_NO_BRACKETS = bytes(set(range(256)) - set(_BRACKETS))
+_COMMENT = re.compile(rb"\s*/([/*])")
+_OPERATORS = b"!%&()*+,-./:<=>?[]^|~"
+_ENDS = b"{};"
+# What depth is told from is short: the rest of a text is left out before anything is counted.
+_NO_SIGNS = bytes(set(range(256)) - set(_OPERATORS + _ENDS))
+_ALIKE = bytes.maketrans(b"{[}]", b"(())")
+_NO_BRACKETS = bytes(set(range(256)) - set(b"(){}[]"))
 _STATEMENTS = bytes.maketrans(b"{}", b";;")
 _LONG = 250  # bytes of a statement in which as many operators have room
-_NO_OPERATORS = bytes(set(range(256)) - set(b"!%&()*+,-./:<=>?[]^|~"))
+_NO_OPERATORS = bytes(set(range(256)) - set(_OPERATORS))
 _MANY = 60
 _Path: TypeAlias = "tuple[Node, _Path | None, int]"
 
 
 def may_be_deep(data: bytes) -> bool:
     """Whether a text needs a closer look: it nests, or has long statements or chains of `else`."""
-    data = _HEAD.sub(b"", data, count=1)
+    data = data[_head(data) :]
+    if data.count(b"else") > _MANY or data.count(b"for") > _LONG or data.count(b"#") > _LONG:
+        return True
+    signs = data.translate(None, _NO_SIGNS)
+    return _nests(signs.translate(_ALIKE, _NO_BRACKETS)) or _has_long(data, signs)
+
+
+def _head(data: bytes) -> int:
+    """Where the comments end that a file begins with.
+
+    They say who may copy it, often between lines of stars.
+    """
+    at = 0
+    while found := _COMMENT.match(data, at):
+        close = b"\n" if found[1] == b"/" else b"*/"
+        end = data.find(close, found.end())
+        if end < 0:
+            break
+        at = end + len(close)
+    return at
+
+
+def _nests(brackets: bytes) -> bool:
+    """Whether `(` nest deep, whatever of them `)` do not close."""
+    left, inner = brackets, b"()"
+    for levels in range(_MANY):
+        shorter = left.replace(inner, b"")
+        if len(shorter) == len(left):  # what is left are `)`, and `(` that nothing closes
+            if levels + left.count(b"(") <= _MANY:
+                return False
+            break
+        left = shorter
     depth = 0
-    for bracket in data.translate(None, _NO_BRACKETS):
-        if bracket in b"({[":
+    for bracket in brackets:
+        if bracket == ord("("):
             depth += 1
             if depth > _MANY:
                 return True
         elif depth:
             depth -= 1
-    if data.count(b"else") > _MANY or data.count(b"for") > _LONG or data.count(b"#") > _LONG:
-        return True
+    return False
+
+
+def _has_long(data: bytes, signs: bytes) -> bool:
+    """Whether a text has a long statement of many operators; `signs` are all that it has."""
+    if max(map(len, signs.translate(_STATEMENTS).split(b";"))) <= _MANY:
+        return False
     pieces = data.translate(_STATEMENTS).split(b";")
     long = (p for p in pieces if len(p) > _LONG)
     return any(len(p.translate(None, _NO_OPERATORS)) > _MANY for p in long)

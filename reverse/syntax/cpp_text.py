@@ -10,19 +10,31 @@ import re
 from collections.abc import Callable, Iterable
 
 from rebsync.reverse.syntax.cpp_conditions import Conditional, alternatives
+from rebsync.reverse.syntax.cpp_words import Plain
 
 # Patterns start with plain text where they can: this is what makes searching quick.
 # `class FOO_EXPORT Foo {`: without the macro's definition the parser takes Foo for a variable.
-_EXPORTS = tuple(
-    re.compile(
+_EXPORTS = {
+    word.encode(): re.compile(
         rf"({word}\s+)[A-Z][A-Z0-9_]*(?=\s+(?!final\b)[A-Za-z_]\w*\s*(?:final\s*)?(?:[{{]|:[^:]))"
     )
     for word in ("class", "struct")
-)
+}
 # `FOO_DEPRECATED const char* f();`, at the start of a line, where a declaration goes on.
 _ATTRIBUTE = re.compile(
     r"(\n[ \t]*)[A-Z][A-Z0-9]*_[A-Z0-9_]+(?=[ \t]+(?:const|virtual|static|inline|explicit|void|bool"
     r"|int|unsigned|long|float|double|char|auto|std::\w+)\b)"
+)
+# The same in a text without blanks, of which each capital, digit and `_` is an `A`.
+_MAY_BE_ATTRIBUTE = re.compile(rb"\nAAA+[a-z]")
+_CAPITALS = b"ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+_KINDS = bytes.maketrans(_CAPITALS + b"0123456789_", b"A" * 37)
+# All but capitals and what stands beside them in what is looked for: what is left of a text is
+# short, and all that is in the text is in it.
+_NO_CAPITALS = bytes(set(range(256)) - set(_CAPITALS + b"_<"))
+_OF_CUDA = frozenset(
+    f"__{word}__".encode()
+    for word in ("device", "host", "global", "shared", "constant", "forceinline")
 )
 # The formats of <cinttypes>, between texts: `"%" PRId64`.
 _FORMAT = re.compile(r"\bPRI[diouxX](?:8|16|32|64|MAX|PTR)\b")
@@ -45,36 +57,56 @@ def _public(match: re.Match[str]) -> str:
     return match[1] + "public".ljust(len(match[2])) + match[3]
 
 
-# What to look for before a search is worth while, the search, and what stands for what it finds.
-_MENDS: tuple[tuple[str, re.Pattern[str], Callable[[re.Match[str]], str]], ...] = (
-    ("__", re.compile(r"__(?:device|host|global|shared|constant|forceinline)__"), _blank),
-    ("<<<", re.compile(r"<<<[^;{}<]{1,300}?>>>"), _blank),
-    ("Q_", re.compile(r"Q_(?:OBJECT|GADGET|INVOKABLE|EMIT)\b"), _blank),
-    ("slots", re.compile(r"(\b(?:public|protected|private)\s+)slots(?=\s*:)"), _keep_first),
-    ("Q_SLOTS", re.compile(r"(\b(?:public|protected|private)\s+)Q_SLOTS(?=\s*:)"), _keep_first),
-    ("signals", re.compile(r"(\n[ \t]*)(signals)([ \t]*:)(?!:)"), _public),
-    ("Q_SIGNALS", re.compile(r"()(Q_SIGNALS)([ \t]*:)"), _public),
-    ("emit", re.compile(r"(\n[ \t]*)emit(?=[ \t]+\w+\s*\()"), _keep_first),
-    ("SIGNAL", re.compile(r"(SIGNAL\s*\()[^()]*\([^()]*\)(?=\s*\))"), _keep_first),
-    ("SLOT", re.compile(r"(SLOT\s*\()[^()]*\([^()]*\)(?=\s*\))"), _keep_first),
-    ("PRI", _FORMAT, _blank),
+# The words of which one must be in a text before a search is worth while, the search, and what
+# stands for what it finds.
+_BY_WORD: tuple[tuple[frozenset[bytes], re.Pattern[str], Callable[[re.Match[str]], str]], ...] = (
+    *((frozenset({word}), pattern, _keep_first) for word, pattern in _EXPORTS.items()),
+    (_OF_CUDA, re.compile(r"__(?:device|host|global|shared|constant|forceinline)__"), _blank),
+    (
+        frozenset({b"slots"}),
+        re.compile(r"(\b(?:public|protected|private)\s+)slots(?=\s*:)"),
+        _keep_first,
+    ),
+    (frozenset({b"signals"}), re.compile(r"(\n[ \t]*)(signals)([ \t]*:)(?!:)"), _public),
+    (frozenset({b"emit"}), re.compile(r"(\n[ \t]*)emit(?=[ \t]+\w+\s*\()"), _keep_first),
+)
+# The same with what must be among the capitals of a text; see `_NO_CAPITALS`.
+_BY_CAPITALS: tuple[tuple[bytes, re.Pattern[str], Callable[[re.Match[str]], str]], ...] = (
+    (b"<<<", re.compile(r"<<<[^;{}<]{1,300}?>>>"), _blank),
+    (b"Q_", re.compile(r"Q_(?:OBJECT|GADGET|INVOKABLE|EMIT)\b"), _blank),
+    (b"Q_SLOTS", re.compile(r"(\b(?:public|protected|private)\s+)Q_SLOTS(?=\s*:)"), _keep_first),
+    (b"Q_SIGNALS", re.compile(r"()(Q_SIGNALS)([ \t]*:)"), _public),
+    (b"SIGNAL", re.compile(r"(SIGNAL\s*\()[^()]*\([^()]*\)(?=\s*\))"), _keep_first),
+    (b"SLOT", re.compile(r"(SLOT\s*\()[^()]*\([^()]*\)(?=\s*\))"), _keep_first),
+    (b"PRI", _FORMAT, _blank),
     # What says who may see a member, before its declaration, on a line of its own or not.
     *(
-        (ending, re.compile(rf"(\n[ \t]*)[A-Z][A-Z0-9_]*{ending}(?=\s+[~A-Za-z_])"), _keep_first)
+        (
+            ending.encode(),
+            re.compile(rf"(\n[ \t]*)[A-Z][A-Z0-9_]*{ending}(?=\s+[~A-Za-z_])"),
+            _keep_first,
+        )
         for ending in ("_PUBLIC", "_EXPORT", "_LOCAL")
     ),
-    ("EIGEN_MAKE", re.compile(r"EIGEN_MAKE_ALIGNED_OPERATOR_NEW\b;?"), _blank),
+    (b"EIGEN_MAKE", re.compile(r"EIGEN_MAKE_ALIGNED_OPERATOR_NEW\b;?"), _blank),
 )
 
 
-def readable(text: str) -> str:
-    """The text with blanks for what the parser would stumble over; as long as the text."""
-    for pattern in _EXPORTS:
-        text = pattern.sub(_keep_first, text)
-    for word, pattern, instead in _MENDS:
-        if word in text:
+def readable(text: str, plain: Plain) -> str:
+    """The text with blanks for what the parser would stumble over; as long as the text.
+
+    By its bytes and words is told quickly what need not be looked for.
+    """
+    data, words = plain.data, plain.words
+    for any_of, pattern, instead in _BY_WORD:
+        if not words.isdisjoint(any_of):
             text = pattern.sub(instead, text)
-    text = _ATTRIBUTE.sub(_keep_first, text)
+    capitals = data.translate(None, _NO_CAPITALS)
+    for these, pattern, instead in _BY_CAPITALS:
+        if these in capitals and these in data:
+            text = pattern.sub(instead, text)
+    if _MAY_BE_ATTRIBUTE.search(data.translate(_KINDS, b" \t")):
+        text = _ATTRIBUTE.sub(_keep_first, text)
     return _without(text, dropped(text)) if has_alternatives(text) else text
 
 

@@ -14,7 +14,7 @@ from tree_sitter import Language, Node, Parser, Query, QueryCursor
 from rebsync.records import dataclass
 from rebsync.reverse.syntax.cpp_depth import deep_parts, may_be_deep, without
 from rebsync.reverse.syntax.cpp_text import readable
-from rebsync.reverse.syntax.cpp_words import words_of
+from rebsync.reverse.syntax.cpp_words import Plain
 from rebsync.source import Source, SourceSpan, Span
 
 _MOST_COMMENTS = 60  # each is looked for from the start of what is around it
@@ -30,14 +30,15 @@ _COMMENT = re.compile(r"^\s*//[/!]?|^\s*/\*+|\*+/\s*\Z")
 class Cpp:
     """One file of C++ and its tree, whose places are bytes.
 
-    `wide` are the bytes behind each character that takes more than one, and by how many bytes more
-    than characters the text up to there has. `deep` are the bytes of places that nest deeper than
-    is read: they are not in the tree. `inverted` are the bytes of each `~` that is `!` in the tree,
-    `filled` those of each `;` that is only in the tree.
+    `plain` is the text as it was read. `wide` are the bytes behind each character that takes more
+    than one, and by how many bytes more than characters the text up to there has. `deep` are the
+    bytes of places that nest deeper than is read: they are not in the tree. `inverted` are the
+    bytes of each `~` that is `!` in the tree, `filled` those of each `;` that is only in the tree.
     """
 
     source: Source
     root: Node = field(repr=False)
+    plain: Plain = field(repr=False, compare=False)
     wide: tuple[list[int], list[int]] | None = field(repr=False)
     deep: tuple[tuple[int, int], ...] = ()
     inverted: frozenset[int] = frozenset()
@@ -51,12 +52,12 @@ class Cpp:
     @cached_property
     def original(self) -> bytes:
         """The text as it was read; places are the same."""
-        return self.source.text.encode("utf-8", "surrogatepass")
+        return self.plain.data
 
     @cached_property
     def words(self) -> frozenset[bytes]:
         """All words of the text: what is not among them stands nowhere in it."""
-        return words_of(self.original)
+        return self.plain.words
 
     @property
     def has_markers(self) -> bool:
@@ -98,8 +99,9 @@ def _parser() -> Parser:
 
 def parse(source: Source) -> Cpp:
     """The tree of a file; where the text is no C++ it has error nodes."""
-    text = readable(source.text)
-    data = text.encode("utf-8", "surrogatepass")
+    plain = Plain(source.text.encode("utf-8", "surrogatepass"))
+    text = readable(source.text, plain)
+    data = plain.data if text == source.text else text.encode("utf-8", "surrogatepass")
     wide = byte_places(text, data)
     root = _parser().parse(data).root_node
     deep: list[tuple[int, int]] = []
@@ -108,14 +110,15 @@ def parse(source: Source) -> Cpp:
         data = without(data, parts)
         root = _parser().parse(data).root_node
     filled: frozenset[int] = frozenset()
-    if root.has_error and (doubled := frozenset(_double_braces(data))):
+    doubled = frozenset(_double_braces(data)) if root.has_error else filled
+    if not all(_is_block(root, place) for place in doubled):
         data, root, filled = _told_from_lists(data, root, doubled)
     inverted: set[int] = set()
     while root.has_error and (found := list(_taken_for_destructors(root, data))):
         inverted.update(found)
         data = _with_negations(data, found)
         root = _parser().parse(data).root_node
-    return Cpp(source, root, wide, tuple(deep), frozenset(inverted), filled)
+    return Cpp(source, root, plain, wide, tuple(deep), frozenset(inverted), filled)
 
 
 def _double_braces(data: bytes) -> Iterator[int]:
@@ -123,6 +126,12 @@ def _double_braces(data: bytes) -> Iterator[int]:
     for found in _DOUBLE_BRACES.finditer(data):
         if data[max(0, found.start() - _NEAR) : found.start()].rstrip()[-1:] not in b"=,(":
             yield found.start(1)
+
+
+def _is_block(root: Node, place: int) -> bool:
+    """Whether what is around the space between `{ {` was read as a block, and all of it."""
+    node = root.descendant_for_byte_range(place - 1, place + 1)
+    return node is not None and node.type == "compound_statement" and not node.has_error
 
 
 def _told_from_lists(
@@ -147,10 +156,9 @@ def _taken_for_destructors(root: Node, data: bytes) -> Iterator[int]:
     There the grammar looks for the name of a destructor, and finds an error; with `!` it does not.
     """
     for node in _errors(root):
-        if node.is_error and node.parent is not None and node.parent.type in _ELEMENTS:
-            sign = _INVERTED.match(data, node.start_byte)
-            if sign is not None:
-                yield sign.end() - 1
+        sign = _INVERTED.match(data, node.start_byte) if node.is_error else None
+        if sign is not None and node.parent is not None and node.parent.type in _ELEMENTS:
+            yield sign.end() - 1
 
 
 def _errors(root: Node) -> Iterator[Node]:

@@ -3,10 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cached_property
+
+from rebsync.records import dataclass
 
 # Of a word of bytes; others, as those of letters that are not ASCII, stand between words.
 _PARTS = frozenset(b"abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_")
 _SPACED = bytes(byte if byte in _PARTS else ord(" ") for byte in range(256))
+
+
+@dataclass(frozen=True)
+class Plain:
+    """The bytes of a text, and its words, once they are asked for."""
+
+    data: bytes
+
+    @cached_property
+    def words(self) -> frozenset[bytes]:
+        """All words of the text: what is not among them stands nowhere in it."""
+        return words_of(self.data)
 
 
 def words_of(data: bytes) -> frozenset[bytes]:

@@ -8,6 +8,7 @@ from rebsync.reverse.findings import Grade
 from rebsync.reverse.syntax.cpp_conditions import blank, conditionals
 from rebsync.reverse.syntax.cpp_text import readable
 from rebsync.reverse.syntax.cpp_tree import parse, text_of
+from rebsync.reverse.syntax.cpp_words import Plain
 from rebsync.reverse.syntax.unparsed import unparsed
 from rebsync.source import Source
 
@@ -40,11 +41,12 @@ MENDED = [
 
 @pytest.mark.parametrize(("text", "wanted"), MENDED)
 def test_places_stay(text: str, wanted: str) -> None:
-    assert readable(text) == wanted.replace("~", " ")
+    assert readable(text, Plain(text.encode())) == wanted.replace("~", " ")
 
 
 def test_signals_are_public() -> None:
-    assert readable("class A {\n signals:\n void f(); };") == "class A {\n public :\n void f(); };"
+    text = "class A {\n signals:\n void f(); };"
+    assert readable(text, Plain(text.encode())) == "class A {\n public :\n void f(); };"
 
 
 @pytest.mark.parametrize(
