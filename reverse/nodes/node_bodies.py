@@ -41,6 +41,7 @@ from rebsync.reverse.nodes.node_kept import elements
 from rebsync.reverse.nodes.node_loops import Loop, left
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_setup import Setup, around, send
+from rebsync.reverse.nodes.node_signatures import Signatures
 from rebsync.reverse.nodes.node_starts import Opening, Step
 from rebsync.reverse.nodes.node_state import State
 from rebsync.reverse.nodes.node_tidying import without_values
@@ -53,12 +54,13 @@ _HANDLES = (SubscriptionFact, TimerFact, ServiceFact, ClientFact)
 
 @dataclass(frozen=True, slots=True)
 class Common:
-    """What all bodies of a package can name: enumerations and message types."""
+    """What all bodies of a package can name: enumerations, message types and functions."""
 
     enumerators: Mapping[str, int]
     enums: frozenset[str]
     messages: Mapping[str, Fields]
     types: frozenset[str]
+    signatures: Signatures
 
 
 @dataclass(slots=True)
