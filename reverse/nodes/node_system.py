@@ -17,7 +17,7 @@ from rebsync.reverse.findings import Findings
 from rebsync.reverse.graph import Fact, Graph, PublisherFact, SubscriptionFact
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.nodes.node_bodies import Bodies, Common
-from rebsync.reverse.nodes.node_bound import note_bound, note_helpers
+from rebsync.reverse.nodes.node_bound import Helpers, note_bound, note_helpers
 from rebsync.reverse.nodes.node_classes import NodeClass, too_deep
 from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_joined import Joined, Part
@@ -175,6 +175,7 @@ class _Reader:
     reading: Units
     joined: Joined
     times: Times = field(default_factory=lambda: Times(Fraction(1), Fraction(1)))
+    _helpers: Helpers = field(default_factory=lambda: Helpers(()))
     _parameters: dict[str, tuple[list[Given], int]] = field(default_factory=dict)
     # What starts, by the ids of the units, and by what runs it: see `Start.process`.
     _of_units: dict[int, list[Start]] = field(default_factory=dict)
@@ -183,6 +184,7 @@ class _Reader:
 
     def __post_init__(self) -> None:
         self.times = Times.of(unit_of_time(self.system.files), self.wiring.instances)
+        self._helpers = Helpers(self.found.part.classes)
         for start in self.found.starts:
             self._of_units.setdefault(id(start.unit), []).append(start)
             self._together.setdefault(start.process, []).append(start)
@@ -231,7 +233,7 @@ class _Reader:
         state.note(broken | node.overflowing.counted, findings, unit.name)
         note_life_cycle(unit, findings)
         note_bound(node.bodies)
-        note_helpers(node.bodies, self.found.part.classes)
+        note_helpers(node.bodies, self._helpers)
         return read
 
     def _read(
@@ -311,10 +313,15 @@ class _Reader:
         """Name, class and place among the slots of the rebecs that a class sends to."""
         if not any(self.wiring.known(i) for i in alike):
             return []
-        bodies = [(f.cpp, f.body) for f in unit.functions if f.body is not None]
-        taken = {n for cpp, body in bodies for n in declared(unit.code, cpp, body)}
-        taken |= {p.name for s in self.wiring.servers[unit.name] for p in s.parameters}
-        return self.joined.known(alike, taken.__contains__, names)
+        parameters = {p.name for s in self.wiring.servers[unit.name] for p in s.parameters}
+
+        def is_taken(word: str) -> bool:
+            functions = (f for f in unit.functions if word.encode() in f.cpp.words)
+            return word in parameters or any(
+                f.body is not None and word in declared(unit.code, f.cpp, f.body) for f in functions
+            )
+
+        return self.joined.known(alike, is_taken, names)
 
     def _targets(
         self, alike: list[Instance], known: list[tuple[str, str, int]]
