@@ -24,13 +24,16 @@ class Functions:
     methods: dict[str, CppFunction] = field(default_factory=dict)
     # As they were read when they were tried, if nothing that they call has changed since.
     _tried: dict[str, tuple[m.Method, Findings]] = field(default_factory=dict)
+    # The functions outside of classes that they can call.
+    _free: tuple[CppFunction, ...] = ()
     # Where in files, by their paths, calls and loops begin that set the node up.
     _places: dict[str, list[int]] | None = None
 
     def choose(self) -> None:
         """Functions become methods where a method can say what they do; others are inlined."""
         by_name: dict[str, list[CppFunction]] = {}
-        for function in (*map(self._with_defaults, self.bodies.unit.functions), *self._free()):
+        self._free = tuple(self._outside())
+        for function in (*map(self._with_defaults, self.bodies.unit.functions), *self._free):
             by_name.setdefault(function.name, []).append(function)
         for above in self.bodies.unit.lineage:
             for declared in above.functions:
@@ -70,12 +73,12 @@ class Functions:
         declared = [f for c in lineage for f in c.functions if f.name == function.name]
         return with_defaults(function, declared)
 
-    def _free(self) -> tuple[CppFunction, ...]:
-        """The functions outside of classes that member functions can call."""
+    def _outside(self) -> Iterable[CppFunction]:
+        """The functions outside of classes that member functions can call, `main` left out."""
         if self.bodies.unit.owner is None:
             return ()
         near = self.bodies.unit.files | {f.cpp.source.path for f in self.bodies.setup.first}
-        return tuple(self.bodies.common.signatures.free(self.bodies.code, near))
+        return self.bodies.common.signatures.free(self.bodies.code, near)
 
     def _signature(self, function: CppFunction) -> Called | None:
         """A function as a method, if its parameters and result are of the model's types."""
@@ -140,7 +143,7 @@ class Functions:
     def _affected(self, methods: Iterable[str], changed: set[str]) -> set[str]:
         """Those of some methods that lead to what has changed, by the names that bodies call."""
         known = self.bodies.functions
-        functions = {f.name: f for f in (*self.bodies.unit.functions, *self._free())}
+        functions = {f.name: f for f in (*self.bodies.unit.functions, *self._free)}
 
         def leads(method: str) -> bool:
             seen, waiting = set[str](), [method]

@@ -23,10 +23,14 @@ class Signature:
 
 @dataclass(frozen=True, slots=True)
 class _Group:
-    """The functions of one name outside of classes; `paths` are all files that have one."""
+    """The functions of one name outside of classes; `paths` are all files that have one.
+
+    `shared` are those functions that stand in headers.
+    """
 
     functions: tuple[CppFunction, ...]
     paths: frozenset[str]
+    shared: frozenset[int]
 
 
 @dataclass(slots=True)
@@ -68,19 +72,25 @@ class Signatures:
                 yield from group.functions
                 continue
             for function in group.functions:
-                if function.cpp.source.path in near or is_header(function.cpp):
+                if function.cpp.source.path in near or function.node.id in group.shared:
                     yield function
 
     def _groups(self, code: Code) -> tuple[_Group, ...]:
         if id(code) not in self._free:
-            groups = [all_of for (owner, _), all_of in code.definitions.items() if not owner]
+            groups = [
+                all_of
+                for (owner, name), all_of in code.definitions.items()
+                if not owner and name != "main"
+            ]
             self._free[id(code)] = code, tuple(map(_group, groups))
         return self._free[id(code)][1]
 
 
 def _group(functions: Sequence[CppFunction]) -> _Group:
     paths = frozenset({f.cpp.source.path for f in functions})
-    return _Group(tuple(with_defaults(f, ()) for f in functions if f.body is not None), paths)
+    shared = frozenset({f.node.id for f in functions if is_header(f.cpp)})
+    own = tuple(with_defaults(f, ()) for f in functions if f.body is not None)
+    return _Group(own, paths, shared)
 
 
 def with_defaults(function: CppFunction, declared: Sequence[CppFunction]) -> CppFunction:
