@@ -41,6 +41,7 @@ from rebsync.reverse.nodes.node_kept import elements
 from rebsync.reverse.nodes.node_loops import Loop, left
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_setup import Setup, around, send
+from rebsync.reverse.nodes.node_signatures import Signatures
 from rebsync.reverse.nodes.node_starts import Opening, Step
 from rebsync.reverse.nodes.node_state import State
 from rebsync.reverse.nodes.node_tidying import without_values
@@ -53,12 +54,13 @@ _HANDLES = (SubscriptionFact, TimerFact, ServiceFact, ClientFact)
 
 @dataclass(frozen=True, slots=True)
 class Common:
-    """What all bodies of a package can name: enumerations and message types."""
+    """What all bodies of a package can name: enumerations, message types and functions."""
 
     enumerators: Mapping[str, int]
     enums: frozenset[str]
     messages: Mapping[str, Fields]
     types: frozenset[str]
+    signatures: Signatures
 
 
 @dataclass(slots=True)
@@ -81,33 +83,14 @@ class Bodies:
     functions: dict[str, Function] = field(default_factory=dict)
     overflowing: frozenset[str] = frozenset()
     regions: dict[str, Regions] = field(default_factory=dict)
-    contained: dict[str, Publishes] | None = None
-    _held: tuple[Held, ...] | None = None
     wide: dict[str, int] = field(default_factory=dict)
+    # What is made when it is first asked for, once the node is set up.
+    _held: tuple[Held, ...] | None = None
+    _kept: dict[str, Member] | None = None
 
     def scope(self, cpp: Cpp, function: CppFunction | None) -> Scope:
         """What a body in a file, in a function, can name."""
-        members: dict[str, Member] = dict(self.state.members_of(function))
-        published: dict[str, Publishes] = {}
-        for number, fact in enumerate(self.unit.facts):
-            kept = fact.site.kept.removeprefix("this->")
-            if isinstance(fact, PublisherFact) and kept.isidentifier():
-                type_ = fact.type if isinstance(fact.type, str) else ""
-                made = Publishes(self.targets.get(number, ()), type_)
-                first = published.setdefault(kept, made)
-                same = first is made or first == made
-                members[kept] = made if same else Outside()  # one of several
-            elif isinstance(fact, TimerFact) and kept:
-                server = next((s for s in self.servers if fact in s.timers), None)
-                if server is not None:
-                    switch = self.setup.switches.get(server.name)
-                    members[kept] = TimerOf(server.name, fact.one_shot is not True, switch)
-            elif kept and isinstance(fact, _HANDLES):
-                members[kept] = Outside()
-        members |= self._in_containers()
-        for each in self.held():
-            if each.lambda_ is not None:
-                members[each.name] = Lambda(each.lambda_, None)
+        members = {**self.state.members_of(function), **self._own_members()}
         entry = self.opening.entry
         if entry is not None and function is not None and function.node.id == entry.node.id:
             members |= self.opening.objects
@@ -133,6 +116,35 @@ class Bodies:
             unit=self.setup.times.unit,
         )
 
+    def _own_members(self) -> Mapping[str, Member]:
+        """What the unit keeps of what it asks ROS for, and the functions that members hold."""
+        if self._kept is None:
+            self._kept = self._asked_for() | self._in_containers()
+            held = self.held()
+            self._kept |= {h.name: Lambda(h.lambda_, None) for h in held if h.lambda_ is not None}
+        return self._kept
+
+    def _asked_for(self) -> dict[str, Member]:
+        """The publishers, timers and other handles that are kept in variables."""
+        members: dict[str, Member] = {}
+        published: dict[str, Publishes] = {}
+        for number, fact in enumerate(self.unit.facts):
+            kept = fact.site.kept.removeprefix("this->")
+            if isinstance(fact, PublisherFact) and kept.isidentifier():
+                type_ = fact.type if isinstance(fact.type, str) else ""
+                made = Publishes(self.targets.get(number, ()), type_)
+                first = published.setdefault(kept, made)
+                same = first is made or first == made
+                members[kept] = made if same else Outside()  # one of several
+            elif isinstance(fact, TimerFact) and kept:
+                server = next((s for s in self.servers if fact in s.timers), None)
+                if server is not None:
+                    switch = self.setup.switches.get(server.name)
+                    members[kept] = TimerOf(server.name, fact.one_shot is not True, switch)
+            elif kept and isinstance(fact, _HANDLES):
+                members[kept] = Outside()
+        return members
+
     def held(self) -> tuple[Held, ...]:
         """The functions that members hold."""
         if self._held is None:
@@ -143,15 +155,13 @@ class Bodies:
 
     def _in_containers(self) -> dict[str, Publishes]:
         """The publishers in maps and vectors, by their places there."""
-        if self.contained is None:
-            facts = {n: f for n, f in enumerate(self.unit.facts) if isinstance(f, PublisherFact)}
-            kept = {n: f for n, f in facts.items() if f.site.kept}
-            self.contained = {
-                place: Publishes(self.targets.get(n, ()), f.type if isinstance(f.type, str) else "")
-                for place, n in elements(kept, self.code.files).items()
-                for f in (facts[n],)
-            }
-        return self.contained
+        facts = {n: f for n, f in enumerate(self.unit.facts) if isinstance(f, PublisherFact)}
+        kept = {n: f for n, f in facts.items() if f.site.kept}
+        return {
+            place: Publishes(self.targets.get(n, ()), f.type if isinstance(f.type, str) else "")
+            for place, n in elements(kept, self.code.files).items()
+            for f in (facts[n],)
+        }
 
     def _regions(self, cpp: Cpp) -> Regions:
         """What stands for values that nobody knows."""

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import replace
+from dataclasses import field, replace
+from itertools import count
+from operator import itemgetter
+from typing import TypeAlias
 
 from tree_sitter import Node
 
+from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_effects import Effects, Touches
 from rebsync.reverse.bodies.cpp_roots import is_modelled, root
 from rebsync.reverse.bodies.scope import (
@@ -23,13 +27,15 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.nodes.node_bodies import Bodies
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.syntax.cpp_declarations import CppField
-from rebsync.reverse.syntax.cpp_index import CppClass, CppFunction
+from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
 
 _PLACES = frozenset(
     {"identifier", "this", "pointer_expression", "field_expression", "subscript_expression"}
 )
 _REFERS = ("reference_declarator", "pointer_declarator")
+# A function of a class, with its number in the order of all.
+Helper: TypeAlias = "tuple[int, CppClass, CppFunction]"
 
 
 def note_bound(bodies: Bodies) -> None:
@@ -45,17 +51,39 @@ def note_bound(bodies: Bodies) -> None:
                 )
 
 
-def note_helpers(bodies: Bodies, units: Collection[str]) -> None:
+@dataclass(slots=True)
+class Helpers:
+    """The functions of classes that are none of the `units`, which are the same for all of these.
+
+    By the ids of codes, and the paths of files there: the classes in their order, with functions.
+    """
+
+    units: Collection[str]
+    _known: dict[int, tuple[Code, dict[str, list[Helper]]]] = field(default_factory=dict)
+
+    def near(self, unit: Unit) -> list[Helper]:
+        """Those in the files of a unit, without those that it inherits."""
+        if id(unit.code) not in self._known:
+            by_path: dict[str, list[Helper]] = {}
+            for helper in self._all(unit.code):
+                by_path.setdefault(helper[2].cpp.source.path, []).append(helper)
+            self._known[id(unit.code)] = unit.code, by_path
+        by_path = self._known[id(unit.code)][1]
+        found = (h for path in unit.files for h in by_path.get(path, ()))
+        return sorted((h for h in found if h[1].name not in unit.names), key=itemgetter(0))
+
+    def _all(self, code: Code) -> Iterator[Helper]:
+        number = count()
+        for owner in code.classes.values():
+            for function in code.functions_of(owner) if owner.name not in self.units else ():
+                if function.body is not None:
+                    yield next(number), owner, function
+
+
+def note_helpers(bodies: Bodies, helpers: Helpers) -> None:
     """Lists functions of other classes that act on what the model has outside of classes."""
     unit, code = bodies.unit, bodies.code
-    above = {c.name for c in unit.lineage}
-    near = [
-        (owner, function)
-        for owner in code.classes.values()
-        if owner.name not in above and owner.name not in units
-        for function in code.functions_of(owner)
-        if function.body is not None and function.cpp.source.path in unit.files
-    ]
+    near = [(owner, function) for _, owner, function in helpers.near(unit)]
     callers = (*unit.functions, *(f for _, f in near))
     called = frozenset[str]().union(*map(code.names_called, callers)) if near else frozenset()
     for owner, function in near:

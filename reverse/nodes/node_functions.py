@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable
 from dataclasses import field, replace
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.cpp_types import carried
 from rebsync.reverse.bodies.scope import Called, Inline, Meaning, Variable
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.nodes.node_bodies import Bodies
-from rebsync.reverse.nodes.node_views import is_header
+from rebsync.reverse.nodes.node_signatures import with_defaults
 from rebsync.reverse.syntax.cpp_index import CppFunction
-from rebsync.reverse.syntax.cpp_tree import text_of
 
 _ROUNDS = 4
 
@@ -26,19 +24,23 @@ class Functions:
     methods: dict[str, CppFunction] = field(default_factory=dict)
     # As they were read when they were tried, if nothing that they call has changed since.
     _tried: dict[str, tuple[m.Method, Findings]] = field(default_factory=dict)
+    # The functions outside of classes that they can call.
+    _free: tuple[CppFunction, ...] = ()
+    # Where in files, by their paths, calls and loops begin that set the node up.
+    _places: dict[str, list[int]] | None = None
 
     def choose(self) -> None:
         """Functions become methods where a method can say what they do; others are inlined."""
         by_name: dict[str, list[CppFunction]] = {}
-        for function in (*self.bodies.unit.functions, *self._free()):
+        self._free = tuple(self._outside())
+        for function in (*map(self._with_defaults, self.bodies.unit.functions), *self._free):
             by_name.setdefault(function.name, []).append(function)
         for above in self.bodies.unit.lineage:
             for declared in above.functions:
                 by_name.setdefault(declared.name, [])
         served = {s.body.id for s in self.bodies.servers}
         methods: dict[str, CppFunction] = {}
-        for name, all_of in by_name.items():
-            found = [self._with_defaults(f) for f in all_of]
+        for name, found in by_name.items():
             if name in self.bodies.unit.names or name.startswith("~") or name == "main":
                 continue
             if len(found) != 1 or found[0].body is None:  # which is meant, or what it does, is open
@@ -66,67 +68,40 @@ class Functions:
                 self.bodies.functions[each.function] = known
 
     def _with_defaults(self, function: CppFunction) -> CppFunction:
-        """A function with what its parameters are by default: its declaration says so."""
-        lineage = self.bodies.unit.lineage if function.owner else ()
-        if not function.parameters:
-            return function
-        of_name = [f for c in lineage for f in c.functions if f.name == function.name]
-        given = (p.node.type for f in (*of_name, function) for p in f.parameters)
-        if "optional_parameter_declaration" not in given:
-            return function
-        same = [f for f in of_name if f.types == function.types]
-        parameters = list(function.parameters)
-        for known in (*same, function):
-            for number, parameter in enumerate(known.parameters):
-                default = parameter.node.child_by_field_name("default_value")
-                if default is not None:
-                    parameters[number] = replace(parameters[number], default=(known.cpp, default))
-        changed = any(a is not b for a, b in zip(parameters, function.parameters, strict=True))
-        return replace(function, parameters=tuple(parameters)) if changed else function
+        """A function of the unit with what its parameters are by default."""
+        lineage = self.bodies.unit.lineage if function.owner and function.parameters else ()
+        declared = [f for c in lineage for f in c.functions if f.name == function.name]
+        return with_defaults(function, declared)
 
-    def _free(self) -> Iterator[CppFunction]:
-        """The functions outside of classes that member functions can call."""
+    def _outside(self) -> Iterable[CppFunction]:
+        """The functions outside of classes that member functions can call, `main` left out."""
         if self.bodies.unit.owner is None:
-            return
+            return ()
         near = self.bodies.unit.files | {f.cpp.source.path for f in self.bodies.setup.first}
-        for (owner, _), all_of in self.bodies.code.definitions.items():
-            if owner:
-                continue
-            others = any(f.cpp.source.path in near for f in all_of)
-            for function in all_of:
-                here = function.cpp.source.path in near or is_header(function.cpp)
-                if function.body is not None and (here or not others):
-                    yield function
+        return self.bodies.common.signatures.free(self.bodies.code, near)
 
     def _signature(self, function: CppFunction) -> Called | None:
         """A function as a method, if its parameters and result are of the model's types."""
         if self._sets_up(function):
             return None
-        takes = []
-        for parameter in function.parameters:
-            type_ = carried(parameter.type, self.bodies.common.enums)
-            declarator = parameter.node.child_by_field_name("declarator")
-            plain = declarator is not None and declarator.type == "identifier"
-            if type_ is None or type_.bits or type_.why or not plain:
-                return None
-            takes.append(type_.type)
-        result = carried(function.result, self.bodies.common.enums) if function.result else None
-        void = function.result is not None and text_of(function.result) == "void"
-        if not void and (result is None or result.bits or result.why):
+        signature = self.bodies.common.signatures.of(function)
+        if signature is None:
             return None
         name = self.bodies.setup.names.give(function.name)
-        returned = result.type if result else None
-        return Called(name, takes=tuple(takes), returns=returned, function=function)
+        return Called(name, takes=signature.takes, returns=signature.returns, function=function)
 
     def _sets_up(self, function: CppFunction) -> bool:
         """Whether a function has calls or loops that set the node up."""
         body, setup = function.body, self.bodies.setup
         if body is None:
             return False
-        path = function.cpp.source.path
-        calls = [f.site.call for f in setup.facts if f.site.cpp.source.path == path]
-        calls += [x.node for x, _ in setup.loops if x.function.cpp.source.path == path]
-        return any(body.start_byte <= c.start_byte < body.end_byte for c in calls)
+        if self._places is None:
+            self._places = {}
+            calls = [(f.site.cpp, f.site.call) for f in setup.facts]
+            for cpp, node in (*calls, *((x.function.cpp, x.node) for x, _ in setup.loops)):
+                self._places.setdefault(cpp.source.path, []).append(node.start_byte)
+        places = self._places.get(function.cpp.source.path)
+        return places is not None and any(body.start_byte <= p < body.end_byte for p in places)
 
     def _try(self, methods: dict[str, CppFunction]) -> None:
         """Leaves those methods that can be read as such; a choice is none of a method."""
@@ -142,7 +117,7 @@ class Functions:
                 if self.bodies.findings.all:
                     failed.append(name)
             self.bodies.findings = findings
-            waiting = self._affected(methods, set(failed))
+            waiting = self._affected(methods.keys() - failed, set(failed))
             for name in failed:
                 self.bodies.functions[name] = Inline(methods.pop(name))
             if not failed:
@@ -165,21 +140,23 @@ class Functions:
             found.append(method)
         return found
 
-    def _affected(self, methods: dict[str, CppFunction], changed: set[str]) -> set[str]:
-        """The methods that lead to some functions, by the names that bodies call."""
-        if not changed:
-            return set()
-        functions = (*self.bodies.unit.functions, *self._free())
-        calls = {
-            f.name: self.bodies.code.names_called(f)
-            for f in functions
-            if f.name in self.bodies.functions
-        }
-        found, fresh = set[str](), changed
-        while fresh:
-            fresh = {n for n, names in calls.items() if names & fresh} - found
-            found |= fresh
-        return found & set(methods)
+    def _affected(self, methods: Iterable[str], changed: set[str]) -> set[str]:
+        """Those of some methods that lead to what has changed, by the names that bodies call."""
+        known = self.bodies.functions
+        functions = {f.name: f for f in (*self.bodies.unit.functions, *self._free)}
+
+        def leads(method: str) -> bool:
+            seen, waiting = set[str](), [method]
+            while waiting:
+                called = self.bodies.code.names_called(functions[waiting.pop()])
+                if not called.isdisjoint(changed):
+                    return True
+                fresh = {n for n in called if n in functions and n in known} - seen
+                seen |= fresh
+                waiting += fresh
+            return False
+
+        return set(filter(leads, methods)) if changed else set()
 
     def method(self, name: str, function: CppFunction) -> m.Method:
         """A function as a local method."""

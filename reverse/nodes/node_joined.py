@@ -83,7 +83,10 @@ class Joined:
 
 def _kinds(part: Part, wiring: Wiring) -> Iterator[tuple[int, str]]:
     """The class of each kind: a unit whose rebecs are wired differently becomes several."""
+    kinds: dict[str, dict[int, None]] = {}
+    for instance in part.instances:
+        of_unit = kinds.setdefault(instance.start.unit.name, {})
+        of_unit[wiring.kinds[instance.name]] = None
     for unit, class_ in part.classes.items():
-        of_unit = [i for i in part.instances if i.start.unit.name == unit]
-        for number, kind in enumerate(dict.fromkeys(wiring.kinds[i.name] for i in of_unit)):
+        for number, kind in enumerate(kinds.get(unit, ())):
             yield kind, class_ if not number else part.names.give(class_)

@@ -28,18 +28,21 @@ from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 from rebsync.reverse.unknowns import Open
 from rebsync.source import Span
 
-_THREADS = re.compile(
-    r"(AsyncSpinner|MultiThreadedSpinner|NodeletMultiThreaded|thread|jthread|async|pthread_create"
-    r"|getMT\w*NodeHandle|CallbackQueue|setCallbackQueue|MultiThreadedExecutor"
-    r"|EventsExecutor)\Z"
+_THREADS = frozenset(
+    {
+        *("AsyncSpinner", "MultiThreadedSpinner", "NodeletMultiThreaded", "thread", "jthread"),
+        *("async", "pthread_create", "CallbackQueue", "setCallbackQueue"),
+        *("MultiThreadedExecutor", "EventsExecutor"),
+    }
 )
-_ENTRIES = re.compile(
-    r"(Simple)?Action(Server|Client)|SimpleActionServer|TimeSynchronizer|Synchronizer|MessageFilter"
+_THREADED_HANDLE = re.compile(rb"getMT\w*NodeHandle")
+_ENTRIES = frozenset(
+    {
+        *("ActionServer", "ActionClient", "SimpleActionServer", "SimpleActionClient"),
+        *("TimeSynchronizer", "Synchronizer", "MessageFilter"),
+    }
 )
-_ANY = re.compile(  # what texts without such a name lack
-    rb"Spinner|Threaded|thread|async|getMT|CallbackQueue|Action(?:Server|Client)|Synchronizer"
-    rb"|MessageFilter"
-)
+_LISTED = frozenset(name.encode() for name in _THREADS | _ENTRIES)
 _SEVERAL = "its callbacks may run at the same time as others: the model has one at a time"
 
 
@@ -101,21 +104,23 @@ class Listing:
                     self._approximated(fact.site.place, why, f"{unit.name}.{server.name}")
 
     def _words(self, unit: Unit, cpp: Cpp, body: Node) -> None:
-        for node in reversed(unit.code.named(cpp, body, self._listed(cpp))):
+        listed = self._listed(cpp)
+        for node in reversed(unit.code.named(cpp, body, listed)) if listed else ():
             name = text_of(node)
             place = Place(cpp.source, cpp.span(node))
-            if _THREADS.match(name):
-                self._unread(place, f'"{name}": {_SEVERAL}', unit.name)
-            elif _ENTRIES.fullmatch(name):
+            if name in _ENTRIES:
                 why = f'"{name}" calls functions of the node in ways that the model does not have'
                 self._unread(place, why, unit.name)
+            else:
+                self._unread(place, f'"{name}": {_SEVERAL}', unit.name)
 
     def _listed(self, cpp: Cpp) -> frozenset[str]:
         """The words of a file that are listed wherever the code names them."""
         if id(cpp) not in self._odd:
-            words = (w.decode() for w in cpp.words if _ANY.search(w))
-            found = (w for w in words if _THREADS.match(w) or _ENTRIES.fullmatch(w))
-            self._odd[id(cpp)] = frozenset(found)
+            words = _LISTED & cpp.words
+            if b"getMT" in cpp.original:
+                words |= frozenset(filter(_THREADED_HANDLE.fullmatch, cpp.words))
+            self._odd[id(cpp)] = frozenset(word.decode() for word in words)
         return self._odd[id(cpp)]
 
     # --- wiring ---------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
@@ -16,7 +17,7 @@ from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, text_of
 
 _LOOPS = frozenset({"while_statement", "do_statement", "for_statement"})
-_HAS_LOOP = re.compile(rb"while|for|do")
+_LOOP_WORDS = re.compile(rb"\b(?:while|for|do)\b")
 _SPINS = frozenset({"spinOnce", "callAvailable", "callOne", "spin_some", "spin_once", "spin_all"})
 _AWAKE = frozenset({"ok", "isStarted"})
 
@@ -41,13 +42,23 @@ class Loop:
 def loops_in(function: CppFunction, rates: Sequence[RateFact]) -> Iterator[Loop]:
     """The loops of a function that run as long as the node does, outer ones only."""
     body = function.body
-    waiting = [body] if body is not None and _HAS_LOOP.search(body.text or b"") else []
+    if body is None:
+        return
+    first = body.start_byte
+    places = [first + word.start() for word in _LOOP_WORDS.finditer(body.text or b"")]
+    waiting = [body] if places else []
     while waiting:
         node = waiting.pop()
         if node.type in _LOOPS and (loop := _loop(function, node, rates)) is not None:
             yield loop
         elif node.type != "lambda_expression":
-            waiting += reversed(node.named_children)
+            waiting += [c for c in reversed(node.named_children) if _has_one(c, places)]
+
+
+def _has_one(node: Node, places: Sequence[int]) -> bool:
+    """Whether one of some places, in their order, is in a node."""
+    at = bisect_left(places, node.start_byte)
+    return at < len(places) and places[at] < node.end_byte
 
 
 def spins(statement: Node) -> bool:

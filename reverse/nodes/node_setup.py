@@ -46,6 +46,7 @@ _WAITS = frozenset(
 _AUDIENCE = frozenset(
     {"getNumSubscribers", "getNumPublishers", "waitForService", "get_subscription_count"}
 )
+_WAITING = re.compile("|".join(sorted(_WAITS | _AUDIENCE)).encode())
 _ENDS = frozenset({"spin", "waitForShutdown"})
 _PLAIN = (NodeFact, PublisherFact, SubscriptionFact, ServiceFact, ClientFact, RateFact)
 _AGAIN = "a timer that is made again stops the one before; in the model both go on"
@@ -315,7 +316,8 @@ class Setup:
 
     def _waits(self, function: CppFunction) -> None:
         """What waits for messages, or lets ROS serve them, is nothing in the model."""
-        for call in self.code.calls_of(function):
+        waits = function.body is not None and _WAITING.search(function.body.text or b"")
+        for call in self.code.calls_of(function) if waits else ():
             name = call.name.rpartition("::")[2]
             if name in _AUDIENCE and (loop := _loop_around(call.node)) is not None:
                 self.instead[loop.id] = ()

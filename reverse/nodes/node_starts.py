@@ -48,7 +48,7 @@ class Opening:
 
 
 def first_functions(code: Code, unit: Unit, starts: Sequence[Start]) -> list[CppFunction]:
-    """The functions that run before a unit's node serves messages."""
+    """The functions that run before a unit's node serves messages; `starts` are those of it."""
     found: dict[int, CppFunction] = {}
     waiting = list(_roots(unit, starts))
     callbacks = {
@@ -74,7 +74,7 @@ def _roots(unit: Unit, starts: Sequence[Start]) -> Iterator[CppFunction]:
         yield from unit.constructors(owner)
     yield from (f for f in unit.functions if f.name == _ENTRY)
     for start in starts:
-        if start.unit is unit and start.made is not None:
+        if start.made is not None:
             for statement in used_in_main(start):
                 called = {c.name for c in calls_in(statement)}
                 yield from (f for f in unit.functions if f.name in called)
@@ -102,11 +102,10 @@ def _uses(node: Node, variable: str) -> bool:
     return any(c.on.removeprefix("this->") == variable for c in calls_in(node))
 
 
-def opening(unit: Unit, state: State, start: Start | None, starts: Sequence[Start]) -> Opening:
-    """What runs when a rebec of a unit starts; `starts` are all that there are."""
+def opening(unit: Unit, state: State, start: Start | None, together: Sequence[Start]) -> Opening:
+    """What runs when a rebec of a unit starts, `together` with others in one program."""
     if unit.program is not None:
         main = unit.program.main
-        together = [s for s in starts if s.process == main.node.id]
         return Opening((Step(main, _statements(main), _arguments(main)),), main, _objects(together))
     steps: list[Step] = []
     given: dict[str, list[tuple[Cpp, Node]]] = {}
@@ -125,7 +124,7 @@ def opening(unit: Unit, state: State, start: Start | None, starts: Sequence[Star
     if start is None or start.entry is None or start.made is None:
         return Opening(tuple(steps))
     steps += [Step(start.entry, (statement,)) for statement in used_in_main(start)]
-    objects = _objects([s for s in starts if s.process == start.process])
+    objects = _objects(together)
     if start.made.variable:
         objects[start.made.variable] = Itself()
     return Opening(tuple(steps), start.entry, objects)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import field
 from fractions import Fraction
 
@@ -17,7 +17,7 @@ from rebsync.reverse.findings import Findings
 from rebsync.reverse.graph import Fact, Graph, PublisherFact, SubscriptionFact
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.nodes.node_bodies import Bodies, Common
-from rebsync.reverse.nodes.node_bound import note_bound, note_helpers
+from rebsync.reverse.nodes.node_bound import Helpers, note_bound, note_helpers
 from rebsync.reverse.nodes.node_classes import NodeClass, too_deep
 from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_joined import Joined, Part
@@ -29,6 +29,7 @@ from rebsync.reverse.nodes.node_presence import STAND_IN, makes_generated
 from rebsync.reverse.nodes.node_programs import Program
 from rebsync.reverse.nodes.node_servers import declared, servers
 from rebsync.reverse.nodes.node_setup import Setup
+from rebsync.reverse.nodes.node_signatures import Signatures
 from rebsync.reverse.nodes.node_starts import first_functions, opening
 from rebsync.reverse.nodes.node_state import State
 from rebsync.reverse.nodes.node_times import Times
@@ -157,7 +158,8 @@ class NodeSystem:
         }
         messages = types.all_fields(wanted | types.mentioned(self.code.files))
         known |= types.constants()
-        return Common(known, frozenset(enums), messages, frozenset())
+        of_enums = frozenset(enums)
+        return Common(known, of_enums, messages, frozenset(), Signatures(of_enums))
 
     def state(self, unit: Unit) -> State:
         """The variables of a unit."""
@@ -173,10 +175,19 @@ class _Reader:
     reading: Units
     joined: Joined
     times: Times = field(default_factory=lambda: Times(Fraction(1), Fraction(1)))
+    _helpers: Helpers = field(default_factory=lambda: Helpers(()))
     _parameters: dict[str, tuple[list[Given], int]] = field(default_factory=dict)
+    # What starts, by the ids of the units, and by what runs it: see `Start.process`.
+    _of_units: dict[int, list[Start]] = field(default_factory=dict)
+    _together: dict[Hashable, list[Start]] = field(default_factory=dict)
+    _fields: dict[tuple[str, str], tuple[str, ...]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.times = Times.of(unit_of_time(self.system.files), self.wiring.instances)
+        self._helpers = Helpers(self.found.part.classes)
+        for start in self.found.starts:
+            self._of_units.setdefault(id(start.unit), []).append(start)
+            self._together.setdefault(start.process, []).append(start)
 
     @property
     def wiring(self) -> Wiring:
@@ -222,7 +233,7 @@ class _Reader:
         state.note(broken | node.overflowing.counted, findings, unit.name)
         note_life_cycle(unit, findings)
         note_bound(node.bodies)
-        note_helpers(node.bodies, self.found.part.classes)
+        note_helpers(node.bodies, self._helpers)
         return read
 
     def _read(
@@ -242,7 +253,7 @@ class _Reader:
             setup,
             self.found.common,
             self._targets(alike, known),
-            opening(unit, state, start, self.found.starts),
+            opening(unit, state, start, self._beside(unit, start)),
             findings,
             overflowing=broken,
         )
@@ -257,7 +268,7 @@ class _Reader:
     def _setup(self, unit: Unit, alike: list[Instance], state: State, findings: Findings) -> Setup:
         """What sets up the rebecs of one kind."""
         start = alike[0].start if alike else None
-        first = first_functions(unit.code, unit, self.found.starts)
+        first = first_functions(unit.code, unit, self._of_units.get(id(unit), ()))
         facts = unit.facts
         if start is not None and start.entry is not None and self._is_alone(start):
             first = [*first, start.entry]
@@ -280,10 +291,15 @@ class _Reader:
             setup.instead |= state.outlive(function, set(), True)
         return setup
 
+    def _beside(self, unit: Unit, start: Start | None) -> Sequence[Start]:
+        """What runs together with a rebec of a unit, itself included."""
+        if unit.program is not None:
+            return self._together.get(unit.program.main.node.id, ())
+        return self._together.get(start.process, ()) if start is not None else ()
+
     def _is_alone(self, start: Start) -> bool:
         """Whether an object is all that its program or nodelet has to do with ROS."""
-        together = [s for s in self.found.starts if s.process == start.process]
-        return start.made is not None and len(together) == 1
+        return start.made is not None and len(self._together.get(start.process, ())) == 1
 
     def _facts_at(self, start: Start) -> tuple[Fact, ...]:
         """What the program or nodelet that has an object asks for besides."""
@@ -297,10 +313,15 @@ class _Reader:
         """Name, class and place among the slots of the rebecs that a class sends to."""
         if not any(self.wiring.known(i) for i in alike):
             return []
-        bodies = [(f.cpp, f.body) for f in unit.functions if f.body is not None]
-        taken = {n for cpp, body in bodies for n in declared(unit.code, cpp, body)}
-        taken |= {p.name for s in self.wiring.servers[unit.name] for p in s.parameters}
-        return self.joined.known(alike, taken.__contains__, names)
+        parameters = {p.name for s in self.wiring.servers[unit.name] for p in s.parameters}
+
+        def is_taken(word: str) -> bool:
+            functions = (f for f in unit.functions if word.encode() in f.cpp.words)
+            return word in parameters or any(
+                f.body is not None and word in declared(unit.code, f.cpp, f.body) for f in functions
+            )
+
+        return self.joined.known(alike, is_taken, names)
 
     def _targets(
         self, alike: list[Instance], known: list[tuple[str, str, int]]
@@ -308,18 +329,21 @@ class _Reader:
         """By publisher the receivers with their servers and the fields that they take."""
         if not alike:
             return {}
-        instance = alike[0]
-        own = self.wiring.place(instance)
-        slots = self.wiring.known(instance)
+        instance, wiring = alike[0], self.wiring
+        slots = {to: slot for slot, to in enumerate(wiring.known(instance))}
         found: dict[int, list[Target]] = {}
-        for number, to, name in self.wiring.edges[instance.name]:
-            unit = self.wiring.instances[to].start.unit.name
-            server = next(s for s in self.wiring.servers[unit] if s.name == name)
-            receiver = None if to == own else known[slots.index(to)][0]
-            found.setdefault(number, []).append(
-                Target(receiver, name, self.joined.taken(unit, server))
-            )
+        for number, to, name in wiring.edges[instance.name]:
+            unit = wiring.instances[to].start.unit.name
+            receiver = known[slots[to]][0] if to in slots else None
+            found.setdefault(number, []).append(Target(receiver, name, self._taken(unit, name)))
         return {n: tuple(t) for n, t in found.items()}
+
+    def _taken(self, unit: str, name: str) -> tuple[str, ...]:
+        """The paths of the fields that a server gets, by its unit and its name."""
+        if (unit, name) not in self._fields:
+            server = next(s for s in self.wiring.servers[unit] if s.name == name)
+            self._fields[unit, name] = self.joined.taken(unit, server)
+        return self._fields[unit, name]
 
     # --- main -----------------------------------------------------------------------------------
 

@@ -137,34 +137,41 @@ class Wiring:
     edges: dict[str, tuple[Edge, ...]] = field(default_factory=dict)
     kinds: dict[str, int] = field(default_factory=dict)
     _places: dict[str, int] = field(default_factory=dict)
+    # By the names of rebecs, those that each sends to; by the ids of units, the rebecs of each.
+    _known: dict[str, tuple[int, ...]] = field(default_factory=dict)
+    _of_units: dict[int, list[Instance]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self._places = {instance.name: n for n, instance in enumerate(self.instances)}
-        listening = list(self._listening())
+        listening = self._listening()
         for instance in self.instances:
             self.edges[instance.name] = tuple(self._edges(instance, listening))
+            self._known[instance.name] = self._receivers(instance)
+            self._of_units.setdefault(id(instance.start.unit), []).append(instance)
         self._sort()
 
-    def _listening(self) -> Iterator[tuple[str, object, int, str]]:
-        """Each topic with its type, and the rebec and server that receive it."""
+    def _listening(self) -> dict[str, list[tuple[object, int, str]]]:
+        """By topic its types, and the rebecs and servers that receive it."""
+        found: dict[str, list[tuple[object, int, str]]] = {}
         for index, instance in enumerate(self.instances):
             for server in self.servers[instance.start.unit.name]:
                 for fact in server.subscriptions:
                     topic = instance.topic(fact.topic)
                     if isinstance(topic, str):
-                        yield topic, server.type, index, server.name
+                        found.setdefault(topic, []).append((server.type, index, server.name))
+        return found
 
     def _edges(
-        self, instance: Instance, listening: Iterable[tuple[str, object, int, str]]
+        self, instance: Instance, listening: Mapping[str, Sequence[tuple[object, int, str]]]
     ) -> Iterator[Edge]:
         for number, fact in enumerate(instance.start.unit.facts):
             topic = instance.topic(fact.topic) if isinstance(fact, PublisherFact) else None
-            if not isinstance(fact, PublisherFact) or isinstance(topic, Open):
+            if not isinstance(fact, PublisherFact) or not isinstance(topic, str):
                 continue
-            for name, type_, to, server in listening:
+            for type_, to, server in listening.get(topic, ()):
                 if self.instances[to].idle and not instance.idle:
                     continue
-                if name == topic and (type_ == fact.type or not _both(type_, fact.type)):
+                if type_ == fact.type or not _both(type_, fact.type):
                     yield number, to, server
 
     def _sort(self) -> None:
@@ -179,8 +186,9 @@ class Wiring:
         }
         first = {mark: n for n, mark in enumerate(dict.fromkeys(apart.values()))}
         self.kinds = {name: first[mark] for name, mark in apart.items()}
+        sent = {i.name: tuple(self._slotted(i)) for i in self.instances}
         while True:
-            marks = {i.name: (self.kinds[i.name], self._shape(i)) for i in self.instances}
+            marks = {name: (kind, self._shape(sent[name])) for name, kind in self.kinds.items()}
             numbers = {mark: n for n, mark in enumerate(dict.fromkeys(marks.values()))}
             finer = {name: numbers[mark] for name, mark in marks.items()}
             done = len(set(finer.values())) == len(set(self.kinds.values()))
@@ -188,30 +196,33 @@ class Wiring:
             if done:
                 return
 
-    def _shape(self, instance: Instance) -> tuple[object, ...]:
-        slots = self.known(instance)
-        own = self.place(instance)
-        return tuple(
-            (number, self.kinds[self.instances[to].name], slots.index(to) if to != own else -1, to_)
-            for number, to, to_ in self.edges[instance.name]
-        )
+    def _slotted(self, instance: Instance) -> Iterator[tuple[int, str, int, str]]:
+        """The edges of a rebec, each receiver by its name and its slot, -1 for itself."""
+        slots = {to: slot for slot, to in enumerate(self.known(instance))}
+        for number, to, server in self.edges[instance.name]:
+            yield number, self.instances[to].name, slots.get(to, -1), server
+
+    def _shape(self, sent: Iterable[tuple[int, str, int, str]]) -> tuple[object, ...]:
+        return tuple((number, self.kinds[to], slot, server) for number, to, slot, server in sent)
 
     def place(self, instance: Instance) -> int:
         """Where among the rebecs one is."""
         return self._places[instance.name]
 
-    def known(self, instance: Instance) -> list[int]:
+    def known(self, instance: Instance) -> tuple[int, ...]:
         """The rebecs that one sends to, itself left out, in the order of its publishers."""
+        return self._known[instance.name]
+
+    def _receivers(self, instance: Instance) -> tuple[int, ...]:
         own = self.place(instance)
         edges = self.edges[instance.name]
-        return list(dict.fromkeys(to for _, to, _ in edges if to != own))
+        return tuple(dict.fromkeys(to for _, to, _ in edges if to != own))
 
     def alike(self, unit: Unit) -> list[list[Instance]]:
         """The rebecs of a unit, those of one kind together."""
         found: dict[int, list[Instance]] = {}
-        for instance in self.instances:
-            if instance.start.unit is unit:
-                found.setdefault(self.kinds[instance.name], []).append(instance)
+        for instance in self._of_units.get(id(unit), ()):
+            found.setdefault(self.kinds[instance.name], []).append(instance)
         return list(found.values())
 
 
