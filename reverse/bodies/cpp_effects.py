@@ -214,7 +214,7 @@ class Effects:
             refers = target.type == "reference_declarator"
             if refers and value is None:
                 raise self._touches(node, "this looks like a declaration, but it is none")
-            if refers and value is not None and not cpp_roots.is_constant(node):
+            if refers and value is not None and "const" not in cpp_roots.specifiers_of(node):
                 self._address(value)
             elif value is not None and value.type == "argument_list" and type_takes_values(type_):
                 for argument in named(value):
@@ -225,7 +225,8 @@ class Effects:
 
     def _range(self, node: Node) -> None:
         declarator, over = part(node, "declarator"), part(node, "right")
-        if declarator.type == "reference_declarator" and not cpp_roots.is_constant(node):
+        constant = "const" in cpp_roots.specifiers_of(node)
+        if declarator.type == "reference_declarator" and not constant:
             self._address(over)
         else:
             self.check(over)

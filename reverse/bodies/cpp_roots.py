@@ -103,9 +103,11 @@ def parameters_of(function: Node) -> Iterator[str]:
             yield from declared_in(inner)
 
 
-def is_constant(declaration: Node) -> bool:
-    """Whether it declares constants."""
-    return any(text_of(c) == "const" for c in declaration.named_children)
+def specifiers_of(declaration: Node) -> list[str]:
+    """The words of a declaration that are short enough to be `static` or `constexpr`."""
+    longest = len("constexpr")  # to ask for places is quicker than to ask for all the texts
+    children = declaration.named_children
+    return [text_of(c) for c in children if c.end_byte - c.start_byte <= longest]
 
 
 def is_element(node: Node) -> bool:
