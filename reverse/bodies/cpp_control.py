@@ -12,7 +12,7 @@ from rebsync import model as m
 from rebsync.reverse.bodies import cpp_locals, cpp_plain_locals, cpp_special
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.scope import Outside, Record, Variable
-from rebsync.reverse.bodies.written import annotation
+from rebsync.reverse.bodies.written import annotations_in
 from rebsync.reverse.syntax.cpp_tree import markers_in, named, part, text_of
 
 if TYPE_CHECKING:
@@ -135,9 +135,8 @@ def _cases(reader: CppStatements, body: Node) -> Iterator[m.Case]:
         if child.type == "comment":
             comments.append(text_of(child))
             continue
-        span = reader.cpp.span(child)
-        found = (annotation(text, span) for text in markers_in(comments))
-        yield _case(reader, child, tuple(a for a in found if a is not None))
+        annotations = annotations_in(markers_in(comments), reader.cpp.span(child))
+        yield _case(reader, child, annotations)
         comments = []
 
 

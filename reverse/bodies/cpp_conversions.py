@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from rebsync import model as m
 from rebsync.reverse.bodies.building import bare, binary, cast, chosen
-from rebsync.reverse.bodies.scope import Called, Record, Scope, Variable
+from rebsync.reverse.bodies.scope import Called, Outside, Record, Scope, Variable
 from rebsync.static.constants import constant, float_value
 from rebsync.static.operators import binary_type, unary_type
 from rebsync.static.types import (
@@ -34,13 +34,15 @@ def variable_of(scope: Scope, name: str, is_member: bool = False) -> Variable | 
     """The variable that has a name in the model; None also for a local of unknown type."""
     for meanings in (scope.members,) if is_member else (scope.locals, scope.members):
         for meaning in meanings.values():
-            if isinstance(meaning, Variable):
+            if type(meaning) is Outside:  # as most are
+                continue
+            if type(meaning) is Variable:
                 if meaning.name == name:
                     return meaning
-            elif isinstance(meaning, m.Name):
+            elif type(meaning) is m.Name:
                 if meaning.name == name and meanings is scope.locals:
                     return None
-            elif isinstance(meaning, Record):
+            elif type(meaning) is Record:
                 for variable in meaning.fields.values():
                     if variable.name == name:
                         return variable

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable
 from dataclasses import field, replace
 
 from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.bodies import cpp_roots, known_functions
-from rebsync.reverse.bodies.cpp_kinds import LEAVES, LOOKED_AT, PLAIN, REPEATED
+from rebsync.reverse.bodies.cpp_kinds import LEAVES, PLAIN, REPEATED
 from rebsync.reverse.bodies.cpp_macros import is_harmless
 from rebsync.reverse.bodies.cpp_misread import first_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this
-from rebsync.reverse.bodies.cpp_roots import identifiers_in, is_element, is_modelled, path_in, root
+from rebsync.reverse.bodies.cpp_roots import declared_in, is_modelled, root
 from rebsync.reverse.bodies.known_functions import LOOKS, acts, takes_values, type_takes_values
 from rebsync.reverse.bodies.scope import (
     Called,
@@ -67,51 +67,46 @@ class Effects:
     def check(self, node: Node) -> None:
         """Raises `Touches` where a piece of code may touch what the model has."""
         type_ = node.type
-        if type_ not in LOOKED_AT:
-            if type_ not in PLAIN:
-                self._inside(node)
-            return
-        match type_:
-            case "assignment_expression":
-                self._write(node.children_by_field_name("left")[0])
-                self.check(node.children_by_field_name("right")[0])
-            case "update_expression":
-                self._write(node.children_by_field_name("argument")[0])
-            case "call_expression":
-                self._call(node)
-            case "binary_expression":
-                self._binary(node)
-            case "cast_expression" if is_misread(self.scope, node):
-                self._misread(node)
-            case "ERROR":
-                raise self._touches(node, "this does not parse as C++")
-            case "pointer_expression" if text_of(node).startswith("&"):
-                self._address(named(node)[0])
-            case "declaration":
-                self._declaration(node)
-            case "for_range_loop":
-                self._range(node)
-            case "break_statement" | "continue_statement" if not self._loops:
-                raise self._touches(node, "this leaves the loop")
-            case "return_statement" if self.returning:
-                self._inside(node)
-            case kind if kind in LEAVES:
-                raise self._touches(node, LEAVES[kind])
-            case "new_expression" | "argument_list" | "initializer_list":
-                self._arguments(named(node))
-            case kind if kind in REPEATED or kind == "compound_statement":
-                looping = kind in REPEATED
-                before = set(self._inner)
-                self._loops += looping
-                self._inside(node)
-                self._loops -= looping
-                self._inner = before
-            case _:
-                self._inside(node)
+        if type_ not in PLAIN:
+            _CHECKS.get(type_, Effects._inside)(self, node)
 
     def _inside(self, node: Node) -> None:
-        for child in (c for c in node.named_children if c.type not in PLAIN):
-            self.check(child)
+        for child in node.named_children:
+            type_ = child.type
+            if type_ not in PLAIN:  # as `check`, which would ask for the type again
+                _CHECKS.get(type_, Effects._inside)(self, child)
+
+    def _cast(self, node: Node) -> None:
+        self._misread(node) if is_misread(self.scope, node) else self._inside(node)
+
+    def _pointer(self, node: Node) -> None:
+        if text_of(node).startswith("&"):
+            self._address(named(node)[0])
+        else:
+            self._inside(node)
+
+    def _list(self, node: Node) -> None:
+        self._arguments(named(node))
+
+    def _left(self, node: Node) -> None:
+        if not self._loops:
+            raise self._touches(node, "this leaves the loop")
+        self._inside(node)
+
+    def _left_function(self, node: Node) -> None:
+        if not self.returning or node.type != "return_statement":
+            raise self._touches(node, LEAVES[node.type])
+        self._inside(node)
+
+    def _block(self, node: Node) -> None:
+        before = set(self._inner)
+        self._inside(node)
+        self._inner = before
+
+    def _repeated(self, node: Node) -> None:
+        self._loops += 1
+        self._block(node)
+        self._loops -= 1
 
     def _touches(self, node: Node, why: str, hint: str = "") -> Touches:
         touches = Touches(self.cpp.span(node), why, hint)
@@ -129,6 +124,13 @@ class Effects:
 
     # --- writing --------------------------------------------------------------------------------
 
+    def _assignment(self, node: Node) -> None:
+        """`x = y`, or `x++`."""
+        value = node.child_by_field_name("right")
+        self._write(part(node, "argument" if value is None else "left"))
+        if value is not None:
+            self.check(value)
+
     def _write(self, node: Node) -> None:
         name, meaning = self._root(node)
         self._subscripts(node)
@@ -136,7 +138,7 @@ class Effects:
             self._found_out(node, name)
             return
         if self._is_noted(name):
-            path = path_in(node) if isinstance(meaning, Record) else ""
+            path = cpp_roots.path_in(node) if isinstance(meaning, Record) else ""
             self.written.add(f"{name}.{path}" if path else name)
             return
         raise self._touches(node, f'this changes "{text_of(node)}"')
@@ -145,21 +147,18 @@ class Effects:
         """A place that is only known when the code runs: `(on ? count : limit) = 0`."""
         if not name and node.type not in ("identifier", "qualified_identifier"):
             self.check(node)
-            for inner in identifiers_in(node):
-                if is_modelled(inner, self._root(inner)[1]) or text_of(inner) in self._functions:
-                    raise self._touches(node, f'this may change "{text_of(inner)}"')
-
-    @property
-    def _functions(self) -> Collection[str]:
-        """The names of functions that may give a reference to a variable of the model."""
-        return {n for n, f in self.scope.functions.items() if not isinstance(f, Ignored)}
+            for inner in cpp_roots.identifiers_in(node):
+                name, meaning = self._root(inner)
+                # A function may give a reference to a variable of the model.
+                gives = not isinstance(self.scope.functions.get(name), Ignored | None)
+                if gives or is_modelled(inner, meaning):
+                    raise self._touches(node, f'this may change "{name}"')
 
     def _binary(self, node: Node) -> None:
         """An operator; of an object it may be a function: `stream >> count` changes `count`."""
-        left, right = (node.children_by_field_name(side)[0] for side in ("left", "right"))
-        operator = text_of(node.children_by_field_name("operator")[0])
+        left, right = part(node, "left"), part(node, "right")
         self.check(left)
-        is_object = operator in (">>", "&") and not self._is_number(left)
+        is_object = part(node, "operator").type in (">>", "&") and not self._is_number(left)
         self._arguments((right,)) if is_object else self.check(right)
 
     def _misread(self, node: Node) -> None:
@@ -178,11 +177,15 @@ class Effects:
 
     def _subscripts(self, node: Node) -> None:
         """What is evaluated to find the place that is written."""
-        indices = node.children_by_field_name("indices")
-        for part_ in [node] if node.type == "call_expression" else indices:
-            self.check(part_)
-        if node.type in ("subscript_expression", "field_expression", "pointer_expression"):
-            self._subscripts(node.children_by_field_name("argument")[0])
+        match node.type:
+            case "call_expression":
+                self.check(node)
+            case "subscript_expression":
+                for index in node.children_by_field_name("indices"):
+                    self.check(index)
+                self._subscripts(part(node, "argument"))
+            case "field_expression" | "pointer_expression":
+                self._subscripts(part(node, "argument"))
 
     def _address(self, node: Node) -> None:
         name, meaning = self._root(node)
@@ -199,62 +202,55 @@ class Effects:
         self._address(node)
 
     def _declaration(self, node: Node) -> None:
-        type_ = text_of(node.children_by_field_name("type")[0])
+        type_ = text_of(part(node, "type"))
         if self.scope.meaning(type_) is not None and type_ not in self._inner:
             raise self._touches(node, "this looks like a declaration, but starts with a variable")
-        by_value = type_takes_values(type_)
         for declarator in node.children_by_field_name("declarator"):
             value = declarator.child_by_field_name("value")
             inner = declarator.child_by_field_name("declarator")
             target = inner if declarator.type == "init_declarator" and inner else declarator
             if value is not None and is_this(value):
                 raise self._touches(node, "the object itself gets another name here")
-            constant = any(text_of(c) == "const" for c in node.named_children)
-            if target.type == "reference_declarator" and value is None:
+            refers = target.type == "reference_declarator"
+            if refers and value is None:
                 raise self._touches(node, "this looks like a declaration, but it is none")
-            if target.type == "reference_declarator" and value is not None and not constant:
+            if refers and value is not None and "const" not in cpp_roots.specifiers_of(node):
                 self._address(value)
-            elif value is not None and value.type == "argument_list" and by_value:
+            elif value is not None and value.type == "argument_list" and type_takes_values(type_):
                 for argument in named(value):
                     self.check(argument)
             elif value is not None:
                 self.check(value)
-            self._declare(target)
-
-    def _declare(self, declarator: Node) -> None:
-        self._inner.update(cpp_roots.declared_in(declarator))
+            self._inner.update(declared_in(target))
 
     def _range(self, node: Node) -> None:
-        declarator = node.children_by_field_name("declarator")[0]
-        over = node.children_by_field_name("right")[0]
-        constant = any(text_of(c) == "const" for c in node.named_children)
+        declarator, over = part(node, "declarator"), part(node, "right")
+        constant = "const" in cpp_roots.specifiers_of(node)
         if declarator.type == "reference_declarator" and not constant:
             self._address(over)
         else:
             self.check(over)
-        self._declare(declarator)
+        self._inner.update(declared_in(declarator))
         self._loops += 1
-        self.check(node.children_by_field_name("body")[0])
+        self.check(part(node, "body"))
         self._loops -= 1
 
     # --- calls ----------------------------------------------------------------------------------
 
     def _call(self, node: Node) -> None:
         call = call_of(node)
-        function = node.children_by_field_name("function")[0]
-        if call is None or function.type == "lambda_expression":
-            self._lambda(node, function)
-            return
+        if call is None or call.name.startswith("["):
+            raise self._touches(node, "this runs a function of its own")
         name = call.name.rpartition("::")[2]
         known = False
-        own = call.target is not None and isinstance(self._root(call.target)[1], Itself)
-        if call.target is None or own:
+        of, meaning = self._root(call.target) if call.target is not None else ("", None)
+        if call.target is None or isinstance(meaning, Itself):
             known = self._function(call, name)
             known = self._held(node, name, call) or known
         else:
-            self._method(call, name)
+            self._method(call, name, of, meaning)
         if (does := acts(call)) is not None:
-            raise self._touches(node, f'"{text_of(function)}" {does}')
+            raise self._touches(node, f'"{text_of(part(node, "function"))}" {does}')
         if known or takes_values(call):
             for argument in call.arguments:
                 self.check(argument)
@@ -283,11 +279,12 @@ class Effects:
         But for one that only gets an object that is outside, as a distribution gets a generator.
         """
         meaning = None if name in self._inner else self.scope.meaning(name)
-        if isinstance(meaning, Outside) and meaning.indexed:
-            return True
-        objects = [self._root(a)[1] for a in call.arguments]
-        drawn = len(objects) == 1 and isinstance(objects[0], Outside)
-        if meaning is not None and not (isinstance(meaning, Outside) and drawn):
+        if isinstance(meaning, Outside):
+            if meaning.indexed:
+                return True
+            if len(call.arguments) == 1 and isinstance(self._root(call.arguments[0])[1], Outside):
+                return False
+        if meaning is not None:
             raise self._touches(node, f'"{name}" may change what the model has')
         return False
 
@@ -306,18 +303,10 @@ class Effects:
                 self.scope.calm[key] = False
         return self.scope.calm[key]
 
-    def _lambda(self, node: Node, function: Node) -> None:
-        if function.type != "lambda_expression":
-            for child in node.named_children:
-                self.check(child)
-            return
-        raise self._touches(node, "this runs a function of its own")
-
-    def _method(self, call: CppCall, name: str) -> None:
+    def _method(self, call: CppCall, name: str, of: str, meaning: Meaning | None) -> None:
         """A call of a function of some object."""
         target = call.target
         assert target is not None
-        of, meaning = self._root(target)
         match meaning:
             case None | Outside(reaches=False):
                 if name == "publish" and (meaning is not None or not of or of in self._inner):
@@ -352,9 +341,9 @@ class Effects:
                 self._handed(argument)
                 continue
             name, meaning = self._root(argument)
-            if (argument.type == "call_expression" and not is_element(argument)) or not is_modelled(
-                argument, meaning
-            ):
+            if (
+                argument.type == "call_expression" and not cpp_roots.is_element(argument)
+            ) or not is_modelled(argument, meaning):
                 self.check(argument)
             elif isinstance(meaning, Record) and meaning.constant:
                 continue
@@ -370,18 +359,30 @@ class Effects:
         """A function that is handed on: it may run at any time."""
         outer, loops = self._inner, self._loops
         self._inner, self._loops = set(outer), 0
-        declarator = function.child_by_field_name("declarator")
-        if declarator is not None:
-            for parameter in named(declarator.children_by_field_name("parameters")[0]):
-                for inner in parameter.children_by_field_name("declarator"):
-                    self._declare(inner)
-        for child in named(function.children_by_field_name("body")[0]):
+        self._inner.update(cpp_roots.parameters_of(function))
+        for child in named(part(function, "body")):
             if child.type == "return_statement":
                 for value in named(child):
                     self.check(value)
             else:
                 self.check(child)
         self._inner, self._loops = outer, loops
+
+
+_CHECKS: dict[str, Callable[[Effects, Node], None]] = {
+    **dict.fromkeys(("assignment_expression", "update_expression"), Effects._assignment),
+    "call_expression": Effects._call,
+    "binary_expression": Effects._binary,
+    "cast_expression": Effects._cast,
+    "pointer_expression": Effects._pointer,
+    "declaration": Effects._declaration,
+    "compound_statement": Effects._block,
+    **dict.fromkeys(("break_statement", "continue_statement"), Effects._left),
+    **dict.fromkeys(("new_expression", "argument_list", "initializer_list"), Effects._list),
+    **dict.fromkeys(LEAVES, Effects._left_function),
+    **dict.fromkeys(REPEATED, Effects._repeated),
+    "for_range_loop": Effects._range,
+}
 
 
 def is_outside(cpp: Cpp, scope: Scope, node: Node) -> bool:

@@ -71,16 +71,15 @@ class CppExpressions:
 
     def read(self, node: Node) -> m.Expression:
         """The expression, with parentheses where the code has them or the model needs them."""
-        span = self.cpp.span(node)
         if node.id in self.scope.values:
             return self.scope.values[node.id]
         match node.type:
             case "identifier" | "qualified_identifier":
                 return self._name(node)
             case "this":
-                return m.Self(span)
+                return m.Self(self.cpp.span(node))
             case "parenthesized_expression":
-                return m.Paren(self.read(self.only(node)), span)
+                return m.Paren(self.read(self.only(node)), self.cpp.span(node))
             case "field_expression" | "pointer_expression":
                 return self._field(node)
             case "subscript_expression":
@@ -100,7 +99,7 @@ class CppExpressions:
                 tested = tight(self.condition(condition), precedence.CHAIN)
                 ways = alternatives(self.scope, self.read(then), self.read(otherwise))
                 cpp_widths.check(self, node, "+", (then, otherwise))
-                return m.Conditional(tested, *ways, span)
+                return m.Conditional(tested, *ways, self.cpp.span(node))
             case "cast_expression":
                 return self.cast(part(node, "type"), part(node, "value"), node)
             case "compound_literal_expression" if len(named(part(node, "value"))) == 1:
@@ -112,13 +111,13 @@ class CppExpressions:
 
     def condition(self, node: Node, place: Variable | None = None) -> m.Expression:
         """An expression as a truth value that `place` holds; of what is not known a choice."""
-        span = self.cpp.span(node)
         match node.type:
             case "parenthesized_expression":
-                return m.Paren(self.condition(self.only(node), place), span)
+                return m.Paren(self.condition(self.only(node), place), self.cpp.span(node))
             case "unary_expression" if self._sign(node) == "!":
                 inner = tight(self.condition(part(node, "argument")), precedence.PREFIX)
-                return inner if isinstance(inner, m.Choice) else m.Unary("!", inner, span)
+                choice_ = isinstance(inner, m.Choice)
+                return inner if choice_ else m.Unary("!", inner, self.cpp.span(node))
             case "binary_expression" if self._sign(node) in ("&&", "||"):
                 return self.binary(node, self._sign(node), named(node))
         try:
@@ -128,7 +127,7 @@ class CppExpressions:
             if not isinstance(unread, Unknown) and not self.scope.open:
                 raise
             self.approximate(node, unread)
-            return m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)), span)
+            return m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)), self.cpp.span(node))
         return kept(self, node, read, place or _TRUTH)
 
     def stored(self, node: Node, place: Variable) -> m.Expression:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 _COROUTINES = ("co_await_expression", "co_yield_statement", "co_return_statement")
 LEAVES = {
+    "ERROR": "this does not parse as C++",
     "return_statement": "this leaves the function",
     "throw_statement": "an exception leaves the function",
     "goto_statement": "the model has no goto",
@@ -18,15 +19,6 @@ PLAIN = frozenset(
         *("identifier", "field_identifier", "type_identifier", "namespace_identifier", "this"),
         *("number_literal", "string_literal", "char_literal", "true", "false", "null", "comment"),
         *("primitive_type", "sized_type_specifier"),
-    }
-)
-# What may touch something by itself, not only by what is in it.
-LOOKED_AT = frozenset(
-    {
-        *("assignment_expression", "update_expression", "call_expression", "binary_expression"),
-        *("cast_expression", "ERROR", "pointer_expression", "declaration", "break_statement"),
-        *("continue_statement", "new_expression", "argument_list", "initializer_list"),
-        *("compound_statement", *LEAVES, *REPEATED),
     }
 )
 # Declarations that do nothing when they are run.

@@ -16,6 +16,7 @@ from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_effects import Effects, Touches
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
+from rebsync.reverse.bodies.cpp_roots import specifiers_of
 from rebsync.reverse.bodies.cpp_types import Carried, carried
 from rebsync.reverse.bodies.cpp_widths import place_of, wide_of
 from rebsync.reverse.bodies.known_functions import is_matrix, type_takes_values
@@ -44,20 +45,21 @@ class _Declared:
     value: Node | None
     length: Node | None
     constant: bool
-
-    @property
-    def text(self) -> str:
-        return text_of(self.type)
+    text: str  # of the type
 
 
 def declarations(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
     """The locals of a declaration; what the model has nothing like is outside from here on."""
-    if reader.scope.meaning(text_of(part(node, "type"))) is not None:
+    type_ = part(node, "type")
+    text = text_of(type_)
+    if reader.scope.meaning(text) is not None:
         why = "this looks like a declaration, but starts with a variable"
         raise reader.unread(node, why, "put it in parentheses")
-    kept_elsewhere = any(text_of(c) == "static" for c in node.named_children)
+    words = specifiers_of(node)
+    kept_elsewhere = "static" in words
+    constant_ = "const" in words or "constexpr" in words
     for declarator in node.children_by_field_name("declarator"):
-        declared = _taken_apart(node, declarator)
+        declared = _taken_apart(declarator, type_, text, constant_)
         if declared.kind == "reference_declarator" and declared.value is None:
             why = "this looks like a declaration, but it is none"
             raise reader.unread(node, why, "put it in parentheses")
@@ -78,14 +80,15 @@ def tested(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
     if declarator.type != "identifier":
         raise reader.unread(node, "the model has no pointers and references")
     type_ = part(node, "type")
-    declared = _Declared(node, type_, text_of(declarator), "identifier", value, None, False)
+    text, name = text_of(type_), text_of(declarator)
+    declared = _Declared(node, type_, name, "identifier", value, None, False, text)
     try:
         yield from _declared(reader, declared)
     except Unread as unread:
         _outside(reader, declared, unread)
 
 
-def _taken_apart(node: Node, declarator: Node) -> _Declared:
+def _taken_apart(declarator: Node, type_: Node, text: str, constant_: bool) -> _Declared:
     value, target = None, declarator
     if declarator.type == "init_declarator":
         target, value = part(declarator, "declarator"), part(declarator, "value")
@@ -97,9 +100,7 @@ def _taken_apart(node: Node, declarator: Node) -> _Declared:
         if inner is None and not named(target):
             break
         target = inner if inner is not None else named(target)[-1]
-    constant_ = any(text_of(c) in ("const", "constexpr") for c in node.named_children)
-    type_ = part(node, "type")
-    return _Declared(declarator, type_, text_of(target), kind, value, length, constant_)
+    return _Declared(declarator, type_, text_of(target), kind, value, length, constant_, text)
 
 
 def _static(reader: CppStatements, declared: _Declared) -> None:

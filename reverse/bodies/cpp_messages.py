@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING
@@ -48,15 +48,21 @@ _MAKES = re.compile(r"(?:::)?(?:boost|std)::make_(?:shared|unique)<(.*)>$")
 
 def message_type(scope: Scope, text: str) -> str | None:
     """The message type that a type of C++ is, or points to; None for other types."""
+    package, name = _package_and_name(text)
+    if package and package != "msg":
+        full = f"{package}/{name}"
+        return full if full in scope.messages else None
+    same = [t for t in scope.messages if t.endswith(name) and t.rpartition("/")[2] == name]
+    return same[0] if len(same) == 1 else None
+
+
+@lru_cache(maxsize=512)  # the same few types are written again and again
+def _package_and_name(text: str) -> tuple[str, str]:
     plain = "".join(re.sub(r"\bconst\b", " ", text).split()).rstrip("&*").removeprefix("::")
     shared = _SHARED.match(plain)
     plain = _POINTER.sub("", shared[1] if shared is not None else plain)
     package, _, name = _SPACE.sub("::", plain).rpartition("::")
-    if package and package != "msg":
-        full = f"{package}/{name}"
-        return full if full in scope.messages else None
-    same = [t for t in scope.messages if t.rpartition("/")[2] == name]
-    return same[0] if len(same) == 1 else None
+    return package, name
 
 
 def is_pointer(text: str) -> bool:
@@ -138,20 +144,21 @@ def needed(reader: CppStatements, type_: str) -> Mapping[str, m.Type]:
             texts += [text_of(f.node) for f in function.overloads]
         if isinstance(function, Inline):
             texts.append(text_of(function.function.node))
-    text = "\n".join(texts)
+    whole = "\n".join(texts)
     return {
         path: of
         for path, of in reader.scope.messages.get(type_, {}).items()
-        if of is not None and (path in sent or _is_read(path, text))
+        if of is not None and (path in sent or _is_read(path, whole, texts))
     }
 
 
-def _is_read(path: str, text: str) -> bool:
+def _is_read(path: str, whole: str, texts: Sequence[str]) -> bool:
     # Most are not even mentioned.
-    return all(piece in text for piece in path.split(".")) and path in _read_in(text)
+    mentioned = all(piece in whole for piece in path.split("."))
+    return mentioned and any(path in _read_in(text) for text in texts)
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=256)  # the bodies of a class are asked for the same functions
 def _read_in(text: str) -> frozenset[str]:
     """The paths of fields that a text reads: of `msg.pose.x` those are `pose`, `pose.x` and `x`."""
     found = set[str]()
@@ -268,9 +275,10 @@ def unknown_value(
 
 def published(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
     """`publisher.publish(message)`: a send to each receiver; None for another call."""
-    function, arguments = part(node, "function"), named(part(node, "arguments"))
+    function = part(node, "function")
     if function.type != "field_expression" or text_of(part(function, "field")) != "publish":
         return None
+    arguments = named(part(node, "arguments"))
     target, times = part(function, "argument"), {}
     through = cpp_mailbox.is_runtime(reader.expressions, target) and len(arguments) == 3
     if through:

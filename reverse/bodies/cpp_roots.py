@@ -9,7 +9,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Scope
 from rebsync.reverse.syntax.cpp_calls import call_of
-from rebsync.reverse.syntax.cpp_tree import named, text_of
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 
 def root(scope: Scope, inner: Collection[str], node: Node) -> tuple[str, Meaning | None]:
@@ -19,14 +19,14 @@ def root(scope: Scope, inner: Collection[str], node: Node) -> tuple[str, Meaning
             name = text_of(node)
             return name, None if name in inner else scope.meaning(name)
         case "field_expression":
-            target = node.children_by_field_name("argument")[0]
+            target = part(node, "argument")
             of = root(scope, inner, target)
             if isinstance(of[1], Itself):
-                name = text_of(node.children_by_field_name("field")[0])
+                name = text_of(part(node, "field"))
                 return name, scope.members.get(name)
             return of
         case "subscript_expression" | "pointer_expression":
-            return root(scope, inner, node.children_by_field_name("argument")[0])
+            return root(scope, inner, part(node, "argument"))
         case "parenthesized_expression" if len(named(node)) == 1:
             return root(scope, inner, named(node)[0])
         case "qualified_identifier":
@@ -35,7 +35,7 @@ def root(scope: Scope, inner: Collection[str], node: Node) -> tuple[str, Meaning
         case "this":
             return "this", Itself()
         case "call_expression":
-            target = node.children_by_field_name("function")[0]
+            target = part(node, "function")
             if target.type == "field_expression":
                 return root(scope, inner, target)
             of = root(scope, inner, target) if target.type == "identifier" else ("", None)
@@ -63,14 +63,14 @@ def path_in(node: Node) -> str:
     if node.type == "parenthesized_expression" and len(named(node)) == 1:
         return path_in(named(node)[0])
     if node.type == "subscript_expression":
-        return path_in(node.children_by_field_name("argument")[0])
+        return path_in(part(node, "argument"))
     if node.type != "field_expression":
         return ""
-    target = node.children_by_field_name("argument")[0]
+    target = part(node, "argument")
     if target.type == "this":
         return ""
     before = path_in(target)
-    own = text_of(node.children_by_field_name("field")[0])
+    own = text_of(part(node, "field"))
     return f"{before}.{own}" if before else own
 
 
@@ -93,6 +93,21 @@ def declared_in(declarator: Node) -> Iterator[str]:
             yield text_of(current)
         elif current.type != "parameter_list":
             waiting += current.named_children
+
+
+def parameters_of(function: Node) -> Iterator[str]:
+    """The names of what a lambda gets."""
+    declarator = function.child_by_field_name("declarator")
+    for parameter in named(part(declarator, "parameters")) if declarator is not None else ():
+        for inner in parameter.children_by_field_name("declarator"):
+            yield from declared_in(inner)
+
+
+def specifiers_of(declaration: Node) -> list[str]:
+    """The words of a declaration that are short enough to be `static` or `constexpr`."""
+    longest = len("constexpr")  # to ask for places is quicker than to ask for all the texts
+    children = declaration.named_children
+    return [text_of(c) for c in children if c.end_byte - c.start_byte <= longest]
 
 
 def is_element(node: Node) -> bool:

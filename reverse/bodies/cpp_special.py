@@ -23,9 +23,7 @@ from rebsync.reverse.bodies.scope import (
     Inline,
     Itself,
     Lambda,
-    Publishes,
     Record,
-    Scope,
     Stores,
     TimerOf,
     Variable,
@@ -50,20 +48,6 @@ WORDS = frozenset(
         *("currentMessageWaitingTime", "Timer", "ArrayList", "ReactiveClass"),
     }
 )
-
-
-def taken(scope: Scope) -> set[str]:
-    """The names of the model that mean something at a place."""
-    found = set(WORDS)
-    for meaning in (*scope.members.values(), *scope.locals.values()):
-        match meaning:
-            case Variable(name) | m.Name(name):
-                found.add(name)
-            case Record(fields):
-                found |= {v.name for v in fields.values()}
-            case Publishes(targets):
-                found |= {t.known for t in targets if t.known is not None}
-    return found
 
 
 # --- statements ---------------------------------------------------------------------------------
@@ -231,6 +215,8 @@ def _statement(
 
 def _timer(reader: CppStatements, node: Node) -> TimerOf | None:
     """The timer that a call makes."""
+    if node.type != "call_expression" or b"Timer" not in (node.text or b""):
+        return None
     call = call_of(node)
     if call is None or call.name not in ("createTimer", "createWallTimer", "createSteadyTimer"):
         return None

@@ -28,7 +28,7 @@ from rebsync.reverse.bodies.made_locals import tidied
 from rebsync.reverse.bodies.scope import Inline, Lambda, Meaning, Scope, Stores, Variable
 from rebsync.reverse.bodies.shared import Shared
 from rebsync.reverse.bodies.wide_locals import broken_locals
-from rebsync.reverse.bodies.written import annotation
+from rebsync.reverse.bodies.written import annotations_in
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.syntax.cpp_tree import Cpp, markers_in, named, part, text_of
 
@@ -113,11 +113,9 @@ class CppStatements:
                 comments.append(text_of(node))
             if node.type == "comment" or node.start_byte in self.cpp.filled:
                 continue
-            markers = markers_in(comments)
-            annotations = tuple(
-                a for text in markers if (a := annotation(text, self.cpp.span(node))) is not None
-            )
-            local = any(text.startswith("local ") for text in markers)
+            markers = markers_in(comments) if comments else ()
+            annotations = annotations_in(markers, self.cpp.span(node)) if markers else ()
+            local = bool(markers) and any(text.startswith("local ") for text in markers)
             comments = []
             self.findings.statements[self.within] += 1
             users = cpp_users.block_after(self, markers, users)
@@ -296,7 +294,7 @@ class CppStatements:
         One of a body that stands in another is taken from there to the end of that.
         """
         inlining = inlining or bool(self.shared.running)
-        taken = cpp_special.taken(self.scope) | self.shared.kept
+        taken = self.shared.taken(self.scope) | cpp_special.WORDS | self.shared.kept
         if inlining:
             taken |= self.shared.names
         plain = self.scope.local(name)

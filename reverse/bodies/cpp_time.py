@@ -70,9 +70,11 @@ def is_for_ros2(reader: CppExpressions) -> bool:
 
 def written(reader: CppExpressions, node: Node) -> m.Expression | None:
     """`500ms`; None for a literal that is no span of time."""
+    if node.type != "user_defined_literal":
+        return None
     inner = named(node)
     suffix = text_of(inner[1]) if len(inner) == 2 else ""
-    if node.type != "user_defined_literal" or suffix not in _SUFFIXES:
+    if suffix not in _SUFFIXES:
         return None
     return units(reader, inner[0], _SUFFIXES[suffix])
 
@@ -137,15 +139,19 @@ def pause(reader: CppExpressions, call: Node) -> m.Expression | None:
     """How long a call sleeps: `ros::Duration(1.0).sleep()`; None for one that does not."""
     if call.type != "call_expression":
         return None
-    function, arguments = part(call, "function"), named(part(call, "arguments"))
+    function = part(call, "function")
     if function.type == "field_expression":
         return _own_pause(reader, part(function, "argument"), text_of(part(function, "field")))
-    name = text_of(function).rpartition("::")[2]
+    text = text_of(function)
+    name = text.rpartition("::")[2]
+    if name != "sleep_for" and name not in _SLEEPS:
+        return None
+    arguments = named(part(call, "arguments"))
     if len(arguments) != 1:
         return None
     if name == "sleep_for":
         return reader.read(arguments[0])
-    if name in _SLEEPS and text_of(function) not in reader.scope.functions:
+    if text not in reader.scope.functions:
         return units(reader, arguments[0], _SLEEPS[name])
     return None
 

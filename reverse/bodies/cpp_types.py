@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection
+from functools import lru_cache
 
 from tree_sitter import Node
 
@@ -91,16 +92,27 @@ def carried(node: Node, enums: Collection[str] = ()) -> Carried | None:
 
     Times and durations of ROS are whole numbers of the model's unit of time.
     """
-    if node.type == "type_descriptor":
+    kind = node.type
+    if kind == "type_descriptor":
         return carried(part(node, "type"), enums)
-    if node.type == "template_type" or (
-        node.type == "qualified_identifier" and "<" in text_of(node)
-    ):
+    text = text_of(node)
+    if kind == "template_type" or (kind == "qualified_identifier" and "<" in text):
         array = type_of(node)
         return Carried(array) if array is not None else None
-    text = " ".join(text_of(node).split())
-    name = _SCOPES.sub("", text)
+    if (known := _spelled(text)) is not None:
+        return known
+    text = " ".join(text.split())
     last = text.rpartition("::")[2]
+    return Carried(Type("int")) if text in enums or last in enums else None
+
+
+@lru_cache(maxsize=512)  # the same few types are written again and again
+def _spelled(text: str) -> Carried | None:
+    """What the model keeps of a type of C++ or ROS by how it is written."""
+    if _is_time(text):
+        return Carried(Type("int"))
+    text = " ".join(text.split())
+    name = _SCOPES.sub("", text)
     if name in _PLAIN and name != "void":
         return Carried(Type(_PLAIN[name]))
     if name == "char":
@@ -109,9 +121,7 @@ def carried(node: Node, enums: Collection[str] = ()) -> Carried | None:
         return Carried(Type(_UNSIGNED[name][0]), _UNSIGNED[name][1])
     if wide := _wide(name):
         return Carried(Type("int"), 0, wider(text), wide)
-    if is_time(node):
-        return Carried(Type("int"))
-    return Carried(Type("int")) if text in enums or last in enums else None
+    return None
 
 
 def _wide(name: str) -> int:
@@ -126,7 +136,11 @@ def _wide(name: str) -> int:
 
 def is_time(node: Node) -> bool:
     """Whether a type is a time or a duration of ROS."""
-    scope, _, last = text_of(node).strip().rpartition("::")
+    return _is_time(text_of(node))
+
+
+def _is_time(text: str) -> bool:
+    scope, _, last = text.strip().rpartition("::")
     return last in _TIMES and scope.strip(":") == "ros"
 
 

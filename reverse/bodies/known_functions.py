@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 
 from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
@@ -119,14 +120,19 @@ def acts(call: CppCall) -> str | None:
 
 def takes_values(call: CppCall) -> bool:
     """Whether a function is known to change none of its arguments."""
-    made = _MAKES.match(call.name)
-    name = made[1] if made is not None else call.name.partition("<")[0]
+    return _takes_values(call.name, call.target is not None)
+
+
+@lru_cache(maxsize=1024)  # the same few names are called again and again
+def _takes_values(called: str, of_object: bool) -> bool:
+    made = _MAKES.match(called)
+    name = made[1] if made is not None else called.partition("<")[0]
     plain = name.rpartition("::")[2]
-    if call.name.startswith(LOGGING) or plain in _VALUES or _CONVERSION.match(call.name):
+    if called.startswith(LOGGING) or plain in _VALUES or _CONVERSION.match(called):
         return True
-    if call.target is not None and plain in _COPIES:
-        return True
-    return call.target is None and plain[:1].isupper() and type_takes_values(name)
+    if of_object:
+        return plain in _COPIES
+    return plain[:1].isupper() and type_takes_values(name)
 
 
 def may_change(parameter: CppParameter) -> bool:

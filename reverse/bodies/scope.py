@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import field, fields, replace
 from fractions import Fraction
+from functools import lru_cache
 from operator import attrgetter
 from typing import Literal, TypeAlias
 
@@ -348,11 +349,16 @@ class Scope:
 
     def local(self, name: str) -> str:
         """The model's name of a local variable or parameter."""
-        return uncarry_local(name, RESERVED | self.types | self.callable, self.callable)
+        return _of_model(name, self.types, self.callable)
 
     def declare(self, *names: str) -> Scope:
         """The same with these local variables."""
         return self.with_locals({n: Name(self.local(n)) for n in names})
+
+
+@lru_cache(maxsize=1024)  # the same few names are declared again and again
+def _of_model(name: str, types: frozenset[str], functions: frozenset[str]) -> str:
+    return uncarry_local(name, RESERVED | types | functions, functions)
 
 
 _ALL = tuple(f.name for f in fields(Scope))

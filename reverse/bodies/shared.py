@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field
 
+from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.bodies.scope import Meaning, Member, Publishes, Record, Scope, Variable
 
 
 @dataclass(slots=True)
@@ -29,7 +30,15 @@ class Shared:
     wide: dict[str, int] = field(default_factory=dict)
     running: list[tuple[int, str]] = field(default_factory=list)
     depth: int = 0
+    # The names of the model that the members of the class have, with the members.
+    of_members: tuple[Mapping[str, Member], frozenset[str]] | None = None
     again: bool = False
+
+    def taken(self, scope: Scope) -> set[str]:
+        """The names of the model that mean something at a place."""
+        if self.of_members is None or self.of_members[0] is not scope.members:
+            self.of_members = scope.members, frozenset(names_of(scope.members.values()))
+        return {*self.of_members[1], *names_of(scope.locals.values())}
 
     def demote(self, names: Iterable[str]) -> None:
         """Has the body read again without these locals."""
@@ -47,3 +56,15 @@ class Shared:
         for names in (self.names, self.kept, self.made, self.wide):
             names.clear()
         self.again = False
+
+
+def names_of(meanings: Iterable[Meaning]) -> Iterator[str]:
+    """The names of the model that come with what names of the code stand for."""
+    for meaning in meanings:
+        match meaning:
+            case Variable(name) | m.Name(name):
+                yield name
+            case Record(fields):
+                yield from (v.name for v in fields.values())
+            case Publishes(targets):
+                yield from (t.known for t in targets if t.known is not None)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache
 
@@ -11,6 +12,12 @@ from rebsync.model import Annotation, IntLiteral, ReactiveClass
 from rebsync.source import NOWHERE, Source, Span
 
 _PLAIN = re.compile(r"@([A-Za-z]\w*)(?:\((\d+)\))?\Z", re.ASCII)
+
+
+def annotations_in(markers: Iterable[str], span: Span) -> tuple[Annotation, ...]:
+    """The annotations among markers."""
+    found = (annotation(text, span) for text in markers)
+    return tuple(a for a in found if a is not None)
 
 
 def annotation(marker: str, span: Span) -> Annotation | None:
