@@ -27,10 +27,11 @@ from rebsync.reverse.nodes.node_names import Names, class_word
 from rebsync.reverse.nodes.node_parameters import Given
 from rebsync.reverse.nodes.node_presence import STAND_IN, makes_generated
 from rebsync.reverse.nodes.node_programs import Program
-from rebsync.reverse.nodes.node_servers import declared, servers
+from rebsync.reverse.nodes.node_servers import servers
 from rebsync.reverse.nodes.node_setup import Setup
 from rebsync.reverse.nodes.node_starts import first_functions, opening
 from rebsync.reverse.nodes.node_state import State
+from rebsync.reverse.nodes.node_taken import declares
 from rebsync.reverse.nodes.node_times import Times
 from rebsync.reverse.nodes.node_units import Facts, Start, Unit, Units
 from rebsync.reverse.nodes.node_values import Instance
@@ -298,9 +299,12 @@ class _Reader:
         if not any(self.wiring.known(i) for i in alike):
             return []
         bodies = [(f.cpp, f.body) for f in unit.functions if f.body is not None]
-        taken = {n for cpp, body in bodies for n in declared(unit.code, cpp, body)}
-        taken |= {p.name for s in self.wiring.servers[unit.name] for p in s.parameters}
-        return self.joined.known(alike, taken.__contains__, names)
+        parameters = {p.name for s in self.wiring.servers[unit.name] for p in s.parameters}
+
+        def is_taken(name: str) -> bool:
+            return name in parameters or any(declares(unit.code, *b, name) for b in bodies)
+
+        return self.joined.known(alike, is_taken, names)
 
     def _targets(
         self, alike: list[Instance], known: list[tuple[str, str, int]]
