@@ -14,6 +14,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.build.message_types import Fields, MessageTypes
 from rebsync.reverse.graph import Callback, Fact, ServiceFact, SubscriptionFact, TimerFact
 from rebsync.reverse.nodes.node_names import Names
+from rebsync.reverse.nodes.node_taken import declared
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.syntax.cpp_calls import calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
@@ -21,7 +22,6 @@ from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
 
 Asking: TypeAlias = SubscriptionFact | TimerFact | ServiceFact
 _HEADER = "header."
-_DECLARING = ("declaration", "init_declarator", "for_range_loop", "parameter_declaration")
 _PLACE = re.compile(r"(^|::)_\d$")
 
 
@@ -126,7 +126,7 @@ def _server(
 def _arguments(callback: Callback, fact: Asking) -> tuple[str, tuple[tuple[str, Node], ...]]:
     """The callback's parameter for the message, and those that a bind fills with what."""
     names = [n for n, _ in _parameters(callback)]
-    for call in calls_in(fact.site.call):
+    for call in calls_in(fact.site.call) if b"bind" in fact.site.cpp.words else ():
         if call.name.rpartition("::")[2] != "bind" or not call.arguments:
             continue
         given = list(call.arguments[1:])
@@ -222,9 +222,10 @@ def _carried(
 ) -> Iterator[Carried]:
     """The fields of the model's types that a body uses, in the order of the message."""
     used = set(used_paths(fields, message, [body[1]]))
-    names = Names.beside(declared(code, *body) | taken)
-    for path, type_ in fields.items():
-        if path in used and type_ is not None:
+    carried = [(path, type_) for path, type_ in fields.items() if path in used]
+    names = Names.beside(declared(code, *body) | taken if carried else ())
+    for path, type_ in carried:
+        if type_ is not None:
             yield Carried(path, names.give(path.replace(".", "_")), type_)
 
 
@@ -275,23 +276,3 @@ def _path(node: Node) -> str:
             break
         at = around
     return ".".join(parts)
-
-
-def declared(code: Code, cpp: Cpp, body: Node) -> set[str]:
-    """The names of the variables that a body declares."""
-    declarators = (
-        child
-        for node in code.inside(cpp, body, *_DECLARING)
-        for child in node.children_by_field_name("declarator")
-        if child.type != "init_declarator"  # which is itself among the nodes
-    )
-    return {text_of(name) for child in declarators for name in _identifiers(child)}
-
-
-def _identifiers(node: Node) -> Iterator[Node]:
-    """The names that a declarator declares, without those of its value."""
-    if node.type == "identifier":
-        yield node
-    elif node.type.endswith("declarator"):
-        for child in node.named_children:
-            yield from _identifiers(child)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Container, Iterator, Mapping, Sequence
 from dataclasses import field
 
 from tree_sitter import Node
@@ -17,8 +17,8 @@ from rebsync.reverse.bodies.known_functions import is_matrix
 from rebsync.reverse.bodies.scope import Member, Outside, Record, Stores, Variable
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings
-from rebsync.reverse.nodes.node_names import Names
-from rebsync.reverse.nodes.node_servers import declared
+from rebsync.reverse.nodes.node_names import Names, model_word
+from rebsync.reverse.nodes.node_taken import Taken
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.syntax.cpp_declarations import CppField, declared_name
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
@@ -70,18 +70,13 @@ class State:
     wide: dict[str, Wide] = field(default_factory=dict)
     unset: dict[str, Unset] = field(default_factory=dict)
     switches: dict[str, tuple[str, str]] = field(default_factory=dict)
-
-    taken: set[str] = field(default_factory=set)
+    taken: Taken = field(init=False)  # the names that the unit's functions have
     _outlived: dict[tuple[int, frozenset[str], bool], dict[int, tuple[Stores, ...]]] = field(
         default_factory=dict
     )
 
     def __post_init__(self) -> None:
-        bodies = [(f.cpp, f.body) for f in self.unit.functions if f.body is not None]
-        taken = {n for cpp, body in bodies for n in declared(self.code, cpp, body)}
-        taken |= {p.name for f in self.unit.functions for p in f.parameters}
-        taken |= {f.name for f in self.unit.functions}
-        self.taken = taken
+        self.taken = Taken(self.code, self.unit.functions)
         for member in self._globals():
             self._add(member)
         for above in reversed(self.unit.lineage):
@@ -160,7 +155,7 @@ class State:
                 return None
 
     def meaning(
-        self, name: str, type_: Node, declarator: Node | None, cpp: Cpp, taken: set[str]
+        self, name: str, type_: Node, declarator: Node | None, cpp: Cpp, taken: Container[str]
     ) -> Member:
         """What a variable of this type is; those of the model are state variables from here on."""
         wish = name.rstrip("_") or name
@@ -175,13 +170,23 @@ class State:
             return Outside(reaches=reaches, indexed=is_matrix(text_of(type_)))
         kept = carried(type_, self.enums)
         if kept is not None:
-            free = [w for w in (wish, name, f"{wish}_") if w not in taken] or [f"{wish}_"]
+            free = self._free(taken, (wish, name, f"{wish}_"), f"{wish}_")
             given, domain = self._new(free, kept.type), domain_near(type_) or ()
             self._note_wide(given, kept, cpp, type_)
             return Variable(given, kept.type, kept.bits, domain, kept.wide)
         if is_matrix(text_of(type_)):
             return Outside(indexed=True)
         return self._struct(text_of(type_).rpartition("::")[2], wish)
+
+    def _free(self, taken: Container[str], wishes: Sequence[str], other: str) -> list[str]:
+        """The wishes that are not taken, none after that which is given; or else another name."""
+        found: list[str] = []
+        for wish in wishes:
+            if wish not in taken:
+                found.append(wish)
+                if model_word(wish) not in self.names.used:
+                    break
+        return found or [other]
 
     def _new(self, wishes: list[str], type_: m.Type) -> str:
         given = self.names.give(*wishes)
@@ -200,7 +205,7 @@ class State:
         return Record(fields, message)
 
     def _array(
-        self, wish: str, name: str, type_: Node, declarator: Node, cpp: Cpp, taken: set[str]
+        self, wish: str, name: str, type_: Node, declarator: Node, cpp: Cpp, taken: Container[str]
     ) -> Member:
         kept = carried(type_, self.enums)
         lengths: list[int] = []
@@ -215,7 +220,7 @@ class State:
         if kept is None or kept.type.dimensions or kept.bits:
             return Outside()
         array = m.Type(kept.type.name, tuple(lengths))
-        free = [w for w in (wish, name) if w not in taken] or [f"{wish}_"]
+        free = self._free(taken, (wish, name), f"{wish}_")
         given = self._new(free, array)
         self._note_wide(given, kept, cpp, type_)
         return Variable(given, array, wide=kept.wide)
@@ -248,12 +253,19 @@ class State:
 
         Those that are declared `within` a loop live for one round only.
         """
-        if only_static and b"static" not in function.cpp.words:
+        if only_static and not self._has_static(function):
             return {}
         key = function.node.id, frozenset(names), only_static
         if key not in self._outlived:
             self._outlived[key] = self._outlive(function, names, only_static, within)
         return self._outlived[key]
+
+    def _has_static(self, function: CppFunction) -> bool:
+        """Whether the word is in the body of a function at all."""
+        if b"static" not in function.cpp.words or function.body is None:
+            return False
+        at, end = function.body.start_byte, function.body.end_byte
+        return function.cpp.original.find(b"static", at, end) >= 0
 
     def _outlive(
         self, function: CppFunction, names: set[str], only_static: bool, within: Node | None

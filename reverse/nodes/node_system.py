@@ -27,11 +27,12 @@ from rebsync.reverse.nodes.node_names import Names, class_word
 from rebsync.reverse.nodes.node_parameters import Given
 from rebsync.reverse.nodes.node_presence import STAND_IN, makes_generated
 from rebsync.reverse.nodes.node_programs import Program
-from rebsync.reverse.nodes.node_servers import declared, servers
+from rebsync.reverse.nodes.node_servers import servers
 from rebsync.reverse.nodes.node_setup import Setup
 from rebsync.reverse.nodes.node_signatures import Signatures
 from rebsync.reverse.nodes.node_starts import first_functions, opening
 from rebsync.reverse.nodes.node_state import State
+from rebsync.reverse.nodes.node_taken import declares
 from rebsync.reverse.nodes.node_times import Times
 from rebsync.reverse.nodes.node_units import Facts, Start, Unit, Units
 from rebsync.reverse.nodes.node_values import Instance
@@ -313,13 +314,11 @@ class _Reader:
         """Name, class and place among the slots of the rebecs that a class sends to."""
         if not any(self.wiring.known(i) for i in alike):
             return []
+        bodies = [(f.cpp, f.body) for f in unit.functions if f.body is not None]
         parameters = {p.name for s in self.wiring.servers[unit.name] for p in s.parameters}
 
-        def is_taken(word: str) -> bool:
-            functions = (f for f in unit.functions if word.encode() in f.cpp.words)
-            return word in parameters or any(
-                f.body is not None and word in declared(unit.code, f.cpp, f.body) for f in functions
-            )
+        def is_taken(name: str) -> bool:
+            return name in parameters or any(declares(unit.code, *b, name) for b in bodies)
 
         return self.joined.known(alike, is_taken, names)
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, part, text_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,14 +26,14 @@ class CppCall:
         return text_of(self.target).removeprefix("this->") if self.target is not None else ""
 
 
-def name_called(call: Node) -> str:
+def name_called(cpp: Cpp, call: Node) -> str:
     """The last name of what a node of a call calls."""
     function = part(call, "function")
     if function.type == "field_expression":
         function = part(function, "field")
     if function.type in ("template_function", "template_method"):
         function = part(function, "name")
-    return text_of(function).rpartition("::")[2]
+    return cpp.text(function).rpartition("::")[2]
 
 
 def call_of(node: Node) -> CppCall | None:

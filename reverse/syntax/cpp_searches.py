@@ -10,7 +10,7 @@ from dataclasses import field
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in, name_called
+from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, name_called
 from rebsync.reverse.syntax.cpp_tree import Cpp, by_types, in_text_order
 from rebsync.reverse.syntax.cpp_words import places_of
 
@@ -22,7 +22,7 @@ SOUGHT = (
 # The first character is one of three: so most of a text is passed over quickly.
 _HANDED = re.compile(r"[.>&](?:(?:(?<=\.)|(?<=->))\s*(\w+)\s*\(|(?<=&)\s*(?:\w+::)*(\w+))")
 _NAMES = frozenset({"identifier", "type_identifier", "field_identifier"})
-_MANY = 300  # nodes, from which on searching a file once is quicker than going through them
+_MANY = 3000  # nodes of a body, in which finding what is at a place takes its time
 
 
 @dataclass(slots=True)
@@ -84,18 +84,32 @@ class Searches:
     def calls_in(self, cpp: Cpp, body: Node) -> tuple[CppCall, ...]:
         """The calls in a body, outer ones first, in the order of the text."""
         if body.id not in self._calls:
-            if id(cpp) in self._nodes or body.descendant_count > _MANY:
-                found = map(call_of, self.inside(cpp, body, "call_expression"))
-                self._calls[body.id] = tuple(c for c in found if c is not None)
-            else:
-                self._calls[body.id] = tuple(calls_in(body))
+            found = map(call_of, self._called_in(cpp, body))
+            self._calls[body.id] = tuple(c for c in found if c is not None)
         return self._calls[body.id]
+
+    def _called_in(self, cpp: Cpp, body: Node) -> list[Node]:
+        """The nodes of the calls in a body, outer ones first, in the order of the text.
+
+        A call is the smallest node that has the parenthesis of its arguments and what comes before
+        it. In a broken text there may be calls without one.
+        """
+        if body.has_error or body.descendant_count > _MANY:
+            return self.inside(cpp, body, "call_expression")
+        found: dict[int, Node] = {}
+        at = cpp.data.find(b"(", body.start_byte, body.end_byte)
+        while at >= 0:
+            node = body.named_descendant_for_byte_range(at - 1, at + 1)
+            if node is not None and node.type == "call_expression":
+                found[node.id] = node
+            at = cpp.data.find(b"(", at + 1, body.end_byte)
+        return in_text_order(found.values())
 
     def names_called(self, cpp: Cpp, body: Node) -> frozenset[str]:
         """The last names of what a body calls."""
         if body.id not in self._names:
-            calls = self.inside(cpp, body, "call_expression")
-            self._names[body.id] = frozenset(map(name_called, calls))
+            calls = self._called_in(cpp, body)
+            self._names[body.id] = frozenset(name_called(cpp, call) for call in calls)
         return self._names[body.id]
 
     def handed_on(self, cpp: Cpp, wanted: Collection[str]) -> frozenset[str]:

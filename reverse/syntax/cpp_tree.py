@@ -46,8 +46,8 @@ class Cpp:
 
     @cached_property
     def data(self) -> bytes:
-        """The text as it was parsed."""
-        return self.root.text or b""
+        """The text as it was parsed; the root begins behind the first white space."""
+        return b" " * self.root.start_byte + (self.root.text or b"")
 
     @cached_property
     def original(self) -> bytes:
@@ -63,6 +63,14 @@ class Cpp:
     def has_markers(self) -> bool:
         """Whether there may be markers in its comments."""
         return b"rebsync" in self.words
+
+    def text(self, node: Node) -> str:
+        """The text of one of its nodes: in a third of the time that `text_of` takes."""
+        piece = self.data[node.start_byte : node.end_byte]
+        try:
+            return piece.decode()
+        except UnicodeDecodeError:
+            return piece.decode("utf-8", "replace")
 
     def operator(self, node: Node) -> str:
         """The operator of an operation."""
@@ -87,14 +95,15 @@ class Cpp:
         return byte - (surplus[before - 1] if before else 0)
 
 
-@cache
-def _language() -> Language:
-    return Language(tree_sitter_cpp.language())
+_LANGUAGE = Language(tree_sitter_cpp.language())
+# The numbers of fields: a child is found by them in half the time that it takes by their names.
+FIELDS = {str(_LANGUAGE.field_name_for_id(n)): n for n in range(1, _LANGUAGE.field_count + 1)}
+_COMMENT_KIND = _LANGUAGE.id_for_node_kind("comment", True)
 
 
 @cache
 def _parser() -> Parser:
-    return Parser(_language())
+    return Parser(_LANGUAGE)
 
 
 def parse(source: Source) -> Cpp:
@@ -197,8 +206,11 @@ def byte_places(text: str, data: bytes) -> tuple[list[int], list[int]] | None:
 
 def text_of(node: Node) -> str:
     """The text of a node."""
-    text = node.text
-    return text.decode("utf-8", "replace") if text else ""
+    text = node.text or b""
+    try:
+        return text.decode()  # without a way to treat errors much quicker
+    except UnicodeDecodeError:
+        return text.decode("utf-8", "replace")
 
 
 def last_name(node: Node) -> str:
@@ -208,7 +220,7 @@ def last_name(node: Node) -> str:
 
 def named(node: Node) -> list[Node]:
     """The named children of a node but for comments."""
-    return [c for c in node.named_children if c.type != "comment"]
+    return [c for c in node.named_children if c.kind_id != _COMMENT_KIND]
 
 
 def inside(node: Node | None, *types: str) -> list[Node]:
@@ -243,7 +255,7 @@ def in_text_order(nodes: Iterable[Node]) -> list[Node]:
 
 @cache
 def _query(types: tuple[str, ...]) -> Query:
-    return Query(_language(), " ".join(f"({type_}) @{type_}" for type_ in types))
+    return Query(_LANGUAGE, " ".join(f"({type_}) @{type_}" for type_ in types))
 
 
 def _in_text(node: Node) -> tuple[int, int]:
@@ -252,7 +264,7 @@ def _in_text(node: Node) -> tuple[int, int]:
 
 def part(node: Node, name: str) -> Node:
     """The child in a field that the grammar promises; ValueError where a broken text lacks it."""
-    child = node.child_by_field_name(name)
+    child = node.child_by_field_id(FIELDS[name])
     if child is None:
         raise ValueError(f"{node.type} without {name}")
     return child
