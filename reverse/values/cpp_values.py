@@ -26,6 +26,7 @@ from rebsync.reverse.values.cpp_values_numbers import converted
 from rebsync.reverse.values.cpp_values_operators import binary, unary
 from rebsync.reverse.values.cpp_values_plain import (
     MOST,
+    TOO_MANY,
     Frame,
     Function,
     Nothing,
@@ -35,6 +36,7 @@ from rebsync.reverse.values.cpp_values_plain import (
     at,
     choice,
     each,
+    is_large,
     ways,
 )
 from rebsync.reverse.values.cpp_values_ros2 import literal, named_by_ros2
@@ -150,12 +152,17 @@ class Values:
         """An unknown value."""
         return Unresolved(why, at(frame.cpp, node), partial)
 
+    def bounded(self, value: Value, node: Node, frame: Frame) -> Value:
+        """A value, or an unknown one for one that has too many parts."""
+        return value if not is_large(value) else self.unknown(TOO_MANY, node, frame)
+
     def fresh(self) -> None:
         """Begins a question of its own: nothing of the one before counts against it."""
         self._steps = 0
         self.truncated = False
         self._active.clear()
         self._memo.clear()
+        self.variables.fresh()
 
     def value(self, node: Node, frame: Frame) -> Value:
         """The value of an expression in a frame. Open: it needs the frame's callers."""
@@ -174,6 +181,7 @@ class Values:
             value = self._value(node, frame)
         finally:
             self._active.discard(key)
+        value = self.bounded(value, node, frame)
         if self.cuts == before:
             self._memo[key] = value, frame
         return value

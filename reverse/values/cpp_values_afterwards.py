@@ -17,6 +17,10 @@ from rebsync.reverse.values.cpp_values_plain import Frame, Nothing, Value, choic
 if TYPE_CHECKING:
     from rebsync.reverse.values.cpp_values_variables import Variables
 
+# Where functions read parameters into one variable, what stands in for a parameter is what the
+# others left in it, and so on: so many of them one within the other say all that is known.
+_MOST_WITHIN = 2
+
 
 @dataclass(slots=True)
 class Afterwards:
@@ -27,25 +31,28 @@ class Afterwards:
     """
 
     variables: Variables
-    _known: dict[tuple[int, Key], Value] = field(default_factory=dict)
+    # What is known by how many questions for the variable it was asked within.
+    _known: dict[tuple[int, int, Key], Value] = field(default_factory=dict)
     _active: set[tuple[int, Key]] = field(default_factory=set)
 
     def value(self, variable: Variable, path: str, frame: Frame) -> Value:
         """What it may hold where a function begins; that function itself does not count."""
         own = frame.function.node.id if frame.function is not None else 0
-        key = own, key_of(variable, path)
-        if key in self._active:
+        held = key_of(variable, path)
+        within = sum(of == held for _, of in self._active)
+        if (own, held) in self._active or within >= _MOST_WITHIN:
             self.variables.values.cuts += 1
             return Nothing()
+        key = within, own, held
         if key in self._known:
             return self._known[key]
-        self._active.add(key)
+        self._active.add((own, held))
         before = self.variables.values.cuts
         try:
             value = self._after_all(variable, path, own)
         finally:
-            self._active.discard(key)
-        if self.variables.values.cuts == before or not self._active:
+            self._active.discard((own, held))
+        if self.variables.values.cuts == before or len(self._active) == within:
             self._known[key] = value
         return value
 

@@ -10,8 +10,19 @@ from rebsync.reverse.graph import FromParameter
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.reverse.values.cpp_flow_definitions import Definition
 from rebsync.reverse.values.cpp_flow_types import Variable
+from rebsync.reverse.values.cpp_values_names import name_under, resolved
 from rebsync.reverse.values.cpp_values_numbers import converted
-from rebsync.reverse.values.cpp_values_plain import MOST, Frame, Nothing, Value, choice
+from rebsync.reverse.values.cpp_values_plain import (
+    MOST,
+    Found,
+    Frame,
+    Handle,
+    Nothing,
+    Value,
+    choice,
+    each,
+    ways,
+)
 
 if TYPE_CHECKING:
     from rebsync.reverse.values.cpp_values import Values
@@ -46,6 +57,20 @@ def with_default(value: Value, default: Value) -> Value:
             return FromParameter(value.name, default, value.expression, value.search, value.within)
         case _:
             return choice([default, value])
+
+
+def found_by(values: Values, handle: Value, key: Value, call: Node, frame: Frame) -> Value:
+    """The full name of a parameter that a search upwards finds."""
+
+    def one(name: Value) -> Value:
+        unknown = values.unknown("the name that is searched for", call, frame)
+        text = resolved(name, unknown)
+        namespaces = [h.namespace for h in ways(handle) if isinstance(h, Handle)] or [""]
+        return choice(
+            Found(name_under(n, text if text is not None else unknown)) for n in namespaces
+        )
+
+    return each(one, key)
 
 
 def is_pointer(variable: Variable) -> bool:

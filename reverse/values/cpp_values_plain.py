@@ -11,7 +11,7 @@ from typing import TypeAlias
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.graph import OneOf, Place, Resolved
+from rebsync.reverse.graph import FromParameter, OneOf, Place, Resolved
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp
 
@@ -30,6 +30,11 @@ OWN_NAME = "\ue000"
 
 # More ways than these to go are not followed one by one.
 MOST = 64
+TOO_MANY = "one of too many values"
+# Values of more parts are not followed: on public code the largest have 40.
+_MOST_PARTS = 128
+_LONGEST_TEXT = 1 << 16
+_LARGEST_NUMBER = 1 << 128
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,6 +201,36 @@ def pairs(do: Callable[[Value, Value], Value], left: Value, right: Value) -> Val
     if not isinstance(left, (Choice, OneOf)) and not isinstance(right, (Choice, OneOf)):
         return do(left, right)
     return choice(do(a, b) for a in ways(left) for b in ways(right))
+
+
+def is_large(value: Value) -> bool:
+    """Whether a value has too many parts to be followed.
+
+    Values share their parts, so that each variable of a row can be twice as large as the one
+    before, at no cost but to those who look at the parts.
+    """
+    waiting: list[Value | None] = [value]
+    for _ in range(_MOST_PARTS):
+        if not waiting:
+            return False
+        match waiting.pop():
+            case Choice(values):
+                waiting += values
+            case OneOf(some):
+                waiting += some
+            case FromParameter(name, default):
+                waiting += (name, default)
+            case Length(part) | Quality(part) | Handle(part) | Found(part):
+                waiting.append(part)
+            case str() as text if len(text) > _LONGEST_TEXT:
+                return True
+            case int() as number if abs(number) > _LARGEST_NUMBER:
+                return True
+            case tuple() as listed:
+                waiting += [v for v in listed if isinstance(v, tuple)]
+            case _:
+                pass
+    return bool(waiting)
 
 
 def at(cpp: Cpp, node: Node) -> Place:

@@ -28,6 +28,7 @@ from rebsync.reverse.values.cpp_flow_writes import (
 from rebsync.reverse.values.cpp_values_afterwards import Afterwards
 from rebsync.reverse.values.cpp_values_calls import from_parameter
 from rebsync.reverse.values.cpp_values_kept import (
+    found_by,
     is_pointer,
     listed,
     on_this,
@@ -36,11 +37,10 @@ from rebsync.reverse.values.cpp_values_kept import (
 )
 from rebsync.reverse.values.cpp_values_lambdas import arguments_of
 from rebsync.reverse.values.cpp_values_made import constructed, default_of
-from rebsync.reverse.values.cpp_values_names import name_under, resolved
 from rebsync.reverse.values.cpp_values_numbers import added, converted
 from rebsync.reverse.values.cpp_values_plain import (
     MOST,
-    Found,
+    TOO_MANY,
     Frame,
     Handle,
     Nothing,
@@ -50,7 +50,6 @@ from rebsync.reverse.values.cpp_values_plain import (
     choice,
     each,
     pairs,
-    ways,
 )
 from rebsync.reverse.values.cpp_values_ros2 import adjusted, declared
 from rebsync.reverse.values.cpp_values_texts import formatted
@@ -59,6 +58,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.values.cpp_values import Values
 
 _DEEPEST = 60
+_At = tuple[Key, int, int]  # a variable, the node that uses it, and the frame
 _OUTSIDE = "handed in by callers outside of the files"
 
 
@@ -68,13 +68,19 @@ class Variables:
 
     values: Values
     writes: Writes = field(init=False)
-    _asked: set[tuple[Key, int, int]] = field(default_factory=set)
+    _asked: set[_At] = field(default_factory=set)
+    # What was found at a place in a frame, which stays alive with it.
+    _memo: dict[_At, tuple[Value, Frame]] = field(default_factory=dict)
     _later: Afterwards = field(init=False)
 
     def __post_init__(self) -> None:
         values = self.values
         self.writes = Writes(values.texts, values.types, values.calls)
         self._later = Afterwards(self)
+
+    def fresh(self) -> None:
+        """Begins a question of its own."""
+        self._memo.clear()
 
     def end(self) -> None:
         """Lets go of what refers back to it."""
@@ -117,17 +123,24 @@ class Variables:
 
     def _at(self, variable: Variable, path: str, node: Node | None, frame: Frame) -> Value:
         key = key_of(variable, path), node.id if node is not None else 0, id(frame)
+        if key in self._memo:
+            return self._memo[key][0]
         if key in self._asked or len(self._asked) > _DEEPEST:
             self.values.cuts += 1
             return Nothing()
         self._asked.add(key)
+        before = self.values.cuts
         try:
             found, sure = self.ways_to(variable, path, node, frame)
             if not sure:
                 found.append(self._entry(variable, path, node, frame))
-            return choice(found)
         finally:
             self._asked.discard(key)
+        place = node if node is not None else variable.name
+        value = self.values.bounded(choice(found), place, frame)
+        if self.values.cuts == before:
+            self._memo[key] = value, frame
+        return value
 
     def ways_to(
         self, variable: Variable, path: str, node: Node | None, frame: Frame
@@ -153,7 +166,7 @@ class Variables:
                 return found, True
             if len(found) > MOST:
                 place = node if node is not None else reach.definition.place
-                return [self.values.unknown("one of too many values", place, frame)], True
+                return [self.values.unknown(TOO_MANY, place, frame)], True
         return found if isinstance(stands_in, Nothing) else [*found, stands_in], False
 
     # --- one definition -------------------------------------------------------------------------
@@ -256,7 +269,7 @@ class Variables:
                 handle = self.values.value(part(function, "argument"), frame)
             key = self.values.value(given[0], frame)
             if role == "found":
-                return self._found_by(handle, key, call, frame)
+                return found_by(self.values, handle, key, call, frame)
             if len(given) > 2:
                 default = self._as(variable, path, self.values.value(given[2], frame))
             else:
@@ -275,17 +288,6 @@ class Variables:
             for f in functions
             if (inner := parameter_variable(f, definition.index)) is not None
         )
-
-    def _found_by(self, handle: Value, key: Value, call: Node, frame: Frame) -> Value:
-        def one(name: Value) -> Value:
-            unknown = self.values.unknown("the name that is searched for", call, frame)
-            text = resolved(name, unknown)
-            namespaces = [h.namespace for h in ways(handle) if isinstance(h, Handle)] or [""]
-            return choice(
-                Found(name_under(n, text if text is not None else unknown)) for n in namespaces
-            )
-
-        return each(one, key)
 
     def _by_call(
         self, definition: Definition, variable: Variable, path: str, frame: Frame

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from time import process_time
+
 import pytest
 
 from rebsync.reverse.calls.ros_calls import graph_of
-from rebsync.reverse.graph import PublisherFact, Unresolved
+from rebsync.reverse.graph import FromParameter, OneOf, PublisherFact, RateFact, Unresolved
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
 from rebsync.source import Source
@@ -50,6 +52,49 @@ def test_what_is_too_far_away_is_unknown(case: str) -> None:
     code = Code.of([parse(Source("a.cpp", CASES[case]))])
     found = [f for f in graph_of(code).facts if isinstance(f, PublisherFact)]
     assert [type(f.topic) for f in found] == [Unresolved]
+
+
+_STAGES = 30
+_SECONDS = 10  # of the processor: each takes a tenth of one, and twice as many stages not much more
+_RATE = "ros::Rate r(x); }"
+# Code whose values are twice as large, or are asked for twice as often, with each stage.
+GROWING = {
+    "defaults": "int main() { ros::NodeHandle n; int x0 = 1;"
+    + _each('int x$; if (c) n.param("a$", x$, x$1); else n.param("b$", x$, x$1);', _STAGES)
+    + f"int x = x{_STAGES - 1}; {_RATE}",
+    "values before": "int main() { ros::NodeHandle n; int x = 1;"
+    + _each('if (c) n.getParam("a$", x); else n.getParam("b$", x);', _STAGES)
+    + _RATE,
+    "functions": "struct C { ros::NodeHandle n; int x;"
+    + _each('void f$() { n.getParam("a$", x); }', _STAGES)
+    + f"void g() {{ {_RATE} }};",
+    "texts": "int main() { std::string s;"
+    + _each('if (c) s = s + "a"; else s = s + "b";', _STAGES)
+    + f"ros::NodeHandle n; {_ASK} ros::Rate r(s.size()); }}",
+    "one text": 'int main() { std::string s0 = "ab";'
+    + _each("std::string s$ = s$1 + s$1;", _STAGES)
+    + f"ros::Rate r(s{_STAGES - 1}.size()); }}",
+    "one number": "int main() { int x0 = 3;"
+    + _each("int x$ = x$1 * x$1;", _STAGES)
+    + f"int x = x{_STAGES - 1}; {_RATE}",
+}
+
+
+@pytest.mark.parametrize("case", GROWING)
+def test_what_doubles_with_each_stage_takes_no_longer(case: str) -> None:
+    before = process_time()
+    code = Code.of([parse(Source("a.cpp", GROWING[case]))])
+    found = [f for f in graph_of(code).facts if isinstance(f, RateFact)]
+    assert len(found) == 1
+    assert process_time() - before < _SECONDS
+
+
+def test_what_other_functions_read_stands_in_for_a_parameter() -> None:
+    text = 'struct C { ros::NodeHandle n; int x = 2; void f() { n.getParam("a", x); }'
+    text += f"void g() {{ x = 7; }} void h() {{ {_RATE} }};"
+    facts = graph_of(Code.of([parse(Source("a.cpp", text))])).facts
+    rates = [f.hz for f in facts if isinstance(f, RateFact)]
+    assert rates == [OneOf((FromParameter("a", 7), 7))]
 
 
 def test_many_facts_of_one_function() -> None:
