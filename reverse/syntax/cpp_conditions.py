@@ -27,9 +27,12 @@ _DIRECTIVE = re.compile(
     r"[ \t]*#[ \t]*(?P<word>if|ifdef|ifndef|elif|else|endif|define|undef)\b"
     r"(?P<rest>[^\n\\]*(?:\\(?:\r?\n|.)[^\n\\]*)*)"
 )
-# What is not closed ends with the text, as otherwise it would be looked for again and again.
+# What is not closed ends with the text, as otherwise it would be looked for again and again. What
+# goes on for long is taken at once, not one character after the other.
 _HIDDEN = re.compile(
-    r"""//[^\n]*|/\*.*?(?:\*/|\Z)|"(?:[^"\\\n]|\\.)*"?|'(?:[^'\\\n]|\\.)'""", re.DOTALL
+    r"""//[^\n]*|/\*[^*]*(?:\*+(?!/)[^*]*)*(?:\*/|\Z)|"[^"\\\n]*(?:\\.[^"\\\n]*)*"?"""
+    r"""|'(?:[^'\\\n]|\\.)'""",
+    re.DOTALL,
 )
 _TOKEN = re.compile(r"\s*(\d[\w']*|\w+|&&|\|\||[=!<>]=|[-+!<>(),*/%])")
 
