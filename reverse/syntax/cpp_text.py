@@ -26,8 +26,9 @@ _GOES_ON = (
     r"|auto|std::\w+)\b"
 )
 _ATTRIBUTE = re.compile(rf"(\n[ \t]*)[A-Z][A-Z0-9]*_[A-Z0-9_]+(?={_GOES_ON})")
-# The end of one, wherever it stands: this is found more quickly than by a look at each line.
-_MAY_BE_ATTRIBUTE = re.compile(rf"_(?<=[A-Z0-9]_)[A-Z0-9_]+{_GOES_ON}")
+# From the last `_` of one, wherever it stands: quicker than to look at each line. None may begin in
+# another, or a long one would be gone through again and again.
+_MAY_BE_ATTRIBUTE = re.compile(rf"_(?<=[A-Z0-9_]_)[A-Z0-9]*{_GOES_ON}")
 _LOWER = b"abcdefghijklmnopqrstuvwxyz"
 _OF_CUDA = frozenset(
     f"__{word}__".encode()
