@@ -4,10 +4,11 @@
 
 Without a directory, packages are made whose code has so many megabytes (default 2.3, the size of
 ros_comm) and is mixed as there. `bare` is tree-sitter's parse of all files, without looking at the
-trees; `one process` is reading and extracting all packages in turn, `ratio` the one over the other;
-`all processors` is the same as a command does it, by the clock; the others are seconds of the
-processor. Files of C++ and of Python are measured apart from each other, both with what builds and
-launches them.
+trees; `one process` is listing, reading and extracting all packages in turn, `ratio` the one over
+the other; both are seconds of the processor, the least of five rounds in which they take turns, so
+that a machine that is slower for a while slows both. `all processors` is the same as a command does
+it, by the clock. Files of C++ and of Python are measured apart from each other, in copies of the
+directory without the code of the other: both with what builds and launches them.
 `--packages` makes N small packages and prints the memory on the way. Peak memory is that of the
 largest process.
 """
@@ -20,10 +21,10 @@ import gc
 import os
 import pstats
 import resource
+import shutil
 import sys
 import tempfile
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 from time import perf_counter, process_time
 
@@ -32,9 +33,9 @@ import tree_sitter_python
 from ros_packages import write_packages
 from tree_sitter import Language, Parser
 
-from rebsync.reverse.files.packages import CODE
+from rebsync.reverse.files.packages import CODE, suffix_of
 from rebsync.reverse.files.parallel import each
-from rebsync.reverse.files.python_files import SUFFIX, is_python
+from rebsync.reverse.files.python_files import SUFFIX, is_script
 from rebsync.reverse.files.reading import Chosen, all_listings, packages
 from rebsync.reverse.recovery import extract
 from rebsync.source import Source
@@ -72,27 +73,46 @@ def _options() -> argparse.Namespace:
 
 def compare(root: str) -> None:
     """Prints times, speeds and their ratio."""
-    found = (path for listing in all_listings([root]) for path in listing.files.values())
-    by_language: dict[str, list[bytes]] = {"C++": [], "Python": []}
-    for path in found:
-        suffix = Path(path).suffix
-        if suffix in CODE or suffix == SUFFIX:
-            by_language["C++" if suffix in CODE else "Python"].append(Path(path).read_bytes())
-    for language, texts in by_language.items():
-        if texts:
-            compare_language(root, language, texts)
+    for language in ("C++", "Python"):
+        with tempfile.TemporaryDirectory() as made:
+            copy_language(root, Path(made), language)
+            compare_language(made, language)
     print(f"peak memory {peak():.0f} MB")
 
 
-def compare_language(root: str, language: str, texts: list[bytes]) -> None:
+def copy_language(root: str, to: Path, language: str) -> None:
+    """Copies what is read of a directory, but for the code of other languages than this."""
+    for listing in all_listings([root]):
+        package = to / os.path.relpath(listing.root, root)
+        for name, path in listing.files.items():
+            if language_of(path) in (language, ""):
+                there = package / name
+                there.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(path, there)
+
+
+def language_of(path: str) -> str:
+    """The language of a file, empty where it is no code."""
+    suffix = suffix_of(path)
+    if suffix in CODE:
+        return "C++"
+    is_python = suffix == SUFFIX or (not suffix and is_script(Path(path).read_bytes()))
+    return "Python" if is_python else ""
+
+
+def compare_language(root: str, language: str) -> None:
     """Prints the same of the files of one language."""
-    do = partial(work, language=language)
-    size = sum(map(len, texts)) / 1e6
     # First, as processes are copies of this one, which a command has not read anything in yet.
-    every = best(lambda: list(each([root], do)), perf_counter)
-    bare = best(lambda: parse_all(texts, language))
-    alone = best(lambda: [do(given) for given in packages([root])])
-    read = sum(_size(_of(given, language)) for given in packages([root])) / 1e6
+    every = best(lambda: list(each([root], work)), perf_counter)
+    paths = (path for listing in all_listings([root]) for path in listing.files.values())
+    texts = [Path(path).read_bytes() for path in paths if language_of(path) == language]
+    if not texts:
+        return
+    bare, alone = alternately(
+        lambda: parse_all(texts, language), lambda: [work(given) for given in packages([root])]
+    )
+    size = sum(map(len, texts)) / 1e6
+    read = sum(_size(given.files) for given in packages([root])) / 1e6
     print(f"{language}: {len(texts)} files, {size:.2f} MB, of which {read:.2f} MB can matter")
     for name, seconds in (("bare", bare), ("one process", alone), ("all processors", every)):
         print(f"{name:15}{seconds:8.3f} s{size / seconds:8.2f} MB/s  ratio {seconds / bare:.2f}")
@@ -102,13 +122,20 @@ def best(
     what: Callable[[], object], clock: Callable[[], float] = process_time, runs: int = 3
 ) -> float:
     """Seconds, the least of some runs: of the processor, which other work disturbs less."""
-    found = []
-    for _ in range(runs):
-        gc.collect()
-        start = clock()
-        what()
-        found.append(clock() - start)
-    return min(found)
+    return min(_seconds(what, clock) for _ in range(runs))
+
+
+def alternately(*whats: Callable[[], object], rounds: int = 5) -> list[float]:
+    """Seconds of the processor for each of several, the least of some rounds of them all."""
+    found = [[_seconds(what, process_time) for what in whats] for _ in range(rounds)]
+    return [min(times) for times in zip(*found, strict=True)]
+
+
+def _seconds(what: Callable[[], object], clock: Callable[[], float]) -> float:
+    gc.collect()
+    start = clock()
+    what()
+    return clock() - start
 
 
 def parse_all(texts: list[bytes], language: str) -> None:
@@ -119,26 +146,14 @@ def parse_all(texts: list[bytes], language: str) -> None:
         parser.parse(text)
 
 
-def work(given: Chosen, language: str = "") -> tuple[int, int, float]:
+def work(given: Chosen) -> tuple[int, int, float]:
     """What is done with a package: the process, its memory now and the classes found."""
-    found = extract(_of(given, language), given.only)
+    found = extract(given.files, given.only)
     return os.getpid(), len(found.model.classes), memory()
 
 
-def _of(given: Chosen, language: str) -> dict[str, Source]:
-    """The files of a package without the code of other languages than this, if one is named."""
-
-    def is_kept(path: str, source: Source) -> bool:
-        if language == "C++":
-            return not is_python(path, source)
-        return language != "Python" or Path(path).suffix not in CODE
-
-    return {path: source for path, source in given.files.items() if is_kept(path, source)}
-
-
 def _size(files: dict[str, Source]) -> int:
-    code = {*CODE, SUFFIX}
-    return sum(len(s.text) for path, s in files.items() if Path(path).suffix in code)
+    return sum(len(s.text) for path, s in files.items() if suffix_of(path) in {*CODE, SUFFIX})
 
 
 def profile(root: str) -> None:

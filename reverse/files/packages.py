@@ -140,14 +140,15 @@ class _Walk:
 
 def is_read(name: str, inside: str) -> bool:
     """Whether a file of this name in a directory (with a slash after it) is read at all."""
-    suffix = _suffix(name)
+    suffix = suffix_of(name)
     if suffix in CODE or suffix == SUFFIX:
         return True
     return (suffix in _OTHERS or name in _NAMED) and not _TESTS & set(inside.split("/"))
 
 
-def _suffix(name: str) -> str:
-    """As that of a path: making one for each of many thousand files takes long."""
+def suffix_of(path: str) -> str:
+    """As that of a `Path`: making one for each of many thousand files takes long."""
+    name = path.rpartition("/")[2]
     at = name.rfind(".")
     return name[at:] if at > 0 and name != "." * len(name) else ""
 
@@ -156,7 +157,7 @@ def _add(listing: Listing, entry: os.DirEntry[str], inside: str) -> None:
     """Puts a file among those to read, or those that cannot be."""
     if not is_read(entry.name, inside) and not _is_script(entry):
         return
-    suffix = _suffix(entry.name)
+    suffix = suffix_of(entry.name)
     name = inside + shown(entry.name)
     try:
         found = entry.stat()

@@ -10,7 +10,7 @@ from pathlib import Path
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import BOM, read_bytes
 from rebsync.records import dataclass
-from rebsync.reverse.files.packages import CODE, Listing, listings, shown
+from rebsync.reverse.files.packages import CODE, Listing, listings, shown, suffix_of
 from rebsync.reverse.files.python_files import SUFFIX, is_script, relevant_python
 from rebsync.reverse.files.relevance import relevant
 from rebsync.reverse.findings import Finding, Grade
@@ -74,7 +74,7 @@ def _has_code(listing: Listing) -> bool:
 
 def _is_code(name: str) -> bool:
     """Whether a file is code by its name; a script without a suffix is no other that is read."""
-    suffix = Path(name).suffix
+    suffix = suffix_of(name)
     return suffix in CODE or suffix == SUFFIX or not suffix
 
 
@@ -91,7 +91,7 @@ def read(listing: Listing) -> Chosen:
             if _is_code(name):
                 findings.append(_listed(listing, name, _message(error)))
             continue
-        suffix = Path(name).suffix
+        suffix = suffix_of(name)
         is_python = suffix == SUFFIX or (not suffix and is_script(data))
         (code if suffix in CODE else python if is_python else texts)[name] = data
     wanted = relevant(code, listing.only) | relevant_python(python, listing.only)
@@ -120,6 +120,8 @@ def _text(listing: Listing, name: str, data: bytes, findings: list[Finding]) -> 
         return None
     text = data.removeprefix(BOM).decode("utf-8", _LATIN)
     source = Source(path, text.replace("\0", " "))
+    if data.isascii() and "\0" not in text:
+        return source
     if is_code and (at := _first_odd(data, text, name)) is not None:
         why = f"a byte that is not UTF-8 is read as Latin-1: {text[at]!r}"
         if text[at] == "\0":
@@ -149,7 +151,7 @@ def _first_odd(data: bytes, text: str, name: str) -> int | None:
             return None
     except UnicodeDecodeError:
         odd = "\0" + "".join(map(chr, range(0x80, 0x100)))
-    comment = _COMMENT if Path(name).suffix in CODE else _PYTHON_COMMENT
+    comment = _COMMENT if suffix_of(name) in CODE else _PYTHON_COMMENT
     blank = comment.sub(lambda m: " " * len(m[0]), text)
     return next((i for i, c in enumerate(blank) if c in odd), None)
 

@@ -31,7 +31,9 @@ _INCLUDE = re.compile(rb'#[ \t]*include[ \t]*["<](?:[^">\n]*/)?([^">\n/]+)[">]')
 _NAME = re.compile(rb"(?<![\w.])(?<!->)[A-Za-z_]\w*")
 # Gaps have bounds, and what is not closed ends with the text: so every search takes linear time.
 _NOISE = re.compile(
-    rb"""//[^\n]*|/\*.*?(?:\*/|\Z)|"(?:[^"\\\n]|\\.)*"?|'(?:[^'\\\n]|\\.)'""", re.DOTALL
+    rb"""//[^\n]*|/\*[^*]*(?:\*+(?!/)[^*]*)*(?:\*/|\Z)|"[^"\\\n]*(?:\\.[^"\\\n]*)*"?"""
+    rb"""|'(?:[^'\\\n]|\\.)'""",
+    re.DOTALL,
 )
 _TYPES = re.compile(
     rb"\b(?:class|struct|union|enum)\s+(?:class\s+|struct\s+)?(?:[A-Z][A-Z0-9_]*\s+)?([A-Za-z_]\w*)"

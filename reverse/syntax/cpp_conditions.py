@@ -27,9 +27,12 @@ _DIRECTIVE = re.compile(
     r"[ \t]*#[ \t]*(?P<word>if|ifdef|ifndef|elif|else|endif|define|undef)\b"
     r"(?P<rest>[^\n\\]*(?:\\(?:\r?\n|.)[^\n\\]*)*)"
 )
-# What is not closed ends with the text, as otherwise it would be looked for again and again.
+# What is not closed ends with the text, as otherwise it would be looked for again and again. What
+# goes on for long is taken at once, not one character after the other.
 _HIDDEN = re.compile(
-    r"""//[^\n]*|/\*.*?(?:\*/|\Z)|"(?:[^"\\\n]|\\.)*"?|'(?:[^'\\\n]|\\.)'""", re.DOTALL
+    r"""//[^\n]*|/\*[^*]*(?:\*+(?!/)[^*]*)*(?:\*/|\Z)|"[^"\\\n]*(?:\\.[^"\\\n]*)*"?"""
+    r"""|'(?:[^'\\\n]|\\.)'""",
+    re.DOTALL,
 )
 _TOKEN = re.compile(r"\s*(\d[\w']*|\w+|&&|\|\||[=!<>]=|[-+!<>(),*/%])")
 
@@ -88,7 +91,8 @@ def conditionals(text: str) -> list[Conditional]:
 def _directives(text: str, start: int = 0) -> Iterator[re.Match[str]]:
     """All from a place on, each with the blanks before it on its line.
 
-    To look for `#` alone is much quicker than to look at each line.
+    To look for `#` alone is much quicker than to look at each line; only the first of a line can
+    begin a directive.
     """
     at = text.find("#", start)
     while at >= 0:
@@ -96,8 +100,8 @@ def _directives(text: str, start: int = 0) -> Iterator[re.Match[str]]:
         found = _DIRECTIVE.match(text, line) if line == 0 or text[line - 1] == "\n" else None
         if found is not None:
             yield found
-            start = found.end()
-        at = text.find("#", max(start, at + 1))
+        start = found.end() if found is not None else text.find("\n", at)
+        at = text.find("#", start) if start >= 0 else -1
 
 
 @dataclass(slots=True)

@@ -8,6 +8,8 @@ from typing import TypeAlias
 
 from tree_sitter import Node
 
+from rebsync.reverse.syntax.cpp_words import head_of
+
 # Readers take a few frames of Python's stack for each level; code that people write has up to 70.
 DEEPEST = 150
 _AROUND = 50  # levels of namespaces and classes, from which on these are what is deep
@@ -20,7 +22,6 @@ _CONTAINERS = frozenset(
     }
 )
 _NO_LINE_END = re.compile(rb"[^\r\n]")
-_COMMENT = re.compile(rb"\s*/([/*])")
 _OPERATORS = b"!%&()*+,-./:<=>?[]^|~"
 _ENDS = b"{};"
 # What depth is told from is short: the rest of a text is left out before anything is counted.
@@ -36,26 +37,11 @@ _Path: TypeAlias = "tuple[Node, _Path | None, int]"
 
 def may_be_deep(data: bytes) -> bool:
     """Whether a text needs a closer look: it nests, or has long statements or chains of `else`."""
-    data = data[_head(data) :]
+    data = data[head_of(data) :]  # often with lines of stars, which are no operators
     if data.count(b"else") > _MANY or data.count(b"for") > _LONG or data.count(b"#") > _LONG:
         return True
     signs = data.translate(None, _NO_SIGNS)
     return _nests(signs.translate(_ALIKE, _NO_BRACKETS)) or _has_long(data, signs)
-
-
-def _head(data: bytes) -> int:
-    """Where the comments end that a file begins with.
-
-    They say who may copy it, often between lines of stars.
-    """
-    at = 0
-    while found := _COMMENT.match(data, at):
-        close = b"\n" if found[1] == b"/" else b"*/"
-        end = data.find(close, found.end())
-        if end < 0:
-            break
-        at = end + len(close)
-    return at
 
 
 def _nests(brackets: bytes) -> bool:

@@ -21,21 +21,20 @@ _EXPORTS = {
     for word in ("class", "struct")
 }
 # `FOO_DEPRECATED const char* f();`, at the start of a line, where a declaration goes on.
-_ATTRIBUTE = re.compile(
-    r"(\n[ \t]*)[A-Z][A-Z0-9]*_[A-Z0-9_]+(?=[ \t]+(?:const|virtual|static|inline|explicit|void|bool"
-    r"|int|unsigned|long|float|double|char|auto|std::\w+)\b)"
+_GOES_ON = (
+    r"[ \t]+(?:const|virtual|static|inline|explicit|void|bool|int|unsigned|long|float|double|char"
+    r"|auto|std::\w+)\b"
 )
-# The same in a text without blanks, of which each capital, digit and `_` is an `A`.
-_MAY_BE_ATTRIBUTE = re.compile(rb"\nAAA+[a-z]")
-_CAPITALS = b"ABCDEFGHIJKLMNOPQRSTUVWXYZ"
-_KINDS = bytes.maketrans(_CAPITALS + b"0123456789_", b"A" * 37)
-# All but capitals and what stands beside them in what is looked for: what is left of a text is
-# short, and all that is in the text is in it.
-_NO_CAPITALS = bytes(set(range(256)) - set(_CAPITALS + b"_<"))
+_ATTRIBUTE = re.compile(rf"(\n[ \t]*)[A-Z][A-Z0-9]*_[A-Z0-9_]+(?={_GOES_ON})")
+# From the last `_` of one, wherever it stands: quicker than to look at each line. None may begin in
+# another, or a long one would be gone through again and again.
+_MAY_BE_ATTRIBUTE = re.compile(rf"_(?<=[A-Z0-9_]_)[A-Z0-9]*{_GOES_ON}")
+_LOWER = b"abcdefghijklmnopqrstuvwxyz"
 _OF_CUDA = frozenset(
     f"__{word}__".encode()
     for word in ("device", "host", "global", "shared", "constant", "forceinline")
 )
+_LAUNCH = re.compile(r"<<<[^;{}<]{1,300}?>>>")
 # The formats of <cinttypes>, between texts: `"%" PRId64`.
 _FORMAT = re.compile(r"\bPRI[diouxX](?:8|16|32|64|MAX|PTR)\b")
 _CONDITION = re.compile(r"#[ \t]*if")
@@ -70,9 +69,8 @@ _BY_WORD: tuple[tuple[frozenset[bytes], re.Pattern[str], Callable[[re.Match[str]
     (frozenset({b"signals"}), re.compile(r"(\n[ \t]*)(signals)([ \t]*:)(?!:)"), _public),
     (frozenset({b"emit"}), re.compile(r"(\n[ \t]*)emit(?=[ \t]+\w+\s*\()"), _keep_first),
 )
-# The same with what must be among the capitals of a text; see `_NO_CAPITALS`.
-_BY_CAPITALS: tuple[tuple[bytes, re.Pattern[str], Callable[[re.Match[str]], str]], ...] = (
-    (b"<<<", re.compile(r"<<<[^;{}<]{1,300}?>>>"), _blank),
+# The same with what must be in one of the words.
+_BY_PART: tuple[tuple[bytes, re.Pattern[str], Callable[[re.Match[str]], str]], ...] = (
     (b"Q_", re.compile(r"Q_(?:OBJECT|GADGET|INVOKABLE|EMIT)\b"), _blank),
     (b"Q_SLOTS", re.compile(r"(\b(?:public|protected|private)\s+)Q_SLOTS(?=\s*:)"), _keep_first),
     (b"Q_SIGNALS", re.compile(r"()(Q_SIGNALS)([ \t]*:)"), _public),
@@ -95,17 +93,18 @@ _BY_CAPITALS: tuple[tuple[bytes, re.Pattern[str], Callable[[re.Match[str]], str]
 def readable(text: str, plain: Plain) -> str:
     """The text with blanks for what the parser would stumble over; as long as the text.
 
-    By its bytes and words is told quickly what need not be looked for.
+    Its words tell quickly what need not be looked for.
     """
-    data, words = plain.data, plain.words
     for any_of, pattern, instead in _BY_WORD:
-        if not words.isdisjoint(any_of):
+        if not plain.words.isdisjoint(any_of):
             text = pattern.sub(instead, text)
-    capitals = data.translate(None, _NO_CAPITALS)
-    for these, pattern, instead in _BY_CAPITALS:
-        if these in capitals and these in data:
+    if "<<<" in text:
+        text = _LAUNCH.sub(_blank, text)
+    capitals = b" ".join(plain.words).translate(None, _LOWER)
+    for piece, pattern, instead in _BY_PART:
+        if piece in capitals:
             text = pattern.sub(instead, text)
-    if _MAY_BE_ATTRIBUTE.search(data.translate(_KINDS, b" \t")):
+    if _MAY_BE_ATTRIBUTE.search(text):
         text = _ATTRIBUTE.sub(_keep_first, text)
     return _without(text, dropped(text)) if has_alternatives(text) else text
 

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 from rebsync.records import dataclass
 
 # Of a word of bytes; others, as those of letters that are not ASCII, stand between words.
 _PARTS = frozenset(b"abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_")
 _SPACED = bytes(byte if byte in _PARTS else ord(" ") for byte in range(256))
+_COMMENT = re.compile(rb"\s*/([/*])")
 
 
 @dataclass(frozen=True)
@@ -26,7 +28,30 @@ class Plain:
 
 def words_of(data: bytes) -> frozenset[bytes]:
     """All words of a text, those of comments and of texts in quotes too."""
-    return frozenset(data.translate(_SPACED).split())
+    head = head_of(data)
+    return _words(data[:head]).union(_spaced(data[head:]))
+
+
+@lru_cache(maxsize=4)
+def _words(head: bytes) -> frozenset[bytes]:
+    """The words of a text's head, which is the same in most files of a package."""
+    return frozenset(_spaced(head))
+
+
+def _spaced(data: bytes) -> list[bytes]:
+    return data.translate(_SPACED).split()
+
+
+def head_of(data: bytes) -> int:
+    """Where the comments end that a text begins with: they say who may copy it."""
+    at = 0
+    while found := _COMMENT.match(data, at):
+        close = b"\n" if found[1] == b"/" else b"*/"
+        end = data.find(close, found.end())
+        if end < 0:
+            break
+        at = end + len(close)
+    return at
 
 
 def places_of(data: bytes, word: bytes) -> Iterator[int]:

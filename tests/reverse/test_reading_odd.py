@@ -90,6 +90,8 @@ ODD = {
     "spaces": "\n#if" + " " * 50_000 + "\n#define " + " " * 50_000,
     "inner conditionals": "\n" + "#ifdef A\n" * 1000 + "int x;\n" + "#endif\n" * 1000,
     "conditionals that do not end": "\n" + "#if 0\n" * 3000,
+    "hashes": "\n#if A\n" + " " * 50_000 + "#" * 50_000 + "\n#endif",
+    "stars": "\n#if A\n/*" + "**x" * 30_000,
     "alternatives": "\n#if A\n" + "#elif B\nint x;\n" * 2000 + "#endif",
     "a long condition": f"\n#if {'(' * 3000}1{')' * 3000}\n#endif",
     "functions": "".join(f"void f{i}(int a) {{ f{i + 1}(a - 1); }}\n" for i in range(1500)),
