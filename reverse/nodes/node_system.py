@@ -313,15 +313,10 @@ class _Reader:
         """Name, class and place among the slots of the rebecs that a class sends to."""
         if not any(self.wiring.known(i) for i in alike):
             return []
-        parameters = {p.name for s in self.wiring.servers[unit.name] for p in s.parameters}
-
-        def is_taken(word: str) -> bool:
-            functions = (f for f in unit.functions if word.encode() in f.cpp.words)
-            return word in parameters or any(
-                f.body is not None and word in declared(unit.code, f.cpp, f.body) for f in functions
-            )
-
-        return self.joined.known(alike, is_taken, names)
+        bodies = [(f.cpp, f.body) for f in unit.functions if f.body is not None]
+        taken = {n for cpp, body in bodies for n in declared(unit.code, cpp, body)}
+        taken |= {p.name for s in self.wiring.servers[unit.name] for p in s.parameters}
+        return self.joined.known(alike, taken.__contains__, names)
 
     def _targets(
         self, alike: list[Instance], known: list[tuple[str, str, int]]
