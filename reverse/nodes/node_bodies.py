@@ -88,8 +88,20 @@ class Bodies:
     _held: tuple[Held, ...] | None = None
     _kept: dict[str, Member] | None = None
 
-    def scope(self, cpp: Cpp, function: CppFunction | None) -> Scope:
-        """What a body in a file, in a function, can name."""
+    def scope(
+        self,
+        cpp: Cpp,
+        function: CppFunction | None,
+        *,
+        chooses: bool = False,
+        server: str | None = None,
+        instead: Mapping[int, tuple[m.Statement | Stores | Node, ...]] | None = None,
+        local: Mapping[str, Meaning] | None = None,
+    ) -> Scope:
+        """What a body in a file, in a function, can name; see `Scope` for what it may be given.
+
+        What stands for statements `instead` is what the set-up says, unless it is given.
+        """
         members = {**self.state.members_of(function), **self._own_members()}
         entry = self.opening.entry
         if entry is not None and function is not None and function.node.id == entry.node.id:
@@ -99,6 +111,7 @@ class Bodies:
             self.functions,
             {},
             self.common.types,
+            locals=local if local is not None else {},
             constants=self.code.constants_for(cpp),
             enumerators=self.common.enumerators,
             enums=self.common.enums,
@@ -109,10 +122,11 @@ class Bodies:
             wide=self.wide,
             macros=self.code.macros,
             timers=self.setup.timers,
-            instead=self.setup.instead,
+            instead=instead if instead is not None else self.setup.instead,
             values=self.setup.values,
             open=True,
-            chooses=False,
+            chooses=chooses,
+            server=server,
             unit=self.setup.times.unit,
         )
 
@@ -190,15 +204,16 @@ class Bodies:
         function = server.callback.function
         if function is None:
             function = around(server.body, self.unit.functions)
-        scope = self.scope(server.cpp, function)
         local: dict[str, Meaning] = {}
-        for name, value in server.arguments:
-            local[name] = self._argument(server.cpp, scope, value)
+        if server.arguments:
+            scope = self.scope(server.cpp, function)
+            for name, value in server.arguments:
+                local[name] = self._argument(server.cpp, scope, value)
         if server.message:
             local[server.message] = self._message(server)
         if server.service is not None and function is not None:
             local |= {p.name: Outside() for p in function.parameters if p.name}
-        inside = replace(scope.with_locals(local), chooses=True, server=server.name)
+        inside = self.scope(server.cpp, function, chooses=True, server=server.name, local=local)
         body = self.block(server.cpp, inside, server.body, self.within(server.name))
         body = replace(body, statements=without_end(without_values(body).statements))
         parameters = tuple(m.Parameter(p.type, p.name) for p in server.parameters)
@@ -224,8 +239,7 @@ class Bodies:
 
     def loop(self, loop: Loop, name: str) -> Iterator[m.MessageServer]:
         """The server of a loop, and one for what comes after its sleep where both do something."""
-        scope = self.scope(loop.function.cpp, loop.function)
-        scope = replace(scope, chooses=True, server=name)
+        scope = self.scope(loop.function.cpp, loop.function, chooses=True, server=name)
         pause = self.setup.pause(loop)
         again = send(name, pause or 0)
         span = loop.function.cpp.span(loop.node)
@@ -260,12 +274,17 @@ class Bodies:
         for cpp, stores in self.state.initial:
             assert isinstance(stores.value, Node)
             found += self._known(cpp, stores.value, stores)
+        given = {p.name: Variable(p.name, p.type) for p in self.setup.parameters}
         for step in self.opening.steps:
-            scope = self.scope(step.function.cpp, step.function)
-            instead = {**scope.instead, **step.instead}
-            given = {p.name: Variable(p.name, p.type) for p in self.setup.parameters}
-            scope = replace(scope, instead=instead, chooses=True)
-            scope = scope.with_locals({**given, **self._arguments(step)})
+            if not step.nodes:
+                continue
+            scope = self.scope(
+                step.function.cpp,
+                step.function,
+                chooses=True,
+                instead={**self.setup.instead, **step.instead},
+                local={**given, **self._arguments(step)},
+            )
             reader = CppStatements(
                 step.function.cpp, scope, self.findings, self.within(step.function.name)
             )
@@ -287,10 +306,7 @@ class Bodies:
         return found
 
     def _known(self, cpp: Cpp, node: Node, stores: Stores) -> tuple[m.Statement, ...]:
-        scope = self.scope(cpp, None)
-        scope = replace(scope, instead={**scope.instead, node.id: (stores,)})
-        bare = {k: v for k, v in scope.instead.items() if k == node.id}
-        inside = replace(scope, instead=bare)
+        inside = self.scope(cpp, None, instead={node.id: (stores,)})
         reader = CppStatements(cpp, inside, self.findings, self.setup.within)
         return reader.read([node])
 

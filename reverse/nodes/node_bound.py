@@ -25,6 +25,7 @@ from rebsync.reverse.bodies.scope import (
 )
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.nodes.node_bodies import Bodies
+from rebsync.reverse.nodes.node_reach import called_by
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.syntax.cpp_declarations import CppField
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
@@ -84,8 +85,9 @@ def note_helpers(bodies: Bodies, helpers: Helpers) -> None:
     """Lists functions of other classes that act on what the model has outside of classes."""
     unit, code = bodies.unit, bodies.code
     near = [(owner, function) for _, owner, function in helpers.near(unit)]
-    callers = (*unit.functions, *(f for _, f in near))
-    called = frozenset[str]().union(*map(code.names_called, callers)) if near else frozenset()
+    callers = (*unit.functions, *(f for _, f in near)) if near else ()
+    names = {function.name for _, function in near}
+    called = frozenset[str]().union(*(called_by(code, caller, names) for caller in callers))
     for owner, function in near:
         touched = _touched(bodies, owner, function) if function.name in called else None
         if touched is not None:

@@ -156,6 +156,8 @@ class NodeClass:
 
     def _needed(self, arguments: tuple[m.Parameter, ...], body: m.Block) -> tuple[m.Parameter, ...]:
         """The parameters that the constructor uses: others only say when a timer goes off."""
+        if not arguments:
+            return ()
         used = {n.name for n in m.walk(body) if isinstance(n, m.Name)}
         setup = self.bodies.setup
         setup.parameters = [p for p in setup.parameters if p.name in used]
@@ -242,6 +244,8 @@ def _reached(
     members: Sequence[m.MessageServer | m.Method], constructor: m.Block, methods: list[m.Method]
 ) -> list[m.Method]:
     """The methods that servers, the constructor, or such methods call."""
+    if not methods:
+        return []
     bodies: list[m.Node] = [constructor, *(s for s in members if isinstance(s, m.MessageServer))]
     found: dict[str, m.Method] = {}
     while bodies:
@@ -256,6 +260,8 @@ def _reached(
 
 def _mentioned(variables: Mapping[str, m.Type], nodes: Sequence[m.Node]) -> dict[str, m.Type]:
     """The variables that some body names."""
+    if not variables:
+        return {}
     names = set()
     for node in nodes:
         for inner in m.walk(node):

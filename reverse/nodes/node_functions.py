@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import field, replace
 
 from rebsync import model as m
@@ -140,8 +140,10 @@ class Functions:
             found.append(method)
         return found
 
-    def _affected(self, methods: Iterable[str], changed: set[str]) -> set[str]:
+    def _affected(self, methods: Collection[str], changed: set[str]) -> set[str]:
         """Those of some methods that lead to what has changed, by the names that bodies call."""
+        if not changed or not methods:
+            return set()
         known = self.bodies.functions
         functions = {f.name: f for f in (*self.bodies.unit.functions, *self._free)}
 
@@ -156,7 +158,7 @@ class Functions:
                 waiting += fresh
             return False
 
-        return set(filter(leads, methods)) if changed else set()
+        return set(filter(leads, methods))
 
     def method(self, name: str, function: CppFunction) -> m.Method:
         """A function as a local method."""

@@ -19,6 +19,7 @@ from rebsync.reverse.syntax.cpp_tree import named, text_of
 _LOOPS = frozenset({"while_statement", "do_statement", "for_statement"})
 _LOOP_WORDS = re.compile(rb"\b(?:while|for|do)\b")
 _SPINS = frozenset({"spinOnce", "callAvailable", "callOne", "spin_some", "spin_once", "spin_all"})
+_WAITS = re.compile("|".join(sorted({"sleep", *_SPINS})).encode())  # what other loops do not name
 _AWAKE = frozenset({"ok", "isStarted"})
 
 
@@ -63,8 +64,10 @@ def _has_one(node: Node, places: Sequence[int]) -> bool:
 
 def spins(statement: Node) -> bool:
     """Whether a statement only lets ROS serve messages."""
+    if statement.type != "expression_statement":
+        return False
     names = {c.name.rpartition("::")[2] for c in calls_in(statement)}
-    return statement.type == "expression_statement" and bool(names & _SPINS) and len(names) == 1
+    return bool(names & _SPINS) and len(names) == 1
 
 
 def _loop(function: CppFunction, node: Node, rates: Sequence[RateFact]) -> Loop | None:
@@ -78,13 +81,19 @@ def _loop(function: CppFunction, node: Node, rates: Sequence[RateFact]) -> Loop 
     if node.type == "for_statement" and node.child_by_field_name("update") is not None:
         return None
     statements = named(body) if body.type == "compound_statement" else [body]
-    at, rate = _sleep(statements, rates)
-    inside = any(spins(s) or c.name == "sleep" for s in statements for c in calls_in(s))
-    if not inside and all(text_of(p) in ("true", "1") for p in parts):
-        return None
-    first = [s for s in statements[: len(statements) if at is None else at] if not spins(s)]
-    rest = [] if at is None else [s for s in statements[at + 1 :] if not spins(s)]
     guard = tuple(p for p in parts if p not in runs)
+    endless = all(text_of(p) in ("true", "1") for p in parts)
+    if not _WAITS.search(body.text or b""):
+        whole = Loop(function, node, tuple(statements), (), guard, None, False)
+        return None if endless else whole
+    at, rate = _sleep(statements, rates)
+    serving = [spins(s) for s in statements]
+    inside = any(serving) or any(c.name == "sleep" for s in statements for c in calls_in(s))
+    if not inside and endless:
+        return None
+    pairs = list(zip(statements, serving, strict=True))
+    first = [s for s, serves in pairs[: len(pairs) if at is None else at] if not serves]
+    rest = [] if at is None else [s for s, serves in pairs[at + 1 :] if not serves]
     sleeps = at is not None or any(
         c.name.rpartition("::")[2] in ("sleep", "usleep", "sleep_for") for c in calls_in(body)
     )

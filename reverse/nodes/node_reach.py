@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import re
+from collections.abc import Collection, Iterator, Sequence
+
+from tree_sitter import Node
 
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_units import Unit
@@ -11,6 +14,7 @@ from rebsync.reverse.syntax.cpp_tree import text_of
 
 # Bases that are not in the files and that call nothing but `onInit`.
 _CALLS_NOTHING = frozenset({"Nodelet", "enable_shared_from_this", "noncopyable"})
+_WORD = re.compile(r"\w+")
 
 
 def unreached(
@@ -33,6 +37,20 @@ def unreached(
         yield from (f for f in left if f.name in called)
 
 
+def called_by(code: Code, function: CppFunction, names: Collection[str]) -> frozenset[str]:
+    """Which of some names a function calls: its text tells quickly of most that it does not."""
+    if function.body is None or not _says(function.body, names):
+        return frozenset()
+    return code.names_called(function).intersection(names)
+
+
+def _says(body: Node, names: Collection[str]) -> bool:
+    """Whether one of some names, or of an operator or template its first word, is in a text."""
+    text = body.text or b""
+    words = (_WORD.search(name) for name in names)
+    return any(word is None or word[0].encode() in text for word in words)
+
+
 def reached(
     code: Code, unit: Unit, first: Sequence[CppFunction], servers: Sequence[Server]
 ) -> set[int]:
@@ -41,16 +59,16 @@ def reached(
     for function in unit.functions:
         by_name.setdefault(function.name, []).append(function)
     found = {f.node.id for f in first}
-    calls = [code.calls_in(s.cpp, s.body) for s in servers]
+    calls = [code.calls_in(s.cpp, s.body) for s in servers if _says(s.body, by_name)]
     names = {c.name.rpartition("::")[2] for each in calls for c in each}
-    names.update(*map(code.names_called, first))
+    names.update(*(called_by(code, function, by_name.keys()) for function in first))
     waiting = [f for name in sorted(names) for f in by_name.get(name, ())]
     while waiting:
         function = waiting.pop()
         if function.node.id not in found:
             found.add(function.node.id)
-            called = code.names_called(function)
-            waiting += [f for name in called for f in by_name.get(name, ())]
+            called = called_by(code, function, by_name.keys())
+            waiting += [f for name in called for f in by_name[name]]
     return found
 
 

@@ -13,6 +13,7 @@ from rebsync.reverse.bodies.rewriting import renamed
 from rebsync.reverse.bodies.scope import Itself, Member, Outside, Stores
 from rebsync.reverse.graph import TimerFact
 from rebsync.reverse.nodes.node_names import Names
+from rebsync.reverse.nodes.node_reach import called_by
 from rebsync.reverse.nodes.node_state import State
 from rebsync.reverse.nodes.node_units import Start, Unit
 from rebsync.reverse.syntax.cpp_calls import calls_in
@@ -51,6 +52,7 @@ def first_functions(code: Code, unit: Unit, starts: Sequence[Start]) -> list[Cpp
     """The functions that run before a unit's node serves messages; `starts` are those of it."""
     found: dict[int, CppFunction] = {}
     waiting = list(_roots(unit, starts))
+    with_bodies = {f.name for f in unit.functions if f.body is not None}
     callbacks = {
         c.function.node.id
         for f in unit.facts
@@ -62,7 +64,7 @@ def first_functions(code: Code, unit: Unit, starts: Sequence[Start]) -> list[Cpp
         if function.node.id in found or function.node.id in callbacks:
             continue
         found[function.node.id] = function
-        names = code.names_called(function)
+        names = called_by(code, function, with_bodies)
         waiting += [f for f in unit.functions if f.name in names and f.body is not None]
     return list(found.values())
 

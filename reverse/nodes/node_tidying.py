@@ -20,15 +20,8 @@ _MOST_ROUNDS = 6
 
 def tidy(body: m.Block, variables: Collection[str] = ()) -> m.Block:
     """The same body, shorter; `variables` are those of the class, which stay."""
-    for _ in range(_MOST_ROUNDS):
-        read = _read(body)
-        locals_ = {
-            d.name
-            for n in m.walk(body)
-            if isinstance(n, m.Local)
-            for d in n.declaration.declarators
-        }
-        unread = locals_ - set(read) - set(variables)
+    for _ in range(_MOST_ROUNDS if body.statements else 0):
+        unread = _unread(body).difference(variables)
 
         def change(node: object, unread: set[str] = unread) -> object:
             match node:
@@ -46,18 +39,21 @@ def tidy(body: m.Block, variables: Collection[str] = ()) -> m.Block:
     return body
 
 
-def _read(body: m.Block) -> Counter[str]:
-    """How often each name is read: what is only assigned, and may go with its value, is not."""
+def _unread(body: m.Block) -> set[str]:
+    """The locals that nobody reads: what is only assigned, and may go with its value, is not."""
     names: Counter[str] = Counter()
+    locals_: set[str] = set()
     for node in m.walk(body):
         match node:
             case m.Name(name):
                 names[name] += 1
             case m.ExpressionStatement(m.Assign("=", m.Name(name), value)) if is_calm(value):
                 names[name] -= 1
+            case m.Local(declaration):
+                locals_.update(d.name for d in declaration.declarators)
             case m.Annotation(_, arguments) if arguments:
                 names.update(n.name for a in arguments for n in m.walk(a) if isinstance(n, m.Name))
-    return +names
+    return {name for name in locals_ if names[name] <= 0}
 
 
 def _tidied(statements: Sequence[m.Statement], unread: set[str]) -> tuple[m.Statement, ...]:
@@ -113,7 +109,7 @@ def without_values(body: m.Block) -> m.Block:
             case _:
                 return node
 
-    return rewritten(body, change, STATEMENTS)
+    return rewritten(body, change, STATEMENTS) if body.statements else body
 
 
 def _expression(initial: m.Initializer) -> m.Expression:
