@@ -13,6 +13,7 @@ from rebsync.reverse.calls.ros_calls_facts import Facts
 from rebsync.reverse.calls.ros_calls_shapes import TEMPLATES, Asked, called_as, objects_of, types_of
 from rebsync.reverse.calls.ros_calls_sites import owner_of, site_of
 from rebsync.reverse.graph import Fact, Graph
+from rebsync.reverse.rclcpp_vocabulary import NODE_CLASSES, TIMERS
 from rebsync.reverse.rclcpp_vocabulary import words_in as words_of_ros2
 from rebsync.reverse.roscpp_vocabulary import (
     FILTER_SCOPES,
@@ -34,6 +35,9 @@ from rebsync.reverse.values.cpp_flow import climb
 from rebsync.reverse.values.cpp_values import Values
 from rebsync.reverse.values.cpp_values_ros2 import uses_rclcpp
 
+# Of these objects are made; the other words of the vocabulary are called.
+_CLASSES = frozenset({*RATES, *FILTERS, *NODE_CLASSES, *TIMERS})
+_BEHIND = (b"(", b"<", b"/", b"#", b"\\")
 _CALLED = frozenset({"template_method", "template_function", "dependent_name"})
 
 
@@ -86,10 +90,22 @@ def _calls_in(code: Code, values: Values, without: Collection[str]) -> Iterator[
     """The calls but for those in functions of some classes, or of that name."""
     ros2 = uses_rclcpp(values)
     for cpp in code.files:
-        for start, end, word in words_in(cpp.original, cpp.words):
-            yield from _at(values, cpp, (start, end, word), without, _asked)
-        for start, end, word in words_of_ros2(cpp.original, cpp.words) if ros2 else ():
-            yield from _at(values, cpp, (start, end, word), without, asked_of_ros2)
+        for found in words_in(cpp.original, cpp.words):
+            if found[2] in _CLASSES or _may_be_called(cpp.original, found[1]):
+                yield from _at(values, cpp, found, without, _asked)
+        for found in words_of_ros2(cpp.original, cpp.words) if ros2 else ():
+            if found[2] in _CLASSES or _may_be_called(cpp.original, found[1]):
+                yield from _at(values, cpp, found, without, asked_of_ros2)
+
+
+def _may_be_called(data: bytes, end: int) -> bool:
+    """Whether what stands behind a word may be the arguments of a call, or of its template.
+
+    What else may stand between them is taken for such: comments, and lines of the preprocessor.
+    """
+    while data[end : end + 1].isspace():
+        end += 1
+    return data[end : end + 1] in _BEHIND
 
 
 def _at(
@@ -104,7 +120,7 @@ def _at(
     place = cpp.root.descendant_for_byte_range(start, end)
     if place is None or place.start_byte != start or place.named_child_count:
         return
-    if owner_of(values, cpp, place) in without:
+    if owner_of(values.texts.function_around(cpp, place)) in without:
         return
     for asked in asked_by(values, cpp, place, word):
         if asked.site.owner not in without:
@@ -172,11 +188,10 @@ def _of_method(
     """What a method asks for, by the class of the object that it is called on."""
     given = tuple(named(part(call, "arguments")))
     type_ = values.types.type_of(cpp, target).rpartition("::")[2]
-    site = site_of(values, cpp, place, call)
     if type_ in FILTERS and name == "subscribe":
         variable = values.types.variable(cpp, target)
         types = types_of(variable.type) if variable is not None else ()
-        site = replace(site, kept=text_of(target))
+        site = replace(site_of(values, cpp, place, call), kept=text_of(target))
         yield Asked(FILTERS[type_], site, given, types)
         return
     ask = None
@@ -190,7 +205,7 @@ def _of_method(
     elif not type_ and _is_undeclared(values, cpp, target) and len(given) >= LEAST.get(name, 9):
         ask = HANDLE[name]
     if ask is not None:
-        yield Asked(ask, site, given, types_of(called), target)
+        yield Asked(ask, site_of(values, cpp, place, call), given, types_of(called), target)
 
 
 def _is_undeclared(values: Values, cpp: Cpp, target: Node) -> bool:

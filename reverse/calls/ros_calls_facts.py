@@ -33,7 +33,7 @@ from rebsync.reverse.graph import (
 from rebsync.reverse.roscpp_vocabulary import ANONYMOUS, OPTIONS, Kind
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 from rebsync.reverse.values.cpp_values import Values
-from rebsync.reverse.values.cpp_values_names import name_under, one_of, resolved
+from rebsync.reverse.values.cpp_values_names import is_plain, name_under, one_of, resolved
 from rebsync.reverse.values.cpp_values_numbers import converted
 from rebsync.reverse.values.cpp_values_plain import (
     Found,
@@ -207,6 +207,8 @@ class Facts:
     # --- numbers --------------------------------------------------------------------------------
 
     def _resolved(self, value: Value, given: Given) -> Resolved:
+        if is_plain(value):
+            return value
         unknown = self.values.unknown("no value that is known", given.node, given.frame)
         found = resolved(value, unknown)
         return found if found is not None else unknown
@@ -238,8 +240,9 @@ class Facts:
         return self._resolved(value, given)
 
     def _fallback(self, asked: Asked, given: Given) -> Resolved | None:
-        """What a variable holds before a parameter is read into it; nothing for a list."""
-        if len(asked.arguments) > 2 or self.values.types.is_list(given.frame.cpp, given.node):
+        """What a variable holds before a parameter is read into it; nothing for a list or map."""
+        types = self.values.types
+        if len(asked.arguments) > 2 or types.holds_several(given.frame.cpp, given.node):
             return None
         value = self.values.value(given.node, given.frame)
         return value if isinstance(value, (bool, int, float, str)) else None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from tree_sitter import Node
 
 from rebsync.reverse.graph import Site
+from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, part, text_of
 from rebsync.reverse.values.cpp_flow import FIXTURES
 from rebsync.reverse.values.cpp_flow_types import unscoped_member
@@ -17,12 +18,11 @@ _TESTS = FIXTURES | {"TEST"}
 def site_of(values: Values, cpp: Cpp, place: Node, call: Node) -> Site:
     """The site of a call whose function's name stands at a place."""
     function = values.texts.function_around(cpp, place)
-    return Site(owner_of(values, cpp, place), function, cpp, call, at(cpp, place), kept(call))
+    return Site(owner_of(function), function, cpp, call, at(cpp, place), kept(call))
 
 
-def owner_of(values: Values, cpp: Cpp, place: Node) -> str | None:
-    """The class whose function a place is in; the name of a function outside of classes."""
-    function = values.texts.function_around(cpp, place)
+def owner_of(function: CppFunction | None) -> str | None:
+    """The class that a function is of; its own name outside of classes."""
     owner = (function.owner or function.name) if function is not None else None
     return None if owner in _TESTS else owner  # there is no function of that name
 

@@ -121,6 +121,12 @@ def reaching(
         definition = one.definition
         if use is not None and not _before(one, at):
             continue
+        if not one.branches:
+            sure = use is None or one.at <= at
+            yield Reach(definition, sure)
+            if sure:
+                return
+            continue
         branches = [b for b in one.branches if not _within(at, b.own)]
         if use is not None and branches and _jumps(branches[-1]):
             continue
@@ -147,7 +153,7 @@ def _before(one: Located, at: int) -> bool:
     if one.start <= at < one.at and one.definition.how not in ("declared", "unknown"):
         return False
     if one.at <= at:
-        return not any(_exclusive(b, at) for b in one.branches)
+        return not one.branches or not any(_exclusive(b, at) for b in one.branches)
     return one.definition.how != "declared" and any(_within(at, loop) for loop in one.loops)
 
 

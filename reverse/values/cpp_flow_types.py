@@ -128,10 +128,10 @@ class Types:
         best = max(found, key=lambda f: (nearness(f.cpp, cpp), f.value is not None))
         return Variable("global", name, best.cpp, best.node, best.type, field=best)
 
-    def is_list(self, cpp: Cpp, node: Node) -> bool:
-        """Whether an expression is the name of a variable that holds a list."""
+    def holds_several(self, cpp: Cpp, node: Node) -> bool:
+        """Whether an expression is the name of a variable that holds a list or a map."""
         variable = self.variable(cpp, node) if node.type == "identifier" else None
-        return variable is not None and is_list(variable)
+        return variable is not None and (is_list(variable) or _template_of(variable) in _MAPS)
 
     # --- types ----------------------------------------------------------------------------------
 
@@ -277,12 +277,17 @@ def is_list(variable: Variable) -> bool:
     above = variable.name.parent
     if above is not None and above.type == "array_declarator":
         return True
+    return _template_of(variable) in _LISTS
+
+
+def _template_of(variable: Variable) -> str:
+    """The name of the template that a variable is an object of; empty for what is of none."""
     type_ = variable.type
     while type_ is not None and type_.type == "qualified_identifier":
         type_ = part(type_, "name")
     if type_ is None or type_.type != "template_type":
-        return False
-    return text_of(part(type_, "name")) in _LISTS
+        return ""
+    return text_of(part(type_, "name"))
 
 
 def _parameter(function: CppFunction, declaration: Node, scope: Node) -> tuple[str, int]:

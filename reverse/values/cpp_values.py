@@ -55,6 +55,8 @@ _KNOWN = {
     "INT32_MAX": 2147483647,
 }
 _NONE = frozenset({"NULL", "nullptr"})
+# Their values are not kept: to find them takes no longer.
+_LITERALS = frozenset({"string_literal", "true", "false", "null"})
 
 
 @dataclass(slots=True)
@@ -175,6 +177,8 @@ class Values:
             return self._memo[key][0]
         if len(self._active) > _DEEPEST or self._steps > _STEPS:
             return self.unknown("too far to follow", node, frame)
+        if node.type in _LITERALS:
+            return self._value(node, frame)
         self._active.add(key)
         before = self.cuts
         try:

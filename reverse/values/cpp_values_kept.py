@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
-from rebsync.reverse.graph import FromParameter
+from rebsync.reverse.graph import FromParameter, OneOf
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.reverse.values.cpp_flow_definitions import Definition
 from rebsync.reverse.values.cpp_flow_types import Variable
@@ -14,6 +15,7 @@ from rebsync.reverse.values.cpp_values_names import name_under, resolved
 from rebsync.reverse.values.cpp_values_numbers import converted
 from rebsync.reverse.values.cpp_values_plain import (
     MOST,
+    Choice,
     Found,
     Frame,
     Handle,
@@ -50,6 +52,12 @@ def listed(values: Values, type_: str, definition: Definition, frame: Frame) -> 
 
 def with_default(value: Value, default: Value) -> Value:
     """The value of a parameter with what the code puts in its place where it is not set."""
+    if isinstance(default, Nothing) and not isinstance(value, (Choice, OneOf)):
+        return value
+    return each(partial(_with_default, default=default), value)
+
+
+def _with_default(value: Value, default: Value) -> Value:
     match default:
         case Nothing():
             return value

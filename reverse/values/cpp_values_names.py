@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import TypeGuard
 
 from rebsync.reverse.graph import FromParameter, OneOf, Resolved, Under, Unresolved
 from rebsync.reverse.values.cpp_values_plain import (
@@ -23,6 +24,8 @@ from rebsync.reverse.values.cpp_values_plain import (
 
 def resolved(value: Value, unknown: Unresolved) -> Resolved | None:
     """A value as one of the graph: None for nothing, `unknown` for what is no such value."""
+    if is_plain(value):
+        return value
     found: list[Resolved] = []
     for way in ways(value):
         match way:
@@ -43,6 +46,13 @@ def resolved(value: Value, unknown: Unresolved) -> Resolved | None:
             case _:
                 found.append(way)
     return one_of(found)
+
+
+def is_plain(value: Value) -> TypeGuard[bool | int | float | str]:
+    """Whether a value is as it is one of the graph, on which nothing else depends."""
+    if isinstance(value, str):
+        return OWN_NAME not in value
+    return isinstance(value, (bool, int, float))
 
 
 def _own(text: str, unknown: Unresolved) -> Resolved:
@@ -66,6 +76,8 @@ def one_of(values: Iterable[Resolved]) -> Resolved | None:
     given = list(values)
     if len(given) == 1 and not isinstance(given[0], OneOf):
         return given[0]
+    if not given:
+        return None
     for value in given:
         for way in value.values if isinstance(value, OneOf) else (value,):
             if not any(same(way, f) for f in found):

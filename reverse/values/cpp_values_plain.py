@@ -11,7 +11,7 @@ from typing import TypeAlias
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.graph import FromParameter, OneOf, Place, Resolved
+from rebsync.reverse.graph import FromParameter, OneOf, Place, Resolved, Unresolved
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp
 
@@ -146,6 +146,8 @@ Value: TypeAlias = (
 
 
 _HASHED = (bool, int, float, str)
+# Values that have no parts.
+_SMALL = frozenset({bool, float, Nothing, Unresolved, Function, Made})
 
 
 def ways(value: Value) -> Iterator[Value]:
@@ -209,6 +211,8 @@ def is_large(value: Value) -> bool:
     Values share their parts, so that each variable of a row can be twice as large as the one
     before, at no cost but to those who look at the parts.
     """
+    if type(value) in _SMALL:
+        return False
     waiting: list[Value | None] = [value]
     for _ in range(_MOST_PARTS):
         if not waiting:
@@ -222,10 +226,12 @@ def is_large(value: Value) -> bool:
                 waiting += (name, default)
             case Length(part) | Quality(part) | Handle(part) | Found(part):
                 waiting.append(part)
-            case str() as text if len(text) > _LONGEST_TEXT:
-                return True
-            case int() as number if abs(number) > _LARGEST_NUMBER:
-                return True
+            case str() as text:
+                if len(text) > _LONGEST_TEXT:
+                    return True
+            case int() as number:
+                if abs(number) > _LARGEST_NUMBER:
+                    return True
             case tuple() as listed:
                 waiting += [v for v in listed if isinstance(v, tuple)]
             case _:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import field
-from functools import partial
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
@@ -160,7 +159,7 @@ class Variables:
             if reach.unset:
                 stands_in = value
                 continue
-            found.append(each(partial(with_default, default=stands_in), value))
+            found.append(with_default(value, stands_in))
             stands_in = Nothing()
             if reach.sure:
                 return found, True

@@ -65,3 +65,9 @@ def test_calls_belong_to_classes_or_functions(text: str, owner: str | None) -> N
 def test_the_place_is_the_name_of_the_called_function() -> None:
     place = _fact("void f(ros::NodeHandle n) {\n  n.\n\n  advertise<A::B>(\n'x', 1);\n}").site.place
     assert (place.line, place.source.slice(place.span)) == (4, "advertise")
+
+
+@pytest.mark.parametrize("between", ["", " ", "\n\t", "/* of */", " // of\n", "\\\n"])
+def test_what_may_stand_between_a_name_and_its_arguments(between: str) -> None:
+    call = f'n.advertise{between}<std_msgs::Bool>("x", 1)'
+    assert _fact(f"void f(ros::NodeHandle n) {{ {call}; }}").site.owner == "f"
