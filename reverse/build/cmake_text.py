@@ -124,9 +124,10 @@ def _command(text: str, start: int) -> Command:
 
 
 def _argument(text: str, at: int) -> Argument:
-    if match := _BRACKET.match(text, at):
+    first = text[at]
+    if first == "[" and (match := _BRACKET.match(text, at)):
         return Argument(match[2], Quote.BRACKET, Span(at, match.end()))
-    if match := _QUOTED.match(text, at):
+    if first == '"' and (match := _QUOTED.match(text, at)):
         return Argument(match[1], Quote.DOUBLE, Span(at, match.end()))
     if match := _UNQUOTED.match(text, at):
         return Argument(match[0], Quote.NONE, Span(at, match.end()))

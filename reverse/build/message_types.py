@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field
+from functools import cache
 
 from rebsync.model import Type
 from rebsync.records import dataclass
@@ -69,8 +70,7 @@ class MessageTypes:
     def has_field(self, name: str) -> bool:
         """Whether a type of the package, or one that comes with ROS, has a field of this name."""
         own = (field for fields in self.own.values() for field, _, _ in fields)
-        common = (part.partition(" ")[0] for text in COMMON.values() for part in text.split(", "))
-        return name in own or name in common
+        return name in own or name in _common_names()
 
     def fields(self, type_: str) -> Fields | None:
         """The fields of a type by their paths, inner ones too; None for a type that is not known.
@@ -113,7 +113,8 @@ class MessageTypes:
         if package:
             full = f"{package}/{name}"
             return full if self._declared(full) is not None else None
-        same = [t for t in (*self.own, *COMMON) if t.partition("/")[2] == name]
+        same = [t for t in self.own if t.partition("/")[2] == name]
+        same += _common_types().get(name, ())
         return same[0] if len(same) == 1 else None
 
     def _declared(self, type_: str) -> list[tuple[str, str, int | None]] | None:
@@ -136,6 +137,22 @@ class MessageTypes:
                 yield from self._flat(inner, f"{at}.", whole, depth + 1)
             else:
                 yield at, None
+
+
+@cache
+def _common_types() -> dict[str, list[str]]:
+    """By their own names the types that come with ROS."""
+    found: dict[str, list[str]] = {}
+    for type_ in COMMON:
+        found.setdefault(type_.partition("/")[2], []).append(type_)
+    return found
+
+
+@cache
+def _common_names() -> frozenset[str]:
+    """The names of all fields of types that come with ROS."""
+    fields = (field for text in COMMON.values() for field in text.split(", "))
+    return frozenset(field.partition(" ")[0] for field in fields)
 
 
 def _field(text: str) -> tuple[str, str, int | None]:

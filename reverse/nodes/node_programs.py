@@ -56,9 +56,10 @@ class Made:
 
 def programs(code: Code, files: Mapping[str, Source]) -> tuple[Program, ...]:
     """The executables that the package makes, or what has a `main` where no CMake says so."""
-    build = _build(files)
+    mains = code.definitions.get(("", "main"), [])
+    build = _build(files) if mains else None
     found = []
-    for main in code.definitions.get(("", "main"), []):
+    for main in mains:
         path = main.cpp.source.path
         inside = next((p for p, s in files.items() if s is main.cpp.source), path)
         targets = [] if build is None else _targets(build, inside)
@@ -112,6 +113,8 @@ class Objects:
 
     def made_by(self, program: Program) -> list[Made]:
         """The objects that `main` makes, and those that functions and classes it uses make."""
+        if not self.wanted:
+            return []
         self._seen = set()
         found = list(self._in(program.main, True))
         for (owner, name), functions in self.code.definitions.items():

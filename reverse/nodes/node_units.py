@@ -5,6 +5,7 @@ A class counts with all that it inherits; a program stands for its functions out
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Hashable, Iterator, Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
@@ -215,12 +216,17 @@ class Units:
     def _of_class(self, name: str) -> Unit:
         lineage = tuple(self.code.lineage(name))
         names = {c.name for c in lineage}
+        defined = [
+            function
+            for above in lineage
+            for function in self.code.functions_of(above)
+            if function.body is not None or function.initialisers is not None
+        ]
+        same = Counter(f.name for f in defined)
         functions: dict[tuple[str, tuple[str, ...]], CppFunction] = {}
-        for above in lineage:
-            for function in self.code.functions_of(above):
-                key = function.name, function.types
-                if function.body is not None or function.initialisers is not None:
-                    functions.setdefault(key, function)
+        for function in defined:
+            key = function.name, function.types if same[function.name] > 1 else ()
+            functions.setdefault(key, function)
         numbered = [pair for n in names for pair in self._facts_of(n)]
         facts = tuple(f for _, f in sorted(numbered, key=itemgetter(0)))
         return Unit(name, lineage[0], lineage, tuple(functions.values()), facts, self.code)

@@ -11,7 +11,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, name_called
-from rebsync.reverse.syntax.cpp_tree import Cpp, by_types, in_text_order
+from rebsync.reverse.syntax.cpp_tree import Cpp, by_types, in_text_order, inside
 from rebsync.reverse.syntax.cpp_words import places_of
 
 # The types of nodes that are looked for.
@@ -22,6 +22,7 @@ SOUGHT = (
 # The first character is one of three: so most of a text is passed over quickly.
 _HANDED = re.compile(r"[.>&](?:(?:(?<=\.)|(?<=->))\s*(\w+)\s*\(|(?<=&)\s*(?:\w+::)*(\w+))")
 _NAMES = frozenset({"identifier", "type_identifier", "field_identifier"})
+_FEW = 300  # nodes, which are gone through sooner than a file is searched
 _MANY = 3000  # nodes of a body, in which finding what is at a place takes its time
 
 
@@ -41,11 +42,13 @@ class Searches:
     def inside(self, cpp: Cpp, node: Node | None, *types: str) -> list[Node]:
         """The nodes of some types in a node of a file, outer ones first, in the text's order.
 
-        A file is searched once for them all: with many functions that is much quicker. The types
-        are some of `SOUGHT`.
+        A file is searched once for them all, unless it is little that is asked for. The types are
+        some of `SOUGHT`.
         """
         if node is None:
             return []
+        if id(cpp) not in self._nodes and node.descendant_count < _FEW:
+            return inside(node, *types)
         key = id(cpp), types
         if key not in self._sorted:
             if id(cpp) not in self._nodes:
