@@ -98,6 +98,8 @@ def read_cmake(source: Source) -> CMakeText:
 
 
 def _skip(text: str, at: int) -> int:
+    if at < len(text) and text[at] != "#" and not text[at].isspace():
+        return at
     match = _SPACE.match(text, at)
     return match.end() if match else at
 

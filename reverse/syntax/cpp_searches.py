@@ -22,8 +22,8 @@ SOUGHT = (
 # The first character is one of three: so most of a text is passed over quickly.
 _HANDED = re.compile(r"[.>&](?:(?:(?<=\.)|(?<=->))\s*(\w+)\s*\(|(?<=&)\s*(?:\w+::)*(\w+))")
 _NAMES = frozenset({"identifier", "type_identifier", "field_identifier"})
-_FEW = 300  # nodes, which are gone through sooner than a file is searched
-_MANY = 3000  # nodes of a body, in which finding what is at a place takes its time
+# Nodes of a body, from which on a search of its file for good is quicker than looking through it.
+_MANY = 3000
 
 
 @dataclass(slots=True)
@@ -47,7 +47,7 @@ class Searches:
         """
         if node is None:
             return []
-        if id(cpp) not in self._nodes and node.descendant_count < _FEW:
+        if id(cpp) not in self._nodes and node.descendant_count <= _MANY:
             return inside(node, *types)
         key = id(cpp), types
         if key not in self._sorted:
@@ -66,7 +66,11 @@ class Searches:
         found: list[Node] = []
         start, end = node.start_byte, node.end_byte
         for name in names:
-            if name.encode() in cpp.words:
+            word = name.encode()
+            if word not in cpp.words:
+                continue
+            # Most names of a file are not in one body, and then not asked for in others either.
+            if (id(cpp), name) in self._words or cpp.original.find(word, start, end) >= 0:
                 starts, nodes = self._named(cpp, name)
                 found += nodes[bisect_left(starts, start) : bisect_left(starts, end)]
         return in_text_order(found) if len(names) > 1 else found
