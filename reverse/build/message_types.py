@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field
 from functools import cache
+from itertools import chain
 
 from rebsync.model import Type
 from rebsync.records import dataclass
@@ -27,6 +28,7 @@ _WIDTHS = {"bool": 8, "uint8": 8, "uint16": 16, "uint32": 32, "int64": 63, "uint
 _DEEPEST = 8
 # The namespace of messages in ROS 2: `std_msgs::msg::String`.
 _SPACE = re.compile(r"::(?:msg|srv|action)::(?=\w+\Z)")
+_SHARED = re.compile(r"(?:boost|std)::shared_ptr<(.*)>")
 _POINTERS = re.compile(r"(::)?(Const)?(Shared|Unique|Weak)?Ptr$")
 _MESSAGE = re.compile(r"/?msg/([^/]+)\.msg\Z")
 
@@ -46,6 +48,8 @@ class MessageTypes:
     widths: dict[str, dict[str, int]] = field(default_factory=dict)
     _constants: dict[str, int] = field(default_factory=dict)
     _fields: dict[str, Fields] = field(default_factory=dict)
+    # The types by texts of C++ that were asked for.
+    _named: dict[str, str | None] = field(default_factory=dict)
 
     @staticmethod
     def of(files: Mapping[str, Source], package: str) -> MessageTypes:
@@ -98,13 +102,20 @@ class MessageTypes:
 
     def mentioned(self, files: Iterable[Cpp]) -> set[str]:
         """The types that some code may use: of each the name stands in it."""
-        words = frozenset[bytes]().union(*(cpp.words for cpp in files))
-        return {t for t in (*self.own, *COMMON) if t.partition("/")[2].encode() in words}
+        types = (*self.own, *COMMON)
+        names = frozenset(t.partition("/")[2].encode() for t in types)
+        used = names.intersection(chain.from_iterable(names & cpp.words for cpp in files))
+        return {t for t in types if t.partition("/")[2].encode() in used}
 
     def named(self, text: str) -> str | None:
         """The message type of a type of C++: `const std_msgs::Int32::ConstPtr&` is one."""
+        if text not in self._named:
+            self._named[text] = self._type_named(text)
+        return self._named[text]
+
+    def _type_named(self, text: str) -> str | None:
         plain = "".join(text.replace("const ", "").split()).rstrip("&*").removeprefix("::")
-        inner = re.fullmatch(r"(?:boost|std)::shared_ptr<(.*)>", plain)
+        inner = _SHARED.fullmatch(plain)
         if inner is not None:
             return self.named(inner[1].removesuffix("const"))
         plain = _POINTERS.sub("", plain).removesuffix("_<std::allocator<void>>")

@@ -123,10 +123,10 @@ class Objects:
                     if function.cpp.source.path in program.sources:
                         found += self._in(function, False)
         for name, variables in self.code.variables.items():
-            for variable in variables:
+            for variable in (v for v in variables if program.has(v.cpp)):
                 plain = variable.node.child_by_field_name("declarator")
                 pointer = plain is None or "*" in text_of(plain) or not _is_plain(variable.type)
-                if program.has(variable.cpp) and not pointer:
+                if not pointer:
                     found += [
                         Made(n, None, name, ()) for n in _types(variable.type) if n in self.wanted
                     ]

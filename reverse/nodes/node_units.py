@@ -127,6 +127,8 @@ class Units:
     _here: list[Fact] | None = None
     # By the names of classes, each fact with its number in the order of all.
     _by_class: dict[str, list[tuple[int, Fact]]] | None = None
+    # By the paths of files, each with its number in the order of all.
+    _free: dict[str, list[tuple[int, CppFunction]]] | None = None
 
     def all(self) -> tuple[list[Unit], list[Start]]:
         """All units, in the order of the code, and all objects of them that programs make."""
@@ -253,19 +255,26 @@ class Units:
 
     def of_program(self, program: Program) -> Unit:
         """What a program does outside of classes."""
-        functions = [
-            f
-            for (owner, _), all_of in self.code.definitions.items()
-            if not owner
-            for f in all_of
-            if f.cpp.source.path in program.sources and f.body is not None
-        ]
+        free = self._free_by_path()
+        numbered = [pair for path in program.sources for pair in free.get(path, ())]
+        functions = [f for _, f in sorted(numbered, key=itemgetter(0))]
         facts = [
             f
             for f in self.facts.of_files(program.sources)
             if self.owner_of(f) is None and f.site.owner not in self.code.classes
         ]
         return Unit(program.name, None, (), tuple(functions), tuple(facts), self.code, program)
+
+    def _free_by_path(self) -> dict[str, list[tuple[int, CppFunction]]]:
+        """The functions outside of classes that have bodies."""
+        if self._free is None:
+            self._free = {}
+            defined = self.code.definitions.items()
+            functions = (f for (owner, _), all_of in defined if not owner for f in all_of)
+            for number, function in enumerate(f for f in functions if f.body is not None):
+                path = function.cpp.source.path
+                self._free.setdefault(path, []).append((number, function))
+        return self._free
 
 
 def _connects(fact: Fact) -> bool:
