@@ -12,7 +12,7 @@ from rebsync import model as m
 from rebsync.diagnostics import Findings
 from rebsync.printing import print_model
 from rebsync.records import dataclass
-from rebsync.reverse.build.manifests import read_manifest
+from rebsync.reverse.build.manifests import name_in
 from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.files.python_files import is_python
 from rebsync.reverse.files.reading import Chosen
@@ -90,7 +90,7 @@ def package_json(given: Chosen, extracted: Extracted) -> str:
 def _package(given: Chosen) -> str | None:
     """The name that the manifest of a package gives it."""
     manifest = given.files.get("package.xml")
-    return read_manifest(manifest).name if manifest is not None else None
+    return name_in(manifest) if manifest is not None else None
 
 
 def _model(extracted: Extracted) -> str | None:

@@ -16,7 +16,7 @@ from rebsync.reserved import RESERVED_GLOBALS
 from rebsync.reverse.bodies.cpp_types import class_name, type_of
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.bodies.written import annotation
-from rebsync.reverse.build.manifests import read_manifest
+from rebsync.reverse.build.manifests import name_in
 from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.files.python_files import SETUP, is_python
@@ -184,7 +184,7 @@ def _main(generated: _System, nodes: Nodes, is_part: bool) -> m.Main | None:
 
 def _package(files: Mapping[str, Source]) -> str:
     """The name of the package, empty where no manifest says it."""
-    return read_manifest(files[_MANIFEST]).name or "" if _MANIFEST in files else ""
+    return name_in(files[_MANIFEST]) or "" if _MANIFEST in files else ""
 
 
 def _classes_in(code: Code, path: str) -> set[str]:

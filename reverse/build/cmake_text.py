@@ -98,6 +98,8 @@ def read_cmake(source: Source) -> CMakeText:
 
 
 def _skip(text: str, at: int) -> int:
+    if at < len(text) and text[at] != "#" and not text[at].isspace():
+        return at
     match = _SPACE.match(text, at)
     return match.end() if match else at
 
@@ -124,9 +126,10 @@ def _command(text: str, start: int) -> Command:
 
 
 def _argument(text: str, at: int) -> Argument:
-    if match := _BRACKET.match(text, at):
+    first = text[at]
+    if first == "[" and (match := _BRACKET.match(text, at)):
         return Argument(match[2], Quote.BRACKET, Span(at, match.end()))
-    if match := _QUOTED.match(text, at):
+    if first == '"' and (match := _QUOTED.match(text, at)):
         return Argument(match[1], Quote.DOUBLE, Span(at, match.end()))
     if match := _UNQUOTED.match(text, at):
         return Argument(match[0], Quote.NONE, Span(at, match.end()))

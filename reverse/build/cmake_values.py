@@ -19,6 +19,7 @@ _LONGEST = 1 << 16
 _MOST_WORDS = 10_000
 _REFERENCE = re.compile(r"\$(ENV|CACHE)?\{([^${}]*)\}")
 _ESCAPE = re.compile(r"\\(.)", re.DOTALL)
+_WORKED_OUT = frozenset("$;\\")  # what stands for something else, or splits words
 _ESCAPED = {"n": "\n", "t": "\t", "r": "\r"}
 _ROOTS = frozenset(
     {
@@ -75,6 +76,9 @@ class Variables:
         """The arguments with variables replaced, and lists split into their words."""
         found: list[Text] = []
         for argument in arguments:
+            if argument.text and _WORKED_OUT.isdisjoint(argument.text):
+                found.append(argument.text)
+                continue
             whole = _REFERENCE.fullmatch(argument.text)
             if argument.quote is not Quote.NONE:
                 found.append(self.text(argument))

@@ -6,7 +6,7 @@ from functools import lru_cache
 
 from rebsync.package import Maintainer
 from rebsync.records import dataclass
-from rebsync.reverse.launch.xml_tree import Element, read_xml
+from rebsync.reverse.launch.xml_tree import Element, read_xml, text_below
 from rebsync.reverse.unknowns import Unknown
 from rebsync.source import Source, Span
 
@@ -39,7 +39,6 @@ class Manifest:
     span: Span
 
 
-@lru_cache(maxsize=4)  # several ask for that of a package while it is read
 def read_manifest(source: Source) -> Manifest:
     """What a package.xml says."""
     root = read_xml(source)
@@ -75,6 +74,13 @@ def read_manifest(source: Source) -> Manifest:
         source=source,
         span=root.span,
     )
+
+
+@lru_cache(maxsize=4)  # several ask for that of a package while it is read
+def name_in(source: Source) -> str | None:
+    """The name alone that a package.xml says, in a fraction of the time of all of it."""
+    text = text_below(source, "name")
+    return " ".join(text.split()) or None if text is not None else read_manifest(source).name
 
 
 def _only(texts: dict[str, list[str]], name: str) -> str | None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field
+from functools import cache
+from itertools import chain
 
 from rebsync.model import Type
 from rebsync.records import dataclass
@@ -26,6 +28,7 @@ _WIDTHS = {"bool": 8, "uint8": 8, "uint16": 16, "uint32": 32, "int64": 63, "uint
 _DEEPEST = 8
 # The namespace of messages in ROS 2: `std_msgs::msg::String`.
 _SPACE = re.compile(r"::(?:msg|srv|action)::(?=\w+\Z)")
+_SHARED = re.compile(r"(?:boost|std)::shared_ptr<(.*)>")
 _POINTERS = re.compile(r"(::)?(Const)?(Shared|Unique|Weak)?Ptr$")
 _MESSAGE = re.compile(r"/?msg/([^/]+)\.msg\Z")
 
@@ -45,6 +48,8 @@ class MessageTypes:
     widths: dict[str, dict[str, int]] = field(default_factory=dict)
     _constants: dict[str, int] = field(default_factory=dict)
     _fields: dict[str, Fields] = field(default_factory=dict)
+    # The types by texts of C++ that were asked for.
+    _named: dict[str, str | None] = field(default_factory=dict)
 
     @staticmethod
     def of(files: Mapping[str, Source], package: str) -> MessageTypes:
@@ -69,8 +74,7 @@ class MessageTypes:
     def has_field(self, name: str) -> bool:
         """Whether a type of the package, or one that comes with ROS, has a field of this name."""
         own = (field for fields in self.own.values() for field, _, _ in fields)
-        common = (part.partition(" ")[0] for text in COMMON.values() for part in text.split(", "))
-        return name in own or name in common
+        return name in own or name in _common_names()
 
     def fields(self, type_: str) -> Fields | None:
         """The fields of a type by their paths, inner ones too; None for a type that is not known.
@@ -98,13 +102,20 @@ class MessageTypes:
 
     def mentioned(self, files: Iterable[Cpp]) -> set[str]:
         """The types that some code may use: of each the name stands in it."""
-        words = frozenset[bytes]().union(*(cpp.words for cpp in files))
-        return {t for t in (*self.own, *COMMON) if t.partition("/")[2].encode() in words}
+        types = (*self.own, *COMMON)
+        names = frozenset(t.partition("/")[2].encode() for t in types)
+        used = names.intersection(chain.from_iterable(names & cpp.words for cpp in files))
+        return {t for t in types if t.partition("/")[2].encode() in used}
 
     def named(self, text: str) -> str | None:
         """The message type of a type of C++: `const std_msgs::Int32::ConstPtr&` is one."""
+        if text not in self._named:
+            self._named[text] = self._type_named(text)
+        return self._named[text]
+
+    def _type_named(self, text: str) -> str | None:
         plain = "".join(text.replace("const ", "").split()).rstrip("&*").removeprefix("::")
-        inner = re.fullmatch(r"(?:boost|std)::shared_ptr<(.*)>", plain)
+        inner = _SHARED.fullmatch(plain)
         if inner is not None:
             return self.named(inner[1].removesuffix("const"))
         plain = _POINTERS.sub("", plain).removesuffix("_<std::allocator<void>>")
@@ -113,7 +124,8 @@ class MessageTypes:
         if package:
             full = f"{package}/{name}"
             return full if self._declared(full) is not None else None
-        same = [t for t in (*self.own, *COMMON) if t.partition("/")[2] == name]
+        same = [t for t in self.own if t.partition("/")[2] == name]
+        same += _common_types().get(name, ())
         return same[0] if len(same) == 1 else None
 
     def _declared(self, type_: str) -> list[tuple[str, str, int | None]] | None:
@@ -136,6 +148,22 @@ class MessageTypes:
                 yield from self._flat(inner, f"{at}.", whole, depth + 1)
             else:
                 yield at, None
+
+
+@cache
+def _common_types() -> dict[str, list[str]]:
+    """By their own names the types that come with ROS."""
+    found: dict[str, list[str]] = {}
+    for type_ in COMMON:
+        found.setdefault(type_.partition("/")[2], []).append(type_)
+    return found
+
+
+@cache
+def _common_names() -> frozenset[str]:
+    """The names of all fields of types that come with ROS."""
+    fields = (field for text in COMMON.values() for field in text.split(", "))
+    return frozenset(field.partition(" ")[0] for field in fields)
 
 
 def _field(text: str) -> tuple[str, str, int | None]:

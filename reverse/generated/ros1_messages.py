@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from rebsync.model import Type
 from rebsync.reserved import RUNTIME_FIELDS
-from rebsync.reverse.build.manifests import read_manifest
+from rebsync.reverse.build.manifests import name_in
 from rebsync.reverse.build.messages import MessageField, plain_type, read_message
 from rebsync.source import Source
 
@@ -27,7 +27,7 @@ def own_messages(files: Mapping[str, Source]) -> dict[str, dict[str, Type | None
     """
     declared = {path: s for path, s in sorted(files.items()) if path.endswith(".msg")}
     manifest = files.get("package.xml") if declared else None
-    package = read_manifest(manifest).name if manifest is not None else None
+    package = name_in(manifest) if manifest is not None else None
     found = {}
     for path, source in declared.items():
         name = path.rpartition("/")[2].removesuffix(".msg")

@@ -17,6 +17,7 @@ from rebsync.reverse.unknowns import Unknown
 from rebsync.source import Source, Span
 
 _DEEPEST = 60
+_BELOW = 2  # how deep a tag is that stands directly below the root
 _TAG = re.compile(r"<(?:[^\"'>]|\"[^\"]*\"|'[^']*')*>")
 _ATTRIBUTE = re.compile(r"([^\s=/\"'<>]+)\s*=\s*(?:\"([^\"]*)\"|'([^']*)')")
 
@@ -120,6 +121,19 @@ def read_xml(source: Source) -> Element | Unknown:
     return Unknown("the XML of the file", why, source, Span(start, end))
 
 
+def text_below(source: Source, name: str) -> str | None:
+    """The text of the first tag of a name directly below the root; empty where no XML is read.
+
+    It is what `read_xml` would say, without the tree; None where there are tags in the text.
+    """
+    finder = _Finder(name)
+    try:
+        finder.parser.Parse(source.text.encode("utf-8", "surrogatepass"), True)
+    except (expat.ExpatError, _Refused):
+        return ""
+    return "".join(finder.texts) if not finder.has_tags else None
+
+
 class _Builder:
     def __init__(self, source: Source) -> None:
         self.root: Element | None = None
@@ -131,8 +145,7 @@ class _Builder:
         self.parser.EndElementHandler = self._end
         self.parser.CharacterDataHandler = self._text
         self.parser.CommentHandler = self._comment
-        self.parser.EntityDeclHandler = self._refuse("the declaration of an entity is not read")
-        self.parser.SkippedEntityHandler = self._refuse("the entity is not declared in the file")
+        _refuse_entities(self.parser)
 
     def offset(self, byte: int) -> int:
         """The offset in characters of an offset in bytes."""
@@ -173,11 +186,47 @@ class _Builder:
             span = Span(start, start + len(text) + len("<!---->"))
             self._open[-1].children.append(Comment(text, span))
 
-    def _refuse(self, why: str) -> Callable[..., None]:
-        def handler(*_: object) -> None:
-            raise _Refused(why)
 
-        return handler
+class _Finder:
+    """Collects the text of one tag."""
+
+    def __init__(self, name: str) -> None:
+        self.texts: list[str] = []
+        self._name = name
+        self._depth = 0
+        self._inside = self._found = self.has_tags = False
+        self.parser = expat.ParserCreate("utf-8")
+        self.parser.StartElementHandler = self._start
+        self.parser.EndElementHandler = self._end
+        _refuse_entities(self.parser)
+
+    def _start(self, name: str, _: dict[str, str]) -> None:
+        if self._depth >= _DEEPEST:
+            raise _Refused(f"tags nested more than {_DEEPEST} deep are not read")
+        self._depth += 1
+        if self._depth == _BELOW and name == self._name and not self._found:
+            self._found = self._inside = True
+            self.parser.CharacterDataHandler = self.texts.append
+        elif self._inside:
+            self.has_tags = True
+
+    def _end(self, _: str) -> None:
+        if self._inside and self._depth == _BELOW:
+            self._inside = False
+            self.parser.CharacterDataHandler = None
+        self._depth -= 1
+
+
+def _refuse_entities(parser: expat.XMLParserType) -> None:
+    parser.EntityDeclHandler = _refusal("the declaration of an entity is not read")
+    parser.SkippedEntityHandler = _refusal("the entity is not declared in the file")
+
+
+def _refusal(why: str) -> Callable[..., None]:
+    def handler(*_: object) -> None:
+        raise _Refused(why)
+
+    return handler
 
 
 def _byte_offsets(text: str) -> list[int] | None:

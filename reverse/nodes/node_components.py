@@ -19,7 +19,7 @@ _PROJECT = re.compile(r"\bproject\s*\(\s*(\w+)")
 def components(code: Code) -> list[str]:
     """The classes that are registered as components, in the order of the files."""
     word = COMPONENT.encode()
-    texts = (cpp.source.text for cpp in code.files if word in cpp.data)
+    texts = (cpp.source.text for cpp in code.files if word in cpp.words)
     names = (m[1].rpartition("::")[2] for text in texts for m in _COMPONENT.finditer(text))
     return [name for name in dict.fromkeys(names) if name in code.classes]
 

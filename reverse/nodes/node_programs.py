@@ -56,9 +56,10 @@ class Made:
 
 def programs(code: Code, files: Mapping[str, Source]) -> tuple[Program, ...]:
     """The executables that the package makes, or what has a `main` where no CMake says so."""
-    build = _build(files)
+    mains = code.definitions.get(("", "main"), [])
+    build = _build(files) if mains else None
     found = []
-    for main in code.definitions.get(("", "main"), []):
+    for main in mains:
         path = main.cpp.source.path
         inside = next((p for p, s in files.items() if s is main.cpp.source), path)
         targets = [] if build is None else _targets(build, inside)
@@ -112,6 +113,8 @@ class Objects:
 
     def made_by(self, program: Program) -> list[Made]:
         """The objects that `main` makes, and those that functions and classes it uses make."""
+        if not self.wanted:
+            return []
         self._seen = set()
         found = list(self._in(program.main, True))
         for (owner, name), functions in self.code.definitions.items():
@@ -120,10 +123,10 @@ class Objects:
                     if function.cpp.source.path in program.sources:
                         found += self._in(function, False)
         for name, variables in self.code.variables.items():
-            for variable in variables:
+            for variable in (v for v in variables if program.has(v.cpp)):
                 plain = variable.node.child_by_field_name("declarator")
                 pointer = plain is None or "*" in text_of(plain) or not _is_plain(variable.type)
-                if program.has(variable.cpp) and not pointer:
+                if not pointer:
                     found += [
                         Made(n, None, name, ()) for n in _types(variable.type) if n in self.wanted
                     ]

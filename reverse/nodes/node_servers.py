@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
@@ -14,7 +14,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.build.message_types import Fields, MessageTypes
 from rebsync.reverse.graph import Callback, Fact, ServiceFact, SubscriptionFact, TimerFact
 from rebsync.reverse.nodes.node_names import Names
-from rebsync.reverse.nodes.node_taken import declared
+from rebsync.reverse.nodes.node_taken import declared, uses
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.syntax.cpp_calls import calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
@@ -221,7 +221,7 @@ def _carried(
     code: Code, fields: Fields, message: str, body: tuple[Cpp, Node], taken: set[str]
 ) -> Iterator[Carried]:
     """The fields of the model's types that a body uses, in the order of the message."""
-    used = set(used_paths(fields, message, [body[1]]))
+    used = set(_used_paths(fields, uses(code, *body, message)))
     carried = [(path, type_) for path, type_ in fields.items() if path in used]
     names = Names.beside(declared(code, *body) | taken if carried else ())
     for path, type_ in carried:
@@ -229,33 +229,23 @@ def _carried(
             yield Carried(path, names.give(path.replace(".", "_")), type_)
 
 
-def used_paths(fields: Fields, variable: str, bodies: Sequence[Node]) -> Iterator[str]:
+def _used_paths(fields: Fields, uses: Iterable[Node]) -> Iterator[str]:
     """The paths of a variable's fields that are named; all where it is used as a whole."""
-    for body in bodies:
-        for node in _named(body, variable):
-            path = _path(node)
-            if path in fields:
-                yield path
-                continue
-            inner = f"{path}." if path else ""
-            for each, type_ in fields.items():
-                plain = type_ is not None and not type_.dimensions
-                counted = each.endswith("header.seq") or (not inner and _of_header(each))
-                if each.startswith(inner) and plain and not counted:
-                    yield each
+    for node in uses if fields else ():
+        path = _path(node)
+        if path in fields:
+            yield path
+            continue
+        inner = f"{path}." if path else ""
+        for each, type_ in fields.items():
+            plain = type_ is not None and not type_.dimensions
+            counted = each.endswith("header.seq") or (not inner and _of_header(each))
+            if each.startswith(inner) and plain and not counted:
+                yield each
 
 
 def _of_header(path: str) -> bool:
     return path.startswith(_HEADER) or f".{_HEADER}" in path
-
-
-def _named(body: Node, variable: str) -> Iterator[Node]:
-    waiting = [body]
-    while waiting:
-        node = waiting.pop()
-        if node.type in ("identifier", "field_identifier") and text_of(node) == variable:
-            yield node
-        waiting += node.named_children
 
 
 def _path(node: Node) -> str:

@@ -10,9 +10,10 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
-from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, text_of
 
 _DECLARING = ("declaration", "init_declarator", "for_range_loop", "parameter_declaration")
+_NAMES = ("identifier", "field_identifier")
 _WORD = re.compile(r"[A-Za-z_0-9]+\Z")
 
 
@@ -23,10 +24,11 @@ class Taken:
     code: Code
     functions: tuple[CppFunction, ...]
 
-    def __contains__(self, name: str) -> bool:
-        return name in self._outside or any(
-            declares(self.code, f.cpp, f.body, name) for f in self.functions if f.body is not None
-        )
+    def __contains__(self, name: object) -> bool:
+        if not isinstance(name, str) or name in self._outside:
+            return isinstance(name, str)
+        bodies = ((f.cpp, f.body) for f in self.functions if f.body is not None)
+        return any(declares(self.code, cpp, body, name) for cpp, body in bodies)
 
     @cached_property
     def _outside(self) -> frozenset[str]:
@@ -36,14 +38,18 @@ class Taken:
 
 def declares(code: Code, cpp: Cpp, body: Node, name: str) -> bool:
     """Whether a body declares a variable of a name: whether the name is among those `declared`."""
-    if not _WORD.match(name):
-        return name in declared(code, cpp, body)
-    return any(_is_declared(node, len(name)) for node in code.named(cpp, body, (name,)))
+    return any(map(_is_declared, uses(code, cpp, body, name)))
 
 
-def _is_declared(node: Node, length: int) -> bool:
-    """Whether a name, and not a part of a longer one, stands in the declarator of a declaration."""
-    if node.type != "identifier" or node.end_byte - node.start_byte != length:
+def uses(code: Code, cpp: Cpp, body: Node, name: str) -> Iterator[Node]:
+    """Where a name of a variable or field stands in a body."""
+    found = code.named(cpp, body, (name,)) if _WORD.match(name) else inside(body, *_NAMES)
+    yield from (node for node in found if node.type in _NAMES and cpp.text(node) == name)
+
+
+def _is_declared(node: Node) -> bool:
+    """Whether a name stands in the declarator of a declaration."""
+    if node.type != "identifier":
         return False
     at, around = node, node.parent
     while around is not None and around.type not in _DECLARING:

@@ -5,6 +5,7 @@ A class counts with all that it inherits; a program stands for its functions out
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Hashable, Iterator, Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
@@ -126,6 +127,8 @@ class Units:
     _here: list[Fact] | None = None
     # By the names of classes, each fact with its number in the order of all.
     _by_class: dict[str, list[tuple[int, Fact]]] | None = None
+    # By the paths of files, each with its number in the order of all.
+    _free: dict[str, list[tuple[int, CppFunction]]] | None = None
 
     def all(self) -> tuple[list[Unit], list[Start]]:
         """All units, in the order of the code, and all objects of them that programs make."""
@@ -215,12 +218,17 @@ class Units:
     def _of_class(self, name: str) -> Unit:
         lineage = tuple(self.code.lineage(name))
         names = {c.name for c in lineage}
+        defined = [
+            function
+            for above in lineage
+            for function in self.code.functions_of(above)
+            if function.body is not None or function.initialisers is not None
+        ]
+        same = Counter(f.name for f in defined)
         functions: dict[tuple[str, tuple[str, ...]], CppFunction] = {}
-        for above in lineage:
-            for function in self.code.functions_of(above):
-                key = function.name, function.types
-                if function.body is not None or function.initialisers is not None:
-                    functions.setdefault(key, function)
+        for function in defined:
+            key = function.name, function.types if same[function.name] > 1 else ()
+            functions.setdefault(key, function)
         numbered = [pair for n in names for pair in self._facts_of(n)]
         facts = tuple(f for _, f in sorted(numbered, key=itemgetter(0)))
         return Unit(name, lineage[0], lineage, tuple(functions.values()), facts, self.code)
@@ -247,19 +255,26 @@ class Units:
 
     def of_program(self, program: Program) -> Unit:
         """What a program does outside of classes."""
-        functions = [
-            f
-            for (owner, _), all_of in self.code.definitions.items()
-            if not owner
-            for f in all_of
-            if f.cpp.source.path in program.sources and f.body is not None
-        ]
+        free = self._free_by_path()
+        numbered = [pair for path in program.sources for pair in free.get(path, ())]
+        functions = [f for _, f in sorted(numbered, key=itemgetter(0))]
         facts = [
             f
             for f in self.facts.of_files(program.sources)
             if self.owner_of(f) is None and f.site.owner not in self.code.classes
         ]
         return Unit(program.name, None, (), tuple(functions), tuple(facts), self.code, program)
+
+    def _free_by_path(self) -> dict[str, list[tuple[int, CppFunction]]]:
+        """The functions outside of classes that have bodies."""
+        if self._free is None:
+            self._free = {}
+            defined = self.code.definitions.items()
+            functions = (f for (owner, _), all_of in defined if not owner for f in all_of)
+            for number, function in enumerate(f for f in functions if f.body is not None):
+                path = function.cpp.source.path
+                self._free.setdefault(path, []).append((number, function))
+        return self._free
 
 
 def _connects(fact: Fact) -> bool:

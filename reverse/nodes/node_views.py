@@ -48,28 +48,32 @@ class _Included:
 
     code: Code
     headers: dict[bytes, list[Cpp]] = field(default_factory=dict)
+    by_path: dict[str, list[Cpp]] = field(default_factory=dict)
     _included: dict[int, list[bytes]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        for cpp in self.code.files:
+            self.by_path.setdefault(cpp.source.path, []).append(cpp)
         for cpp in filter(is_header, self.code.files):
             name = cpp.source.path.rpartition("/")[2].encode()
             self.headers.setdefault(name, []).append(cpp)
 
     def seen_by(self, program: Program) -> set[str]:
         """The paths of a program's sources, and of the headers that they include, however deep."""
-        waiting = [cpp for cpp in self.code.files if program.has(cpp)]
+        waiting = [cpp for path in program.sources for cpp in self.by_path.get(path, ())]
         found = {cpp.source.path for cpp in waiting}
         while waiting:
             for name in self._names(waiting.pop()):
-                fresh = [h for h in self.headers.get(name, ()) if h.source.path not in found]
+                fresh = [h for h in self.headers[name] if h.source.path not in found]
                 found |= {h.source.path for h in fresh}
                 waiting += fresh
         return found
 
     def _names(self, cpp: Cpp) -> list[bytes]:
-        """The names of the files that a file includes."""
+        """The names of the files of the code that a file includes."""
         if id(cpp) not in self._included:
-            self._included[id(cpp)] = _INCLUDE.findall(cpp.data)
+            names = dict.fromkeys(_INCLUDE.findall(cpp.data))
+            self._included[id(cpp)] = [name for name in names if name in self.headers]
         return self._included[id(cpp)]
 
 

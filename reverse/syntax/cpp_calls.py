@@ -29,9 +29,13 @@ class CppCall:
 def name_called(cpp: Cpp, call: Node) -> str:
     """The last name of what a node of a call calls."""
     function = part(call, "function")
-    if function.type == "field_expression":
+    kind = function.type
+    if kind == "identifier":
+        return cpp.text(function)
+    if kind == "field_expression":
         function = part(function, "field")
-    if function.type in ("template_function", "template_method"):
+        kind = function.type
+    if kind in ("template_function", "template_method"):
         function = part(function, "name")
     return cpp.text(function).rpartition("::")[2]
 
@@ -66,7 +70,8 @@ def string_of(node: Node) -> str | None:
         return None if None in pieces else "".join(p for p in pieces if p is not None)
     if node.type != "string_literal":
         return None
-    return text_of(node)[1:-1] if text_of(node).startswith('"') else None
+    text = text_of(node)
+    return text[1:-1] if text.startswith('"') else None
 
 
 def assigned_in(body: Node | None) -> Iterator[tuple[str, Node]]:

@@ -4,11 +4,20 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from typing import TypeAlias
 
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.syntax.cpp_tree import Cpp, markers_above, markers_beside, named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import (
+    FIELDS,
+    Cpp,
+    markers_above,
+    markers_beside,
+    named,
+    part,
+    text_of,
+)
 
 WRAPPERS = frozenset(
     {
@@ -17,9 +26,13 @@ WRAPPERS = frozenset(
     }
 )
 TYPES = frozenset({"class_specifier", "struct_specifier", "enum_specifier"})
+_CONSTANT = frozenset({b"const", b"constexpr"})
 _OVERRIDING = frozenset({b"override", b"final"})
 _REFERRING = frozenset({"pointer_declarator", "reference_declarator"})
 _DECLARATORS = _REFERRING | {"array_declarator"}
+_DECLARATOR, _BODY, _TYPE = FIELDS["declarator"], FIELDS["body"], FIELDS["type"]
+# Declarators, each with the value that follows it.
+Declared: TypeAlias = "list[tuple[Node, Node | None]]"
 # What every node of rclcpp is.
 _ROOTS = frozenset({"rclcpp::Node", "rclcpp_lifecycle::LifecycleNode"})
 
@@ -130,11 +143,11 @@ def function_of(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
     kind = node.type
     if kind not in ("function_definition", "field_declaration", "declaration"):
         return None
-    declarator = node.child_by_field_name("declarator")
+    declarator = node.child_by_field_id(_DECLARATOR)
     while declarator is not None and declarator.type in _REFERRING:
         declarator = declarator.named_children[-1] if declarator.named_children else None
-    body = node.child_by_field_name("body")
-    if declarator is not None and only_braces(node):
+    body = node.child_by_field_id(_BODY) if kind == "function_definition" else None
+    if kind == "declaration" and declarator is not None and only_braces(node):
         body, declarator = part(declarator, "value"), part(declarator, "declarator")
     if declarator is None or declarator.type != "function_declarator":
         return None
@@ -143,14 +156,16 @@ def function_of(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
         scope = name.child_by_field_name("scope")
         owner, name = unscoped(scope) if scope is not None else owner, part(name, "name")
     value = node.child_by_field_name("default_value") if kind == "field_declaration" else None
+    result = node.child_by_field_id(_TYPE)
+    constructs = kind == "function_definition" and (result is None or node.has_error)
     lists = (c for c in node.named_children if c.type == "field_initializer_list")
     return CppFunction(
-        text_of(name),
+        cpp.text(name),
         owner,
         tuple(parameters_in(part(declarator, "parameters"))),
-        node.child_by_field_name("type"),
+        result,
         body,
-        next(lists, None) if kind == "function_definition" else None,
+        next(lists, None) if constructs else None,
         markers_above(node) if cpp.has_markers else (),
         cpp,
         node,
@@ -195,20 +210,20 @@ def whole_number(node: Node) -> int | None:
         return None
 
 
-def other_fields(cpp: Cpp, node: Node) -> Iterator[CppField]:
+def other_fields(cpp: Cpp, node: Node, declared: Declared) -> Iterator[CppField]:
     """The pointers, references and arrays of a declaration of members."""
-    for declarator, value in _with_values(node):
+    for declarator, value in declared:
         if declarator.type in _DECLARATORS and (name := declared_name(declarator)) is not None:
             yield CppField(text_of(name), part(node, "type"), value, (), cpp, node)
 
 
-def _with_values(node: Node) -> list[tuple[Node, Node | None]]:
+def with_values(node: Node) -> Declared:
     """The declarators of a member declaration, each with the value that follows it."""
     declarators = node.children_by_field_name("declarator")
     values = node.children_by_field_name("default_value")
     if not values or len(declarators) == 1:
         return [(d, values[0] if values else None) for d in declarators]
-    found: list[tuple[Node, Node | None]] = []
+    found: Declared = []
     for declarator, after in zip(declarators, [*declarators[1:], None], strict=True):
         end = after.start_byte if after is not None else node.end_byte
         own = [v for v in values if declarator.end_byte <= v.start_byte < end]
@@ -227,17 +242,19 @@ def only_braces(node: Node) -> bool:
 
 def parameters_in(node: Node) -> Iterator[CppParameter]:
     """The parameters of a list of them."""
-    for parameter in named(node):
+    for parameter in named(node) if node.named_child_count else ():
         if parameter.type not in ("parameter_declaration", "optional_parameter_declaration"):
             continue
-        name = parameter.child_by_field_name("declarator")
+        name = parameter.child_by_field_id(_DECLARATOR)
         while name is not None and name.type in _REFERRING:
             name = name.named_children[-1] if name.named_children else None
         yield CppParameter(text_of(name) if name else "", part(parameter, "type"), parameter)
 
 
-def is_constant(node: Node) -> bool:
+def is_constant(cpp: Cpp, node: Node) -> bool:
     """Whether a declaration is of constants: `const` or `constexpr`, and of no pointer."""
+    if cpp.words.isdisjoint(_CONSTANT):
+        return False
     qualifiers = {text_of(c) for c in node.named_children if c.type == "type_qualifier"}
     return bool(qualifiers & {"const", "constexpr"})
 
@@ -250,11 +267,12 @@ def valued(node: Node) -> Iterator[tuple[Node, Node]]:
         yield declarators[0], value
 
 
-def plain_fields(cpp: Cpp, node: Node) -> Iterator[CppField]:
-    for declarator, value in _with_values(node):
+def plain_fields(cpp: Cpp, node: Node, declared: Declared) -> Iterator[CppField]:
+    """The plain variables of a declaration of members."""
+    for declarator, value in declared:
         if declarator.type == "field_identifier":
             markers = (*markers_above(node), *markers_beside(node)) if cpp.has_markers else ()
-            yield CppField(text_of(declarator), part(node, "type"), value, markers, cpp, node)
+            yield CppField(cpp.text(declarator), part(node, "type"), value, markers, cpp, node)
 
 
 def bases_of(node: Node) -> Iterator[str]:

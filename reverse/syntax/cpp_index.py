@@ -32,6 +32,7 @@ from rebsync.reverse.syntax.cpp_declarations import (
     roots_of,
     unscoped,
     valued,
+    with_values,
 )
 from rebsync.reverse.syntax.cpp_numbers import KnownNumbers
 from rebsync.reverse.syntax.cpp_searches import Searches
@@ -243,13 +244,14 @@ class Code:
                 self._add_aliases(cpp, member)
             elif member.type != "field_declaration":
                 continue
-            elif not self._add_nested(cpp, member, own) and is_constant(member):
+            elif not self._add_nested(cpp, member, own) and is_constant(cpp, member):
                 for declarator, value in valued(member):
                     self.constants[cpp.source.path, text_of(declarator)] = cpp, value
-                others += plain_fields(cpp, member)
+                others += plain_fields(cpp, member, with_values(member))
             else:
-                fields += plain_fields(cpp, member)
-                others += other_fields(cpp, member)
+                declared = with_values(member)
+                fields += plain_fields(cpp, member, declared)
+                others += other_fields(cpp, member, declared)
         read = CppClass(
             own,
             tuple(bases_of(node)),
@@ -312,7 +314,7 @@ class Code:
             self._add_class(cpp, type_)
         elif type_.type == "enum_specifier":
             self._add_enum(cpp, type_, "")
-        constant = is_constant(node)
+        constant = is_constant(cpp, node)
         for declarator in node.children_by_field_name("declarator"):
             value = None
             if declarator.type == "init_declarator":

@@ -11,7 +11,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, name_called
-from rebsync.reverse.syntax.cpp_tree import Cpp, by_types, in_text_order
+from rebsync.reverse.syntax.cpp_tree import Cpp, by_types, in_text_order, inside
 from rebsync.reverse.syntax.cpp_words import places_of
 
 # The types of nodes that are looked for.
@@ -22,7 +22,8 @@ SOUGHT = (
 # The first character is one of three: so most of a text is passed over quickly.
 _HANDED = re.compile(r"[.>&](?:(?:(?<=\.)|(?<=->))\s*(\w+)\s*\(|(?<=&)\s*(?:\w+::)*(\w+))")
 _NAMES = frozenset({"identifier", "type_identifier", "field_identifier"})
-_MANY = 3000  # nodes of a body, in which finding what is at a place takes its time
+# Nodes of a body, from which on a search of its file for good is quicker than looking through it.
+_MANY = 3000
 
 
 @dataclass(slots=True)
@@ -41,11 +42,13 @@ class Searches:
     def inside(self, cpp: Cpp, node: Node | None, *types: str) -> list[Node]:
         """The nodes of some types in a node of a file, outer ones first, in the text's order.
 
-        A file is searched once for them all: with many functions that is much quicker. The types
-        are some of `SOUGHT`.
+        A file is searched once for them all, unless it is little that is asked for. The types are
+        some of `SOUGHT`.
         """
         if node is None:
             return []
+        if id(cpp) not in self._nodes and node.descendant_count <= _MANY:
+            return inside(node, *types)
         key = id(cpp), types
         if key not in self._sorted:
             if id(cpp) not in self._nodes:
@@ -63,7 +66,11 @@ class Searches:
         found: list[Node] = []
         start, end = node.start_byte, node.end_byte
         for name in names:
-            if name.encode() in cpp.words:
+            word = name.encode()
+            if word not in cpp.words:
+                continue
+            # Most names of a file are not in one body, and then not asked for in others either.
+            if (id(cpp), name) in self._words or cpp.original.find(word, start, end) >= 0:
                 starts, nodes = self._named(cpp, name)
                 found += nodes[bisect_left(starts, start) : bisect_left(starts, end)]
         return in_text_order(found) if len(names) > 1 else found
