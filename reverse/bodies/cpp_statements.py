@@ -134,20 +134,21 @@ class CppStatements:
 
     def _unless_outside(
         self, node: Node, annotations: tuple[m.Annotation, ...], local: bool
-    ) -> Iterator[m.Statement]:
+    ) -> Sequence[m.Statement]:
         """What stands for a statement that is not outside, if it can be read at all."""
         around = self._touching
         try:
             if node.id in self.scope.instead or not self._is_outside(node):
-                yield from self._one(node, annotations, local)
+                return self._one(node, annotations, local)
         except Demote as demote:
             self.shared.demote(demote.names)
         except RecursionError:
             unread = self.unread(node, "this leads deeper than it can be read")
             self.findings.unreadable(self.cpp.source, unread, self.within)
-            yield m.Empty((m.Annotation("Unreadable"),), self.cpp.span(node))
+            return (m.Empty((m.Annotation("Unreadable"),), self.cpp.span(node)),)
         finally:
             self._touching = around
+        return ()
 
     def _is_outside(self, node: Node) -> bool:
         """Whether a statement that people wrote touches nothing of the model."""
@@ -161,7 +162,7 @@ class CppStatements:
 
     def _one(
         self, node: Node, annotations: tuple[m.Annotation, ...], local: bool
-    ) -> Iterator[m.Statement]:
+    ) -> Sequence[m.Statement]:
         """What stands for a statement: before it what its expressions need."""
         around, self.before = self.before, []
         try:
@@ -170,12 +171,11 @@ class CppStatements:
                 read = list(self._statement(node, annotations, local))
             else:
                 read = list(self._known(node, known))
-            yield from self.before
-            yield from read
+            return [*self.before, *read]
         except Unread as unread:
-            yield from self._unreadable(node, unread)
+            return list(self._unreadable(node, unread))
         except ValueError:
-            yield from self._unreadable(node, self.unread(node, "this does not parse as C++"))
+            return list(self._unreadable(node, self.unread(node, "this does not parse as C++")))
         finally:
             self.before = around
 
