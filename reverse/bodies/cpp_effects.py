@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import field, replace
+from functools import partial
 
 from tree_sitter import Node
 
@@ -125,8 +126,7 @@ class Effects:
     # --- writing --------------------------------------------------------------------------------
 
     def _assignment(self, node: Node) -> None:
-        """`x = y`, or `x++`."""
-        value = node.child_by_field_name("right")
+        value = node.child_by_field_name("right")  # None of `x++`
         self._write(part(node, "argument" if value is None else "left"))
         if value is not None:
             self.check(value)
@@ -292,16 +292,17 @@ class Effects:
         """Whether a body touches nothing but what it declares, or gets."""
         if function.body is None:
             return False
-        key = function.body.id
-        if key not in self.scope.calm:
-            self.scope.calm[key] = True  # as far as a call of itself goes
-            inside = Effects(function.cpp, replace(self.scope, locals={}), returning=True)
-            inside._inner = {p.name for p in function.parameters}
-            try:
-                inside.check(function.body)
-            except (Touches, RecursionError):  # what leads too deep may do anything
-                self.scope.calm[key] = False
-        return self.scope.calm[key]
+        scope, looks = self.scope, partial(self._looks, function, function.body)
+        return scope.calm.of(function.body.id, scope.members, scope.functions, looks)
+
+    def _looks(self, function: CppFunction, body: Node) -> bool:
+        inside = Effects(function.cpp, replace(self.scope, locals={}), returning=True)
+        inside._inner = {p.name for p in function.parameters}
+        try:
+            inside.check(body)
+        except (Touches, RecursionError):  # what leads too deep may do anything
+            return False
+        return True
 
     def _method(self, call: CppCall, name: str, of: str, meaning: Meaning | None) -> None:
         """A call of a function of some object."""

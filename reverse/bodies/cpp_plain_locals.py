@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 def late(reader: CppStatements, node: Node) -> m.Declaration | None:
     """The assignment that is the declaration of a local which C++ declares before a switch."""
-    if node.type != "assignment_expression":
+    if not reader.hoisted or node.type != "assignment_expression":
         return None
     name, value = text_of(part(node, "left")), part(node, "right")
     type_ = reader.hoisted.get(name)

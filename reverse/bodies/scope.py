@@ -15,6 +15,7 @@ from tree_sitter import Node
 from rebsync.model import Expression, Name, Statement, Type
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED, uncarry_local
+from rebsync.reverse.bodies.calm import Calm
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp
 
@@ -312,8 +313,8 @@ class Scope:
     results: dict[str, Variable] = field(default_factory=dict, compare=False, repr=False)
     # The bits, without the sign, of the locals of all bodies that hold more than an `int`.
     wide: dict[str, int] = field(default_factory=dict, compare=False, repr=False)
-    # Whether functions, by the ids of their bodies, touch nothing: what has been found out.
-    calm: dict[int, bool] = field(default_factory=dict, compare=False, repr=False)
+    # Whether functions touch nothing: what has been found out.
+    calm: Calm = field(default_factory=Calm, compare=False, repr=False)
     # The definitions of macros with parameters, by their names.
     macros: Mapping[str, Sequence[Node]] = field(default_factory=dict, compare=False, repr=False)
 

@@ -9,6 +9,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
+from rebsync.reverse.bodies.calm import Calm, Sure
 from rebsync.reverse.bodies.cpp_expressions import CppExpressions
 from rebsync.reverse.bodies.cpp_regions import Regions
 from rebsync.reverse.bodies.cpp_statements import CppStatements
@@ -84,6 +85,7 @@ class Bodies:
     contained: dict[str, Publishes] | None = None
     _held: tuple[Held, ...] | None = None
     wide: dict[str, int] = field(default_factory=dict)
+    sure: Sure = field(default_factory=Sure)
 
     def scope(self, cpp: Cpp, function: CppFunction | None) -> Scope:
         """What a body in a file, in a function, can name."""
@@ -124,6 +126,7 @@ class Bodies:
             overflowing=self.overflowing,
             regions=self._regions(cpp).of,
             wide=self.wide,
+            calm=Calm(self.sure),
             macros=self.code.macros,
             timers=self.setup.timers,
             instead=self.setup.instead,
