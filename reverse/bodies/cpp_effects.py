@@ -33,7 +33,7 @@ from rebsync.reverse.bodies.scope import (
     meant_by,
 )
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
+from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_declarations import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.syntax.macros import hides
@@ -238,7 +238,7 @@ class Effects:
     # --- calls ----------------------------------------------------------------------------------
 
     def _call(self, node: Node) -> None:
-        call = call_of(node)
+        call = self.scope.call(node)
         if call is None or call.name.startswith("["):
             raise self._touches(node, "this runs a function of its own")
         name = call.name.rpartition("::")[2]
@@ -338,13 +338,13 @@ class Effects:
     def _arguments(self, arguments: tuple[Node, ...] | list[Node]) -> None:
         """Arguments of a function that is not known: it may keep or change what it gets."""
         for argument in arguments:
-            if argument.type == "lambda_expression":
+            type_ = argument.type
+            if type_ == "lambda_expression":
                 self._handed(argument)
                 continue
             name, meaning = self._root(argument)
-            if (
-                argument.type == "call_expression" and not cpp_roots.is_element(argument)
-            ) or not is_modelled(argument, meaning):
+            is_value = type_ == "call_expression" and not cpp_roots.is_element(argument)
+            if is_value or not is_modelled(argument, meaning):
                 self.check(argument)
             elif isinstance(meaning, Record) and meaning.constant:
                 continue

@@ -46,6 +46,7 @@ from rebsync.reverse.nodes.node_starts import Opening, Step
 from rebsync.reverse.nodes.node_state import State
 from rebsync.reverse.nodes.node_tidying import without_values
 from rebsync.reverse.nodes.node_units import Unit
+from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 
@@ -86,6 +87,7 @@ class Bodies:
     _held: tuple[Held, ...] | None = None
     wide: dict[str, int] = field(default_factory=dict)
     sure: Sure = field(default_factory=Sure)
+    calls: dict[int, CppCall] = field(default_factory=dict)
 
     def scope(self, cpp: Cpp, function: CppFunction | None) -> Scope:
         """What a body in a file, in a function, can name."""
@@ -127,6 +129,7 @@ class Bodies:
             regions=self._regions(cpp).of,
             wide=self.wide,
             calm=Calm(self.sure),
+            calls=self.calls,
             macros=self.code.macros,
             timers=self.setup.timers,
             instead=self.setup.instead,
