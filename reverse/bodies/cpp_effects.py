@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import field, replace
+from functools import partial
 
 from tree_sitter import Node
 
@@ -32,7 +33,7 @@ from rebsync.reverse.bodies.scope import (
     meant_by,
 )
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
+from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_declarations import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.syntax.macros import hides
@@ -125,8 +126,7 @@ class Effects:
     # --- writing --------------------------------------------------------------------------------
 
     def _assignment(self, node: Node) -> None:
-        """`x = y`, or `x++`."""
-        value = node.child_by_field_name("right")
+        value = node.child_by_field_name("right")  # None of `x++`
         self._write(part(node, "argument" if value is None else "left"))
         if value is not None:
             self.check(value)
@@ -238,7 +238,7 @@ class Effects:
     # --- calls ----------------------------------------------------------------------------------
 
     def _call(self, node: Node) -> None:
-        call = call_of(node)
+        call = self.scope.call(node)
         if call is None or call.name.startswith("["):
             raise self._touches(node, "this runs a function of its own")
         name = call.name.rpartition("::")[2]
@@ -292,16 +292,17 @@ class Effects:
         """Whether a body touches nothing but what it declares, or gets."""
         if function.body is None:
             return False
-        key = function.body.id
-        if key not in self.scope.calm:
-            self.scope.calm[key] = True  # as far as a call of itself goes
-            inside = Effects(function.cpp, replace(self.scope, locals={}), returning=True)
-            inside._inner = {p.name for p in function.parameters}
-            try:
-                inside.check(function.body)
-            except (Touches, RecursionError):  # what leads too deep may do anything
-                self.scope.calm[key] = False
-        return self.scope.calm[key]
+        scope, looks = self.scope, partial(self._looks, function, function.body)
+        return scope.calm.of(function.body.id, scope.members, scope.functions, looks)
+
+    def _looks(self, function: CppFunction, body: Node) -> bool:
+        inside = Effects(function.cpp, replace(self.scope, locals={}), returning=True)
+        inside._inner = {p.name for p in function.parameters}
+        try:
+            inside.check(body)
+        except (Touches, RecursionError):  # what leads too deep may do anything
+            return False
+        return True
 
     def _method(self, call: CppCall, name: str, of: str, meaning: Meaning | None) -> None:
         """A call of a function of some object."""
@@ -337,13 +338,13 @@ class Effects:
     def _arguments(self, arguments: tuple[Node, ...] | list[Node]) -> None:
         """Arguments of a function that is not known: it may keep or change what it gets."""
         for argument in arguments:
-            if argument.type == "lambda_expression":
+            type_ = argument.type
+            if type_ == "lambda_expression":
                 self._handed(argument)
                 continue
             name, meaning = self._root(argument)
-            if (
-                argument.type == "call_expression" and not cpp_roots.is_element(argument)
-            ) or not is_modelled(argument, meaning):
+            is_value = type_ == "call_expression" and not cpp_roots.is_element(argument)
+            if is_value or not is_modelled(argument, meaning):
                 self.check(argument)
             elif isinstance(meaning, Record) and meaning.constant:
                 continue

@@ -139,7 +139,8 @@ class CppExpressions:
             cpp_widths.check_stored(self, node, read, place)
             return converted_to(self.scope, read, place)
         except Unread as unread:
-            values, why = domain_near(node) or place.domain, _ONE_OF
+            marked = domain_near(node) if self.cpp.has_markers else None
+            values, why = marked or place.domain, _ONE_OF
             if not values and isinstance(unread, Unknown) and self.scope.regions is not None:
                 values = self.scope.regions(place)
                 why = f'one value of "{place.name}" {_STANDS}'

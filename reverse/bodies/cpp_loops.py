@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_statements import CppStatements
 
 _ONE, _ZERO = m.IntLiteral(1), m.IntLiteral(0)
+# What has a `continue` of its own.
+_APART = frozenset(
+    {"for_statement", "while_statement", "do_statement", "for_range_loop", "lambda_expression"}
+)
 
 
 def range_loop(
@@ -120,13 +124,15 @@ def _goes_on(node: Node) -> bool:
     """Whether a `continue` in the body is one of this loop."""
     if node.type == "continue_statement":
         return True
-    inner = ("for_statement", "while_statement", "do_statement", "for_range_loop")
-    return any(_goes_on(c) for c in named(node) if c.type not in (*inner, "lambda_expression"))
+    if b"continue" not in (node.text or b""):
+        return False
+    return any(_goes_on(c) for c in named(node) if c.type not in _APART)
 
 
 def _breaks(node: Node) -> bool:
     if node.type == "break_statement":
         return True
-    inner = ("for_statement", "while_statement", "do_statement", "for_range_loop")
-    others = (*inner, "switch_statement", "lambda_expression")
+    if b"break" not in (node.text or b""):
+        return False
+    others = (*_APART, "switch_statement")
     return any(_breaks(c) for c in named(node) if c.type not in others)

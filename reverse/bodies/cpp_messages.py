@@ -261,7 +261,7 @@ def unknown_value(
     reader: CppStatements, node: Node, type_: m.Type | None, why: str
 ) -> m.Expression | None:
     """A choice for a value that the model cannot know; None where too many are possible."""
-    values = domain_near(node)
+    values = domain_near(node) if reader.cpp.has_markers else None
     if values is None and type_ is not None and is_boolean(type_):
         values = m.BoolLiteral(True), m.BoolLiteral(False)
     if not values:

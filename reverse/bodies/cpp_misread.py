@@ -40,7 +40,7 @@ def is_misread(scope: Scope, node: Node) -> bool:
     match node.type:
         case "cast_expression":
             return _inner(scope, node) is not None or _holds_misread(scope, node)
-        case "binary_expression":
+        case "binary_expression" if b")" in (node.text or b""):
             return is_misread(scope, part(node, "left")) or is_misread(scope, part(node, "right"))
         case _:
             return False

@@ -22,7 +22,7 @@ _MOST_LEFT_OUT = 1000  # elements of an array; each becomes a statement of its o
 
 def late(reader: CppStatements, node: Node) -> m.Declaration | None:
     """The assignment that is the declaration of a local which C++ declares before a switch."""
-    if node.type != "assignment_expression":
+    if not reader.hoisted or node.type != "assignment_expression":
         return None
     name, value = text_of(part(node, "left")), part(node, "right")
     type_ = reader.hoisted.get(name)

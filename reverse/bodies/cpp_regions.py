@@ -20,6 +20,7 @@ from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_numbers import constant_number
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
+from rebsync.reverse.syntax.cpp_words import places_of
 from rebsync.static.types import is_floating, is_integer
 
 _COMPARES = frozenset({"<", ">", "<=", ">=", "==", "!="})
@@ -79,12 +80,10 @@ class Regions:
 
     def _places(self, name: str) -> Iterator[Node]:
         word = name.encode()
-        pattern = re.compile(rb"\b" + re.escape(word) + rb"\b")
-        for cpp in (c for c in self.files if word in c.data):
-            for match in pattern.finditer(cpp.data):
-                start = match.start() + cpp.root.start_byte
-                end = start + len(match[0])
-                node = cpp.root.descendant_for_byte_range(start, end)
+        for cpp in self.files:
+            for at in places_of(cpp.data, word):
+                start = at + cpp.root.start_byte
+                node = cpp.root.descendant_for_byte_range(start, start + len(word))
                 if node is not None and node.type in _NAMES:
                     yield node
 

@@ -109,9 +109,9 @@ class CppStatements:
         comments: list[str] = []
         users: Effects | None = None
         for node in nodes:
-            if node.type == "comment":
+            if (kind := node.type) == "comment" and self.cpp.has_markers:
                 comments.append(text_of(node))
-            if node.type == "comment" or node.start_byte in self.cpp.filled:
+            if kind == "comment" or node.start_byte in self.cpp.filled:
                 continue
             markers = markers_in(comments) if comments else ()
             annotations = annotations_in(markers, self.cpp.span(node)) if markers else ()
@@ -134,20 +134,21 @@ class CppStatements:
 
     def _unless_outside(
         self, node: Node, annotations: tuple[m.Annotation, ...], local: bool
-    ) -> Iterator[m.Statement]:
+    ) -> Sequence[m.Statement]:
         """What stands for a statement that is not outside, if it can be read at all."""
         around = self._touching
         try:
             if node.id in self.scope.instead or not self._is_outside(node):
-                yield from self._one(node, annotations, local)
+                return self._one(node, annotations, local)
         except Demote as demote:
             self.shared.demote(demote.names)
         except RecursionError:
             unread = self.unread(node, "this leads deeper than it can be read")
             self.findings.unreadable(self.cpp.source, unread, self.within)
-            yield m.Empty((m.Annotation("Unreadable"),), self.cpp.span(node))
+            return (m.Empty((m.Annotation("Unreadable"),), self.cpp.span(node)),)
         finally:
             self._touching = around
+        return ()
 
     def _is_outside(self, node: Node) -> bool:
         """Whether a statement that people wrote touches nothing of the model."""
@@ -161,7 +162,7 @@ class CppStatements:
 
     def _one(
         self, node: Node, annotations: tuple[m.Annotation, ...], local: bool
-    ) -> Iterator[m.Statement]:
+    ) -> Sequence[m.Statement]:
         """What stands for a statement: before it what its expressions need."""
         around, self.before = self.before, []
         try:
@@ -170,12 +171,11 @@ class CppStatements:
                 read = list(self._statement(node, annotations, local))
             else:
                 read = list(self._known(node, known))
-            yield from self.before
-            yield from read
+            return [*self.before, *read]
         except Unread as unread:
-            yield from self._unreadable(node, unread)
+            return list(self._unreadable(node, unread))
         except ValueError:
-            yield from self._unreadable(node, self.unread(node, "this does not parse as C++"))
+            return list(self._unreadable(node, self.unread(node, "this does not parse as C++")))
         finally:
             self.before = around
 
@@ -213,12 +213,14 @@ class CppStatements:
     def _statement(
         self, node: Node, annotations: tuple[m.Annotation, ...], local: bool
     ) -> Iterator[m.Statement]:
+        if (kind := node.type) == "expression_statement":
+            yield from self._expression_statement(node, annotations)
+            return
+        if kind == "declaration":
+            yield from self.declaration(node, annotations, local)
+            return
         span = self.cpp.span(node)
-        match node.type:
-            case "expression_statement":
-                yield from self._expression_statement(node, annotations)
-            case "declaration":
-                yield from self.declaration(node, annotations, local)
+        match kind:
             case "compound_statement" | "initializer_list":
                 block = m.Block(self.inner(node).statements, annotations, span)
                 yield from block.statements if cpp_locals.is_hoisting(node) else (block,)
@@ -318,14 +320,14 @@ class CppStatements:
     def _expression_statement(
         self, node: Node, annotations: tuple[m.Annotation, ...]
     ) -> Iterator[m.Statement]:
-        span, children = self.cpp.span(node), named(node)
+        children = named(node)
         if not children:
-            yield m.Empty(annotations, span)
+            yield m.Empty(annotations, self.cpp.span(node))
             return
         if cpp_users.is_log(self, node, expression := children[0]):
             return
         if declared := cpp_plain_locals.late(self, expression):
-            yield m.Local(declared, annotations, span)
+            yield m.Local(declared, annotations, self.cpp.span(node))
             return
         if (special := cpp_special.read(self, expression)) is not None:
             yield from special
@@ -334,7 +336,7 @@ class CppStatements:
         if isinstance(read, m.Call) and read.name == MOVE:
             cells = zip(("X", "Y"), read.arguments, strict=False)
             move = m.Annotation("Move", tuple(cell(axis, offset) for axis, offset in cells))
-            yield m.Empty((*annotations, move), span)
+            yield m.Empty((*annotations, move), self.cpp.span(node))
             return
         yield from self.done(node, read, annotations)
 

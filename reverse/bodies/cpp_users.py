@@ -84,14 +84,15 @@ def is_log(reader: CppStatements, statement: Node, node: Node) -> bool:
     if node.type != "call_expression":
         return False
     function = part(node, "function")
-    own = reader.scope.functions.get(text_of(function))
-    if text_of(function) == "unused":
+    name = text_of(function)
+    own = reader.scope.functions.get(name)
+    if name == "unused":
         return True
     if isinstance(own, Ignored) and not reader.scope.open:
         Effects(reader.cpp, reader.scope).check(part(node, "arguments"))
         return True
-    logs = function.type == "identifier" and text_of(function).startswith(LOGGING)
-    if not logs and (reader.scope.open or text_of(function) not in CONSOLE):
+    logs = name.startswith(LOGGING) and function.type == "identifier"
+    if not logs and (reader.scope.open or name not in CONSOLE):
         return False
     if reader.scope.open:  # then it is not outside
         raise reader.unread(statement, "what is logged here changes what the model has")

@@ -26,27 +26,24 @@ def rewritten(
     kind: type = type(node)
     for name in m.child_fields(kind):
         before = getattr(node, name)
-        after = _rewritten(before, change, kinds)
-        if after is not before:
-            changed[name] = after
+        if type(before) is tuple:
+            parts = tuple([rewritten(v, change, kinds) if type(v) in kinds else v for v in before])
+            if not all(map(is_, parts, before)):
+                changed[name] = parts
+        elif type(before) in kinds:
+            after = rewritten(before, change, kinds)
+            if after is not before:
+                changed[name] = after
     whole = replace(node, **changed) if changed else node  # type: ignore[type-var]
     result = change(whole)
     assert isinstance(result, object)
     return result  # type: ignore[return-value]
 
 
-def _rewritten(
-    value: object, change: Callable[[object], object], kinds: Collection[type]
-) -> object:
-    if isinstance(value, tuple):
-        parts = tuple([_rewritten(v, change, kinds) for v in value])
-        same = all(map(is_, parts, value))
-        return value if same else parts
-    return rewritten(value, change, kinds) if type(value) in kinds else value
-
-
 def renamed(node: m.Statement, old: str, new: str) -> m.Statement:
     """The statement with another name for a variable."""
+    if not any(isinstance(n, m.Name) and n.name == old for n in m.walk(node)):
+        return node  # to look is quicker than to make each part anew
 
     def change(part: object) -> object:
         return replace(part, name=new) if isinstance(part, m.Name) and part.name == old else part

@@ -15,6 +15,8 @@ from tree_sitter import Node
 from rebsync.model import Expression, Name, Statement, Type
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED, uncarry_local
+from rebsync.reverse.bodies.calm import Calm
+from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp
 
@@ -312,8 +314,10 @@ class Scope:
     results: dict[str, Variable] = field(default_factory=dict, compare=False, repr=False)
     # The bits, without the sign, of the locals of all bodies that hold more than an `int`.
     wide: dict[str, int] = field(default_factory=dict, compare=False, repr=False)
-    # Whether functions, by the ids of their bodies, touch nothing: what has been found out.
-    calm: dict[int, bool] = field(default_factory=dict, compare=False, repr=False)
+    # Whether functions touch nothing: what has been found out.
+    calm: Calm = field(default_factory=Calm, compare=False, repr=False)
+    # Calls that were taken apart, by the ids of their nodes, which they keep.
+    calls: dict[int, CppCall] = field(default_factory=dict, compare=False, repr=False)
     # The definitions of macros with parameters, by their names.
     macros: Mapping[str, Sequence[Node]] = field(default_factory=dict, compare=False, repr=False)
 
@@ -324,6 +328,13 @@ class Scope:
     def meaning(self, name: str) -> Meaning | None:
         """What a name stands for: a local hides a member."""
         return self.locals.get(name) or self.members.get(name)
+
+    def call(self, node: Node) -> CppCall | None:
+        """The call that a node is: bodies are looked through again and again."""
+        call = self.calls.get(node.id)
+        if call is None and (call := call_of(node)) is not None:
+            self.calls[node.id] = call
+        return call
 
     def hides(self, name: str) -> bool:
         """Whether a local of generated code has a name of the model: people's get others there."""

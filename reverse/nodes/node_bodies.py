@@ -9,6 +9,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
+from rebsync.reverse.bodies.calm import Calm, Sure
 from rebsync.reverse.bodies.cpp_expressions import CppExpressions
 from rebsync.reverse.bodies.cpp_regions import Regions
 from rebsync.reverse.bodies.cpp_statements import CppStatements
@@ -46,6 +47,7 @@ from rebsync.reverse.nodes.node_starts import Opening, Step
 from rebsync.reverse.nodes.node_state import State
 from rebsync.reverse.nodes.node_tidying import without_values
 from rebsync.reverse.nodes.node_units import Unit
+from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 
@@ -84,6 +86,8 @@ class Bodies:
     overflowing: frozenset[str] = frozenset()
     regions: dict[str, Regions] = field(default_factory=dict)
     wide: dict[str, int] = field(default_factory=dict)
+    sure: Sure = field(default_factory=Sure)
+    calls: dict[int, CppCall] = field(default_factory=dict)
     # What is made when it is first asked for, once the node is set up.
     _held: tuple[Held, ...] | None = None
     _kept: dict[str, Member] | None = None
@@ -120,6 +124,8 @@ class Bodies:
             overflowing=self.overflowing,
             regions=self._regions(cpp).of,
             wide=self.wide,
+            calm=Calm(self.sure),
+            calls=self.calls,
             macros=self.code.macros,
             timers=self.setup.timers,
             instead=instead if instead is not None else self.setup.instead,

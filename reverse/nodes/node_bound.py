@@ -11,6 +11,7 @@ from typing import TypeAlias
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.bodies.calm import Calm
 from rebsync.reverse.bodies.cpp_effects import Effects, Touches
 from rebsync.reverse.bodies.cpp_roots import is_modelled, root
 from rebsync.reverse.bodies.scope import (
@@ -103,7 +104,7 @@ def _touched(bodies: Bodies, owner: CppClass, function: CppFunction) -> Touches 
     shared = whole.members.keys() & bodies.code.variables.keys() - own
     members = {n: whole.members[n] for n in shared}
     free = {n: f for n, f in whole.functions.items() if _is_free(f)}
-    scope = replace(whole, members=members, functions=free, calm={})
+    scope = replace(whole, members=members, functions=free, calm=Calm())
     try:
         Effects(function.cpp, scope, returning=True).check(function.body or function.node)
     except Touches as touches:
