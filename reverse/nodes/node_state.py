@@ -253,19 +253,13 @@ class State:
 
         Those that are declared `within` a loop live for one round only.
         """
-        if only_static and not self._has_static(function):
+        words = ("static",) if only_static else names
+        if not any(_stands_in(function, word) for word in words):
             return {}
         key = function.node.id, frozenset(names), only_static
         if key not in self._outlived:
             self._outlived[key] = self._outlive(function, names, only_static, within)
         return self._outlived[key]
-
-    def _has_static(self, function: CppFunction) -> bool:
-        """Whether the word is in the body of a function at all."""
-        if b"static" not in function.cpp.words or function.body is None:
-            return False
-        at, end = function.body.start_byte, function.body.end_byte
-        return function.cpp.original.find(b"static", at, end) >= 0
 
     def _outlive(
         self, function: CppFunction, names: set[str], only_static: bool, within: Node | None
@@ -375,6 +369,14 @@ def _value(declarator: Node) -> Node | None:
         inside = named(value)
         return inside[0] if len(inside) == 1 else None
     return value
+
+
+def _stands_in(function: CppFunction, word: str) -> bool:
+    """Whether a word is in the body of a function at all."""
+    if function.body is None or word.encode() not in function.cpp.words:
+        return False
+    at, end = function.body.start_byte, function.body.end_byte
+    return function.cpp.original.find(word.encode(), at, end) >= 0
 
 
 def _declarations(code: Code, function: CppFunction) -> Iterator[Node]:
