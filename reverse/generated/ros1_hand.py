@@ -14,6 +14,7 @@ from rebsync.reverse.bodies.scope import Around, Function, Inline, Member, Outsi
 from rebsync.reverse.generated.ros1_free import has_plain_types, passed_by_reference
 from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.syntax.cpp_calls import calls_in
+from rebsync.reverse.syntax.cpp_declarations import with_defaults
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import inside, text_of
 
@@ -69,15 +70,7 @@ def only_logs(function: CppFunction) -> bool:
 
 
 def _with_defaults(owner: CppClass, function: CppFunction) -> CppFunction:
-    """A function with what its parameters are by default: its declaration says so."""
-    same = (f for f in owner.functions if (f.name, f.types) == (function.name, function.types))
-    parameters = list(function.parameters)
-    for known in (*same, function):
-        for number, parameter in enumerate(known.parameters):
-            value = parameter.node.child_by_field_name("default_value")
-            if value is not None:
-                parameters[number] = replace(parameters[number], default=(known.cpp, value))
-    return replace(function, parameters=tuple(parameters))
+    return with_defaults(function, [f for f in owner.functions if f.name == function.name])
 
 
 def is_passive(type_: str) -> bool:

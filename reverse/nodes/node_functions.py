@@ -10,7 +10,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.scope import Called, Inline, Meaning, Variable
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.nodes.node_bodies import Bodies
-from rebsync.reverse.nodes.node_signatures import with_defaults
+from rebsync.reverse.syntax.cpp_declarations import with_defaults
 from rebsync.reverse.syntax.cpp_index import CppFunction
 
 _ROUNDS = 4

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence, Set
-from dataclasses import field, replace
+from dataclasses import field
 
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_types import carried
 from rebsync.reverse.nodes.node_views import is_header
+from rebsync.reverse.syntax.cpp_declarations import with_defaults
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import text_of
 
@@ -91,21 +92,3 @@ def _group(functions: Sequence[CppFunction]) -> _Group:
     shared = frozenset({f.node.id for f in functions if is_header(f.cpp)})
     own = tuple(with_defaults(f, ()) for f in functions if f.body is not None)
     return _Group(own, paths, shared)
-
-
-def with_defaults(function: CppFunction, declared: Sequence[CppFunction]) -> CppFunction:
-    """A function with what its parameters are by default: those `declared` of its name say so."""
-    if not function.parameters:
-        return function
-    given = (p.node.type for f in (*declared, function) for p in f.parameters)
-    if "optional_parameter_declaration" not in given:
-        return function
-    same = [f for f in declared if f.types == function.types]
-    parameters = list(function.parameters)
-    for known in (*same, function):
-        for number, parameter in enumerate(known.parameters):
-            default = parameter.node.child_by_field_name("default_value")
-            if default is not None:
-                parameters[number] = replace(parameters[number], default=(known.cpp, default))
-    changed = any(a is not b for a, b in zip(parameters, function.parameters, strict=True))
-    return replace(function, parameters=tuple(parameters)) if changed else function

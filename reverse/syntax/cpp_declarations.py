@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import TypeAlias
 
 from tree_sitter import Node
@@ -293,3 +294,21 @@ def roots_of(node: Node) -> Iterator[str]:
                 base for base in clause.named_children if "".join(text_of(base).split()) in _ROOTS
             )
             yield from (unscoped(base) for base in named_)
+
+
+def with_defaults(function: CppFunction, declared: Sequence[CppFunction]) -> CppFunction:
+    """A function with what its parameters are by default: those `declared` of its name say so."""
+    if not function.parameters:
+        return function
+    given = (p.node.type for f in (*declared, function) for p in f.parameters)
+    if "optional_parameter_declaration" not in given:
+        return function
+    same = [f for f in declared if f.types == function.types]
+    parameters = list(function.parameters)
+    for known in (*same, function):
+        for number, parameter in enumerate(known.parameters):
+            default = parameter.node.child_by_field_name("default_value")
+            if default is not None:
+                parameters[number] = replace(parameters[number], default=(known.cpp, default))
+    changed = any(a is not b for a, b in zip(parameters, function.parameters, strict=True))
+    return replace(function, parameters=tuple(parameters)) if changed else function
