@@ -68,7 +68,7 @@ def servers(unit: Unit, types: MessageTypes, names: Names) -> tuple[Server, ...]
         if not isinstance(fact, SubscriptionFact | TimerFact | ServiceFact) or fact in never:
             continue
         for callback in fact.callbacks:
-            body = _body(callback, fact.site.cpp) if isinstance(callback, Callback) else None
+            body = _body(callback, unit.code) if isinstance(callback, Callback) else None
             if not isinstance(callback, Callback) or body is None:
                 continue
             _, bound = _arguments(callback, fact)
@@ -93,13 +93,12 @@ def _kind(fact: Asking, callback: Callback, types: MessageTypes) -> object:
     return "once" if fact.one_shot is True else id(fact)
 
 
-def _body(callback: Callback, cpp: Cpp) -> tuple[Cpp, Node] | None:
+def _body(callback: Callback, code: Code) -> tuple[Cpp, Node] | None:
+    """What is called, and the file that it is in: a lambda may come from another one."""
     if callback.function is not None and callback.function.body is not None:
         return callback.function.cpp, callback.function.body
-    if callback.lambda_ is not None:
-        body = callback.lambda_.child_by_field_name("body")
-        return (cpp, body) if body is not None else None
-    return None
+    body = callback.lambda_.child_by_field_name("body") if callback.lambda_ is not None else None
+    return (code.file_of(body), body) if body is not None else None
 
 
 def _server(

@@ -138,6 +138,14 @@ class Code:
             self._functions[owner.node.id] = found
         return self._functions[owner.node.id]
 
+    def file_of(self, node: Node) -> Cpp:
+        """The file that a node is in: one of these, or of the code that this is a view of."""
+        root: Node | None = node
+        while root is not None and root.parent is not None:
+            root = root.parent
+        files = (cpp for part_ in self._parts.values() for cpp in part_.files)
+        return next(cpp for cpp in files if cpp.root == root)
+
     def inside(self, cpp: Cpp, node: Node | None, *types: str) -> list[Node]:
         """The nodes of some types in a node of a file: see `Searches`."""
         return self._searches.inside(cpp, node, *types)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rebsync.reverse.syntax.cpp_index import Code
-from rebsync.reverse.syntax.cpp_tree import parse, text_of
+from rebsync.reverse.syntax.cpp_tree import inside, parse, text_of
 from rebsync.source import Source
 
 _TEXT = """
@@ -78,3 +78,10 @@ def test_variables_constants_and_other_names_for_types() -> None:
         "Message": "std_msgs::Int32",
         "Twist": "geometry_msgs::Twist",
     }
+
+
+def test_a_node_is_found_in_its_file_whatever_is_in_view() -> None:
+    one, other = (parse(Source(f"{n}.cpp", f"\n int {n} = 1;")) for n in ("one", "other"))
+    code = Code.of([one, other])
+    (value,) = inside(other.root, "number_literal")
+    assert code.view([one]).file_of(value) is other
