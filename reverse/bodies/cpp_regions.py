@@ -82,8 +82,7 @@ class Regions:
         word = name.encode()
         for cpp in self.files:
             for at in places_of(cpp.data, word):
-                start = at + cpp.root.start_byte
-                node = cpp.root.descendant_for_byte_range(start, start + len(word))
+                node = cpp.root.descendant_for_byte_range(at, at + len(word))
                 if node is not None and node.type in _NAMES:
                     yield node
 
