@@ -21,8 +21,10 @@ class Launched:
     package: str
     executable: str
     name: str
+    namespace: str
     parameters: Mapping[str, Any]
     remappings: Sequence[tuple[str, str]]
+    ros_arguments: Sequence[str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +43,28 @@ class _Share:
     package: str
 
 
+@dataclass(frozen=True, slots=True)
+class _Configuration:
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class _Declared:
+    """An argument of the launch file."""
+
+    name: str
+    default_value: Any
+    description: str
+
+
+@dataclass(frozen=True, slots=True)
+class _Facts:
+    """How a package is launched."""
+
+    package: Path
+    arguments: Mapping[str, Any]
+
+
 def _node(**facts: object) -> dict[str, Any]:
     return facts
 
@@ -50,7 +74,11 @@ def _stand_ins() -> Iterator[None]:
     """The modules that launch files import, as far as generated ones use them."""
     names: dict[str, dict[str, Any]] = {
         "launch": {"LaunchDescription": list},
-        "launch.substitutions": {"PathJoinSubstitution": _Join},
+        "launch.actions": {"DeclareLaunchArgument": _Declared},
+        "launch.substitutions": {
+            "LaunchConfiguration": _Configuration,
+            "PathJoinSubstitution": _Join,
+        },
         "launch_ros": {},
         "launch_ros.actions": {"Node": _node},
         "launch_ros.parameter_descriptions": {"ParameterValue": _Typed},
@@ -71,30 +99,46 @@ def _stand_ins() -> Iterator[None]:
                 sys.modules[name] = old
 
 
-def launched(package: Path) -> list[Launched]:
-    """The nodes of the package's launch file."""
+def launched(package: Path, **arguments: str) -> list[Launched]:
+    """The nodes of the package's launch file, started with arguments."""
     file = package / "launch" / f"{package.name}.launch.py"
     with _stand_ins():
-        nodes = runpy.run_path(str(file))["generate_launch_description"]()
-    return [_launched(package, facts) for facts in nodes]
+        actions = runpy.run_path(str(file))["generate_launch_description"]()
+    declared = {a.name: a.default_value for a in actions if isinstance(a, _Declared)}
+    assert arguments.keys() <= declared.keys()
+    facts = _Facts(package, declared | arguments)
+    return [_launched(facts, a) for a in actions if not isinstance(a, _Declared)]
 
 
-def _launched(package: Path, facts: Mapping[str, Any]) -> Launched:
+def _launched(facts: _Facts, node: Mapping[str, Any]) -> Launched:
     parameters: dict[str, Any] = {}
-    for source in facts.get("parameters", ()):
-        parameters.update(_file(package, source) if isinstance(source, _Join) else _given(source))
+    for source in node.get("parameters", ()):
+        given = _resolved(facts, source)
+        if isinstance(given, dict):
+            parameters |= {key: _evaluated(_resolved(facts, v)) for key, v in given.items()}
+        else:
+            parameters |= _file(facts.package, given)
     return Launched(
-        facts["package"],
-        facts["executable"],
-        facts["name"],
+        node["package"],
+        node["executable"],
+        node["name"],
+        _resolved(facts, node.get("namespace", "")),
         parameters,
-        facts.get("remappings", ()),
+        node.get("remappings", ()),
+        [_resolved(facts, word) for word in node.get("ros_arguments", ())],
     )
 
 
-def _file(package: Path, path: _Join) -> dict[str, Any]:
-    assert path.parts[0] == _Share(package.name)
-    content = yaml.safe_load(package.joinpath(*path.parts[1:]).read_text())
+def _resolved(facts: _Facts, value: object) -> Any:  # noqa: ANN401 whatever stands there
+    """What a configuration holds."""
+    return facts.arguments[value.name] if isinstance(value, _Configuration) else value
+
+
+def _file(package: Path, path: _Join | str) -> dict[str, Any]:
+    if isinstance(path, _Join):
+        assert path.parts[0] == _Share(package.name)
+        path = str(package.joinpath(*path.parts[1:]))
+    content = yaml.safe_load(Path(path).read_text())
     return dict(_flat(content["/**"]["ros__parameters"], ""))
 
 
@@ -104,10 +148,6 @@ def _flat(table: Mapping[str, Any], prefix: str) -> Iterator[tuple[str, Any]]:
             yield from _flat(value, f"{prefix}{key}.")
         else:
             yield f"{prefix}{key}", value
-
-
-def _given(table: Mapping[str, Any]) -> dict[str, Any]:
-    return {key: _evaluated(value) for key, value in table.items()}
 
 
 def _evaluated(value: object) -> object:

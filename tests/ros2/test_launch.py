@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+import pytest
+
+from rebsync.config import Config
 from rebsync.reverse.launch.launch_files_ros2 import read_ros2_launch
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.unknowns import Open
 from rebsync.source import Source
+from tests.forward.compiling import generated, written
+from tests.ros2.launching import launched
 
 _HEAD = """
 import os
@@ -91,3 +98,61 @@ def test_a_file_that_is_no_python_is_listed() -> None:
     launch = read_ros2_launch(Source("a.launch.py", "def ("), lambda _: None)
     assert launch.nodes == ()
     assert "no Python" in launch.unknowns[0].why
+
+
+# --- generated launch files ---------------------------------------------------------------------
+
+_MODEL = """
+env int limit = 3;
+reactiveclass A(3) {
+  knownrebecs { A other; }
+  A(int n) { if (n < limit) { self.begin(); } }
+  msgsrv begin() { other.go(); }
+  msgsrv go() {}
+  @Sensor msgsrv look() { boolean b = ?(true, false); self.look() after(1); }
+}
+main { A a(b):(1); A b(a):(2); }
+"""
+
+
+@pytest.fixture(params=["ros2-cpp", "ros2-py"])
+def package(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
+    config = Config(target=request.param, time_unit=0.25)
+    files = generated(_MODEL, "pair", config)
+    folder = written(files, tmp_path, "pair", config)
+    return folder / "pair" if request.param == "ros2-py" else folder
+
+
+def test_arguments_reach_every_node(package: Path) -> None:
+    own = package / "own.yaml"
+    own.write_text("/**:\n  ros__parameters:\n    env:\n      limit: 7\n")
+    nodes = launched(
+        package, namespace="hall", use_sim_time="true", log_level="debug", params_file=str(own)
+    )
+    assert {n.name for n in nodes} >= {"a", "b"}
+    for node in nodes:
+        assert node.namespace == "hall"
+        assert node.ros_arguments == ["--log-level", "debug"]
+        assert node.parameters["use_sim_time"] is True
+        assert node.parameters["env.limit"] == 7
+        assert node.parameters["mailbox.time_unit"] == 0.25  # which the user's file leaves alone
+
+
+def test_without_arguments_nothing_changes(package: Path) -> None:
+    for node in launched(package):
+        assert (node.namespace, node.ros_arguments) == ("", ["--log-level", "info"])
+        assert node.parameters["use_sim_time"] is False
+        assert node.parameters["env.limit"] == 3
+
+
+def test_other_defaults_are_read(package: Path) -> None:
+    """A namespace as the default of its argument is one; the file of parameters is followed."""
+    path = f"launch/{package.name}.launch.py"
+    text = (package / path).read_text()
+    edited = text.replace('default_value=""', 'default_value="hall"')
+    assert edited != text
+    files = {"config/params.yaml": Source("config/params.yaml", _PARAMS)}
+    launch = read_ros2_launch(Source(path, edited), files.get, package.name)
+    assert launch.unknowns == ()
+    assert {n.namespace for n in launch.nodes} == {"/hall/"}
+    assert {p.name: p.value for p in launch.parameters} == {"/env/e": 3, "/mailbox/slack": 0.25}

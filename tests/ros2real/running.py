@@ -15,13 +15,15 @@ _WRAPPER = """
 from launch import LaunchDescription
 from launch.actions import ExecuteProcess, IncludeLaunchDescription
 from launch.launch_description_sources import PythonLaunchDescriptionSource
-from launch_ros.actions import SetParameter
 
 
 def generate_launch_description():
-    system = IncludeLaunchDescription(PythonLaunchDescriptionSource({launch!r}))
+    system = IncludeLaunchDescription(
+        PythonLaunchDescriptionSource({launch!r}),
+        launch_arguments={{"use_sim_time": "{simulated}"}}.items(),
+    )
     beside = [ExecuteProcess(cmd=c, output="screen") for c in {beside!r}]
-    return LaunchDescription([SetParameter("use_sim_time", {simulated}), *beside, system])
+    return LaunchDescription([*beside, system])
 """
 
 

@@ -31,9 +31,15 @@ def main() -> None:
             for table in yaml.full_load(Path(file).read_text()).values():
                 parameters |= flat(table["ros__parameters"])
     remaps = [value.split(":=") for option, value in options if option == "-r"]
-    name = next(after for before, after in remaps if before == "__node")
-    others = [pair for pair in remaps if pair[0] != "__node"]
-    facts = {"executable": Path(sys.argv[0]).name, "parameters": parameters, "remaps": others}
+    own = {before: after for before, after in remaps if before in ("__node", "__ns")}
+    name = own["__node"]
+    facts = {
+        "executable": Path(sys.argv[0]).name,
+        "namespace": own.get("__ns", "/").strip("/"),
+        "parameters": parameters,
+        "remaps": [pair for pair in remaps if pair[0] not in own],
+        "log_level": dict(options).get("--log-level"),
+    }
     Path(os.environ["REBSYNC_TOLD"], f"{name}.json").write_text(json.dumps(facts))
 
 
