@@ -18,7 +18,7 @@ from rebsync.static import Analysis
 def limits(model: Model, analysis: Analysis, config: Config, stem: str) -> tuple[Diagnostic, ...]:
     """Errors where generation must stop, warnings where ROS does less than the model says."""
     found = [*_package(config, stem), *_sensors(model, config), *_instances(model, analysis)]
-    found += _targets(analysis, config)
+    found += [*_targets(analysis, config), *_owners(config)]
     for c in model.classes:
         if isinstance(c, ReactiveClass):
             found += _known_arrays(c)
@@ -37,6 +37,28 @@ def _package(config: Config, stem: str) -> list[Diagnostic]:
             f'a package cannot be named "{name}": the name belongs to ROS, C or C++',
             "choose another `package` in rebsync.toml",
         )
+    ]
+
+
+def _owners(config: Config) -> list[Diagnostic]:
+    """What REP 149 wants of every package and only its owner knows."""
+    missing = {
+        'no `license`: package.xml says "TODO"': (config.license, 'license = "Apache-2.0"'),
+        'no `maintainers`: package.xml says "TODO"': (
+            config.maintainers,
+            'maintainers = [{ name = "Ada", email = "ada@example.org" }]',
+        ),
+    }
+    return [
+        Diagnostic(
+            "RS710",
+            NOWHERE,
+            f"rebsync.toml has {what}",
+            f"write there `{hint}`, with what holds for the package",
+            severity=Severity.WARNING,
+        )
+        for what, (given, hint) in missing.items()
+        if not given
     ]
 
 

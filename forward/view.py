@@ -29,6 +29,9 @@ from rebsync.static import Analysis
 from rebsync.static.symbols import EnvSymbol
 from rebsync.static.values import env_value
 
+# What catkin_create_pkg and `ros2 pkg create` write where nobody has said it.
+_NO_LICENSE = "TODO: License declaration"
+_NOBODY = p.Maintainer("TODO: maintainer", "user@todo.todo")
 _FILES = ("", "_node", "_sensors", "_stand_in")
 
 
@@ -66,9 +69,8 @@ class _View:
             name,
             config.version,
             config.description or f"Generated from the Timed Rebeca model {name}.",
-            config.license or "Proprietary",
-            tuple(p.Maintainer(m.name, m.email) for m in config.maintainers)
-            or (p.Maintainer("maintainer", "maintainer@example.org"),),
+            config.license or _NO_LICENSE,
+            tuple(p.Maintainer(m.name, m.email) for m in config.maintainers) or (_NOBODY,),
             p.Settings(
                 config.time_unit,
                 config.slack,

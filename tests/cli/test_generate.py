@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from rebsync.cli import main
+from rebsync.config import TARGETS
 
 ROOT = Path(__file__).parents[2]
 MODEL = """\
@@ -282,6 +283,26 @@ def test_settings_come_from_rebsync_toml(model: Path) -> None:
     assert "msg.ranges.empty() ? 0 : 1" in files["include/patrol_robot/robot_sensors.h"]
     assert 'to="/scan"' in files["launch/patrol_robot.launch"]
     assert "src/robot_stand_in.cpp" not in files
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_the_licence_and_the_maintainer_are_asked_for_not_invented(
+    model: Path, capsys: pytest.CaptureFixture[str], target: str
+) -> None:
+    assert generate("--target", target) == 0
+    shown = capsys.readouterr().err
+    assert shown.count("RS710") == 2, shown
+    assert "license" in shown and "maintainers" in shown
+    for manifest in Path("patrol").glob("**/package.xml"):
+        text = manifest.read_text()
+        assert "<license>TODO: License declaration</license>" in text
+        assert '<maintainer email="user@todo.todo">TODO: maintainer</maintainer>' in text
+    Path("rebsync.toml").write_text(
+        'license = "MIT"\nmaintainers = [{ name = "Ada", email = "ada@example.org" }]\n'
+    )
+    assert generate("--target", target) == 0
+    assert "RS710" not in capsys.readouterr().err
+    assert "TODO" not in "".join(p.read_text() for p in Path("patrol").glob("**/package.xml"))
 
 
 @pytest.mark.parametrize(
