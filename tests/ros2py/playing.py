@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from importlib import import_module, invalidate_caches
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import cast
 
-import yaml
-
 from tests.ros1.recording import Heard, Logged, Recording, Served
+from tests.ros2.launching import Launched as Described
+from tests.ros2.launching import launched as described
 from tests.ros2py.messages import Message, modules
 from tests.ros2py.world import Launched, Time, World
 
@@ -23,10 +23,7 @@ def play(folder: Path, until: float) -> Recording:
     """Start what the launch file of a package says, and run it to a time of the model."""
     world, name = World(), folder.name
     with installed(world, folder / name, folder / f"{name}_interfaces"):
-        launch = folder / name / "launch" / f"{name}.launch.py"
-        described = _loaded(launch)
-        parameters = _flat(yaml.safe_load((folder / name / "config" / "params.yaml").read_text()))
-        mains = [_main(name, node, parameters) for node in described]
+        mains = [_main(name, node) for node in described(folder / name)]
         world.run(mains, until)
     return recorded(world)
 
@@ -48,45 +45,17 @@ def _served(message: Heard) -> Served:
     return Served(rebec, server, arguments, arrival, start, now, message.stamp, state)
 
 
-def _main(
-    package: str, node: SimpleNamespace, parameters: Mapping[str, object]
-) -> tuple[Launched, Callable[[], None]]:
-    own: dict[str, object] = {}
-    for each in node.parameters:
-        own |= parameters if isinstance(each, str) else each
-    launched = Launched(node.name, own, dict(node.remappings))
+def _main(package: str, node: Described) -> tuple[Launched, Callable[[], None]]:
+    launched = Launched(node.name, node.parameters, dict(node.remappings))
     main = import_module(f"{package}.{node.executable}").main
     return launched, cast("Callable[[], None]", main)
-
-
-def _flat(tree: Mapping[str, object]) -> dict[str, object]:
-    """The parameters of all nodes, by their names with dots."""
-    found: dict[str, object] = {}
-
-    def walk(prefix: str, value: object) -> None:
-        if isinstance(value, dict):
-            for key, inner in value.items():
-                walk(f"{prefix}.{key}" if prefix else str(key), inner)
-        else:
-            found[prefix] = value
-
-    walk("", cast("Mapping[str, Mapping[str, object]]", tree)["/**"]["ros__parameters"])
-    return found
-
-
-def _loaded(launch: Path) -> list[SimpleNamespace]:
-    """The nodes that a launch file describes."""
-    space: dict[str, object] = {}
-    exec(compile(launch.read_text(), str(launch), "exec"), space)
-    describe = cast("Callable[[], list[SimpleNamespace]]", space["generate_launch_description"])
-    return describe()
 
 
 @contextmanager
 def installed(world: World, source: Path, interfaces: Path) -> Iterator[None]:
     """The client library and all messages as modules, while the block runs."""
     before = set(sys.modules)
-    made = {**modules([interfaces]), **_rclpy(world), **_launch()}
+    made = {**modules([interfaces]), **_rclpy(world)}
     World.stamp = made["builtin_interfaces.msg"].Time
     sys.modules.update(made)
     sys.path.insert(0, str(source))
@@ -136,27 +105,5 @@ def _rclpy(world: World) -> dict[str, ModuleType]:
             ),
             _module("rcl_interfaces"),
             _module("rcl_interfaces.msg", ParameterDescriptor=descriptor),
-        ]
-    )
-
-
-def _launch() -> dict[str, ModuleType]:
-    def node(**values: object) -> SimpleNamespace:
-        return SimpleNamespace(**{"parameters": [], "remappings": [], **values})
-
-    def value(given: object, value_type: object = None) -> object:
-        return given
-
-    def path(parts: object) -> str:
-        return "params.yaml"
-
-    return dict(
-        [
-            _module("launch", LaunchDescription=list),
-            _module("launch.substitutions", PathJoinSubstitution=path),
-            _module("launch_ros"),
-            _module("launch_ros.actions", Node=node),
-            _module("launch_ros.parameter_descriptions", ParameterValue=value),
-            _module("launch_ros.substitutions", FindPackageShare=str),
         ]
     )
