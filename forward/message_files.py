@@ -7,7 +7,9 @@ from math import prod
 from rebsync.model import Type
 from rebsync.package import Field, Package
 
-TIMING = ("int64 arrival", "int64 deadline")
+TIMING = ("int64 arrival", "int64 deadline", "bool stamped")
+# Times in nanoseconds of the ROS clock, since both generations of ROS have that type; 0: not yet.
+ANNOUNCEMENT = ("string rebec", "int64 stamp", "int64 zero", "int64 clock")
 STATE_HEAD = (
     "string server",
     "string arguments",
@@ -33,14 +35,17 @@ def field_type(type_: Type) -> str:
 
 def message_names(package: Package) -> list[str]:
     """The message types of a package."""
-    names = {"Timing"} | {m.name for m in package.messages}
+    names = {"Announcement", "Timing"} | {m.name for m in package.messages}
     names |= {c.state.name for c in package.classes if c.executable}
     return sorted(names | {s.type for c in package.classes for s in c.sensors if s.stands_in})
 
 
 def message_files(package: Package) -> dict[str, str]:
     """`msg/*.msg` by their paths; both generations of ROS read them."""
-    files = {"msg/Timing.msg": _message(TIMING)}
+    files = {
+        "msg/Announcement.msg": _message(ANNOUNCEMENT),
+        "msg/Timing.msg": _message(TIMING),
+    }
     for message in package.messages:
         sender = ["string sender"] if message.carries_sender else []
         lines = [f"{package.name}/Timing timing", *sender, *map(_field, message.fields)]

@@ -11,7 +11,7 @@ from rebsync.package import NodeClass, Package
 
 def message_packages(package: Package) -> set[str]:
     """The packages whose messages the nodes use, without the package itself."""
-    found = {"std_msgs"}
+    found = {"diagnostic_msgs"}
     if any(c.moves for c in package.classes):
         found.add("geometry_msgs")
     for node in package.classes:
@@ -20,7 +20,7 @@ def message_packages(package: Package) -> set[str]:
 
 
 def _stems(package: Package) -> list[str]:
-    names = ["mailbox", "startup", "values"]
+    names = ["mailbox", "startup", "values", "watchdog"]
     if any(c.moves for c in package.classes):
         names.append("drive")
     if any(c.sensors for c in package.classes):

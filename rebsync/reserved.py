@@ -11,13 +11,14 @@ from rebsync.names import CPP_KEYWORDS, PYTHON_KEYWORDS, carry, uncarry
 
 RUNTIME_CLASSES = frozenset(
     {
-        *("Drive", "Inherited", "Mailbox", "Pose", "Publishers", "Rebec", "Sensor", "Served"),
-        *("Server", "Startup", "Stopped", "Timing", "Violation", "When"),
+        *("Announcement", "Beginning", "Drive", "Inherited", "Mailbox", "Pose", "Publishers"),
+        *("Rebec", "Sensor", "Served", "Server", "Snapshot", "Startup", "Stopped", "Timing"),
+        *("Violation", "Watchdog", "When"),
     }
 )
 # What the code of a class names in its namespace.
 RUNTIME_TYPES = RUNTIME_CLASSES | {
-    *("boost", "detail", "geometry_msgs", "ros", "std", "std_msgs"),
+    *("boost", "detail", "diagnostic_msgs", "geometry_msgs", "ros", "std", "std_msgs"),
 }
 _FREE_FUNCTIONS = frozenset(
     {
@@ -38,8 +39,8 @@ STATE_FIELDS = ("server", "arguments", "arrival", "start", "now")
 RUNTIME_MEMBERS = frozenset({"mailbox", "drive", "node", "state", "state_pub"})
 RUNTIME_CONSTANTS = frozenset(
     {
-        *("kAligned", "kFarAway", "kNever", "kNoPriority", "kNull", "kPeriod", "kQueueSize"),
-        "kSoon",
+        *("kAligned", "kFarAway", "kNever", "kNoPriority", "kNull", "kPatience", "kPause"),
+        *("kPeriod", "kQueueSize", "kSilence", "kSoon"),
     }
 )
 RUNTIME_FUNCTIONS = _FREE_FUNCTIONS | {
@@ -81,7 +82,7 @@ def uncarry_local(carried: str, reserved: Collection[str], functions: Collection
 
 
 # The headers of generated packages that are the same for every model.
-RUNTIME_HEADERS = ("mailbox", "startup", "values", "drive", "sensor")
+RUNTIME_HEADERS = ("mailbox", "startup", "values", "watchdog", "drive", "sensor")
 
 # --- Python -------------------------------------------------------------------------------------
 

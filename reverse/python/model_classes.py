@@ -32,6 +32,7 @@ _RUNTIME = {
     "mailbox": ("\nclass Mailbox",),
     "startup": ("\nclass Startup",),
     "values": ("\nclass Violation",),
+    "watchdog": ("\nclass Watchdog", "def add_check("),
     "drive": ("\nclass Drive", "def move("),
     "sensor": ("\nclass Sensor", "def seen("),
 }

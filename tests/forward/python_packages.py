@@ -10,7 +10,7 @@ from pathlib import Path
 from types import ModuleType
 from unittest.mock import MagicMock
 
-_LIBRARIES = ("geometry_msgs", "rosgraph_msgs", "sensor_msgs", "std_msgs")
+_LIBRARIES = ("diagnostic_msgs", "geometry_msgs", "rosgraph_msgs", "sensor_msgs", "std_msgs")
 
 
 @contextmanager

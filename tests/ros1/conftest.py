@@ -14,9 +14,9 @@ from tests.ros1.workspace import SYSTEM_PATH, Workspace, build, missing_ros
 
 _HERE = Path(__file__).parent
 _TEMPLATES = _HERE.parents[1] / "forward" / "templates"
-HEADERS = ("drive.h", "mailbox.h", "sensor.h", "startup.h", "values.h")
+HEADERS = ("drive.h", "mailbox.h", "sensor.h", "startup.h", "values.h", "watchdog.h")
 MODULES = {
-    **{name: f"ros1_py/{name}.py" for name in ("drive", "mailbox", "sensor", "startup")},
+    **{name: f"ros1_py/{name}.py" for name in ("drive", "mailbox", "sensor", "startup", "watchdog")},
     "values": "py/values.py",
 }
 DIALECTS = ("ros1-cpp", "ros1-py")

@@ -67,7 +67,7 @@ def missing_ros() -> str | None:
     for tool in needed:
         if shutil.which(tool, path=SYSTEM_PATH) is None:
             return f"ROS 1 is not installed: no {tool}"
-    headers = ("ros/ros.h", "geometry_msgs/Twist.h", "std_msgs/Header.h")
+    headers = ("ros/ros.h", "geometry_msgs/Twist.h", "diagnostic_msgs/DiagnosticArray.h")
     for header in headers:
         if not Path("/usr/include", header).exists():
             return f"ROS 1 is not installed: no {header}"

@@ -61,9 +61,9 @@ def _text(value: object) -> str:
 def _recording(output: str) -> Recording:
     lines = [line.split("\t") for line in output.splitlines()]
     messages = [(int(t), topic, text) for kind, t, topic, text in _of(lines, "message")]
-    starts = [t for t, topic, _ in messages if topic.endswith("/startup")]
-    zero = max(starts, default=0)
-    heard = tuple(Heard(topic, _seconds(t, zero), _fields(text)) for t, topic, text in messages)
+    fields = [(t, topic, _fields(text)) for t, topic, text in messages]
+    zero = max((f["zero"] for _, topic, f in fields if topic.endswith("/startup")), default=0)
+    heard = tuple(Heard(topic, _seconds(t, zero), found) for t, topic, found in fields)
     log = tuple(
         Logged(node, _LEVELS[level], _seconds(int(t), zero), text)
         for _, t, level, node, text in _of(lines, "log")

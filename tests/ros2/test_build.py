@@ -15,7 +15,7 @@ from tests.ros2.test_examples import package_of
 
 _PREFIX = HERE / "prefix"
 _SCHEMA = "/usr/share/ament_xmllint/xml-catalog/download.ros.org/schema/package_format3.xsd"
-_STUBS = ("rclcpp", "rclcpp_components", "std_msgs", "geometry_msgs", "rcl_interfaces")
+_STUBS = ("rclcpp", "rclcpp_components", "diagnostic_msgs", "geometry_msgs", "rcl_interfaces")
 _NAME = "experiment2"
 
 

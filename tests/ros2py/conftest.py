@@ -24,7 +24,10 @@ from tests.ros2py.world import Launched, World
 _HERE = Path(__file__).parent
 _MESSAGES = _HERE.parent / "ros1" / "packages" / "probe" / "msg"
 _MODULES = {
-    **{name: f"ros2_py/{name}.py" for name in ("drive", "mailbox", "sensor", "startup")},
+    **{
+        name: f"ros2_py/{name}.py"
+        for name in ("drive", "mailbox", "sensor", "startup", "watchdog")
+    },
     "values": "py/values.py",
 }
 _SERVERS = ("plain", "low", "high")

@@ -10,10 +10,20 @@ from types import ModuleType
 
 _FIELD = re.compile(r"([\w/]+)(?:\[(\d*)\])? (\w+)\Z")
 _ANY = -1  # the length of an array without one
+_CONSTANTS = {
+    "diagnostic_msgs/DiagnosticStatus": {
+        name: bytes([value]) for value, name in enumerate(("OK", "WARN", "ERROR", "STALE"))
+    }
+}
 _RANGES = {"int8": 8, "int16": 16, "int32": 32, "int64": 64, "uint32": 33}
 _STANDARD = {
     "builtin_interfaces/Time": "int32 sec\nuint32 nanosec",
     "std_msgs/Header": "builtin_interfaces/Time stamp\nstring frame_id",
+    "diagnostic_msgs/KeyValue": "string key\nstring value",
+    "diagnostic_msgs/DiagnosticStatus": "byte level\nstring name\nstring message\n"
+    "string hardware_id\ndiagnostic_msgs/KeyValue[] values",
+    "diagnostic_msgs/DiagnosticArray": "std_msgs/Header header\n"
+    "diagnostic_msgs/DiagnosticStatus[] status",
     "geometry_msgs/Vector3": "float64 x\nfloat64 y\nfloat64 z",
     "geometry_msgs/Twist": "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular",
 }
@@ -28,7 +38,8 @@ class Message:
     def __init__(self, **values: object) -> None:
         for name, (type_, length) in self._fields.items():
             default = self._default(type_)
-            every = default if length is None else [copy.copy(default) for _ in range(length)]
+            count = max(length or 0, 0)
+            every = default if length is None else [copy.copy(default) for _ in range(count)]
             object.__setattr__(self, name, every)
         for name, value in values.items():
             setattr(self, name, value)
@@ -36,7 +47,8 @@ class Message:
     def _default(self, type_: str) -> object:
         if type_ in self._known:
             return self._known[type_]()
-        return {"bool": False, "string": "", "float32": 0.0, "float64": 0.0}.get(type_, 0)
+        other = {"bool": False, "byte": b"\0", "string": "", "float32": 0.0, "float64": 0.0}
+        return other.get(type_, 0)
 
     def __setattr__(self, name: str, value: object) -> None:
         type_, length = self._fields[name]
@@ -53,6 +65,8 @@ class Message:
         match type_:
             case "bool":
                 return isinstance(value, bool)
+            case "byte":
+                return isinstance(value, bytes) and len(value) == 1
             case "string":
                 return isinstance(value, str)
             case "float32" | "float64":
@@ -70,6 +84,8 @@ def plain(message: Message) -> dict[str, object]:
 
 
 def _plain(value: object) -> object:
+    if isinstance(value, list):
+        return [_plain(item) for item in value]
     return plain(value) if isinstance(value, Message) else value
 
 
@@ -87,9 +103,8 @@ def modules(folders: Iterable[Path]) -> dict[str, ModuleType]:
             match = _FIELD.match(line)
             assert match is not None, line
             fields[match[3]] = (match[1], int(match[2] or _ANY) if match[2] is not None else None)
-        known[name] = type(
-            name.rpartition("/")[2], (Message,), {"_fields": fields, "_known": known}
-        )
+        members = {"_fields": fields, "_known": known, **_CONSTANTS.get(name, {})}
+        known[name] = type(name.rpartition("/")[2], (Message,), members)
     return _as_modules(known)
 
 

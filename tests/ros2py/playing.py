@@ -14,7 +14,7 @@ from tests.ros1.recording import Heard, Logged, Recording, Served
 from tests.ros2.launching import Launched as Described
 from tests.ros2.launching import launched as described
 from tests.ros2py.messages import Message, modules
-from tests.ros2py.world import Launched, Time, World
+from tests.ros2py.world import Launched, World
 
 _BODY = ("server", "arguments", "arrival", "start", "now")
 
@@ -88,6 +88,7 @@ def _rclpy(world: World) -> dict[str, ModuleType]:
     sensor_data = profile(depth=5)
     durability = SimpleNamespace(TRANSIENT_LOCAL=True, VOLATILE=False)
     spin = {"init": lambda: None, "spin": world.spin, "try_shutdown": lambda: None}
+    spin["ok"] = lambda: not world.stopping
     return dict(
         [
             _module("rclpy", **spin),
@@ -96,7 +97,6 @@ def _rclpy(world: World) -> dict[str, ModuleType]:
             _module("rclpy.publisher", Publisher=object),
             _module("rclpy.subscription", Subscription=object),
             _module("rclpy.timer", Timer=object),
-            _module("rclpy.time", Time=Time),
             _module(
                 "rclpy.qos",
                 QoSProfile=profile,

@@ -102,6 +102,9 @@ class Node:
     def get_name(self) -> str:
         return self.launched.name
 
+    def get_fully_qualified_name(self) -> str:
+        return f"/{self.launched.name}"
+
     def create_publisher(self, type_: type[Message], topic: str, qos: object) -> Publisher:
         depth, keeps = _quality(qos)
         publisher = Publisher(self, self.launched.resolved(topic), depth, keeps)

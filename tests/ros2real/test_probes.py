@@ -38,7 +38,7 @@ __all__ = [
 ]
 
 _DIALECT = "ros2-py"
-_MESSAGES = ("Note", "ScriptState", "Timing")
+_MESSAGES = ("Announcement", "Note", "ScriptState", "Timing")
 _NODE = Path(__file__).parent / "nodes" / "listener.py"
 _LISTENER = "        ExecuteProcess(cmd=['/usr/bin/python3', *{topics!r}], output='screen'),\n"
 _MODEL = "reactiveclass Script(3) { Script() { } } main { Script s():(); }"

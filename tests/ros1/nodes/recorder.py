@@ -76,7 +76,7 @@ class Recorder:
     def hear(self, message: genpy.Message, topic: str) -> None:
         data = plain(message)
         if topic.endswith("/startup"):
-            self.announced[message.frame_id] = message.stamp.to_sec()
+            self.announced[message.rebec] = (message.zero or message.stamp) / 1e9
         if hasattr(message, "server"):
             self.last_served = self.clock
         self.write("message", topic, data)

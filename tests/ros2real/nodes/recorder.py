@@ -69,7 +69,7 @@ class Recorder:
     def hear(self, topic: str, message: object) -> None:
         data = plain(message)
         if topic.endswith("/startup"):
-            self.announced[data["frame_id"]] = data["stamp"]
+            self.announced[data["rebec"]] = (data["zero"] or data["stamp"]) / 1e9
         if hasattr(message, "server"):
             self.last_served = self.clock
         self.write("message", topic, data)

@@ -12,6 +12,7 @@
 #include <memory>
 #include <mutex>
 #include <rclcpp/qos.hpp>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -124,10 +125,10 @@ class Middleware {
     }
   }
 
-  /// How many messages were written to a topic.
+  /// How many writers have written to a topic.
   std::size_t written(const std::string& topic) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return written_[topic];
+    return written_[topic].size();
   }
 
   void log(const std::string& level, const std::string& node, const std::string& text) {
@@ -181,7 +182,7 @@ class Middleware {
   std::map<std::string, std::vector<std::weak_ptr<Writer>>> writers_;
   std::vector<std::weak_ptr<Alarm>> alarms_;
   std::vector<std::weak_ptr<Executor>> executors_;
-  std::map<std::string, std::size_t> written_;
+  std::map<std::string, std::set<const Writer*>> written_;
   std::atomic<int64_t> now_{100000000000};  // the clock has run for a while
   std::atomic<bool> shut_down_{false};
 };
@@ -240,7 +241,7 @@ inline std::vector<std::shared_ptr<Reader>> Middleware::readers(const std::strin
 inline void Middleware::write(Writer& writer, const Data& data, const std::string& text) {
   const std::lock_guard<std::mutex> lock(mutex_);
   record("message", writer.topic_ + "\t" + text);
-  ++written_[writer.topic_];
+  written_[writer.topic_].insert(&writer);
   if (writer.qos_.durability() == DurabilityPolicy::TransientLocal) {
     writer.kept_.push_back(data);
     if (writer.kept_.size() > writer.qos_.depth()) writer.kept_.pop_front();

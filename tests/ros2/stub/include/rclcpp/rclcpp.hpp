@@ -112,6 +112,7 @@ class Node {
   Node& operator=(const Node&) = delete;
 
   const char* get_name() const { return name_.c_str(); }
+  const char* get_fully_qualified_name() const { return full_name_.c_str(); }
   Time now() const { return clock_->now(); }
   Clock::SharedPtr get_clock() { return clock_; }
   Logger get_logger() const { return Logger(name_); }
@@ -174,6 +175,7 @@ class Node {
 
   const fake::Arguments arguments_;
   const std::string name_;
+  const std::string full_name_ = "/" + name_;
   const Clock::SharedPtr clock_ = std::make_shared<Clock>();
   const std::shared_ptr<fake::Executor> executor_ = std::make_shared<fake::Executor>();
   mutable std::mutex mutex_;
@@ -216,6 +218,7 @@ inline void spin_some(const std::shared_ptr<Node>& /* node */) {}
 }  // namespace rclcpp
 
 #define RCLCPP_ERROR_STREAM(logger, stream) RCLCPP_FAKE_LOG("ERROR", logger, stream)
+#define RCLCPP_WARN_STREAM(logger, stream) RCLCPP_FAKE_LOG("WARN", logger, stream)
 #define RCLCPP_WARN_STREAM_THROTTLE(logger, clock, milliseconds, stream) \
   do {                                                                   \
     static_cast<void>((clock).now());                                    \
