@@ -19,7 +19,15 @@ from rebsync.static import Analysis
 
 _ROS_PACKAGES = frozenset(
     {
-        *("catkin", "diagnostic_msgs", "genmsg", "geometry_msgs", "message_generation", "message_runtime", "nav_msgs"),
+        *(
+            "catkin",
+            "diagnostic_msgs",
+            "genmsg",
+            "geometry_msgs",
+            "message_generation",
+            "message_runtime",
+            "nav_msgs",
+        ),
         *("rosconsole", "roscpp", "rosgraph_msgs", "roslaunch", "rospy", "sensor_msgs", "std_msgs"),
     }
 )

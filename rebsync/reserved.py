@@ -40,7 +40,7 @@ RUNTIME_MEMBERS = frozenset({"mailbox", "drive", "node", "state", "state_pub"})
 RUNTIME_CONSTANTS = frozenset(
     {
         *("kAligned", "kFarAway", "kNever", "kNoPriority", "kNull", "kPatience", "kPause"),
-        *("kPeriod", "kQueueSize", "kSilence", "kSoon"),
+        *("kPeriod", "kQueueSize", "kRounded", "kSilence", "kSoon"),
     }
 )
 RUNTIME_FUNCTIONS = _FREE_FUNCTIONS | {

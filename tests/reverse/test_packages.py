@@ -128,4 +128,4 @@ def test_the_manifest_is_that_of_the_configuration(name: str) -> None:
     assert (found.name, found.version, found.format) == (name, package.version, 2)
     assert (found.description, found.license) == (package.description, package.license)
     assert found.maintainers == package.maintainers
-    assert {"roscpp", "std_msgs", "message_runtime"} <= set(found.depends)
+    assert {"diagnostic_msgs", "roscpp", "message_runtime"} <= set(found.depends)

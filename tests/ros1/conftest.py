@@ -16,7 +16,9 @@ _HERE = Path(__file__).parent
 _TEMPLATES = _HERE.parents[1] / "forward" / "templates"
 HEADERS = ("drive.h", "mailbox.h", "sensor.h", "startup.h", "values.h", "watchdog.h")
 MODULES = {
-    **{name: f"ros1_py/{name}.py" for name in ("drive", "mailbox", "sensor", "startup", "watchdog")},
+    **{
+        name: f"ros1_py/{name}.py" for name in ("drive", "mailbox", "sensor", "startup", "watchdog")
+    },
     "values": "py/values.py",
 }
 DIALECTS = ("ros1-cpp", "ros1-py")

@@ -25,8 +25,7 @@ _HERE = Path(__file__).parent
 _MESSAGES = _HERE.parent / "ros1" / "packages" / "probe" / "msg"
 _MODULES = {
     **{
-        name: f"ros2_py/{name}.py"
-        for name in ("drive", "mailbox", "sensor", "startup", "watchdog")
+        name: f"ros2_py/{name}.py" for name in ("drive", "mailbox", "sensor", "startup", "watchdog")
     },
     "values": "py/values.py",
 }

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <boost/optional.hpp>
+#include <cmath>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
@@ -25,6 +27,7 @@
 
 #include "experiment2/startup.h"
 #include "experiment2/values.h"
+#include "experiment2/watchdog.h"
 
 namespace experiment2 {
 
@@ -88,10 +91,11 @@ class Mailbox {
         self_(lastSegment(ros::this_node::getName())),
         capacity_(capacity),
         best_priority_(best_priority),
-        startup_(self_) {
+        slack_(ros::NodeHandle("mailbox").param("slack", 0.5)),
+        startup_(self_),
+        watchdog_(startup_, slack_, [this] { return look(); }) {
     const ros::NodeHandle options("mailbox");
     time_unit_ = options.param("time_unit", 1.0);
-    slack_ = options.param("slack", 0.5);
     settle_ = ros::Duration(options.param("settle", 0.05));
     random_.seed(static_cast<uint32_t>(options.param("seed", 0)) ^ hash(self_));
   }
@@ -146,12 +150,16 @@ class Mailbox {
   template <class M>
   void publish(const ros::Publisher& publisher, M message, const When& when) {
     message.timing = when.from(now_);
-    atStart([publisher, message] { publisher.publish(message); });
+    atStart([this, publisher, message]() mutable {
+      message.timing = later(message.timing);
+      publisher.publish(message);
+    });
   }
 
   /// Sends to the rebec itself.
   void post(const Server& server, const When& when, std::string arguments, Body serve) {
-    add({server, when.from(now_), self_, std::move(arguments), std::move(serve), {}, 0});
+    const bool early = !started_;
+    add({server, when.from(now_), self_, std::move(arguments), std::move(serve), {}, 0, early});
   }
 
   /// Takes in what another rebec sent.
@@ -160,7 +168,8 @@ class Mailbox {
     // What is sent in one go may come in any order: give a more urgent message time to come too.
     const bool overtakable = server.priority > best_priority_;
     const ros::Time earliest = overtakable ? ros::Time::now() + settle_ : ros::Time();
-    add({server, timing, std::move(sender), std::move(arguments), std::move(serve), earliest, 0});
+    add({server, timing, std::move(sender), std::move(arguments), std::move(serve), earliest, 0,
+        false});
   }
 
   int32_t now() const { return static_cast<int32_t>(now_); }
@@ -177,8 +186,12 @@ class Mailbox {
     if (time < 0) throw Violation("time", "delay " + std::to_string(time));
     const int64_t start = now_;
     now_ += time;
-    atStart([this, start, time] { on_delay_(start, time); });
-    if (started_) sleepUntil(at(static_cast<double>(now_)));
+    atStart([this, start, time] { on_delay_(start + shift_, time); });
+    if (!started_) return;
+    delaying_ = true;
+    sleepUntil(at(static_cast<double>(now_)));
+    delaying_ = false;
+    ++steps_;
   }
 
   template <class T>
@@ -210,12 +223,19 @@ class Mailbox {
   }
   double timeUnit() const { return time_unit_; }
 
+  /// Has a thread of its own look at something a few times a second; call it before start().
+  void watch(Body check) { watchdog_.addCheck(std::move(check)); }
+
   /// Runs the constructor of the model; call it before start().
   void construct(const Body& body) { perform(body); }
 
-  void start() { thread_ = std::thread(&Mailbox::run, this); }
+  void start() {
+    thread_ = std::thread(&Mailbox::run, this);
+    watchdog_.start();
+  }
 
   void stop() {
+    watchdog_.stop();
     startup_.stop();
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -234,6 +254,7 @@ class Mailbox {
     Body serve;
     ros::Time earliest;
     uint64_t receipt;
+    bool early;  // its times count from the moment from which this rebec serves
   };
 
   static std::vector<std::string> rebecsOf(const std::string& class_name) {
@@ -263,11 +284,56 @@ class Mailbox {
     }
   }
 
-  void begin(const ros::Time& zero) {
-    zero_ = zero;
-    started_ = true;
+  // Who joins a system that runs serves from the next whole time on.
+  void begin(const Beginning& beginning) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      zero_ = beginning.zero;
+      if (beginning.joins) shift_ = join();
+      now_ += shift_;
+      for (Message& message : waiting_) {
+        if (message.early) message.timing = later(message.timing);
+      }
+      started_ = true;
+    }
     for (const auto& action : kept_) action();
     kept_.clear();
+    shift_ = 0;
+  }
+
+  int64_t join() const {
+    const auto time = static_cast<int64_t>(std::ceil(std::max(elapsed(), 0.0)));
+    const std::string facts =
+        "serves from " + std::to_string(time) + " on, what came before is lost";
+    ROS_WARN_STREAM(reportLine("restarted", self_, "startup", facts));
+    return time;
+  }
+
+  // The time of the model that the clock shows.
+  double elapsed() const { return (ros::Time::now() - zero_).toSec() / time_unit_; }
+
+  Timing later(Timing timing) const {
+    timing.arrival += shift_;
+    if (timing.deadline != kNever) timing.deadline += shift_;
+    return timing;
+  }
+
+  // What no rebec sent, and so nobody stamped, arrives when it is received.
+  void stamp(Message& message) const {
+    if (message.timing.stamped) return;
+    message.early = !started_;
+    message.timing.arrival =
+        started_ ? static_cast<int64_t>(std::floor(std::max(elapsed(), 0.0))) : 0;
+    message.timing.deadline = kNever;
+  }
+
+  Snapshot look() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto first = std::min_element(waiting_.begin(), waiting_.end(), goesBefore);
+    const bool due = started_ && first != waiting_.end() && ros::Time::now() >= dueTime(*first);
+    const std::string server = serving_ ? serving_name_ : due ? first->server.name : "";
+    return {started_, serving_, delaying_, due, server, steps_, served_, waiting_.size(), seen_now_,
+        lateness_};
   }
 
   void atStart(Body action) {
@@ -281,6 +347,7 @@ class Mailbox {
   // The message being served and those that arrive in the future hold a place as well.
   void add(Message message) {
     const std::lock_guard<std::mutex> lock(mutex_);
+    stamp(message);
     if (waiting_.size() + (serving_ ? 1 : 0) >= capacity_) {
       report("overflow", message.server,
           "capacity " + std::to_string(capacity_) + ", " + times(message.timing));
@@ -307,6 +374,10 @@ class Mailbox {
     Message message = std::move(*position);
     waiting_.erase(position);
     serving_ = true;
+    serving_name_ = message.server.name;
+    seen_now_ = std::max(now_, message.timing.arrival);
+    lateness_ = (ros::Time::now() - at(static_cast<double>(seen_now_))).toSec();
+    ++steps_;
     return message;
   }
 
@@ -326,6 +397,9 @@ class Mailbox {
     }
     const std::lock_guard<std::mutex> lock(mutex_);
     serving_ = false;
+    seen_now_ = now_;
+    ++steps_;
+    ++served_;
   }
 
   void perform(const Body& body) {
@@ -338,9 +412,10 @@ class Mailbox {
     } catch (const std::exception& error) {
       report("exception", current_.server, error.what());
     }
-    const Served served{current_.server.name, current_.arguments, current_.timing.arrival, start_,
+    Served served{current_.server.name, current_.arguments, current_.timing.arrival, start_,
         now_};
-    atStart([this, served] {
+    atStart([this, served]() mutable {
+      for (int64_t* time : {&served.arrival, &served.start, &served.now}) *time += shift_;
       on_end_(served.now);
       on_served_(served);
     });
@@ -392,8 +467,8 @@ class Mailbox {
   const std::string self_;
   const std::size_t capacity_;
   const int best_priority_;
+  const double slack_;
   double time_unit_;
-  double slack_;
   ros::Duration settle_;
   std::mt19937 random_;
 
@@ -402,11 +477,12 @@ class Mailbox {
   std::function<void(int64_t)> on_end_ = [](int64_t) {};
 
   // Of the body that runs: of the main thread before the start, of the serving thread after it.
-  Message current_{{"constructor", kNoPriority}, {}, {}, {}, {}, {}, 0};
+  Message current_{{"constructor", kNoPriority}, {}, {}, {}, {}, {}, 0, false};
   int64_t start_ = 0;
   int64_t now_ = 0;
   ros::Time zero_;
   bool started_ = false;
+  int64_t shift_ = 0;  // of all times of the constructor, while what it did is made up for
   std::vector<Body> kept_;
 
   std::mutex mutex_;
@@ -416,9 +492,18 @@ class Mailbox {
   bool serving_ = false;
   bool stopping_ = false;
 
+  // For the watchdog.
+  std::atomic<bool> delaying_{false};
+  std::atomic<uint64_t> steps_{0};
+  uint64_t served_ = 0;
+  std::string serving_name_;
+  int64_t seen_now_ = 0;
+  double lateness_ = 0;
+
   std::thread thread_;
   ros::Timer alarm_;
   Startup startup_;
+  Watchdog watchdog_;
 };
 
 }  // namespace experiment2

@@ -3,12 +3,12 @@
 #define EXPERIMENT3_STARTUP_H
 
 #include <ros/ros.h>
-#include <std_msgs/Header.h>
 
 #include <algorithm>
-#include <boost/optional.hpp>
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
+#include <cstdlib>
 #include <map>
 #include <mutex>
 #include <set>
@@ -16,7 +16,11 @@
 #include <utility>
 #include <vector>
 
+#include "experiment3/Announcement.h"
+
 namespace experiment3 {
+
+constexpr int kSilence = 3;  // heartbeats
 
 /// Thrown through a body when the node shuts down, so that nothing is sent too early.
 struct Stopped {};
@@ -27,7 +31,13 @@ inline std::string reportLine(const std::string& kind, const std::string& rebec,
   return kind + ": " + rebec + "." + server + " (" + facts + ")";
 }
 
-/// Announces this rebec when its publishers are matched and waits for all the others.
+/// The common time 0, and whether the others had begun before this rebec came.
+struct Beginning {
+  ros::Time zero;
+  bool joins;
+};
+
+/// Announces this rebec, again and again, waits for all the others, and tells which are silent.
 class Startup {
  public:
   explicit Startup(std::string self) : self_(std::move(self)) {
@@ -35,7 +45,7 @@ class Startup {
     node.getParam("mailbox/rebecs", rebecs_);
     if (rebecs_.empty()) rebecs_.push_back(self_);
     timeout_ = std::chrono::duration<double>(node.param("mailbox/startup_timeout", 30.0));
-    announcement_ = node.advertise<std_msgs::Header>("startup", 1, true);
+    announcement_ = node.advertise<Announcement>("startup", 1, true);
     announcements_ = node.subscribe("startup", 1000, &Startup::receive, this,
         ros::TransportHints().tcpNoDelay());
   }
@@ -55,15 +65,50 @@ class Startup {
     changed_.notify_all();
   }
 
-  /// Blocks until all rebecs have announced themselves, and returns the common time 0.
-  ros::Time agree() {
+  /// Blocks until all rebecs have announced themselves, or have begun without this one.
+  Beginning agree() {
     awaitAll([this] { return unmatched_; }, "no subscriber on");
     awaitClock();
     announce();
     awaitAll([this] { return missing(); }, "waits for");
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return *(zero_ = latest());
+    const Beginning beginning = settle();
+    beat();
+    return beginning;
   }
+
+  /// Announces this rebec once more: it lives.
+  void beat() const {
+    Announcement announcement;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (stamp_ == 0) return;
+      announcement.rebec = self_;
+      announcement.stamp = stamp_;
+      announcement.zero = zero_;
+    }
+    announcement.clock = now();
+    announcement_.publish(announcement);
+  }
+
+  /// The rebecs that were heard once and are not any more.
+  std::set<std::string> lost() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    Names names;
+    for (const auto& peer : peers_) {
+      if (peer.second.lost) names.insert(peer.first);
+    }
+    return names;
+  }
+
+  /// How far the clocks of the others are from this one's, at the most, in seconds.
+  double clockOffset() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    int64_t offset = 0;
+    for (const auto& peer : peers_) offset = std::max(offset, std::abs(peer.second.offset));
+    return static_cast<double>(offset) * 1e-9;
+  }
+
+  const std::string& self() const { return self_; }
 
   void stop() {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -74,11 +119,23 @@ class Startup {
  private:
   using Names = std::set<std::string>;
 
+  struct Peer {
+    int64_t stamp;
+    int64_t zero;
+    int64_t offset;  // of its clock
+    int silence;     // own heartbeats since its last one
+    bool lost;
+  };
+
+  // Who comes back to a system that runs does not wait for those who are gone.
   template <class Find>
   void awaitAll(Find find, const std::string& problem) {
     std::unique_lock<std::mutex> lock(mutex_);
     const auto done = [&] { return stopping_ || find().empty(); };
-    while (!changed_.wait_for(lock, timeout_, done)) report(problem, find());
+    while (!changed_.wait_for(lock, timeout_, done)) {
+      report(problem, find());
+      if (heard_ != 0) break;
+    }
     if (stopping_) throw Stopped();
   }
 
@@ -90,34 +147,70 @@ class Startup {
     }
   }
 
-  void announce() const {
-    std_msgs::Header header;
-    header.stamp = ros::Time::now();
-    header.frame_id = self_;
-    announcement_.publish(header);
+  void announce() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      stamp_ = now();
+    }
+    beat();
   }
 
-  void receive(const std_msgs::Header::ConstPtr& header) {
+  // A time 0 before the own stamp was agreed on without this rebec.
+  Beginning settle() {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!takesPart(header->frame_id)) return;
-    if (zero_ && header->stamp > *zero_) report("restarted", {header->frame_id});
-    stamps_[header->frame_id] = header->stamp;
+    zero_ = heard_ != 0 ? heard_ : latest();
+    return {ros::Time().fromNSec(static_cast<uint64_t>(zero_)), stamp_ > zero_};
+  }
+
+  void receive(const Announcement::ConstPtr& announcement) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (announcement->rebec == self_) {
+      if (announcement->stamp == stamp_) countSilence();
+    } else if (takesPart(announcement->rebec)) {
+      hear(*announcement);
+    }
     changed_.notify_all();
   }
+
+  void hear(const Announcement& announcement) {
+    Peer& peer = peers_[announcement.rebec];
+    if (peer.lost) report("back", {announcement.rebec});
+    const bool again = peer.stamp != 0 && peer.stamp != announcement.stamp;
+    const bool late = zero_ != 0 && announcement.stamp > zero_;
+    if (again && late) report("restarted", {announcement.rebec});
+    const int64_t zero = announcement.zero;
+    const bool other = zero != 0 && zero_ != 0 && zero != zero_;
+    if (other && zero != peer.zero) report("another time 0 than", {announcement.rebec});
+    if (zero != 0 && (heard_ == 0 || zero < heard_)) heard_ = zero;
+    peer = {announcement.stamp, zero, announcement.clock - now(), 0, false};
+  }
+
+  // Own heartbeats measure the silence of others: they come late as well where this node does.
+  void countSilence() {
+    for (auto& peer : peers_) {
+      if (++peer.second.silence <= kSilence || peer.second.lost) continue;
+      peer.second.lost = true;
+      report("lost", {peer.first});
+    }
+  }
+
+  static int64_t now() { return static_cast<int64_t>(ros::Time::now().toNSec()); }
 
   bool takesPart(const std::string& name) const {
     return std::find(rebecs_.begin(), rebecs_.end(), name) != rebecs_.end();
   }
 
   Names missing() const {
+    if (heard_ != 0) return {};
     Names names(rebecs_.begin(), rebecs_.end());
-    for (const auto& stamp : stamps_) names.erase(stamp.first);
+    names.erase(self_);
+    for (const auto& peer : peers_) names.erase(peer.first);
     return names;
   }
 
-  ros::Time latest() const {
-    ros::Time time;
-    for (const auto& stamp : stamps_) time = std::max(time, stamp.second);
+  int64_t latest() const {
+    int64_t time = stamp_;
+    for (const auto& peer : peers_) time = std::max(time, peer.second.stamp);
     return time;
   }
 
@@ -130,11 +223,13 @@ class Startup {
   const std::string self_;
   std::vector<std::string> rebecs_;
   std::chrono::duration<double> timeout_{};
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   Names unmatched_;
-  std::map<std::string, ros::Time> stamps_;
-  boost::optional<ros::Time> zero_;
+  std::map<std::string, Peer> peers_;
+  int64_t stamp_ = 0;  // times in nanoseconds of the ROS clock; 0: not yet
+  int64_t heard_ = 0;  // the least time 0 of others
+  int64_t zero_ = 0;
   bool stopping_ = false;
   ros::Publisher announcement_;
   ros::Subscriber announcements_;

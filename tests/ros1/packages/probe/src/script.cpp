@@ -1,7 +1,10 @@
 #include "probe/script.h"
 
 #include <array>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
+#include <thread>
 
 #include "probe/ScriptState.h"
 
@@ -54,6 +57,7 @@ void Script::step(const std::string& line) {
   int32_t y = 0;
   words >> verb;
   if (verb == "send") return send(words);
+  if (verb == "raw") return sendUnstamped(words);
   words >> x >> y;
   if (verb == "delay") mailbox_.delay(x);
   if (verb == "move") drive_.move(x, y);
@@ -65,6 +69,8 @@ void Script::step(const std::string& line) {
   if (verb == "is_script") notes_.push_back(mailbox_.isA(mailbox_.sender(), "Script"));
   if (verb == "value") notes_.push_back(value_);
   if (verb == "sense") sensed();
+  if (verb == "kill") std::raise(SIGKILL);
+  if (verb == "hang") std::this_thread::sleep_for(std::chrono::seconds(x));
   if (verb == "quit") std::_Exit(1);
   if (verb == "throw") throw std::runtime_error("of the user's code");
 }
@@ -88,6 +94,15 @@ void Script::send(std::istringstream& words) {
   msg.sender = mailbox_.self();
   msg.value = value;
   mailbox_.publish(to(publishers_[name], rebec == "sender" ? mailbox_.sender() : rebec), msg, when);
+}
+
+// raw <rebec> <server> <value>: as somebody sends it who is no rebec
+void Script::sendUnstamped(std::istringstream& words) {
+  std::string rebec;
+  std::string name;
+  Note msg;
+  words >> rebec >> name >> msg.value;
+  to(publishers_[name], rebec).publish(msg);
 }
 
 void Script::sensed() {

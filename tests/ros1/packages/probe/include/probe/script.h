@@ -28,6 +28,7 @@ class Script {
   void run(const std::string& server, int32_t value);
   void step(const std::string& line);
   void send(std::istringstream& words);
+  void sendUnstamped(std::istringstream& words);
   void sensed();
 
   void receivePlain(const Note::ConstPtr& msg);

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import signal
+import time
 
 import rospy
 
@@ -51,6 +53,9 @@ class Script:
         if verb == "send":
             self.send(*rest)
             return
+        if verb == "raw":
+            self.send_unstamped(*rest)
+            return
         x, y = (*map(int, rest), 0, 0)[:2]
         if verb == "delay":
             self.mailbox.delay(x)
@@ -72,6 +77,10 @@ class Script:
             self.notes.append(self.value)
         if verb == "sense":
             self.sense()
+        if verb == "kill":
+            os.kill(os.getpid(), signal.SIGKILL)
+        if verb == "hang":
+            time.sleep(x)
         if verb == "quit":
             os._exit(1)
         if verb == "throw":
@@ -87,6 +96,10 @@ class Script:
         msg = Note(sender=self.mailbox.self(), value=value)
         receiver = self.mailbox.sender() if rebec == "sender" else rebec
         self.mailbox.publish(to(self.publishers[name], receiver), msg, when)
+
+    # raw <rebec> <server> <value>: as somebody sends it who is no rebec
+    def send_unstamped(self, rebec: str, name: str, given: str) -> None:
+        to(self.publishers[name], rebec).publish(Note(value=int(given)))
 
     def sense(self) -> None:
         seen = self.sensor.seen(lambda note: note.value)

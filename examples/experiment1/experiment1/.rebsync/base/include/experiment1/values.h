@@ -66,6 +66,7 @@ class When {
     Timing timing;
     timing.arrival = now + after_;
     timing.deadline = deadline_ ? now + *deadline_ : kNever;
+    timing.stamped = true;
     return timing;
   }
 
