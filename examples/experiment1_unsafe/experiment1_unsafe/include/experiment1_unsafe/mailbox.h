@@ -32,6 +32,7 @@
 namespace experiment1_unsafe {
 
 constexpr uint32_t kQueueSize = 1000;
+constexpr double kRounded = 1e-6;  // units of model time, more than what division loses
 constexpr double kFarAway = 1e9;  // s, still a valid ros::Duration
 
 /// A body that has run: what it served, when that arrived, was taken and ended.
@@ -302,7 +303,7 @@ class Mailbox {
   }
 
   int64_t join() const {
-    const auto time = static_cast<int64_t>(std::ceil(std::max(elapsed(), 0.0)));
+    const auto time = static_cast<int64_t>(std::ceil(std::max(elapsed() - kRounded, 0.0)));
     const std::string facts =
         "serves from " + std::to_string(time) + " on, what came before is lost";
     ROS_WARN_STREAM(reportLine("restarted", self_, "startup", facts));
@@ -323,7 +324,7 @@ class Mailbox {
     if (message.timing.stamped) return;
     message.early = !started_;
     message.timing.arrival =
-        started_ ? static_cast<int64_t>(std::floor(std::max(elapsed(), 0.0))) : 0;
+        started_ ? static_cast<int64_t>(std::floor(std::max(elapsed() + kRounded, 0.0))) : 0;
     message.timing.deadline = kNever;
   }
 
