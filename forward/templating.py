@@ -2,29 +2,53 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
+import hashlib
+import marshal
+import sys
 from functools import cache
+from types import CodeType
 
-from jinja2 import Environment, FileSystemBytecodeCache, PackageLoader, StrictUndefined
+import jinja2
+from jinja2 import BytecodeCache, Environment, PackageLoader, StrictUndefined
 from jinja2.bccache import Bucket
 
-from rebsync.cache import cache_directory, is_ours
+from rebsync.cache import Cache, open_cache
+
+_MOST = 500  # templates, of a few versions
 
 
-class _Compiled(FileSystemBytecodeCache):
-    """Compiled templates in the user's cache; that it cannot be written does not matter."""
+class _Compiled(BytecodeCache):
+    """Compiled templates in the user's cache: code, which is run only under the user's seal."""
+
+    def __init__(self, cache: Cache) -> None:
+        self._cache = cache
+
+    def load_bytecode(self, bucket: Bucket) -> None:
+        content = self._cache.load(_name(bucket))
+        if content is not None:
+            bucket.code = _code(content)
 
     def dump_bytecode(self, bucket: Bucket) -> None:
-        with suppress(OSError):
-            super().dump_bytecode(bucket)
+        if bucket.code is not None:
+            self._cache.store(_name(bucket), marshal.dumps(bucket.code))
+            self._cache.tidy(_MOST)
+
+
+def _name(bucket: Bucket) -> str:
+    """What the code depends on: the template's text, and what compiles and runs it."""
+    made_for = (bucket.key, bucket.checksum, jinja2.__version__, sys.version)
+    return hashlib.sha256("\0".join(made_for).encode()).hexdigest()
+
+
+def _code(content: bytes) -> CodeType:
+    code = marshal.loads(content)
+    assert isinstance(code, CodeType)
+    return code
 
 
 def _compiled() -> _Compiled | None:
-    """Compiled templates are code: they are kept only where nobody else can write."""
-    folder = cache_directory()
-    if folder is None or not is_ours(folder.stat()):
-        return None
-    return _Compiled(str(folder), "%s.template")
+    cache = open_cache("templates")
+    return _Compiled(cache) if cache is not None else None
 
 
 @cache

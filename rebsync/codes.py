@@ -162,6 +162,7 @@ FILES = {
     "RS810": "a missing key in a configuration file",
     "RS811": "a directory without anything to read",
     "RS812": "a file that somebody changed while rebsync was about to write it",
+    "RS820": "a folder for the cache that is not used, as others could have written to it",
 }
 
 PROPERTIES = {

@@ -60,21 +60,19 @@ def _is_much(pending: list[Begun]) -> bool:
 
 def _in_processes(pending: list[Begun], depth: str) -> Iterator[Result]:
     from rebsync.reverse.files.parallel import in_processes
-    from rebsync.roundtrip.extraction_cache import unpacked
+    from rebsync.roundtrip.serialisation import deserialised
 
     first, *others = pending
     yield _finished(first, depth)  # what it loads, copies of this process have then
-    for data in in_processes(iter(others), partial(_sent, depth), lambda b: b.kept.root):
-        yield cast("Result", unpacked(data))
+    for text in in_processes(iter(others), partial(_sent, depth), lambda b: b.kept.root):
+        yield cast("Result", deserialised(text))
 
 
-def _sent(depth: str, begun: Begun) -> bytes:
+def _sent(depth: str, begun: Begun) -> str:
     """The result in the form in which values keep what they are."""
-    from rebsync.roundtrip.extraction_cache import packed
+    from rebsync.roundtrip.serialisation import serialised
 
     try:
-        return packed(_finished(begun, depth))
-    except RecursionError:
-        return packed(_too_deep(begun.kept.root))
+        return serialised(_finished(begun, depth))
     finally:
         gc.collect()  # commands run without it, but this one may take long

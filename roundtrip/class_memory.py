@@ -7,7 +7,8 @@ from collections.abc import Mapping
 
 from rebsync.records import dataclass
 from rebsync.reverse.generated.ros1_kept import ClassRead
-from rebsync.roundtrip.extraction_cache import keep, kept, key_of, opened, packed
+from rebsync.roundtrip.extraction_cache import keep, kept, key_of, opened
+from rebsync.roundtrip.serialisation import NotSerialisable, serialised
 from rebsync.source import Source
 
 
@@ -15,7 +16,7 @@ from rebsync.source import Source
 class Entry:
     """What a class says, and the digests of the texts in which that has places, by their paths."""
 
-    body: bytes
+    body: str
     places: tuple[tuple[str, str], ...]
 
 
@@ -36,8 +37,8 @@ class ClassMemory:
         """Keeps this for later, if that can be done."""
         used = _Used(sources)
         try:
-            body = packed(read, used)
-        except RecursionError:
+            body = serialised(read, used)
+        except NotSerialisable:
             return
         places = tuple((path, _digest(sources[path])) for path in sorted(used.paths))
         keep(key_of("class", key), Entry(body, places))

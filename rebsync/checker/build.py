@@ -5,7 +5,6 @@ from __future__ import annotations
 import ctypes
 import hashlib
 import os
-import secrets
 import shlex
 import shutil
 import signal
@@ -15,7 +14,7 @@ from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rebsync.cache import cache_directory, is_ours
+from rebsync.cache import Cache, open_cache, read_ours
 from rebsync.checker.exploration import Unavailable
 from rebsync.records import dataclass
 
@@ -63,8 +62,8 @@ def libraries(
     """
     compiler = _compiler()
     keys = [_key(unit, compiler) for unit in units]
-    folder = _folder()
-    loaded = [_kept(folder, key) for key in keys]
+    cache = open_cache("libraries")
+    loaded = [_kept(cache, key) for key in keys]
     missing = [i for i, library in enumerate(loaded) if library is None]
     if missing and not compiled:
         raise Unavailable("the model has not been compiled before")
@@ -75,7 +74,7 @@ def libraries(
             with tempfile.TemporaryDirectory(prefix="rebsync-") as scratch:
                 made = _compile([units[i] for i in missing], compiler, Path(scratch), wanted)
                 for i, path in zip(missing, made, strict=True):
-                    loaded[i] = _made(folder, keys[i], path)
+                    loaded[i] = _made(cache, keys[i], path)
         except OSError as error:
             raise Unavailable(f"the model cannot be compiled: {error.strerror}") from None
     return tuple(library for library in loaded if library is not None)
@@ -103,25 +102,17 @@ def _key(unit: Unit, compiler: tuple[str, ...]) -> str:
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:32]
 
 
-# --- the cache: names that say the digest of the content -----------------------------------------
+# --- the cache: names that say what a library is made from, and the seal of its content ----------
 
 
-def _folder() -> Path | None:
-    """Libraries are code: they are kept only where nobody else can write."""
-    folder = cache_directory()
-    try:
-        return folder if folder is not None and is_ours(folder.stat()) else None
-    except OSError:
+def _kept(cache: Cache | None, key: str) -> ctypes.CDLL | None:
+    """The library of a key; None unless it is under this user's seal, and loads."""
+    if cache is None:
         return None
-
-
-def _kept(folder: Path | None, key: str) -> ctypes.CDLL | None:
-    """The library of a key; None unless this user wrote it, and it is whole and loads."""
-    if folder is None:
-        return None
-    for path in folder.glob(f"{key}-*.so"):
+    for path in cache.folder.glob(f"{key}-*.so"):
+        content = read_ours(path)
         with suppress(OSError, Unavailable):
-            if is_ours(path.stat()) and path.name == _name(key, path.read_bytes()):
+            if content is not None and path.name == _name(cache, key, content):
                 os.utime(path)
                 return _load(path)
         with suppress(OSError):
@@ -129,39 +120,26 @@ def _kept(folder: Path | None, key: str) -> ctypes.CDLL | None:
     return None
 
 
-def _name(key: str, content: bytes) -> str:
-    return f"{key}-{hashlib.sha256(content).hexdigest()[:32]}.so"
+def _name(cache: Cache, key: str, content: bytes) -> str:
+    return f"{key}-{cache.seal(key, content)}.so"
 
 
-def _keep(folder: Path | None, key: str, made: Path) -> Path | None:
+def _keep(cache: Cache | None, key: str, made: Path) -> Path | None:
     """Puts a library into the cache; None when that cannot be done."""
-    if folder is None:
+    if cache is None:
         return None
     content = made.read_bytes()
-    path = folder / _name(key, content)
-    staged = path.with_name(f"{path.name}.{secrets.token_hex(4)}.tmp")
     try:
-        handle = os.open(staged, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o700)
-        with os.fdopen(handle, "wb") as file:
-            file.write(content)
-        staged.replace(path)
-        _remove_oldest(folder)
+        path = cache.put(_name(cache, key, content), content, mode=0o700)
     except OSError:
-        with suppress(OSError):
-            staged.unlink()
         return None
+    cache.tidy(_KEPT)
     return path
 
 
-def _remove_oldest(folder: Path) -> None:
-    kept = sorted(folder.glob("*-*.so"), key=lambda path: path.stat().st_mtime)
-    for path in kept[:-_KEPT]:
-        path.unlink(missing_ok=True)
-
-
-def _made(folder: Path | None, key: str, made: Path) -> ctypes.CDLL:
+def _made(cache: Cache | None, key: str, made: Path) -> ctypes.CDLL:
     """What was compiled, from the cache if it can be kept and run there."""
-    kept = _keep(folder, key, made)
+    kept = _keep(cache, key, made)
     if kept is not None:
         with suppress(Unavailable):
             return _load(kept)

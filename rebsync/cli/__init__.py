@@ -66,7 +66,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 raise
     except SystemExit as error:  # click's own answer to a broken pipe
         status = Status.BROKEN_PIPE if error.code == 1 else error.code
+    _tell_of_cache()
     return _closed(int(status or Status.CLEAN))
+
+
+def _tell_of_cache() -> None:
+    """Says which folder was to be the cache and was not used."""
+    cache = sys.modules.get("rebsync.cache")
+    found = cache.refused() if cache is not None else None
+    if found is not None:
+        _report(RebsyncError([found]))
 
 
 def _end_in_order() -> None:

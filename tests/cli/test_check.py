@@ -305,7 +305,7 @@ def test_many_packages_are_read_by_several_processes(
     (package / "launch/patrol.launch").unlink()
     monkeypatch.setattr(parallel, "processors", lambda: 1)
     wanted = check(".")
-    shutil.rmtree(package.parent / ".cache/check")
+    shutil.rmtree(package.parent / ".cache/values")
     started: list[int] = []
     pool = parallel._pool
     monkeypatch.setattr(parallel, "processors", lambda: 2)
@@ -737,11 +737,11 @@ def test_what_was_read_once_is_not_read_again(check: Check) -> None:
 def test_a_damaged_cache_is_as_good_as_none(check: Check, package: Path) -> None:
     replace(SOURCE, "mailbox_.delay(1)", "mailbox_.delay(3)")
     wanted = check()
-    entries = [p for p in (package.parent / ".cache/check").iterdir() if p.is_file()]
+    entries = [p for p in (package.parent / ".cache/values").iterdir() if p.is_file()]
     assert len(entries) >= 2
     for number, entry in enumerate(entries):
         data = entry.read_bytes()
         entry.write_bytes([b"", data[:40], data[:-1] + b"x"][number % 3])
     assert check() == wanted
-    shutil.rmtree(package.parent / ".cache/check")
+    shutil.rmtree(package.parent / ".cache/values")
     assert check() == wanted

@@ -79,4 +79,4 @@ def test_runs_at_once_share_a_cache(tmp_path: Path) -> None:
     shown = {run.communicate()[0] for run in runs}
     assert {run.returncode for run in runs} == {1}
     assert len(shown) == 1, shown
-    assert not list((tmp_path / "cache/check").glob(".*"))
+    assert not list((tmp_path / "cache/values").glob(".*"))

@@ -23,7 +23,7 @@ def first_line() -> str:
 
 def test_damaged_templates_are_compiled_anew(cache: Path) -> None:
     assert first_line() == "BasedOnStyle: Google"
-    kept = list(cache.glob("*.template"))
+    kept = list(cache.glob("templates/*"))
     assert kept
     for damage in (b"", b"junk", kept[0].read_bytes()[:-20]):
         kept[0].write_bytes(damage)
@@ -33,4 +33,4 @@ def test_damaged_templates_are_compiled_anew(cache: Path) -> None:
 def test_a_folder_that_others_can_write_to_is_not_used(cache: Path) -> None:
     cache.chmod(0o777)
     assert first_line() == "BasedOnStyle: Google"
-    assert not list(cache.glob("*.template"))
+    assert not list(cache.glob("templates/*"))
