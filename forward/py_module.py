@@ -122,7 +122,8 @@ def _class(c: PyClass, words: PyWords) -> list[str]:
         functions += [*shims(c), *sends(c)]
     if c.node.executable:
         functions.append(publish_state(c))
-    bases = list(c.base_types)
+    bases = [words.base()] if c.owns_mailbox and words.base() else []
+    bases += c.base_types
     if c.is_abstract:
         bases.append("ABC")
     head = f"class {c.type_name}({', '.join(bases)}):" if bases else f"class {c.type_name}:"

@@ -11,7 +11,7 @@ from rebsync.model import Parameter
 from rebsync.names import carry, graph_name, unique
 from rebsync.package import NodeClass, Package, Publisher, Subscription
 from rebsync.records import dataclass
-from rebsync.reserved import PYTHON_MEMBERS, PYTHON_RESERVED, carry_local
+from rebsync.reserved import PYTHON_FUNCTIONS, PYTHON_MEMBERS, PYTHON_RESERVED, carry_local
 
 
 @dataclass(slots=True)
@@ -27,7 +27,7 @@ class PyNames(ClassNames):
 
     def function(self, name: str, parameters: tuple[Parameter, ...]) -> str:
         """A handler or method: the model's own name where Python has one function of that name."""
-        carried = carry(name, PYTHON_RESERVED)
+        carried = carry(name, PYTHON_FUNCTIONS)
         suffix = self.apart.get(signature(name, parameters))
         return carried if suffix is None else f"{carried}__{suffix}"
 

@@ -21,11 +21,14 @@ class PyWords(Protocol):
     def messages(self, package: str) -> str:
         """The module of the package's own messages."""
 
-    def parameters(self) -> list[str]:
-        """What a constructor is given before the parameters of the model."""
+    def base(self) -> str:
+        """The class that all nodes derive from; empty where there is none."""
 
-    def passed(self) -> list[str]:
-        """The same as arguments."""
+    def argument(self, key: str, type_: Type) -> tuple[str, list[str]] | None:
+        """What a constructor calls, with which arguments, to read one of its own.
+
+        None: it is passed.
+        """
 
     def mailbox(self, arguments: str) -> str:
         """Makes the mailbox of a node."""
@@ -56,31 +59,43 @@ def class_lines(c: PyClass, words: PyWords) -> list[list[str]]:
     wires_itself = c.node.executable and not c.node.inherited_from
     found = []
     if c.node.executable:
-        own = (
-            _wired(c, words, *_capacity(c)) if wires_itself else [f"self._wire({_call(c, words)})"]
-        )
-        found.append(_constructor(c, words, own))
+        own = _wired(c, words, *_capacity(c)) if wires_itself else [f"self._wire({_call(c)})"]
+        found.append(_constructor(c, words, [*_node(c, words), *own]))
     if not wires_itself:
-        passed = ["self", *words.parameters(), f"queue_length: int = {c.node.queue_length}"]
+        passed = ["self", f"queue_length: int = {c.node.queue_length}"]
         passed.append("best_priority: int = NO_PRIORITY")
         lines = _wired(c, words, "queue_length", "best_priority")
         found.append([*call_lines("def _wire(", passed, ") -> None:"), *indented(lines)])
     return found
 
 
+def _node(c: PyClass, words: PyWords) -> list[str]:
+    """Makes the node that an object of the class is; a base would make one of its own name."""
+    if not words.base():
+        return []
+    of_base = base_of(c.package, c.node) is not None
+    made = f"{words.base()}.__init__(self, " if of_base else "super().__init__("
+    return [f'{made}"{c.node.file}")']
+
+
 def _constructor(c: PyClass, words: PyWords, wired: list[str]) -> list[str]:
     chosen = constructor_of(c)
     names = [c.names.local(p.name) for p in chosen.parameters]
-    passed = [f"{n}: {py_type(p.type)}" for n, p in zip(names, chosen.parameters, strict=True)]
+    typed = [f"{n}: {py_type(p.type)}" for n, p in zip(names, chosen.parameters, strict=True)]
+    pairs = zip(chosen.keys, chosen.parameters, strict=True)
+    reads = [words.argument(key, p.type) for key, p in pairs]
+    passed = [] if all(reads) else typed
     lines = wired
     lines.append(f"self._state_pub = {words.state(c.node.state.name)}")
     lines.append("self._mailbox.on_served(self._publish_state)")
     if chosen.body is not None:
+        for target, read in zip(typed, reads, strict=True):
+            lines += call_lines(f"{target} = {read[0]}(", read[1]) if read is not None else []
         construct = f"self.{c.construct(chosen)}"
         body = f"lambda: {construct}({', '.join(names)})" if names else construct
         lines += call_lines("self._mailbox.construct(", [body])
     return [
-        *call_lines("def __init__(", ["self", *words.parameters(), *passed], ") -> None:"),
+        *call_lines("def __init__(", ["self", *passed], ") -> None:"),
         *indented(lines),
     ]
 
@@ -97,9 +112,9 @@ def _capacity(c: PyClass) -> tuple[str, str]:
     return str(c.node.queue_length), str(min(priorities)) if priorities else ""
 
 
-def _call(c: PyClass, words: PyWords) -> str:
+def _call(c: PyClass) -> str:
     queue, best = _capacity(c)
-    return ", ".join([*words.passed(), queue, best or "NO_PRIORITY"])
+    return ", ".join([queue, best or "NO_PRIORITY"])
 
 
 def _wired(c: PyClass, words: PyWords, queue: str, best: str) -> list[str]:
@@ -107,7 +122,7 @@ def _wired(c: PyClass, words: PyWords, queue: str, best: str) -> list[str]:
     if base_of(c.package, c.node) is None:
         lines = [f"self._mailbox = {words.mailbox(arguments)}"]
     else:
-        lines = [f"super()._wire({', '.join([*words.passed(), queue, best or 'NO_PRIORITY'])})"]
+        lines = [f"super()._wire({queue}, {best or 'NO_PRIORITY'})"]
     if c.owns_drive:
         lines.append(f"self._drive = {words.drive()}")
     for sensor in c.node.sensors:

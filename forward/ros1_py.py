@@ -59,11 +59,11 @@ class Rospy:
     def messages(self, package: str) -> str:
         return f"{package}.msg"
 
-    def parameters(self) -> list[str]:
-        return []
+    def base(self) -> str:
+        return ""
 
-    def passed(self) -> list[str]:
-        return []
+    def argument(self, key: str, type_: Type) -> None:
+        return None
 
 
 def render(

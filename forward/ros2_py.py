@@ -7,11 +7,9 @@ from dataclasses import replace
 from rebsync.forward.message_files import message_files, message_names
 from rebsync.forward.py_class import PyClass
 from rebsync.forward.py_classes import classes
-from rebsync.forward.py_imports import imports, words_of
-from rebsync.forward.py_layout import call_lines, indented
-from rebsync.forward.py_module import VALUES, class_module, sensors_module
-from rebsync.forward.py_types import from_message, plain_type, py_choices, py_format, py_value
-from rebsync.forward.py_wiring import constructor_of
+from rebsync.forward.py_imports import imports
+from rebsync.forward.py_module import class_module, sensors_module
+from rebsync.forward.py_types import plain_type, py_choices, py_format, py_value
 from rebsync.forward.readme import readme
 from rebsync.forward.remarks import Remarks
 from rebsync.forward.ros2_package import launch_file, parameters
@@ -40,38 +38,44 @@ class Rclpy:
     def messages(self, package: str) -> str:
         return f"{interfaces(package)}.msg"
 
-    def parameters(self) -> list[str]:
-        return ["node: Node"]
+    def base(self) -> str:
+        return "Node"
 
-    def passed(self) -> list[str]:
-        return ["node"]
+    def argument(self, key: str, type_: Type) -> tuple[str, list[str]]:
+        kind = plain_type(type_)
+        unset = {"Rebec": '""', "bool": "False", "Float": "0.0", "float": "0.0"}.get(kind, "0")
+        given = ["self", f'"{_dotted(key)}"', unset, '"argument of the constructor"']
+        read = f"declared({', '.join(given)})"
+        if kind in ("int", "bool", "float"):
+            return "declared", given
+        return ("Rebec" if kind == "Rebec" else py_format(type_)), [read]
 
     def mailbox(self, arguments: str) -> str:
-        return f"Mailbox(node, {arguments})"
+        return f"Mailbox(self, {arguments})"
 
     def private(self, topic: str) -> str:
         return f"~/{topic}"
 
     def drive(self) -> str:
-        return "Drive(node, self._mailbox)"
+        return "Drive(self, self._mailbox)"
 
     def sensor(self, topic: str, type_: str) -> str:
-        return f'Sensor(node, "~/{topic}", {type_})'
+        return f'Sensor(self, "~/{topic}", {type_})'
 
     def known(self, key: str) -> str:
-        return f'Rebec(declared(node, "{_dotted(key)}", "", "known rebec"))'
+        return f'Rebec(declared(self, "{_dotted(key)}", "", "known rebec"))'
 
     def env(self, env: GlobalParameter) -> str:
         value, key = py_value(env.value), f"env.{env.key}"
         if env.type.dimensions:
             lengths = ", ".join(map(str, env.type.dimensions))
-            return f'declare_array(node, "{key}", {value}, {py_format(env.type)}, {lengths})'
-        read = f'declared(node, "{key}", {value}, "{_ENV}")'
+            return f'declare_array(self, "{key}", {value}, {py_format(env.type)}, {lengths})'
+        read = f'declared(self, "{key}", {value}, "{_ENV}")'
         whole = env.type.name in ("int", "boolean", "double")
         return read if whole else f"{py_format(env.type)}({read})"
 
     def state(self, type_: str) -> str:
-        return f'node.create_publisher({type_}, "~/state", KEPT)'
+        return f'self.create_publisher({type_}, "~/state", KEPT)'
 
 
 def _dotted(key: str) -> str:
@@ -135,33 +139,14 @@ def _setup(package: Package, paths: list[str]) -> str:
 
 
 def _node(c: PyClass) -> str:
-    """`<class>_node.py`: reads the constructor's arguments and runs one rebec."""
-    constructor = constructor_of(c)
-    pairs = zip(constructor.keys, constructor.parameters, strict=True)
-    arguments = ["node", *(_argument(key, parameter.type) for key, parameter in pairs)]
+    """`<class>_node.py`: runs one rebec."""
     package = c.package.name
     modules: dict[str, tuple[str, ...]] = {
         f"{package}.{c.node.file}": (c.type_name,),
-        f"{package}.startup": ("declared", "stoppable"),
-        f"{package}.values": VALUES,
+        f"{package}.startup": ("stoppable",),
     }
-    used = words_of([*arguments, c.type_name, "stoppable"])
-    return fill(
-        f"{_FOLDER}/node.py.j2",
-        c=c,
-        construction=indented(call_lines(f"rebec = {c.type_name}(", arguments)),
-        imports=imports(used, dict(sorted(modules.items()))),
-    )
-
-
-def _argument(key: str, type_: Type) -> str:
-    """A parameter of the node as an argument of the constructor."""
-    kind = plain_type(type_)
-    unset = {"Rebec": '""', "bool": "False", "Float": "0.0", "float": "0.0"}.get(kind, "0")
-    read = f'declared(node, "{_dotted(key)}", {unset}, "argument of the constructor")'
-    if kind == "Rebec":
-        return from_message(read, type_)
-    return read if kind in ("int", "bool", "float") else f"{py_format(type_)}({read})"
+    used = {c.type_name, "stoppable"}
+    return fill(f"{_FOLDER}/node.py.j2", c=c, imports=imports(used, dict(sorted(modules.items()))))
 
 
 def _stand_in(package: Package, node: NodeClass) -> str:

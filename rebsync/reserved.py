@@ -109,5 +109,55 @@ PYTHON_RESERVED = (
     | {"ABC", "abstractmethod", "block", "construct", "mailbox", "msg", "node", "self"}
     | {"KEPT", "Node", "declare_array", "declared", "when"}
 )
+# What a node of rclpy has, Humble to rolling, that no function of a class may hide.
+_NODE_FUNCTIONS = frozenset(
+    {
+        *("PARAM_REL_TOL", "add_on_set_parameters_callback", "add_post_set_parameters_callback"),
+        *("add_pre_set_parameters_callback", "add_waitable", "clients", "context"),
+        *("count_clients", "count_publishers", "count_services", "count_subscribers"),
+        *("create_client", "create_guard_condition", "create_publisher", "create_rate"),
+        *("create_service", "create_subscription", "create_timer", "declare_parameter"),
+        *("declare_parameters", "default_callback_group", "describe_parameter"),
+        *("describe_parameters", "destroy_client", "destroy_guard_condition", "destroy_node"),
+        *("destroy_publisher", "destroy_rate", "destroy_service", "destroy_subscription"),
+        *("destroy_timer", "executor", "get_client_names_and_types_by_node", "get_clock"),
+        *("get_fully_qualified_name", "get_fully_qualified_node_names", "get_logger", "get_name"),
+        *("get_namespace", "get_node_names", "get_node_names_and_namespaces"),
+        *("get_node_names_and_namespaces_with_enclaves", "get_parameter", "get_parameter_or"),
+        *("get_parameter_type", "get_parameter_types", "get_parameters"),
+        *("get_parameters_by_prefix", "get_publisher_names_and_types_by_node"),
+        *("get_publishers_info_by_topic", "get_service_names_and_types"),
+        *("get_service_names_and_types_by_node", "get_subscriber_names_and_types_by_node"),
+        *("get_subscriptions_info_by_topic", "get_topic_names_and_types", "guards", "handle"),
+        *("has_parameter", "list_parameters", "publishers", "remove_on_set_parameters_callback"),
+        *("remove_post_set_parameters_callback", "remove_pre_set_parameters_callback"),
+        *("remove_waitable", "resolve_service_name", "resolve_topic_name", "services"),
+        *("set_descriptor", "set_parameters", "set_parameters_atomically", "subscriptions"),
+        *("timers", "undeclare_parameter", "wait_for_node", "waitables"),
+    }
+)
+# The same of its own members, without their first underscore.
+_NODE_MEMBERS = frozenset(
+    {
+        *("allow_undeclared_parameters", "apply_descriptor", "apply_descriptor_and_set"),
+        *("apply_descriptors", "apply_floating_point_range", "apply_integer_range"),
+        *("call_post_set_parameters_callback", "call_pre_set_parameters_callback"),
+        *("check_undeclared_parameters", "clients", "clock", "context"),
+        *("count_clients_or_servers", "count_publishers_or_subscribers"),
+        *("declare_parameter_common", "default_callback_group", "descriptors"),
+        *("get_info_by_topic", "guards", "logger", "logger_service"),
+        *("on_set_parameters_callbacks", "parameter_event_publisher", "parameter_overrides"),
+        *("parameter_service", "parameters", "parameters_callbacks"),
+        *("post_set_parameters_callbacks", "pre_set_parameters_callbacks", "publishers"),
+        *("rate_group", "services", "set_parameters", "set_parameters_atomically"),
+        *("set_parameters_atomically_common", "subscriptions", "time_source", "timers"),
+        *("type_description_service", "validate_qos_or_depth_parameter"),
+        *("validate_topic_or_service_name", "wake_executor"),
+    }
+)
+# What no handler or method may be called.
+PYTHON_FUNCTIONS = PYTHON_RESERVED | _NODE_FUNCTIONS
 NO_PYTHON_CLASSES = NO_CLASSES | PYTHON_RESERVED | {"stoppable"}
-PYTHON_MEMBERS = frozenset({"drive", "mailbox", "node", "publish_state", "state_pub", "wire"})
+PYTHON_MEMBERS = _NODE_MEMBERS | {
+    *("drive", "mailbox", "node", "publish_state", "state_pub", "wire"),
+}

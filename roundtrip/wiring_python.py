@@ -169,8 +169,10 @@ class _Class:
                 yield from self._member(member, value, statement)
             case ast.AnnAssign(ast.Attribute(ast.Name("self"), member), _, value) if value:
                 yield from self._member(member, value, statement)
+            case ast.AnnAssign(ast.Name(argument), _, value) if value:
+                yield from self._member(argument, value, statement)
             case ast.Expr(ast.Call() as call):
-                names = {a.arg: f"_{i}" for i, a in enumerate(function.args.args) if i}
+                names = {name: f"_{i}" for i, name in enumerate(_arguments(function), 1)}
                 yield self.fact("set-up", ast.unparse(call.func), plain(call, names), statement)
             case _:
                 return  # extraction lists what it does not know
@@ -180,7 +182,7 @@ class _Class:
         arguments = value.args if isinstance(value, ast.Call) else []
         method = called.removeprefix("self._mailbox.")
         if called == "Mailbox":
-            rest = [plain(a) for a in arguments if ast.unparse(a) != "node"][1:]
+            rest = [plain(a) for a in arguments if ast.unparse(a) not in ("node", "self")][1:]
             yield self.fact("best priority", "", ", ".join(rest) or "none", at)
         elif method != called:
             yield from self._connected(member, method, arguments, at)
@@ -291,6 +293,13 @@ def _helping(source: Source, tree: ast.Module, owner: str) -> Iterator[Fact]:
         for function in within:
             for name, range_, at in ranges_in(function, types):
                 yield Fact(RANGE, owner, name, range_, source, span_of(source, at))
+
+
+def _arguments(function: ast.FunctionDef) -> list[str]:
+    """What a constructor calls the model's arguments, passed to it or read by it."""
+    read = (s.target for s in function.body if isinstance(s, ast.AnnAssign))
+    own = [t.id for t in read if isinstance(t, ast.Name)]
+    return [a.arg for a in function.args.args[1:]] + own
 
 
 # --- parts --------------------------------------------------------------------------------------

@@ -113,6 +113,10 @@ class Classes:
             if not self._is_helping(o)
         )
 
+    def arguments(self) -> dict[str, list[str]]:
+        """The parameters that the constructors of classes read for their arguments, in order."""
+        return {class_name(o.name): list(self._of(o).arguments.values()) for o in self._owners}
+
     def env(self) -> Iterator[EnvUse]:
         """The constants that classes read."""
         return (e for o in self._owners for e in self._of(o).env.values())

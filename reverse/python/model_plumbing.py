@@ -32,7 +32,12 @@ _MADE = frozenset({"Mailbox", "Drive", "Sensor"})
 _PUBLISHERS = frozenset({"rospy.Publisher", "self.create_publisher", "node.create_publisher"})
 _CONNECTING = frozenset({"advertise", "advertise_all", "subscribe", "subscribe_on_bridge"})
 _NAMED = frozenset({"Server", "logging.getLogger", "getLogger", "rclpy.logging.get_logger"})
-_CALLED = ("self._wire", "super()._wire", "super().__init__", "self._mailbox.on_served")
+_CALLED = frozenset(
+    {
+        *("self._wire", "super()._wire", "super().__init__", "Node.__init__"),
+        "self._mailbox.on_served",
+    }
+)
 _AT_TOP = frozenset(
     {
         *("import_statement", "import_from_statement", "future_import_statement"),
@@ -116,6 +121,8 @@ class Plumbing:
         roles = self.roles
         if member in roles.state or member in roles.known or member in roles.env:
             return member not in roles.state or _is_of_type(inner)
+        if member in roles.arguments:
+            return True
         called, arguments = call_parts(inner.child_by_field_name("right")) or ("", [])
         if called.endswith("get_logger"):
             return True
@@ -130,7 +137,7 @@ class Plumbing:
             passed = arguments[0]
             given = called_late(passed)
             _, values = call_parts(given) or ("", [])
-            names = [p.name for p in function.parameters[1:]]
+            names = [*(p.name for p in function.parameters[1:]), *self.roles.arguments]
             return [text_of(v) for v in values] == names[-len(values) :] if values else True
         return called in _CALLED
 

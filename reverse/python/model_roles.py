@@ -15,7 +15,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.names import carry, original, uncarry
 from rebsync.records import dataclass
-from rebsync.reserved import OWN_TOPICS, PYTHON_MEMBERS, PYTHON_RESERVED
+from rebsync.reserved import OWN_TOPICS, PYTHON_FUNCTIONS, PYTHON_MEMBERS
 from rebsync.reverse.bodies.overloads import Signature
 from rebsync.reverse.python.model_types import (
     call_parts,
@@ -85,6 +85,7 @@ class Roles:
     handler_names: dict[str, str] = with_default(default_factory=dict)
     by_shim: dict[str, str] = with_default(default_factory=dict)
     shims: set[str] = with_default(default_factory=set)
+    arguments: dict[str, str] = with_default(default_factory=dict)
     topics: dict[str, str] = with_default(default_factory=dict)
     sensors: set[str] = with_default(default_factory=set)
     has_mailbox: bool = False
@@ -164,9 +165,13 @@ def _wired(roles: Roles, function: Scope) -> None:
         elif inner is not None and inner.type == "assignment":
             left = text_of(field(inner, "left"))
             value = inner.child_by_field_name("right")
-            if left.startswith("self.") and value is not None:
-                value = without_parentheses(value)
+            if value is None:
+                continue
+            value = without_parentheses(value)
+            if left.startswith("self."):
                 _member(roles, function, left.removeprefix("self."), inner, value)
+            elif left.isidentifier() and (read := parameter_read(value)) is not None:
+                roles.arguments[left] = read[0]
     for parameter in function.parameters:
         if parameter.default is not None and text_of(parameter.default).isdecimal():
             roles.queue_length = roles.queue_length or int(text_of(parameter.default))
@@ -320,10 +325,10 @@ def plain_name(function: Scope) -> str:
     for marker in markers_above(function.py, function.node):
         kind, path, *_ = [*marker.split(), "", ""]
         told = path.rpartition(".")[2]
-        carried = carry(told, PYTHON_RESERVED) if told else ""
+        carried = carry(told, PYTHON_FUNCTIONS) if told else ""
         if kind in ("msgsrv", "method") and (name == carried or name.startswith(f"{carried}__")):
             return told
-    found = uncarry(name, PYTHON_RESERVED)
-    if carry(found, PYTHON_RESERVED) == name and ("__" not in name or name.endswith("_v")):
+    found = uncarry(name, PYTHON_FUNCTIONS)
+    if carry(found, PYTHON_FUNCTIONS) == name and ("__" not in name or name.endswith("_v")):
         return found
-    return uncarry(name.rpartition("__")[0] or name, PYTHON_RESERVED)
+    return uncarry(name.rpartition("__")[0] or name, PYTHON_FUNCTIONS)

@@ -57,7 +57,8 @@ Used = tuple[str, tuple[m.Type, str, "Value | None"]]
 class PythonPart:
     """What files of Python say: classes of the model, and all that they ask of ROS.
 
-    `scripts` are the modules of the programs that the package installs, by their names.
+    `scripts` are the modules of the programs that the package installs, by their names, `arguments`
+    the parameters that constructors read themselves.
     """
 
     graph: Graph
@@ -66,6 +67,7 @@ class PythonPart:
     code: PyCode | None = None
     nodes: PyNodes = PyNodes()
     scripts: Mapping[str, str] = with_default(default_factory=dict)
+    arguments: Mapping[str, Sequence[str]] = with_default(default_factory=dict)
 
     def starts(self, launch: Launch) -> bool:
         """Whether a launch file starts any class of these files."""
@@ -88,7 +90,7 @@ class PythonPart:
             if runs and is_own:
                 arguments = named(field(call, "arguments"))
                 keys = [r[0] for a in arguments if (r := parameter_read(a)) is not None]
-                return made, keys
+                return made, [*keys, *self.arguments.get(made, ())]
         return None
 
 
@@ -151,7 +153,8 @@ def read_python(
     _list_callbacks(graph, own, findings, path, nodes)
     _list_hooks(values, own, findings, path)
     used = tuple((e.key, (e.type, e.name, constant(e.default))) for e in classes.env())
-    return PythonPart(graph, read, used, python.code, nodes, scripts)
+    arguments = classes.arguments()
+    return PythonPart(graph, read, used, python.code, nodes, scripts, arguments)
 
 
 def _types_in(known: MessageTypes) -> dict[str, dict[str, m.Type]]:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from rebsync.config import ClassTarget, Config
+from rebsync.config import ClassTarget, Config, Maintainer
 from rebsync.forward.limits import limits
 from rebsync.grammars.parser import parse_model
 from rebsync.source import Source
@@ -20,6 +20,7 @@ from rebsync.static import analyse
 from tests.forward.compiling import CASES, case_config, case_files, generated, written
 from tests.forward.python_packages import imported
 from tests.regenerate import models
+from tests.reverse.laws import assert_says
 from tests.ros1.arithmetic import Value
 from tests.ros1.test_arithmetic import START, drawn_bodies, expected_values, model_of
 
@@ -111,6 +112,31 @@ def test_dialects_that_do_not_go_together(targets: dict[str, str], message: str)
         "reactiveclass Other(1) { } main { Heir h():(); Other o():(); }\n"
     )
     model = parse_model(Source("mixed.rebeca", text)).model
-    config = Config(targets=tuple(ClassTarget(*item) for item in targets.items()))
+    chosen = tuple(ClassTarget(*item) for item in targets.items())
+    config = Config(targets=chosen, license="MIT", maintainers=(Maintainer("A", "a@b.org"),))
     found = limits(model, analyse(model), config, "mixed")
     assert [(d.code, d.message) for d in found] == [("RS709", message)]
+
+
+def test_nodes_of_rclpy_keep_their_own_members() -> None:
+    """A class is a node, and calls nothing of the model as nodes call theirs."""
+    text = """
+reactiveclass A(5) {
+  statevars { int clock; int parameters; }
+  A(int n) { clock = n; self.handle(n); }
+  msgsrv handle(int n) { timers(n); self.executor(); }
+  msgsrv executor() { }
+  void timers(int n) { parameters = n; }
+}
+main { A a():(1); }
+"""
+    model = parse_model(Source("clash.rebeca", text)).model
+    files = generated(text, "clash", Config(target="ros2-py"))
+    tree = ast.parse(files["clash/clash/a.py"])
+    class_ = next(n for n in tree.body if isinstance(n, ast.ClassDef))
+    assert [ast.unparse(b) for b in class_.bases] == ["Node"]
+    functions = {n.name for n in class_.body if isinstance(n, ast.FunctionDef)}
+    assert not functions & {"handle", "executor", "timers"}
+    stored = {n.attr for n in ast.walk(class_) if isinstance(n, ast.Attribute)}
+    assert not stored & {"_clock", "_parameters"}
+    assert_says(files, model)

@@ -19,7 +19,7 @@ from tests.ros1.recording import Recording
 from tests.ros1.run import Clock
 from tests.ros2py.messages import Message
 from tests.ros2py.playing import installed, recorded
-from tests.ros2py.world import Launched, World
+from tests.ros2py.world import Launched, Node, World
 
 _HERE = Path(__file__).parent
 _MESSAGES = _HERE.parent / "ros1" / "packages" / "probe" / "msg"
@@ -62,7 +62,8 @@ class _InProcess:
 
 def _listen(world: World, topic: str) -> None:
     """A node that is no rebec and asks for what was sent before it came."""
-    node = world.node("tool")
+    node = Node(world, world.context.launched)
+    world.add(node)
     kept = SimpleNamespace(depth=1, durability=True)
     node.create_subscription(Message, topic, lambda message: None, kept)
     world.spin(node)

@@ -14,7 +14,7 @@ from tests.ros1.recording import Heard, Logged, Recording, Served
 from tests.ros2.launching import Launched as Described
 from tests.ros2.launching import launched as described
 from tests.ros2py.messages import Message, modules
-from tests.ros2py.world import Launched, World
+from tests.ros2py.world import Launched, Node, World
 
 _BODY = ("server", "arguments", "arrival", "start", "now")
 
@@ -82,6 +82,13 @@ def _rclpy(world: World) -> dict[str, ModuleType]:
     class ExternalShutdownException(Exception):
         pass
 
+    class NodeOfThread(Node):
+        """The node of the thread that makes it: its name is what the launch file says."""
+
+        def __init__(self, name: str) -> None:
+            super().__init__(world, world.context.launched)
+            world.add(self)
+
     def profile(**values: object) -> SimpleNamespace:
         return SimpleNamespace(**values)
 
@@ -93,7 +100,7 @@ def _rclpy(world: World) -> dict[str, ModuleType]:
         [
             _module("rclpy", **spin),
             _module("rclpy.executors", ExternalShutdownException=ExternalShutdownException),
-            _module("rclpy.node", Node=world.node),
+            _module("rclpy.node", Node=NodeOfThread),
             _module("rclpy.publisher", Publisher=object),
             _module("rclpy.subscription", Subscription=object),
             _module("rclpy.timer", Timer=object),

@@ -217,12 +217,10 @@ class World:
 
     # --- what nodes do --------------------------------------------------------------------------
 
-    def node(self, name: str) -> Node:
+    def add(self, node: Node) -> None:
         """The node of the thread that asks."""
-        node = Node(self, self.context.launched)
         with self.lock:
             self.nodes[threading.get_ident()] = node
-        return node
 
     def subscribers(self, topic: str) -> list[Subscription]:
         with self.lock:

@@ -89,7 +89,7 @@ def _other_of(pattern: str, name: str) -> Texts:
 def _other_parameter(package: Package) -> Iterator[Mutant]:
     """A parameter of the model that has another value, in place of each that is read."""
     values = {found[2]: found[3] for _, found in constants(package)}
-    read = re.compile(r'(?<=get_param\(")\w+|(?<=declared\(node, "env\.)\w+')
+    read = re.compile(r'(?<=get_param\(")\w+|(?<=declared\(self, "env\.)\w+')
     for part in (p for p in package.parts if p.kind == _S):
         text = package.files[part.path]
         for m in read.finditer(text, part.start, part.end):
@@ -103,7 +103,7 @@ def _one_more(step: int) -> Texts:
     return lambda package, part, found: f"{found[1]}{int(found[2]) + step}"
 
 
-_MAILBOX = r"(= Mailbox\((?:node, )?)(\d+)"
+_MAILBOX = r"(= Mailbox\((?:self, )?)(\d+)"
 _CALL = r"[^\n(]*\((?:[^()]|\([^()]*\))*\)\n"
 _PUBLISH = r"^( *)(self\._mailbox\.(?:publish|post)\([^\n]*\n)"
 _FIELD = r"^( *msg\.(?!sender)\w+ = )(\w+)$"

@@ -55,7 +55,7 @@ def _sensor(pattern: str, text: str) -> Maker:
     return make
 
 
-_GIVEN = r'((?:rospy\.get_param\("~|declared\(node, ")\w+)"'
+_GIVEN = r'((?:rospy\.get_param\("~|declared\(self, ")\w+)"'
 _NUMBER = r"^( +(?:\w+ = )?.*?)(?:rospy\.get_param|declared)\([^()]*\)"
 
 KINDS = (
@@ -144,7 +144,7 @@ RCLPY = (
         in_files(
             ".py",
             r'^( *)self\._\w+_pub = self\._mailbox\.advertise\("(.*)", (\w+)\)\n',
-            r'\g<0>\1node.create_publisher(\3, "\2", 1).publish(\3())\n',
+            r'\g<0>\1self.create_publisher(\3, "\2", 1).publish(\3())\n',
         ),
     ),
     Kind(
@@ -152,7 +152,7 @@ RCLPY = (
         in_files(
             ".py",
             r'^( *)self\._\w+_sub = self\._mailbox\.subscribe\("(.*)", (\w+), (.*)\)\n',
-            r'\g<0>\1node.create_subscription(\3, "\2", \4, 1)\n',
+            r'\g<0>\1self.create_subscription(\3, "\2", \4, 1)\n',
         ),
     ),
     Kind(
@@ -160,7 +160,7 @@ RCLPY = (
         in_files(
             ".py",
             r"^( *)self\._mailbox\.construct.*\n",
-            r"\g<0>\1node.create_timer(1.0, lambda: self._mailbox.delay(1))\n",
+            r"\g<0>\1self.create_timer(1.0, lambda: self._mailbox.delay(1))\n",
         ),
     ),
     Kind("state volatile", in_files(".py", r'"~/state", KEPT\)', '"~/state", 10)')),
@@ -168,13 +168,17 @@ RCLPY = (
     Kind("constant declared beside the others", in_files(".py", r'"env\.(\w+)"', r'"\1"')),
     Kind(
         "known rebec declared with another name",
-        in_files(".py", r'(node, "knownrebecs\.\w+)"', r'\1_b"'),
+        in_files(".py", r'(self, "knownrebecs\.\w+)"', r'\1_b"'),
     ),
-    Kind("program of another node", _program(r'(\bNode\("\w+")', r'\1, namespace="other"')),
+    Kind(
+        "program of another node",
+        in_files(".py", r'(\b__init__\((?:self, )?"\w+")', r'\1, namespace="other"'),
+    ),
     Kind(
         "program gives parameters",
-        _program(
-            r'(\bNode\("\w+")',
+        in_files(
+            ".py",
+            r'(\b__init__\((?:self, )?"\w+")',
             r'\1, parameter_overrides=[Parameter("mailbox.time_unit", value=2.0)]',
         ),
     ),
