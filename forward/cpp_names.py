@@ -115,6 +115,8 @@ def _name_server(names: CppNames, subscription: Subscription) -> None:
         names.servers[key] = unique(f"k{camel}", names.used, "")
         names.shims[key] = unique(f"receive{camel}", names.used, "")
         names.subscribers[key] = unique(f"{key}_sub_", names.used)
+    if subscription.service is not None and key not in names.services:
+        names.services[key] = unique(f"{key}_service_", names.used)
 
 
 def _name_publisher(names: CppNames, publisher: Publisher) -> None:

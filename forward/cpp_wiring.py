@@ -51,12 +51,17 @@ def ros_members(c: CppClass) -> list[str]:
         f"  {c.words.subscriber(s.message.name)} {c.names.subscribers[s.key]};"
         for s in own_subscriptions(c)
     ]
+    lines += [
+        f"  {c.words.service_server(s.service.type)} {c.names.services[s.key]};"
+        for s in own_subscriptions(c)
+        if s.service is not None
+    ]
     return lines
 
 
 def wiring(c: CppClass) -> list[str]:
     """The part of the constructor's body that makes publishers and subscriptions."""
-    return [*_advertised(c), *_subscribed(c)]
+    return [*_advertised(c), *_subscribed(c), *_offered(c)]
 
 
 def _advertised(c: CppClass) -> list[str]:
@@ -83,6 +88,20 @@ def _subscribed(c: CppClass) -> list[str]:
         arguments = [f'"{server.topic}"', f"&{c.type_name}::{shim}", "this"]
         function = "subscribeOnBridge" if server.on_bridge else "subscribe"
         lines += _set_up(c, f"{member} = mailbox_.{function}", arguments)
+    return lines
+
+
+def _offered(c: CppClass) -> list[str]:
+    """Offers servers as services."""
+    lines = []
+    for server in own_subscriptions(c):
+        if (service := server.service) is None:
+            continue
+        types = f"{c.words.service(service.type)}, {c.words.message(service.reply.name)}"
+        function = f"offer{'OnBridge' if server.on_bridge else ''}<{types}>"
+        shim = f"&{c.type_name}::{c.names.shims[server.key]}"
+        arguments = [f'"{server.topic}"', f'"{service.server}"', shim, "this"]
+        lines += _set_up(c, f"{c.names.services[server.key]} = mailbox_.{function}", arguments)
     return lines
 
 

@@ -37,6 +37,15 @@ class CppWords(Protocol):
     def message_header(self, package: str, type_: str) -> str:
         """The header of a message type."""
 
+    def service(self, type_: str) -> str:
+        """A service type, inside the package's namespace."""
+
+    def service_header(self, package: str, type_: str) -> str:
+        """The header of a service type."""
+
+    def service_server(self, type_: str) -> str:
+        """What offers a service of a type."""
+
     def received(self, type_: str) -> str:
         """What points at a message that came in."""
 

@@ -5,7 +5,10 @@ from __future__ import annotations
 from rebsync.config import Config
 from rebsync.diagnostics import Diagnostic, Severity
 from rebsync.forward.generate import is_taken, package_name
+from rebsync.forward.services import replies, reply_name, service_annotation
+from rebsync.forward.topics import Topics, declared_servers, signature
 from rebsync.model import (
+    Interface,
     KnownRebecs,
     MessageServer,
     Model,
@@ -19,10 +22,12 @@ def limits(model: Model, analysis: Analysis, config: Config, stem: str) -> tuple
     """Errors where generation must stop, warnings where ROS does less than the model says."""
     found = [*_package(config, stem), *_sensors(model, config), *_instances(model, analysis)]
     found += [*_targets(analysis, config), *_owners(config)]
+    topics = Topics(model, analysis)
     for c in model.classes:
         if isinstance(c, ReactiveClass):
             found += _known_arrays(c)
             found += _global_priorities(c)
+        found += _services(c, analysis, topics)
     return tuple(sorted(found, key=lambda d: (d.span.start, d.code)))
 
 
@@ -141,6 +146,51 @@ def _global_priorities(declaration: ReactiveClass) -> list[Diagnostic]:
         for annotation in member.annotations
         if annotation.name == "globalPriority"
     ]
+
+
+def _services(
+    declaration: ReactiveClass | Interface, analysis: Analysis, topics: Topics
+) -> list[Diagnostic]:
+    """Services that cannot be offered, or that the model has no one reply to."""
+    found = []
+    for server in declared_servers(declaration):
+        annotation = service_annotation(server)
+        if annotation is None or (reply := reply_name(annotation)) is None:
+            continue
+        odd = _odd_service(declaration.name, server, reply, analysis, topics)
+        if odd is not None:
+            found.append(Diagnostic("RS711", annotation.span, *odd))
+    return found
+
+
+def _odd_service(
+    class_name: str, server: MessageServer, reply: str, analysis: Analysis, topics: Topics
+) -> tuple[str, str] | None:
+    """What is wrong with a service, and what to do about it."""
+    wanted = signature(server.name, server.parameters)
+    first = topics.subscriber(class_name, wanted)
+    if first != class_name or analysis.classes[class_name].is_interface:
+        message = f'"{server.name}" of "{class_name}" is not where its service is offered'
+        return message, f'write @Service where a reactive class first has "{server.name}"'
+    if not topics.of(class_name, wanted).message.carries_sender:
+        message = f'"{server.name}" does not ask who its sender is, so nobody can be answered'
+        return message, f"send {reply} to sender, or keep sender in a variable until it is answered"
+    sent = replies(class_name, reply, analysis, topics)
+    if not sent:
+        message = f'"{class_name}" sends no "{reply}" to its sender, nor to whom a variable holds'
+        return message, f"answer with (({_answered(reply, analysis)})sender).{reply}(...)"
+    if len(sent) > 1:
+        roots = " and ".join(f'"{t.root}.{t.name}"' for t in sent)
+        return f'"{reply}" is not one reply: {roots} have messages of their own', (
+            "a service has one type of response: call one of them otherwise"
+        )
+    return None
+
+
+def _answered(reply: str, analysis: Analysis) -> str:
+    """A class that has the server, to cast `sender` to."""
+    every = analysis.classes.items()
+    return next((name for name, i in every if any(s.name == reply for s in i.servers)), "C")
 
 
 def _sensors(model: Model, config: Config) -> list[Diagnostic]:

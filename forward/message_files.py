@@ -6,6 +6,7 @@ from math import prod
 
 from rebsync.model import Type
 from rebsync.package import Field, Package
+from rebsync.reserved import RESPONSE_FIELD
 
 TIMING = ("int64 arrival", "int64 deadline", "bool stamped")
 # Times in nanoseconds of the ROS clock, since both generations of ROS have that type; 0: not yet.
@@ -40,8 +41,13 @@ def message_names(package: Package) -> list[str]:
     return sorted(names | {s.type for c in package.classes for s in c.sensors if s.stands_in})
 
 
+def service_names(package: Package) -> list[str]:
+    """The service types of a package."""
+    return sorted(s.type for s in package.services)
+
+
 def message_files(package: Package) -> dict[str, str]:
-    """`msg/*.msg` by their paths; both generations of ROS read them."""
+    """`msg/*.msg` and `srv/*.srv` by their paths; both generations of ROS read them."""
     files = {
         "msg/Announcement.msg": _message(ANNOUNCEMENT),
         "msg/Timing.msg": _message(TIMING),
@@ -58,6 +64,10 @@ def message_files(package: Package) -> dict[str, str]:
             if sensor.stands_in:
                 lines = [f"{field_type(d.type)} {d.field}" for d in sensor.draws]
                 files[f"msg/{sensor.type}.msg"] = _message(lines)
+    for service in package.services:
+        lines = [*map(_field, service.request.fields), "---", f"bool {RESPONSE_FIELD}"]
+        lines += map(_field, service.reply.fields)
+        files[f"srv/{service.type}.srv"] = _message(lines)
     return files
 
 

@@ -79,6 +79,7 @@ def _own_modules(c: PyClass, words: PyWords) -> Mapping[str, Iterable[str]]:
         f"{package}.drive": ("Drive",),
         f"{package}.mailbox": _MAILBOX,
         words.messages(package): messages,
+        words.services(package): [s.type for s in c.package.services],
         f"{package}.sensor": ("Sensor",),
         f"{package}.startup": ("declared",),
         f"{package}.values": VALUES,

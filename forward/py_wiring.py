@@ -24,6 +24,9 @@ class PyWords(Protocol):
     def base(self) -> str:
         """The class that all nodes derive from; empty where there is none."""
 
+    def services(self, package: str) -> str:
+        """The module of the package's own service types."""
+
     def argument(self, key: str, type_: Type) -> tuple[str, list[str]] | None:
         """What a constructor calls, with which arguments, to read one of its own.
 
@@ -128,7 +131,13 @@ def _wired(c: PyClass, words: PyWords, queue: str, best: str) -> list[str]:
     for sensor in c.node.sensors:
         made = words.sensor(f"sensor/{sensor.name}", sensor.type.rpartition("/")[2])
         lines.append(f"self.{c.names.sensors[sensor.server]} = {made}")
-    return [*lines, *_members(c, words), *_publishers(c, words), *_subscriptions(c, words)]
+    return [
+        *lines,
+        *_members(c, words),
+        *_publishers(c, words),
+        *_subscriptions(c, words),
+        *_services(c, words),
+    ]
 
 
 def _members(c: PyClass, words: PyWords) -> list[str]:
@@ -174,6 +183,25 @@ def _subscriptions(c: PyClass, words: PyWords) -> list[str]:
         topic = server.topic if server.on_bridge else words.private(server.topic)
         arguments = [f'"{topic}"', server.message.name, f"self.{shim}"]
         lines += call_lines(f"self.{member} = self._mailbox.{function}(", arguments)
+    return lines
+
+
+def _services(c: PyClass, words: PyWords) -> list[str]:
+    lines = []
+    for server in own_subscriptions(c):
+        if (service := server.service) is None:
+            continue
+        function = "offer_on_bridge" if server.on_bridge else "offer"
+        topic = server.topic if server.on_bridge else words.private(server.topic)
+        types = [service.type, server.message.name, service.reply.name]
+        arguments = [
+            f'"{topic}"',
+            f'"{service.server}"',
+            *types,
+            f"self.{c.names.shims[server.key]}",
+        ]
+        head = f"self.{c.names.services[server.key]} = self._mailbox.{function}("
+        lines += call_lines(head, arguments)
     return lines
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rebsync.forward.message_files import FIELD_TYPES, message_names
+from rebsync.forward.message_files import FIELD_TYPES, message_names, service_names
 from rebsync.forward.runtime_part import message_packages
 from rebsync.forward.templating import fill
 from rebsync.forward.yaml_values import yaml_name, yaml_value
@@ -43,6 +43,7 @@ def cmake_lists(package: Package) -> str:
         build_depends=sorted([*depends, "message_generation"]),
         run_depends=sorted([*depends, "message_runtime"]),
         messages=message_names(package),
+        services=service_names(package),
         executables=executables_of(package),
     )
 
@@ -142,5 +143,6 @@ def parameters(package: Package) -> str:
             for e in package.env
         ],
         settings=package.settings,
+        services=package.services,
         moves=any(c.moves for c in package.classes),
     )

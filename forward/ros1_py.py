@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rebsync.forward.message_files import message_files, message_names
+from rebsync.forward.message_files import message_files, message_names, service_names
 from rebsync.forward.py_class import PyClass
 from rebsync.forward.py_classes import classes
 from rebsync.forward.py_imports import words_of
@@ -62,6 +62,9 @@ class Rospy:
     def base(self) -> str:
         return ""
 
+    def services(self, package: str) -> str:
+        return f"{package}.srv"
+
     def argument(self, key: str, type_: Type) -> None:
         return None
 
@@ -110,6 +113,7 @@ def _cmake_lists(package: Package, scripts: list[str]) -> str:
         build_depends=sorted([*depends, "message_generation"]),
         run_depends=sorted([*depends, "message_runtime"]),
         messages=message_names(package),
+        services=service_names(package),
         scripts=scripts,
     )
 

@@ -21,6 +21,18 @@ def message_header(package: str, type_: str) -> str:
     return f"{type_}.h" if "/" in type_ else f"{package}/{type_}.h"
 
 
+def service(type_: str) -> str:
+    return type_
+
+
+def service_header(package: str, type_: str) -> str:
+    return f"{package}/{type_}.h"
+
+
+def service_server(type_: str) -> str:
+    return "ros::ServiceServer"
+
+
 def received(type_: str) -> str:
     return f"{message(type_)}::ConstPtr"
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rebsync.forward.cpp_class import CppClass
-from rebsync.forward.message_files import message_names
+from rebsync.forward.message_files import message_names, service_names
 from rebsync.forward.runtime_part import message_packages
 from rebsync.forward.templating import fill
 from rebsync.forward.yaml_values import is_yaml_word, yaml_name, yaml_value
@@ -39,6 +39,7 @@ def cmake_lists(package: Package, classes: list[CppClass]) -> str:
         depends=_depends(package),
         message_packages=_message_packages(package),
         messages=message_names(package),
+        services=service_names(package),
         sources=sorted(c.node.file for c in classes if not c.node.interface),
         components=sorted(f"{package.name}::{c.type_name}" for c in runs),
         executables=sorted(executables),
@@ -152,6 +153,7 @@ def parameters(package: Package) -> str:
             for e in package.env
         ],
         settings=package.settings,
+        services=package.services,
         moves=any(c.moves for c in package.classes),
     )
 

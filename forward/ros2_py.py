@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from rebsync.forward.message_files import message_files, message_names
+from rebsync.forward.message_files import message_files, message_names, service_names
 from rebsync.forward.py_class import PyClass
 from rebsync.forward.py_classes import classes
 from rebsync.forward.py_imports import imports
@@ -40,6 +40,9 @@ class Rclpy:
 
     def base(self) -> str:
         return "Node"
+
+    def services(self, package: str) -> str:
+        return f"{interfaces(package)}.srv"
 
     def argument(self, key: str, type_: Type) -> tuple[str, list[str]]:
         kind = plain_type(type_)
@@ -120,7 +123,10 @@ def _interfaces(package: Package) -> dict[str, str]:
     files = {
         "package.xml": fill(f"{_FOLDER}/interfaces.xml.j2", package=own),
         "CMakeLists.txt": fill(
-            f"{_FOLDER}/CMakeLists.txt.j2", package=own.name, messages=message_names(package)
+            f"{_FOLDER}/CMakeLists.txt.j2",
+            package=own.name,
+            messages=message_names(package),
+            services=service_names(package),
         ),
         **message_files(own),
     }

@@ -25,6 +25,18 @@ def message_header(package: str, type_: str) -> str:
     return f"{owner if slash else package}/msg/{header_stem(name)}.hpp"
 
 
+def service(type_: str) -> str:
+    return f"srv::{type_}"
+
+
+def service_header(package: str, type_: str) -> str:
+    return f"{package}/srv/{header_stem(type_)}.hpp"
+
+
+def service_server(type_: str) -> str:
+    return f"rclcpp::Service<{service(type_)}>::SharedPtr"
+
+
 def received(type_: str) -> str:
     return f"{message(type_)}::ConstSharedPtr"
 

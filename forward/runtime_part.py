@@ -25,6 +25,8 @@ def _stems(package: Package) -> list[str]:
         names.append("drive")
     if any(c.sensors for c in package.classes):
         names.append("sensor")
+    if package.services:
+        names.append("services")
     return names
 
 
@@ -32,7 +34,9 @@ def python_runtime(package: Package, dialect: str, folder: str) -> dict[str, str
     """The modules of the run-time part by path, in the folder of the package's modules."""
     return {
         f"{folder}/{stem}.py": fill(
-            f"{'py' if stem == 'values' else dialect}/{stem}.py.j2", package=package.name
+            f"{'py' if stem == 'values' else dialect}/{stem}.py.j2",
+            package=package.name,
+            services=package.services,
         )
         for stem in _stems(package)
     }
@@ -42,9 +46,21 @@ def cpp_runtime(package: Package, words: CppWords) -> dict[str, str]:
     """The headers of the run-time part by path."""
     names = (f"{stem}.{words.HEADER}" for stem in _stems(package))
     return {
-        f"include/{package.name}/{name}": fill(f"{words.TEMPLATES}/{name}.j2", package=package.name)
+        f"include/{package.name}/{name}": fill(
+            f"{words.TEMPLATES}/{name}.j2",
+            package=package.name,
+            services=package.services,
+            includes=_served_headers(package, words),
+        )
         for name in names
     }
+
+
+def _served_headers(package: Package, words: CppWords) -> list[str]:
+    """The headers of the messages and types that services have."""
+    messages = {m.name for s in package.services for m in (s.request, s.reply)}
+    found = {words.message_header(package.name, m) for m in messages}
+    return sorted(found | {words.service_header(package.name, s.type) for s in package.services})
 
 
 def cpp_stand_in(package: Package, node: NodeClass, words: CppWords) -> str:

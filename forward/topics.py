@@ -32,6 +32,7 @@ from rebsync.package import Field, MessageType, StateType
 from rebsync.records import dataclass
 from rebsync.reserved import (
     NO_CLASSES,
+    RESPONSE_FIELD,
     RUNTIME_CLASSES,
     RUNTIME_FIELDS,
     RUNTIME_TOPICS,
@@ -45,7 +46,10 @@ Signature = tuple[str, tuple[str, ...]]
 
 @dataclass(frozen=True, slots=True)
 class ServerTopic:
-    """One family of servers: its key (last segment of the topic), type, and port annotation."""
+    """One family of servers: its key (last segment of the topic), type, and port annotation.
+
+    `service` is the type of the service that it is offered as, if it is.
+    """
 
     root: str
     name: str
@@ -53,6 +57,7 @@ class ServerTopic:
     parameters: tuple[Parameter, ...]
     message: MessageType
     port: bool
+    service: str | None
 
 
 def signature(name: str, parameters: tuple[Parameter, ...]) -> Signature:
@@ -158,12 +163,13 @@ class Topics:
         family = self._family(root)
         message = MessageType(
             self._new_type(camel_case(class_name) + camel_case(key)),
-            message_fields(parameters, RUNTIME_FIELDS),
+            message_fields(parameters, (*RUNTIME_FIELDS, RESPONSE_FIELD)),
             any(map(self._uses_sender, family)),
             f"{class_name}.{name}",
         )
-        port = any(a.name == "Port" for s in family for a in s.annotations)
-        return ServerTopic(class_name, name, key, parameters, message, port)
+        annotated = {a.name for s in family for a in s.annotations}
+        service = self._new_type(f"{message.name}Call") if "Service" in annotated else None
+        return ServerTopic(class_name, name, key, parameters, message, "Port" in annotated, service)
 
     def _new_type(self, name: str) -> str:
         """The name of a message type: no other has it, nor one whose header is called the same."""

@@ -51,7 +51,7 @@ class _View:
         self.config = config
         self.topics = Topics(model, analysis)
         self.env = {e.name: e for e in self._globals()}
-        self._files = {"drive", "mailbox", "sensor", "startup", "values", "watchdog"}
+        self._files = {"drive", "mailbox", "sensor", "services", "startup", "values", "watchdog"}
         rebecs = model.main.rebecs if model.main is not None else ()
         self._running = {id(analysis.constructor_of(r)) for r in rebecs}
         self._types = {m.name for m in self.topics.messages} | RUNTIME_CLASSES

@@ -73,6 +73,19 @@ class Sensor:
 
 
 @dataclass(frozen=True, slots=True)
+class Service:
+    """A server offered as a service: a request is a message, the first reply to it the response.
+
+    `type` is that of the service, `server` the one that the reply is sent to.
+    """
+
+    type: str
+    request: MessageType
+    server: str
+    reply: MessageType
+
+
+@dataclass(frozen=True, slots=True)
 class Subscription:
     """The topic of a message server and the callback that serves it.
 
@@ -93,6 +106,7 @@ class Subscription:
     priority: int | None = None
     inherited: bool = False
     overridden: bool = False
+    service: Service | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -277,6 +291,12 @@ class Package:
     instances: tuple[Instance, ...]
     stand_ins: tuple[StandIn, ...]
     instances_of: tuple[tuple[str, tuple[str, ...]], ...]
+
+    @property
+    def services(self) -> tuple[Service, ...]:
+        """What the classes offer as services, each once."""
+        found = (s.service for c in self.classes for s in c.subscriptions if not s.inherited)
+        return tuple(dict.fromkeys(s for s in found if s is not None))
 
     def node_class(self, name: str) -> NodeClass:
         """The class of that name; KeyError when there is none."""

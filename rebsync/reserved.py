@@ -12,8 +12,8 @@ from rebsync.names import CPP_KEYWORDS, PYTHON_KEYWORDS, carry, uncarry
 RUNTIME_CLASSES = frozenset(
     {
         *("Announcement", "Beginning", "Drive", "Inherited", "Mailbox", "Pose", "Publishers"),
-        *("Rebec", "Sensor", "Served", "Server", "Snapshot", "Startup", "Stopped", "Timing"),
-        *("Violation", "Watchdog", "When"),
+        *("Rebec", "Recipient", "Sensor", "Served", "Server", "Services", "Snapshot", "Startup"),
+        *("Stopped", "Timing", "Violation", "Watchdog", "When"),
     }
 )
 # What the code of a class names in its namespace.
@@ -35,6 +35,8 @@ NO_CLASSES = (
 )
 RUNTIME_TOPICS = frozenset({"cmd_vel", "state"})
 RUNTIME_FIELDS = ("timing", "sender")
+# What the response of a service has beside the fields of the reply.
+RESPONSE_FIELD = "answered"
 STATE_FIELDS = ("server", "arguments", "arrival", "start", "now")
 RUNTIME_MEMBERS = frozenset({"mailbox", "drive", "node", "state", "state_pub"})
 RUNTIME_CONSTANTS = frozenset(
@@ -82,7 +84,7 @@ def uncarry_local(carried: str, reserved: Collection[str], functions: Collection
 
 
 # The headers of generated packages that are the same for every model.
-RUNTIME_HEADERS = ("mailbox", "startup", "values", "watchdog", "drive", "sensor")
+RUNTIME_HEADERS = ("mailbox", "services", "startup", "values", "watchdog", "drive", "sensor")
 
 # --- Python -------------------------------------------------------------------------------------
 

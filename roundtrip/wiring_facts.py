@@ -46,6 +46,7 @@ _OWNER = re.compile(r"\b(\w+)\s*::\s*\1\s*\(")
 _SUBSCRIBED = re.compile(r'\b(subscribe\w*)\s*(?:<[^;()]*>\s*)?\(\s*("[^"]*")\s*,')
 _HANDLER = re.compile(r"&\s*(?:\w+\s*::\s*)+(\w+)|\b(k[A-Z]\w*)")
 _ADVERTISED = re.compile(r"\b(\w+)\s*=\s*mailbox_\s*\.\s*(advertise\w*\s*<[^;]*?\([^;]*\))\s*;")
+_OFFERED = re.compile(r"\b(\w+)\s*=\s*mailbox_\s*\.\s*(offer\w*\s*<[^;]*?\([^;]*\))\s*;")
 _SERVER = re.compile(r'\bServer\s+(\w+)\s*\{\s*("[^"]*")\s*,\s*([^}]*?)\s*\}')
 _ENTRY = re.compile(r"^([ \t]*)(\w+):[ \t]*([^\n#]*?)[ \t]*(?:#.*)?$", re.MULTILINE)
 _BEARING = {
@@ -128,7 +129,7 @@ def _text(data: bytes) -> str:
 
 
 def _of_file(name: str, source: Source, package: str) -> Iterable[Fact]:
-    if name.endswith(".msg"):
+    if name.endswith((".msg", ".srv")):
         return _fields(source, package)
     if name.endswith(".yaml"):
         return _settings(source)
@@ -172,6 +173,8 @@ def _joints(source: Source, text: str) -> Iterator[Fact]:
     for m in _ADVERTISED.finditer(text):
         value = _squeezed(m[2])
         yield Fact("publisher", owner[1], m[1], value, source, Span(*m.span()))
+    for m in _OFFERED.finditer(text):
+        yield Fact("service", owner[1], m[1], _squeezed(m[2]), source, Span(*m.span()))
 
 
 def _made(program: str, source: Source, text: str) -> Iterator[Fact]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rebsync.model import Annotation, Empty, Statement
+from rebsync.model import Annotation, Empty, Name, Statement
 from rebsync.static.constants import constant
 from rebsync.static.expressions import type_of
 from rebsync.static.facts import Facts, Move
@@ -16,14 +16,16 @@ _PLACES = {
     "Controller": "a class",
     "Sensor": "a message server",
     "Port": "a message server",
+    "Service": "a message server",
     "Move": "an empty statement: @Move(X+1, Y);",
 }
 _LEGAL = {
     "a class": frozenset(("Robot", "Controller")),
-    "a message server": frozenset(("Sensor", "Port")) | _PRIORITIES,
+    "a message server": frozenset(("Sensor", "Port", "Service")) | _PRIORITIES,
     "an instance": _PRIORITIES,
 }
 _EXCLUSIVE = frozenset(("Robot", "Controller", "Sensor", "Port"))
+_SAMPLED = frozenset(("Sensor", "Service"))  # a sensor asks itself
 
 
 def check_annotations(facts: Facts, annotations: tuple[Annotation, ...], of: str) -> None:
@@ -48,14 +50,26 @@ def _check_place(
         message = f"@{name} does not belong to {of}"
         facts.error("RS427", span, message, f"it belongs to {_PLACES[name]}")
         return
-    if annotation.arguments is not None:
+    if name == "Service":
+        _check_service(facts, annotation)
+    elif annotation.arguments is not None:
         facts.error("RS427", span, f"@{name} takes no arguments")
     for other, first in seen.items():
-        if other in _EXCLUSIVE:
+        if other == name or {other, name} <= _EXCLUSIVE or {other, name} == _SAMPLED:
             twice = "stands here twice" if other == name else f"and @{other} exclude each other"
             place = ((first.span, f"@{other} stands here"),)
             facts.error("RS427", span, f"@{name} {twice}", related=place)
     seen.setdefault(name, annotation)
+
+
+def _check_service(facts: Facts, annotation: Annotation) -> None:
+    """`@Service(done)`: the argument names a server, which other classes may have."""
+    match annotation.arguments:
+        case (Name(),):
+            pass
+        case _:
+            hint = "name the message server that the reply is sent to, such as @Service(done)"
+            facts.error("RS427", annotation.span, "@Service takes the name of the reply", hint)
 
 
 def _check_priority(facts: Facts, annotation: Annotation, of: str) -> None:

@@ -118,6 +118,8 @@ def _check_callables(facts: Facts, info: ClassInfo, uses: _Uses) -> None:
     for server in info.servers:
         if facts.fragment or server.owner != info.name or uses.reaches(server, info):
             continue
+        if any(a.name == "Service" for a in server.declaration.annotations):
+            continue  # clients from outside do
         message = f'no one sends the message "{server.name}"'
         facts.warn("RS503", server.declaration.name_span, message)
     for method in info.methods:

@@ -1,6 +1,6 @@
 """The annotations of classes and servers of generated code: from markers, and from the set-up.
 
-What a set-up does counts, whatever a marker says: the priority of a server.
+What a set-up does counts, whatever a marker says: the priority of a server, and its service.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from rebsync.reverse.generated.ros1_roles import Roles
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import text_of
 
-_SHOWN = frozenset({"priority", "globalPriority"})
+_SHOWN = frozenset({"priority", "globalPriority", "Service"})
 
 
 def annotations_in(markers: Collection[str], owner: CppClass) -> tuple[m.Annotation, ...]:
@@ -67,5 +67,7 @@ def _shown(
             same = [f for f in above.functions if f.name == function.name]
             same = [f for f in same if len(f.parameters) == overload[1]]
             index = next((i for i, f in enumerate(same) if f.types == function.types), 0)
-            return shown[min(index, len(shown) - 1)]
+            found = shown[min(index, len(shown) - 1)]
+            # A service is said where it is offered, and nowhere below.
+            return found if above is owner else tuple(a for a in found if a.name != "Service")
     return None

@@ -155,6 +155,8 @@ def _sets_up(statement: Node, function: CppFunction, roles: Roles, timers: Conta
         case "construct":
             given = [*(p.name for p in function.parameters), *dict(arguments_in(function))]
             return _hands_on(call, "construct", given)
+        case "offer" | "offerOnBridge":
+            return call.node.id in roles.wired
         case name if name in _SUBSCRIBES:
             callback = call.arguments[-1] if call.arguments else None
             lambda_ = callback is not None and callback.type == "lambda_expression"

@@ -80,8 +80,9 @@ class Roles:
     `handlers` and `messages` give the server's name in the model, `globals` the entry of the
     parameter server and the default, `annotations` those that the set-up of a server shows; of
     overloads that take equally many arguments the first one's first. `topics` are those of shims
-    by their names, `wired` the calls that make them and publishers of the rebec; `passing` are
-    callbacks of timers that only post a message; `odd_sends` what functions that send do besides.
+    by their names, `replies` the servers that answer the services of shims, `wired` the calls
+    that make them and publishers of the rebec; `passing` are callbacks of timers that only post a
+    message; `odd_sends` what functions that send do besides.
     """
 
     handlers: dict[str, str] = field(default_factory=dict)
@@ -97,6 +98,7 @@ class Roles:
     on_bridge: bool = False
     sensors: set[str] = field(default_factory=set)
     topics: dict[str, str] = field(default_factory=dict)
+    replies: dict[str, str] = field(default_factory=dict)
     taken: list[Taken] = field(default_factory=list)
     wired: set[int] = field(default_factory=set)
     passing: set[str] = field(default_factory=set)
@@ -130,6 +132,12 @@ def _port(topic: str) -> Iterator[m.Annotation]:
     """`@Port` of a server whose topic says so."""
     if topic.startswith("port/"):
         yield m.Annotation("Port")
+
+
+def _service(roles: Roles, shim: str) -> Iterator[m.Annotation]:
+    """`@Service(reply)` of a server whose shim a service calls."""
+    if reply := roles.replies.get(shim):
+        yield m.Annotation("Service", (m.Name(reply),))
 
 
 def _priority(code: Code, function: CppFunction, call: CppCall) -> Iterator[m.Annotation]:
@@ -245,6 +253,10 @@ def _member(roles: Roles, member: str, call: CppCall) -> None:
             roles.wired.add(call.node.id)
             roles.on_bridge = roles.on_bridge or call.name == "subscribeOnBridge"
             roles.topics[last_name(call.arguments[1])] = first
+        case "offer" | "offerOnBridge", "mailbox_" if len(call.arguments) == 4:
+            roles.wired.add(call.node.id)
+            roles.on_bridge = roles.on_bridge or call.name == "offerOnBridge"
+            roles.replies[last_name(call.arguments[2])] = string_of(call.arguments[1]) or ""
         case "advertiseAll", "mailbox_" if call.types and len(call.arguments) == 2:
             roles.wired.add(call.node.id)
             key = string_of(call.arguments[1]) or ""
@@ -289,7 +301,8 @@ def _received(
     if handler is not None:
         roles.handlers[handler] = server
         arguments = len(called[1]) if called is not None else 0
-        shown = *_port(topic), *_priority(code, function, call)
+        service = _service(roles, function.name)
+        shown = *_port(topic), *service, *_priority(code, function, call)
         roles.annotations.setdefault((server, arguments), []).append(shown)
     roles.messages[taken.type] = server
     roles.constants.add(text_of(call.arguments[0]))

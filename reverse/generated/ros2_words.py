@@ -19,6 +19,7 @@ _POINTERS = ("::ConstSharedPtr", "::SharedPtr", "::ConstPtr", "ConstPtr", "::Ptr
 _ROS = frozenset(
     {
         *("NodeHandle", "Publisher", "Publishers", "Subscriber", "Subscription", "Timer"),
+        *("Service", "ServiceServer"),
         *("TimerBase", "WallTimer"),
     }
 )

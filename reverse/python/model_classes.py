@@ -35,6 +35,7 @@ _RUNTIME = {
     "watchdog": ("\nclass Watchdog", "def add_check("),
     "drive": ("\nclass Drive", "def move("),
     "sensor": ("\nclass Sensor", "def seen("),
+    "services": ("\nclass Services", "def answer("),
 }
 
 
@@ -254,14 +255,31 @@ class Classes:
         self, owner: Scope, function: Scope, name: str
     ) -> Iterator[m.Annotation]:
         if any(x.startswith("msgsrv ") for x in markers_above(function.py, function.node)):
-            yield from _annotations(function)
+            yield from self._marked(owner, function)
             return
         if any(original(s) == name or s == name for s in self._of(owner).sensors):
             yield m.Annotation("Sensor")
+        yield from self._set_up(owner, function) or ()
+
+    def _marked(self, owner: Scope, function: Scope) -> Iterator[m.Annotation]:
+        """The annotations of the markers; what services there are, the set-up says."""
+        shown = self._set_up(owner, function)
+        offered = {a.name: a for a in shown or () if a.name == "Service"}
+        for each in _annotations(function):
+            if each.name != "Service" or shown is None:
+                yield each
+            elif (own := offered.pop(each.name, None)) is not None:
+                yield each if each.arguments == own.arguments else own
+        yield from offered.values()
+
+    def _set_up(self, owner: Scope, function: Scope) -> tuple[m.Annotation, ...] | None:
+        """The annotations that the set-up of a server shows, here or in a class above."""
         for above in self.line(owner):
-            if function.name in self._of(above).shown:
-                yield from self._of(above).shown[function.name]
-                return
+            shown = self._of(above).shown.get(function.name)
+            if shown is not None:
+                # A service is said where it is offered, and nowhere below.
+                return tuple(a for a in shown if above is owner or a.name != "Service")
+        return None
 
     def _method(self, owner: Scope, function: Scope) -> m.Method:
         name = plain_name(function)

@@ -30,7 +30,12 @@ from rebsync.reverse.python.py_tree import Py, field, named, text_of
 
 _MADE = frozenset({"Mailbox", "Drive", "Sensor"})
 _PUBLISHERS = frozenset({"rospy.Publisher", "self.create_publisher", "node.create_publisher"})
-_CONNECTING = frozenset({"advertise", "advertise_all", "subscribe", "subscribe_on_bridge"})
+_CONNECTING = frozenset(
+    {
+        *("advertise", "advertise_all", "subscribe", "subscribe_on_bridge"),
+        *("offer", "offer_on_bridge"),
+    }
+)
 _NAMED = frozenset({"Server", "logging.getLogger", "getLogger", "rclpy.logging.get_logger"})
 _CALLED = frozenset(
     {

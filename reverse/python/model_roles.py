@@ -87,6 +87,7 @@ class Roles:
     shims: set[str] = with_default(default_factory=set)
     arguments: dict[str, str] = with_default(default_factory=dict)
     topics: dict[str, str] = with_default(default_factory=dict)
+    replies: dict[str, str] = with_default(default_factory=dict)
     sensors: set[str] = with_default(default_factory=set)
     has_mailbox: bool = False
     has_drive: bool = False
@@ -218,6 +219,10 @@ def _connected(roles: Roles, member: str, method: str, arguments: list[Node]) ->
     elif method in ("subscribe", "subscribe_on_bridge") and len(arguments) == 3:
         roles.on_bridge = roles.on_bridge or method == "subscribe_on_bridge"
         roles.topics[handed_over(arguments[2]).removeprefix("self.")] = topic
+    elif method in ("offer", "offer_on_bridge") and len(arguments) == 6:
+        roles.on_bridge = roles.on_bridge or method == "offer_on_bridge"
+        shim = handed_over(arguments[5]).removeprefix("self.")
+        roles.replies[shim] = string_value(arguments[1]) or ""
 
 
 def _variable(
@@ -299,7 +304,12 @@ def _received(
     roles.handler_names[function.name] = handler
     roles.handlers[handler] = server
     port = roles.topics.get(function.name, "").startswith("port/")
-    roles.shown[handler] = (*((m.Annotation("Port"),) if port else ()), *annotations)
+    reply = roles.replies.get(function.name)
+    roles.shown[handler] = (
+        *((m.Annotation("Port"),) if port else ()),
+        *((m.Annotation("Service", (m.Name(reply),)),) if reply else ()),
+        *annotations,
+    )
     parameter = field(function.node, "parameters").named_children[-1]
     message = parameter.child_by_field_name("type")
     if message is not None:

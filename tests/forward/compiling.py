@@ -34,6 +34,11 @@ for package in map(Path, sys.argv[2:]):
             str(message), package.name, str(headers), "/usr/share/gencpp", search,
             {"msg.h.template": "@NAME@.h"}, {},
         )
+    for service in sorted(package.glob("srv/*.srv")):
+        tools.generate_from_file(
+            str(service), package.name, str(headers), "/usr/share/gencpp", search,
+            {"msg.h.template": "@NAME@.h"}, {"srv.h.template": "@NAME@.h"},
+        )
 """
 
 

@@ -54,13 +54,7 @@ def run(
 ) -> Recording:
     """Run a launch file to the end of `clock`; `parameters` overrule those of the file."""
     clock = _followed(clock, workspace)
-    port = _free_port()
-    environment = workspace.environment(
-        ROS_MASTER_URI=f"http://127.0.0.1:{port}",
-        ROS_IP="127.0.0.1",
-        ROS_HOME=str(directory / "home"),
-        ROSCONSOLE_STDOUT_LINE_BUFFERED="1",
-    )
+    port, environment = ros_environment(workspace, directory)
     wrapper = directory / "wrapper.launch"
     wrapper.write_text(_wrapper(launch, clock, parameters or {}))
     nodes = subprocess.run(
@@ -73,6 +67,17 @@ def run(
     command = ["roslaunch", "--skip-log-check", "-p", str(port), str(wrapper)]
     with launched(command, directory, environment) as stop:
         return record(_RECORDER, {"nodes": nodes}, clock, directory, environment, stop)
+
+
+def ros_environment(workspace: Workspace, directory: Path) -> tuple[int, dict[str, str]]:
+    """The port of a roscore of its own, and the variables of what belongs to it."""
+    port = _free_port()
+    return port, workspace.environment(
+        ROS_MASTER_URI=f"http://127.0.0.1:{port}",
+        ROS_IP="127.0.0.1",
+        ROS_HOME=str(directory / "home"),
+        ROSCONSOLE_STDOUT_LINE_BUFFERED="1",
+    )
 
 
 def _followed(clock: Clock, workspace: Workspace) -> Clock:

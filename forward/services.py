@@ -1,0 +1,52 @@
+"""Servers that are offered as services, and what the model replies to their requests.
+
+`@Service(done)` offers a server. Who asks from outside has a name as rebecs have, which is the
+request's `sender`; the first message `done` that is sent to that name is the response.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rebsync.forward.sends import ToAny, sends
+from rebsync.forward.topics import ServerTopic, Topics, signature
+from rebsync.model import Annotation, MessageServer, Name, ReactiveClass
+from rebsync.static import Analysis
+
+
+def service_annotation(server: MessageServer) -> Annotation | None:
+    """`@Service(reply)` of a server."""
+    return next((a for a in server.annotations if a.name == "Service"), None)
+
+
+def reply_name(annotation: Annotation) -> str | None:
+    """The server that replies are sent to, as an annotation names it."""
+    match annotation.arguments:
+        case (Name(name),):
+            return name
+        case _:
+            return None
+
+
+def replies(
+    class_name: str, reply: str, analysis: Analysis, topics: Topics
+) -> tuple[ServerTopic, ...]:
+    """What the rebecs of a class send as `reply` to `sender` or to whom a variable holds."""
+    found: dict[str, ServerTopic] = {}
+    for declaration in _relatives(class_name, analysis):
+        for send in sends(declaration, analysis):
+            if isinstance(send.target, ToAny) and send.server.name == reply:
+                of = send.server.declaration
+                topic = topics.of(send.target.class_name, signature(of.name, of.parameters))
+                found.setdefault(topic.message.name, topic)
+    return tuple(found.values())
+
+
+def _relatives(class_name: str, analysis: Analysis) -> Iterator[ReactiveClass]:
+    """A class, those that it descends from, and those that descend from it."""
+    above = {class_name, *analysis.classes[class_name].ancestors}
+    for name, info in analysis.classes.items():
+        declaration = info.declaration
+        related = name in above or class_name in info.ancestors
+        if related and isinstance(declaration, ReactiveClass):
+            yield declaration

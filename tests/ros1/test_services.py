@@ -1,0 +1,80 @@
+"""Servers that are offered as services, asked by a client that is no rebec."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from rebsync.config import Config
+from tests.forward.compiling import generated, written
+from tests.ros1.conftest import Build
+from tests.ros1.run import launched, ros_environment
+from tests.ros1.workspace import SYSTEM_PYTHON, Workspace
+
+_HERE = Path(__file__).parent
+_ASKER = _HERE / "nodes" / "asker.py"
+_MODEL = _HERE / "models" / "services.rebeca"
+
+
+@pytest.fixture(scope="module")
+def offering(
+    dialect: str, build_workspace: Build, tmp_path_factory: pytest.TempPathFactory
+) -> Workspace:
+    config = Config(target=dialect)
+    files = generated(_MODEL.read_text(encoding="utf-8"), "services", config)
+    package = written(files, tmp_path_factory.mktemp("services"), "services", config)
+    return build_workspace(f"services_{dialect}", [package])
+
+
+def test_replies_are_responses(offering: Workspace, tmp_path: Path) -> None:
+    go, later = ("/robot/port/go", "RobotGoCall"), ("/robot/later", "RobotLaterCall")
+    never, ask = (
+        ("/robot/never", "RobotNeverCall"),
+        ("/control_bridge/control/ask", "ControlAskCall"),
+    )
+    answers, output = asked(
+        *(offering, tmp_path),
+        [
+            [(*later, [3]), (*later, [4])],
+            [(*go, [5, True])],
+            [(*never, [9]), (*never, [-9]), (*go, [6, False])],
+            [(*ask, [])],
+        ],
+    )
+    # One variable keeps one client: the first of two that ask at once gets no answer.
+    assert sorted(a["said"]["answered"] for a in answers[:2]) == [False, True]
+    assert [a["said"] for a in answers[2:]] == [
+        {"answered": True, "place": 5, "fast": True},
+        {"answered": False, "place": 0, "fast": False},
+        {"answered": True, "place": -9, "fast": True},
+        {"answered": True, "place": 6, "fast": False},
+        {"answered": True, "seen": 0},
+    ]
+    assert all(2.5 < a["after"] < 6 for a in answers if not a["said"]["answered"])
+    assert "service: " in output and "(no arrived within 3 s)" in output
+    assert "null: " not in output and "deadline: " not in output
+
+
+def asked(
+    workspace: Workspace, directory: Path, calls: list[list[tuple[str, str, list[Any]]]]
+) -> tuple[list[dict[str, Any]], str]:
+    """What services respond to groups of calls, and what the nodes wrote."""
+    port, environment = ros_environment(workspace, directory)
+    launch = workspace.root / "src" / "services" / "launch" / "services.launch"
+    wrapper = directory / "wrapper.launch"
+    wrapper.write_text(
+        f'<launch>\n  <include file="{launch}"/>\n'
+        '  <param name="mailbox/time_unit" value="0.5"/>\n'
+        '  <param name="mailbox/service_timeout" value="3.0"/>\n</launch>\n'
+    )
+    command = ["roslaunch", "--skip-log-check", "-p", str(port), str(wrapper)]
+    with launched(command, directory, environment):
+        asker = [SYSTEM_PYTHON, str(_ASKER), json.dumps(calls)]
+        done = subprocess.run(
+            asker, env=environment, stdout=subprocess.PIPE, text=True, timeout=120, check=True
+        )
+    return json.loads(done.stdout.splitlines()[-1]), (directory / "output").read_text()
