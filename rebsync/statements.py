@@ -137,6 +137,10 @@ class Continue:
     span: Span = span_field()
 
 
+# The annotation of an empty statement that stands for code that was not read.
+UNREADABLE = "Unreadable"
+
+
 @dataclass(frozen=True, slots=True)
 class Empty:
     """A lone `;`: what `@Move(X+1, Y);` annotates."""

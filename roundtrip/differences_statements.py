@@ -30,9 +30,10 @@ from rebsync.roundtrip.differences_likeness import (
     with_inner,
     words_of,
 )
-from rebsync.roundtrip.sides import UNREADABLE, is_unreadable
+from rebsync.roundtrip.sides import is_unreadable
 from rebsync.roundtrip.tokens import Tokens
 from rebsync.source import NOWHERE
+from rebsync.statements import UNREADABLE
 
 Statements: TypeAlias = tuple[m.Statement, ...]
 

@@ -13,12 +13,12 @@ from rebsync.records import dataclass
 from rebsync.roundtrip.difference import Depth, Element, Place, place
 from rebsync.roundtrip.normal import as_in_python, normal, rewrite
 from rebsync.source import NOWHERE, Source, SourceSpan, Span
+from rebsync.statements import UNREADABLE
 from rebsync.static import Analysis, analyse
 
 Callable: TypeAlias = m.Constructor | m.MessageServer | m.Method
 Declared: TypeAlias = m.Declarator | Callable | m.ReactiveClass | m.Interface | m.Rebec
 
-UNREADABLE = "Unreadable"
 _PYTHON = ".py"
 _MARKER = re.compile(r"rebsync:\s*([\w-]+\s+\S+?)\s*(?:-->|\*/)?\s*$")
 _COMMENT = ("//", "/*", "*", "#", "<!--")

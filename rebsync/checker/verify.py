@@ -23,6 +23,7 @@ from rebsync.checker.standstill import ENDLESS, LEAVES, cycle_from, may_stand_st
 from rebsync.checker.steps import Failure, Semantics, ViolationKind
 from rebsync.checker.telling import Teller
 from rebsync.checker.trace import Trace
+from rebsync.checker.unreadable import limited
 from rebsync.checker.views import view_of
 from rebsync.checker.watch import Stopped, Watch
 from rebsync.properties import Property
@@ -54,7 +55,7 @@ def verify(problem: Problem, options: Options, report: Report | None = None) -> 
     watch = _watch(exploration, options, report, started)
     answer = _Answer(problem, options, program, formulas, search, exploration, teller, watch)
     answer.collect()
-    return answer.result(time.perf_counter() - started)
+    return limited(problem, answer.result(time.perf_counter() - started))
 
 
 def _invariants(

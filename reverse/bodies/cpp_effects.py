@@ -214,6 +214,8 @@ class Effects:
             refers = target.type == "reference_declarator"
             if refers and value is None:
                 raise self._touches(node, "this looks like a declaration, but it is none")
+            if target.type == "function_declarator" and not type_takes_values(type_):
+                self._made_from_names(target)
             if refers and value is not None and "const" not in cpp_roots.specifiers_of(node):
                 self._address(value)
             elif value is not None and value.type == "argument_list" and type_takes_values(type_):
@@ -222,6 +224,16 @@ class Effects:
             elif value is not None:
                 self.check(value)
             self._inner.update(declared_in(target))
+
+    def _made_from_names(self, declarator: Node) -> None:
+        """`Guard guard(x);`, which the grammar takes for a function: the object may change `x`."""
+        for argument in named(part(declarator, "parameters")):
+            name = text_of(argument)
+            meaning = None if name in self._inner else self.scope.meaning(name)
+            if isinstance(meaning, Variable | Record):
+                if not self._is_noted(name):
+                    raise self._touches(argument, f'this may change "{name}"')
+                self.written.add(name)
 
     def _range(self, node: Node) -> None:
         declarator, over = part(node, "declarator"), part(node, "right")

@@ -125,6 +125,8 @@ def _outside(reader: CppStatements, declared: _Declared, unread: Unread) -> None
             effects = Effects(reader.cpp, reader.scope, frozenset(reader.own))
             _check_value(reader, effects, declared)
             reader.demote(effects.written, unread)
+        elif isinstance(unread, Touches):
+            raise unread
     except Touches as touches:
         reader.meaning(declared.name, _hidden(reader, declared))
         raise touches from None

@@ -31,6 +31,7 @@ from rebsync.reverse.bodies.wide_locals import broken_locals
 from rebsync.reverse.bodies.written import annotations_in
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.syntax.cpp_tree import Cpp, markers_in, named, part, text_of
+from rebsync.statements import UNREADABLE
 
 
 @dataclass(slots=True)
@@ -145,7 +146,7 @@ class CppStatements:
         except RecursionError:
             unread = self.unread(node, "this leads deeper than it can be read")
             self.findings.unreadable(self.cpp.source, unread, self.within)
-            return (m.Empty((m.Annotation("Unreadable"),), self.cpp.span(node)),)
+            return (m.Empty((m.Annotation(UNREADABLE),), self.cpp.span(node)),)
         finally:
             self._touching = around
         return ()
@@ -201,7 +202,7 @@ class CppStatements:
                 pass
         self.findings.unreadable(self.cpp.source, unread, self.within)
         unread.with_traceback(None)  # the frames that it came through refer to it
-        yield m.Empty((m.Annotation("Unreadable"),), self.cpp.span(node))
+        yield m.Empty((m.Annotation(UNREADABLE),), self.cpp.span(node))
 
     def demote(self, names: set[str], unread: Unread) -> None:
         """Has the body read again without these locals, if there are any."""

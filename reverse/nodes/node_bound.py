@@ -14,6 +14,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.calm import Calm
 from rebsync.reverse.bodies.cpp_effects import Effects, Touches
 from rebsync.reverse.bodies.cpp_roots import is_modelled, root
+from rebsync.reverse.bodies.known_functions import may_change
 from rebsync.reverse.bodies.scope import (
     Called,
     Function,
@@ -46,7 +47,7 @@ def note_bound(bodies: Bodies) -> None:
         members = {f.name: f for f in (*owner.fields, *owner.others)}
         for member, cpp, function, value in _values(bodies.unit, owner, members):
             scope = bodies.scope(cpp, function)
-            for place in _given(member, scope, value):
+            for place in _given(bodies.code, member, scope, value):
                 why = f'"{member.name}" may use or change "{text_of(place)}" where it is not seen'
                 bodies.findings.unreadable(
                     cpp.source, Unread(cpp.span(place), why), bodies.unit.name
@@ -90,7 +91,9 @@ def note_helpers(bodies: Bodies, helpers: Helpers) -> None:
     names = {function.name for _, function in near}
     called = frozenset[str]().union(*(called_by(code, caller, names) for caller in callers))
     for owner, function in near:
-        touched = _touched(bodies, owner, function) if function.name in called else None
+        # Objects are made and destroyed without a call of that name.
+        runs = function.name in called or function.name.lstrip("~") == owner.name
+        touched = _touched(bodies, owner, function) if runs else None
         if touched is not None:
             why = f'what "{owner.name}::{function.name}" does where it is called is not read'
             unread = Unread(touched.span, f"{why}: {touched.why}")
@@ -132,11 +135,11 @@ def _values(
                 yield members[text_of(inner[0])], constructor.cpp, constructor, inner[-1]
 
 
-def _given(member: CppField, scope: Scope, value: Node) -> Iterator[Node]:
+def _given(code: Code, member: CppField, scope: Scope, value: Node) -> Iterator[Node]:
     """The places of the model that an object outside of it can reach from then on."""
     if not isinstance(scope.members.get(member.name), Outside) or _is_constant(member):
         return
-    refers = _refers(member)
+    refers = _refers(member) or _may_refer(code, member)
     for argument in _arguments(value):
         place = _place(argument)
         meaning = root(scope, (), place)[1]
@@ -159,6 +162,16 @@ def _is_constant(member: CppField) -> bool:
 
 def _refers(member: CppField) -> bool:
     return any(True for _ in inside(member.node, *_REFERS))
+
+
+def _may_refer(code: Code, member: CppField) -> bool:
+    """Whether an object may keep references to what its constructor gets."""
+    type_ = text_of(member.type)
+    made = code.classes.get(type_.rpartition("::")[2])
+    if made is None:
+        return False
+    constructors = (f for f in code.functions_of(made) if f.name == made.name)
+    return any(may_change(p) for f in constructors for p in f.parameters)
 
 
 def _arguments(value: Node) -> list[Node]:

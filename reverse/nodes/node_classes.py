@@ -27,6 +27,7 @@ from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.nodes.node_unset import read_unset
 from rebsync.reverse.nodes.node_wide import Overflowing, overflowing
 from rebsync.source import Span
+from rebsync.statements import UNREADABLE
 from rebsync.static.types import BOOLEAN
 
 _Member = TypeVar("_Member", m.MessageServer, m.Method)
@@ -187,7 +188,7 @@ def too_deep(
     findings: Findings,
 ) -> m.ReactiveClass:
     """A class whose bodies are all listed: they lead deeper than they can be read."""
-    lacking = m.Block((m.Empty((m.Annotation("Unreadable"),)),))
+    lacking = m.Block((m.Empty((m.Annotation(UNREADABLE),)),))
     members: list[m.ClassMember] = []
     if known:
         members.append(m.KnownRebecs(tuple(_declared(m.Type(t), n) for n, t in known)))

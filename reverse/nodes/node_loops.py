@@ -11,6 +11,8 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
+from rebsync.reverse.bodies.known_functions import LOGGING
+from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import RateFact
 from rebsync.reverse.syntax.cpp_calls import calls_in
 from rebsync.reverse.syntax.cpp_index import CppFunction
@@ -20,6 +22,9 @@ _LOOPS = frozenset({"while_statement", "do_statement", "for_statement"})
 _LOOP_WORDS = re.compile(rb"\b(?:while|for|do)\b")
 _SPINS = frozenset({"spinOnce", "callAvailable", "callOne", "spin_some", "spin_once", "spin_all"})
 _WAITS = re.compile("|".join(sorted({"sleep", *_SPINS})).encode())  # what other loops do not name
+_BEHIND = "this follows a loop that may end while the node runs: it is not read"
+_ENDS = frozenset({"ros::shutdown", "rclcpp::shutdown", "ros::spin", "rclcpp::spin"})
+_APART = frozenset({"lambda_expression", "switch_statement", "for_range_loop"})
 _AWAKE = frozenset({"ok", "isStarted"})
 
 
@@ -153,6 +158,54 @@ def _variable(call: Node) -> str:
     while at is not None and at.type not in ("identifier", "compound_statement"):
         at = at.child_by_field_name("declarator")
     return text_of(at) if at is not None and at.type == "identifier" else ""
+
+
+# --- behind a loop ------------------------------------------------------------------------------
+
+
+def behind(loop: Loop) -> Iterator[tuple[Node, Unread | None]]:
+    """What stands behind a loop, each with why it must be listed.
+
+    Where the loop goes on for as long as the node, nothing of it matters to the model.
+    """
+    ends = _may_end(loop)
+    for after in later(loop.node):
+        listed = ends and not _is_over(after)
+        yield after, Unread(loop.function.cpp.span(after), _BEHIND) if listed else None
+
+
+def later(node: Node) -> Iterator[Node]:
+    """The statements behind one, in the block that it stands in."""
+    after = node.next_named_sibling
+    while after is not None:
+        yield after
+        after = after.next_named_sibling
+
+
+def _may_end(loop: Loop) -> bool:
+    """Whether a loop may end while the node still runs."""
+    return bool(loop.guard) or any(_jumps_out(s) for s in (*loop.first, *loop.rest))
+
+
+def _jumps_out(statement: Node) -> bool:
+    waiting = [statement]
+    while waiting:
+        node = waiting.pop()
+        if node.type in ("break_statement", "goto_statement", "throw_statement"):
+            return True
+        if node.type not in _LOOPS and node.type not in _APART:
+            waiting += node.named_children
+    return False
+
+
+def _is_over(statement: Node) -> bool:
+    """Whether a statement behind such a loop only ends the program, serves on, or logs."""
+    if statement.type in ("comment", "return_statement"):
+        return True
+    if statement.type != "expression_statement":
+        return False
+    names = {c.name for c in calls_in(statement)}
+    return bool(names) and all(n.startswith(LOGGING) or n in _ENDS for n in names)
 
 
 # --- leaving a loop -----------------------------------------------------------------------------

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import field
 
 from tree_sitter import Node
@@ -26,7 +26,7 @@ from rebsync.reverse.graph import (
     SubscriptionFact,
     TimerFact,
 )
-from rebsync.reverse.nodes.node_loops import Loop, loops_in
+from rebsync.reverse.nodes.node_loops import Loop, behind, later, loops_in
 from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_parameters import Given, asked
 from rebsync.reverse.nodes.node_reach import reached
@@ -294,8 +294,10 @@ class Setup:
             self.loops.append((loop, name))
             period = self._pause(loop) if not loop.first else 0
             self.instead[loop.node.id] = (send(name, period or 0),)
-        for later in _later(loop.node):
-            self.instead[later.id] = ()
+        for after, unread in behind(loop):
+            self.instead[after.id] = ()
+            if unread is not None:
+                self.findings.unreadable(function.cpp.source, unread, self.within)
 
     def _pause(self, loop: Loop) -> int | None:
         """The time that a loop sleeps in each round, in units."""
@@ -334,8 +336,8 @@ class Setup:
                 continue
             self.instead[statement.id] = ()
             if name in _ENDS:
-                for later in _later(statement):
-                    self.instead[later.id] = ()
+                for after in later(statement):
+                    self.instead[after.id] = ()
 
 
 def around(node: Node, functions: Sequence[CppFunction]) -> CppFunction | None:
@@ -381,14 +383,6 @@ def _is_call(statement: Node, call: Node) -> bool:
     """Whether a statement is nothing but a call."""
     inner = named(statement)
     return len(inner) == 1 and inner[0].id == call.id
-
-
-def _later(node: Node) -> Iterator[Node]:
-    """What stands behind a statement: when it is reached, the node is being shut down."""
-    after = node.next_named_sibling
-    while after is not None:
-        yield after
-        after = after.next_named_sibling
 
 
 def _names(node: Node) -> Iterable[Node]:

@@ -20,6 +20,7 @@ from rebsync.reverse.nodes.node_bodies import Bodies, Common
 from rebsync.reverse.nodes.node_bound import Helpers, note_bound, note_helpers
 from rebsync.reverse.nodes.node_classes import NodeClass, too_deep
 from rebsync.reverse.nodes.node_components import executables
+from rebsync.reverse.nodes.node_hidden import note_hidden
 from rebsync.reverse.nodes.node_joined import Joined, Part
 from rebsync.reverse.nodes.node_lifecycle import note_life_cycle
 from rebsync.reverse.nodes.node_listing import Listing
@@ -234,6 +235,7 @@ class _Reader:
         state.note(broken | node.overflowing.counted, findings, unit.name)
         note_life_cycle(unit, findings)
         note_bound(node.bodies)
+        note_hidden(node.bodies)
         note_helpers(node.bodies, self._helpers)
         return read
 

@@ -13,6 +13,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.made_locals import tidied
 from rebsync.reverse.bodies.proving import Interval
 from rebsync.reverse.bodies.rewriting import rewritten
+from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import SubscriptionFact, TimerFact
 from rebsync.reverse.nodes.node_bodies import takes_time, without_end
 from rebsync.reverse.nodes.node_names import Names
@@ -39,6 +40,7 @@ from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import LAMBDA, Scope
 from rebsync.reverse.python.py_tree import field, named
 
+_ASLEEP = "rospy runs other callbacks while this one sleeps: the model does not"
 _BEAT = (
     "a timer that goes off while the node is busy keeps its beat;"
     " the model's goes on from when it is served"
@@ -217,12 +219,24 @@ class PyClass:
         """Lists what the model does otherwise than the node, as a whole."""
         if not any(takes_time(m.Block(s.statements)) for s in self.served):
             return
+        self._note_threads()
         for fact in self.reading.unit.unit.facts:
             if isinstance(fact, TimerFact) and fact.one_shot is not True:
                 place = fact.site.place
                 self.reading.findings.approximated(
                     place.source, place.span, _BEAT, within=self.reading.unit.name
                 )
+
+    def _note_threads(self) -> None:
+        """In rospy other callbacks run while one sleeps, and see the state in the middle of it."""
+        reading = self.reading
+        if reading.unit.is_rclpy or len(self.served) < 2:
+            return
+        for served in self.served:
+            if served.node is not None and takes_time(m.Block(served.statements)):
+                unread = Unread(reading.unit.module.py.span(served.node), _ASLEEP)
+                source = reading.unit.module.py.source
+                reading.findings.unreadable(source, unread, reading.unit.name)
 
 
 def _left(statements: tuple[m.Statement, ...], again: m.Statement) -> tuple[m.Statement, ...]:

@@ -12,7 +12,7 @@ from rebsync.reverse.python.body_reading import Reading, nonlocals
 from rebsync.reverse.python.body_scope import Frame, Message, Own, Var
 from rebsync.reverse.python.py_index import Scope, last_name
 from rebsync.reverse.python.py_tree import field, text_of
-from rebsync.reverse.python.py_worth import Class, Function, Value, Ways
+from rebsync.reverse.python.py_worth import Class, Function, Made, Value, Ways
 
 # Calls that wait, end the node, or lead to its callbacks: by the last word of what is called.
 _ACTS = re.compile(
@@ -31,6 +31,9 @@ LOG = re.compile(
     r"(rospy\.)?(log(debug|info|warn|err|fatal)(_once|_throttle|_throttle_identical)?)\Z"
     r"|(\w+\.)*(get_logger\(\)|_?logger(_)?|_?log)\.(debug|info|warn|warning|error|fatal)\Z"
 )
+_LOCK = re.compile(
+    r"(threading|_thread|thread)\.(R?Lock|Condition|(Bounded)?Semaphore|allocate_lock)"
+)
 _DEEPEST = 4
 _WORDS = frozenset({"await", "yield", "named_expression"})
 
@@ -39,6 +42,15 @@ def is_log(call: Node) -> bool:
     """Whether a call only writes to a log."""
     called = text_of(field(call, "function"))
     return LOG.match("".join(called.split())) is not None or called == "print"
+
+
+def is_lock(reading: Reading, node: Node, frame: Frame) -> bool:
+    """Whether an object is a lock, which only makes threads wait for each other."""
+    holder = node
+    while holder.type in ("as_pattern", "parenthesized_expression") and holder.named_children:
+        holder = holder.named_children[0]
+    ways = reading.values.ways(holder, frame.scope)
+    return bool(ways) and all(isinstance(w, Made) and _LOCK.fullmatch(w.by) for w in ways)
 
 
 def is_harmless(reading: Reading, node: Node, frame: Frame) -> bool:

@@ -20,6 +20,7 @@ from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_wiring import Wiring, unfed, unheard
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import Key, PyUnit
+from rebsync.reverse.python.object_model import list_object_model
 from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_tree import field, text_of
@@ -88,6 +89,7 @@ def list_shared(
             span = unit.module.py.span(binding.node)
             findings.unreadable(unit.module.py.source, Unread(span, why), names[0])
     for unit in units:
+        list_object_model(readings[unit.name], findings)
         for scope, binding in _set_elsewhere(unit, readings[unit.name]):
             why = "this sets what is state of a rebec, in code that is not read"
             span = scope.py.span(binding.node)

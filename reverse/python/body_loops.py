@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.python.body_statements import PyStatements
 
 _RANGES = ("builtins.range", "builtins.xrange")
+_APART = frozenset({"while_statement", "for_statement", "function_definition", "lambda"})
 _ONLY_AWAKE = re.compile(r"\(?(not(?=[(\w])\(?rospy\.is_shutdown\(\)\)?|rclpy\.ok\(\)|True|1)\)?")
 _AWAKE = re.compile(r"is_shutdown\(\)|\bok\(\)|^\(?(True|1)\)?$")
 
@@ -56,6 +57,8 @@ def while_(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
     if reader.frame.is_start and forever(node):
         if reader.frame.depth:
             raise Unread(span, "it depends on a condition whether this loop keeps the node running")
+        if _may_end(node):
+            raise Unread(span, "this loop may end while the node runs: what follows is not read")
         yield from _started(reader, node)
         return
     condition = reader.expressions.condition(field(node, "condition"))
@@ -78,6 +81,34 @@ def _spins(reader: PyStatements, node: Node) -> bool:
     return bool(names) and all(
         n == "spin_once" and k in ("", "rclpy.spin_once") for n, k in zip(names, known, strict=True)
     )
+
+
+def _may_end(node: Node) -> bool:
+    """Whether something follows a loop that ends before the node does."""
+    if not _follows(node):
+        return False
+    condition = "".join(text_of(field(node, "condition")).split())
+    waiting = named(field(node, "body"))
+    while waiting:
+        inner = waiting.pop()
+        if inner.type == "break_statement":
+            return True
+        if inner.type not in _APART:
+            waiting += inner.named_children
+    return _ONLY_AWAKE.fullmatch(condition) is None
+
+
+def _follows(node: Node) -> bool:
+    """Whether anything but a log stands behind a statement in its function."""
+    at: Node | None = node
+    while at is not None and at.type not in ("function_definition", "module"):
+        behind = at.next_named_sibling
+        while behind is not None:
+            if behind.type not in ("comment", "pass_statement", "except_clause", "elif_clause"):
+                return True
+            behind = behind.next_named_sibling
+        at = at.parent
+    return False
 
 
 def _started(reader: PyStatements, node: Node) -> Iterator[m.Statement]:

@@ -16,7 +16,7 @@ from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import Frame, Message, Nobody, Own, Value, Var
 from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import Parameter, Scope, arguments_of
+from rebsync.reverse.python.py_index import Parameter, Scope, arguments_of, has_splat
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 if TYPE_CHECKING:
@@ -40,6 +40,8 @@ def inlined(reader: PyStatements, own: Scope, call: Node) -> Iterator[m.Statemen
     inner = type(reader)(
         reader.reading, frame, reader.within, own.node, (*reader.running, own.node.id), reader.loops
     )
+    if has_splat(call):
+        raise Unread(span, "what stars unpack into the arguments is not read")
     first: list[m.Statement] = []
     for parameter, node, given in arguments(own, call, span):
         first += _bound(reader, inner, parameter, node, given)
@@ -155,6 +157,8 @@ def value_of_method(reader: PyExpressions, own: Scope, call: Node) -> Value:
             raise Unread(span, f'the value of "{own.name}" is not read')
         inner.bound[parameter.name] = value
     returned = named(body[0])
+    if has_splat(call):
+        raise Unread(span, "what stars unpack into the arguments is not read")
     if not returned or inner.scope.node.id in reader.running:
         raise Unread(span, f'the value of "{own.name}" is not read')
     running = (*reader.running, own.node.id)
@@ -168,6 +172,8 @@ def _given(call: Node) -> list[Node]:
 
 def is_still(reading: Reading, own: Scope) -> bool:
     """Whether a function of the node changes nothing: it only computes what it gives."""
+    if not set(own.decorators) <= _KNOWN:
+        return False
     return is_quiet_body(reading, own, 0) and not any(
         b.how in ("value", "augmented") and scope_of_binding(b, own)
         for above in reading.unit.lineage

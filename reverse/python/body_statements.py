@@ -11,7 +11,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import body_loops, body_messages, body_methods, body_setup, body_stores
-from rebsync.reverse.python.body_effects import is_harmless, is_log
+from rebsync.reverse.python.body_effects import is_harmless, is_lock, is_log
 from rebsync.reverse.python.body_expressions import PyExpressions, short
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import (
@@ -19,13 +19,17 @@ from rebsync.reverse.python.body_scope import (
     Pending,
 )
 from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.statements import UNREADABLE
 
 _NOTHING = frozenset(
     {"comment", "pass_statement", "global_statement", "import_statement", "class_definition"}
     | {"import_from_statement", "function_definition", "decorated_definition", "print_statement"}
     | {"future_import_statement", "nonlocal_statement"}
 )
-LACKING = m.Empty((m.Annotation("Unreadable"),))
+# What runs behind a `try` even if something in it leaves the function or a loop; or does not.
+_BEHIND = frozenset({"finally_clause", "else_clause"})
+_LEAVING = frozenset({"return_statement", "break_statement", "continue_statement"})
+LACKING = m.Empty((m.Annotation(UNREADABLE),))
 
 
 @dataclass(eq=False, slots=True)
@@ -220,17 +224,36 @@ class PyStatements:
         count = len(findings.all)
         body = field(node, "body")
         found = self.statements(named(body))
+        clauses = {c.type for c in named(node)}
         if not self.frame.is_start:
-            unsure = [n for n in _inside(body) if n.type == "call" and not self._is_sure(n)]
+            unsure = [n for n in _inside(body) if self._may_raise(n)]
             if unsure or len(findings.all) > count:
                 why = "what may raise an exception here is not in the model"
                 raise Unread(self.frame.span(node), why)
+        if clauses & _BEHIND and any(n.type in _LEAVING for n in _inside(body)):
+            raise Unread(self.frame.span(node), "what runs behind a jump out of this is not read")
         yield from found
         for clause in named(node):
             if clause.type == "finally_clause" and not self.frame.is_start:
                 yield from self.statements(named(named(clause)[-1]))
             elif clause.type == "else_clause" and not self.frame.is_start:
                 yield from self.statements(named(field(clause, "body")))
+
+    def _may_raise(self, node: Node) -> bool:
+        """Whether what stands in a `try` may raise the exception that it waits for."""
+        match node.type:
+            case "call":
+                return not self._is_sure(node)
+            case "binary_operator" | "augmented_assignment":
+                return text_of(field(node, "operator")).startswith(("/", "%", "**", "<<", ">>"))
+            case "subscript" | "raise_statement" | "assert_statement" | "await" | "yield":
+                return True
+            case "delete_statement" | "for_statement" | "import_statement":
+                return True
+            case "import_from_statement" | "with_statement":
+                return True
+            case _:
+                return False
 
     def _is_sure(self, call: Node) -> bool:
         name = self.reading.external(field(call, "function"), self.frame)
@@ -242,11 +265,9 @@ class PyStatements:
     def _with(self, node: Node) -> Iterator[m.Statement]:
         clause = named(node)[0]
         for item in named(clause):
-            value = field(item, "value")
-            if "lock" not in text_of(value).lower() and not is_harmless(
-                self.reading, value, self.frame
-            ):
-                raise Unread(self.frame.span(node), "what this is done with is not known")
+            if not is_lock(self.reading, field(item, "value"), self.frame):
+                why = "what entering and leaving this does is not known"
+                raise Unread(self.frame.span(node), why)
         yield from self.statements(named(field(node, "body")))
 
 

@@ -262,6 +262,13 @@ def arguments_of(call: Node) -> tuple[list[Node], dict[str, Node]]:
     return plain, keywords
 
 
+def has_splat(call: Node) -> bool:
+    """Whether stars unpack some of the arguments of a call."""
+    return any(
+        c.type in ("list_splat", "dictionary_splat") for c in named(field(call, "arguments"))
+    )
+
+
 def classes_in(code: PyCode) -> Iterator[Scope]:
     """All classes, in the order of the text."""
     return (s for s in code.scopes.values() if s.kind == CLASS)

@@ -50,6 +50,25 @@ std::map<std::string, Callback<M>>& callbacks() {
   return all;
 }
 
+/// What happens while a node serves, and until when; a driver may say it. Nothing happens otherwise.
+struct World {
+  struct Timer {
+    double due;
+    double period;
+    bool one_shot;
+    std::function<void()> callback;
+  };
+  std::function<void()> spin = [] {};
+  std::function<void()> spin_once = [] {};
+  std::function<bool()> ok = [] { return true; };
+  std::vector<Timer> timers;
+};
+
+inline World& world() {
+  static World one;
+  return one;
+}
+
 inline std::string number(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.17g", value);
@@ -162,13 +181,13 @@ class NodeHandle {
   }
 
   template <class T>
-  Timer createTimer(const Duration& period, void (T::*)(const TimerEvent&), T*,
+  Timer createTimer(const Duration& period, void (T::*callback)(const TimerEvent&), T* object,
       bool one_shot = false) {
-    return timer(period, one_shot);
+    return timer(period, one_shot, [=] { (object->*callback)(TimerEvent()); });
   }
-  Timer createTimer(const Duration& period, const std::function<void(const TimerEvent&)>&,
+  Timer createTimer(const Duration& period, const std::function<void(const TimerEvent&)>& callback,
       bool one_shot = false) {
-    return timer(period, one_shot);
+    return timer(period, one_shot, [=] { callback(TimerEvent()); });
   }
 
   template <class T>
@@ -187,16 +206,18 @@ class NodeHandle {
     fake::callbacks<M>()[topic] = callback;
     return {};
   }
-  static Timer timer(const Duration& period, bool one_shot) {
+  static Timer timer(const Duration& period, bool one_shot, std::function<void()> callback) {
     if (one_shot) fake::note("arm " + fake::number(period.toSec()));
+    const double due = fake::clock() + period.toSec();
+    fake::world().timers.push_back({due, period.toSec(), one_shot, std::move(callback)});
     return {};
   }
 };
 
 inline void init(int&, char**, const std::string&) {}
-inline bool ok() { return true; }
-inline void spin() {}
-inline void spinOnce() {}
+inline bool ok() { return fake::world().ok(); }
+inline void spin() { fake::world().spin(); }
+inline void spinOnce() { fake::world().spin_once(); }
 inline void shutdown() {}
 
 }  // namespace ros

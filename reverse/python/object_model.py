@@ -1,0 +1,206 @@
+"""What Python lets a program change of the meaning of attributes, methods and classes.
+
+Bodies are read as if `self.x` were a plain attribute of the object, and `self.m()` the method of
+its class. Where a class does otherwise, that is listed: nothing is known of what its bodies do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tree_sitter import Node
+
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.python.body_reading import Reading
+from rebsync.reverse.python.py_index import CLASS, FUNCTION, Scope
+from rebsync.reverse.python.py_lookup import lineage
+from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_worth import Class
+
+_HOOKS = frozenset(
+    {"__setattr__", "__getattr__", "__getattribute__", "__delattr__", "__new__", "__del__"}
+    | {"__init_subclass__", "__set_name__", "__prepare__"}
+)
+_PLAIN_DECORATORS = frozenset(
+    {"staticmethod", "classmethod", "abstractmethod", "abc.abstractmethod"}
+    | {"override", "typing.override", "typing_extensions.override"}
+)
+_PLAIN_BASES = ("object", "Node", "rclpy.node.Node", "ABC", "abc.ABC")
+_DESCRIBES = frozenset({"__get__", "__set__", "__delete__"})
+
+
+def list_object_model(reading: Reading, findings: Findings) -> None:
+    """Lists what makes the classes of a unit other than they are read."""
+    unit = reading.unit
+    if not unit.lineage:
+        return
+    for scope, node, why in _departures(reading):
+        findings.unreadable(scope.py.source, Unread(scope.py.span(node), why), unit.name)
+
+
+def _departures(reading: Reading) -> Iterator[tuple[Scope, Node, str]]:
+    for scope in reading.unit.lineage:
+        yield from _of_class(scope)
+        yield from _of_members(reading, scope)
+    yield from _replaced(reading)
+    yield from _private(reading)
+    yield from _of_subclasses(reading)
+
+
+def _of_class(scope: Scope) -> Iterator[tuple[Scope, Node, str]]:
+    """What decorates a class, and which other class makes it."""
+    if scope.decorators:
+        yield scope, scope.node, "what decorates this class may change it"
+    bases = scope.node.child_by_field_name("superclasses")
+    for base in named(bases) if bases is not None else ():
+        if base.type == "keyword_argument":
+            yield scope, base, "a metaclass may change what this class is"
+
+
+def _of_members(reading: Reading, scope: Scope) -> Iterator[tuple[Scope, Node, str]]:
+    """Hooks of attribute access, decorated methods, descriptors, and the object's dictionary."""
+    for name, bindings in scope.names.items():
+        for binding in bindings:
+            if name in _HOOKS:
+                yield scope, binding.node, f'"{name}" changes what objects and attributes are'
+            elif binding.how == "scope":
+                yield from _decorated(reading, scope, name, binding.node)
+            elif binding.how == "value" and _may_describe(reading, scope, binding.value):
+                yield scope, binding.node, f'"{name}" may be a descriptor: what it does is not read'
+    if b"__dict__" in (scope.node.text or b""):
+        for node in _attributes(scope.node, "__dict__"):
+            yield scope, node, "attributes that are set by their names are not read"
+
+
+def _decorated(
+    reading: Reading, scope: Scope, name: str, node: Node
+) -> Iterator[tuple[Scope, Node, str]]:
+    inner = reading.code.scope_of(node, scope.py)
+    unknown = set(inner.decorators) - _PLAIN_DECORATORS
+    if not unknown or not _is_used(scope.module.node, name):
+        return
+    if inner.kind == CLASS:
+        return
+    yield scope, node, f'what "@{sorted(unknown)[0]}" makes of "{name}" is not read'
+
+
+def _is_used(module: Node, name: str) -> bool:
+    """Whether anything takes an attribute of that name."""
+    return any(True for _ in _attributes(module, name))
+
+
+def _attributes(node: Node, name: str) -> Iterator[Node]:
+    wanted = name.encode()
+    waiting = [node]
+    while waiting:
+        current = waiting.pop()
+        if current.type == "attribute" and field(current, "attribute").text == wanted:
+            yield current
+        waiting += [c for c in current.named_children if wanted in (c.text or b"")]
+
+
+def _may_describe(reading: Reading, scope: Scope, value: Node) -> bool:
+    """Whether a class attribute is an object whose class says what access to it does."""
+    if value.type != "call":
+        return False
+    ways = reading.values.ways(field(value, "function"), scope)
+    made = [w.scope for w in ways if isinstance(w, Class)]
+    return any(_DESCRIBES & set(s.names) for s in made) or text_of(field(value, "function")) in (
+        "property",
+        "functools.cached_property",
+        "cached_property",
+    )
+
+
+# --- what is set on classes ---------------------------------------------------------------------
+
+
+def _replaced(reading: Reading) -> Iterator[tuple[Scope, Node, str]]:
+    """Attributes of the class itself that code sets, and methods that objects replace."""
+    family = reading.unit.lineage
+    methods = {
+        name for s in family for name, of in s.names.items() if any(b.how == "scope" for b in of)
+    }
+    for above in family:
+        for name, bindings in above.attributes.items():
+            if name in methods:
+                yield above, bindings[0].node, f'this replaces the method "{name}" of the object'
+    code = reading.code
+    for scope in (*code.scopes.values(), *code.modules.values()):
+        for (holder, name), bindings in scope.stores.items():
+            for binding in bindings:
+                if _is_family(reading, scope, holder, binding.node):
+                    why = f'"{name}" of the class is set: its objects share it'
+                    yield scope, binding.node, why
+    yield from _shadowed(reading)
+
+
+def _is_family(reading: Reading, scope: Scope, holder: str, node: Node) -> bool:
+    """Whether a store is on a class of the unit, not on an object."""
+    if holder in ("cls", "self.__class__", "type(self)"):
+        return scope.owner in reading.unit.lineage
+    target = node.child_by_field_name("left")
+    inner = target.child_by_field_name("object") if target is not None else None
+    if inner is None or not any(holder == s.name for s in reading.unit.lineage):
+        return False
+    ways = reading.values.ways(inner, scope)
+    return any(isinstance(w, Class) and w.scope in reading.unit.lineage for w in ways)
+
+
+def _shadowed(reading: Reading) -> Iterator[tuple[Scope, Node, str]]:
+    """Class attributes that objects hide with their own, where code reads the class's."""
+    family = reading.unit.lineage
+    owners = {s.name for s in family} | {"cls"}
+    for scope in family:
+        values = {n for n, of in scope.names.items() if any(b.how == "value" for b in of)}
+        hidden = {n for n in values if any(n in s.attributes for s in family)}
+        for name in sorted(hidden):
+            for node in _attributes(scope.module.node, name):
+                if text_of(field(node, "object")) in owners:
+                    why = f'"{name}" of the class and of its objects are two variables'
+                    yield scope, node, why
+
+
+def _private(reading: Reading) -> Iterator[tuple[Scope, Node, str]]:
+    """Names such as `__x`, of which each class of a lineage has its own."""
+    seen: dict[str, Scope] = {}
+    for scope in reading.unit.lineage:
+        for name in (*scope.attributes, *scope.names):
+            if not name.startswith("__") or name.endswith("__"):
+                continue
+            first = seen.setdefault(name, scope)
+            if first is not scope:
+                binding = (scope.attributes.get(name) or scope.names[name])[0]
+                yield scope, binding.node, f'each class has a "{name}" of its own'
+
+
+# --- subclasses ---------------------------------------------------------------------------------
+
+
+def _of_subclasses(reading: Reading) -> Iterator[tuple[Scope, Node, str]]:
+    """Classes below that of the unit, whose objects do what they say."""
+    first = reading.unit.lineage[0]
+    for scope in list(reading.code.scopes.values()):
+        if scope.kind != CLASS or scope is first or scope in reading.unit.lineage:
+            continue
+        if not (scope.names or scope.attributes) or scope in reading.nodes:
+            continue
+        if first in lineage(reading.values, scope) and _is_made(reading, scope):
+            why = f'objects of "{scope.name}" do otherwise than those of "{first.name}"'
+            yield scope, scope.node, why
+
+
+def _is_made(reading: Reading, made: Scope) -> bool:
+    for call, scope in reading.code.by_callee.get(made.name, []):
+        ways = reading.values.ways(field(call, "function"), scope)
+        if any(isinstance(w, Class) and w.scope is made for w in ways):
+            return True
+    return False
+
+
+def decorated_callback(scope: Scope) -> str:
+    """Why it is not known what a callback does; empty where nothing decorates it."""
+    if scope.kind != FUNCTION:
+        return ""
+    unknown = sorted(set(scope.decorators) - _PLAIN_DECORATORS)
+    return f'what "@{unknown[0]}" makes of this callback is not read' if unknown else ""

@@ -1,0 +1,53 @@
+"""A model with code that was not read: nothing is known to hold, whatever was searched."""
+
+from __future__ import annotations
+
+from rebsync.checker.problem import Options, Problem
+from rebsync.checker.result import Result
+from rebsync.checker.verify import verify
+from rebsync.grammars.parser import parse_model
+from rebsync.grammars.properties import parse_properties
+from rebsync.source import Source
+from rebsync.static import analyse
+
+_MODEL = """reactiveclass A(3) {
+  statevars { int x; }
+  A() { x = 0; self.go(); }
+  msgsrv go() {
+    BODY
+    self.go() after(1);
+  }
+}
+main { A a():(); }
+"""
+_PROPERTY = """property {
+  define { one = (a.x == 1); }
+  Assertion { Never: !one; }
+  LTL { Always: G(!one); }
+}
+"""
+
+
+def _checked(body: str) -> Result:
+    source = Source("a.rebeca", _MODEL.replace("BODY", body))
+    analysis = analyse(parse_model(source).model)
+    assert not analysis.errors
+    properties = Source("a.property", _PROPERTY)
+    read = parse_properties(properties).properties
+    return verify(Problem(source, analysis, read, properties), Options())
+
+
+def test_nothing_is_known_to_hold() -> None:
+    assert _checked("x = 0;").verdict == "satisfied"
+    result = _checked("@Unreadable;")
+    assert result.verdict == "undetermined"
+    assert dict(result.properties) == {"Never": "undetermined", "Always": "undetermined"}
+    assert result.reason is not None and result.reason.endswith("may do anything: line 5")
+
+
+def test_what_is_violated_is_shown_but_not_certain() -> None:
+    assert _checked("x = 1;").verdict == "violated"
+    result = _checked("@Unreadable; x = 1;")
+    assert result.verdict == "undetermined"
+    assert dict(result.properties)["Never"] == "violated"
+    assert [v.name for v in result.violations if v.name == "Never"] == ["Never"]

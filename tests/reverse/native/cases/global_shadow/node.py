@@ -1,0 +1,28 @@
+#!/usr/bin/env python3
+import rospy
+from std_msgs.msg import Int32
+
+
+x = 4
+
+
+def bump():
+    global x
+    x = 9
+
+
+class N(object):
+    def __init__(self):
+        self.x = 0
+        self.pub = rospy.Publisher("out", Int32, queue_size=1)
+        rospy.Subscriber("inp", Int32, self.cb)
+
+    def cb(self, m):
+        bump()
+        self.pub.publish(x)
+
+
+if __name__ == "__main__":
+    rospy.init_node("n")
+    N()
+    rospy.spin()

@@ -1,0 +1,39 @@
+#include <ros/ros.h>
+#include <std_msgs/Int32.h>
+
+struct Guard {
+  explicit Guard(int& x) : x_(x) { x_ = 5; }
+  ~Guard() { x_ = 7; }
+  int& x_;
+};
+
+class N {
+ public:
+  N() {
+    pub_ = nh_.advertise<std_msgs::Int32>("out", 1);
+    sub_ = nh_.subscribe("inp", 1, &N::cb, this);
+  }
+  std::shared_ptr<Guard> guard_;
+
+  void cb(const std_msgs::Int32::ConstPtr& m) {
+    guard_ = std::make_shared<Guard>(x_);
+    put(x_);
+  }
+
+  void put(int value) {
+    std_msgs::Int32 msg;
+    msg.data = value;
+    pub_.publish(msg);
+  }
+
+  ros::NodeHandle nh_;
+  ros::Publisher pub_;
+  ros::Subscriber sub_;
+  int x_ = 0;
+};
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "n");
+  N n;
+  ros::spin();
+}

@@ -1,0 +1,27 @@
+#!/usr/bin/env python3
+import rospy
+from std_msgs.msg import Int32
+
+
+class N(object):
+    def __init__(self):
+        self.x = 0
+        self.pub = rospy.Publisher("out", Int32, queue_size=1)
+        rospy.Subscriber("inp", Int32, self.cb)
+        k = 0
+
+        def bump():
+            nonlocal k
+            k += 1
+            return k
+
+        self.bump = bump
+
+    def cb(self, m):
+        self.pub.publish(self.bump())
+
+
+if __name__ == "__main__":
+    rospy.init_node("n")
+    N()
+    rospy.spin()

@@ -1,0 +1,26 @@
+#!/usr/bin/env python3
+import rospy
+from std_msgs.msg import Int32
+
+
+class N(object):
+    def __init__(self):
+        self.x = 0
+        self.pub = rospy.Publisher("out", Int32, queue_size=1)
+        rospy.Subscriber("inp", Int32, self.cb)
+        self.one = self.two
+
+    def one(self):
+        return 1
+
+    def two(self):
+        return 2
+
+    def cb(self, m):
+        self.pub.publish(self.one())
+
+
+if __name__ == "__main__":
+    rospy.init_node("n")
+    N()
+    rospy.spin()

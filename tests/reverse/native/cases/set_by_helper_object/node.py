@@ -1,0 +1,29 @@
+#!/usr/bin/env python3
+import rospy
+from std_msgs.msg import Int32
+
+
+class Helper(object):
+    def __init__(self, n):
+        self.n = n
+
+    def go(self):
+        self.n.x = 5
+
+
+class N(object):
+    def __init__(self):
+        self.x = 0
+        self.pub = rospy.Publisher("out", Int32, queue_size=1)
+        rospy.Subscriber("inp", Int32, self.cb)
+        self.helper = Helper(self)
+
+    def cb(self, m):
+        self.helper.go()
+        self.pub.publish(self.x)
+
+
+if __name__ == "__main__":
+    rospy.init_node("n")
+    N()
+    rospy.spin()

@@ -1,0 +1,23 @@
+#!/usr/bin/env python3
+import rospy
+from std_msgs.msg import Int32
+
+
+class N(object):
+    def __setattr__(self, name, value):
+        object.__setattr__(self, name, 9 if name == "x" else value)
+
+    def __init__(self):
+        self.x = 0
+        self.pub = rospy.Publisher("out", Int32, queue_size=1)
+        rospy.Subscriber("inp", Int32, self.cb)
+
+    def cb(self, m):
+        self.x = 4
+        self.pub.publish(self.x)
+
+
+if __name__ == "__main__":
+    rospy.init_node("n")
+    N()
+    rospy.spin()

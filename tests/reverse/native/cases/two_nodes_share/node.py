@@ -1,0 +1,25 @@
+#!/usr/bin/env python3
+import rospy
+from std_msgs.msg import Int32
+
+
+class N(object):
+    def __init__(self):
+        self.x = 0
+        self.pub = rospy.Publisher("out", Int32, queue_size=1)
+        rospy.Subscriber("inp", Int32, self.cb)
+
+    def cb(self, m):
+        if N.count < 5:
+            N.count += 1
+        self.pub.publish(N.count)
+
+
+N.count = 0
+
+
+if __name__ == "__main__":
+    rospy.init_node("n")
+    a = N()
+    b = N()
+    rospy.spin()

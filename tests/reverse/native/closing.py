@@ -1,0 +1,174 @@
+"""A node closed to a system: another one sends its inputs, a third keeps what it published last."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from rebsync.checker.exploration import Limits
+from rebsync.checker.problem import Options, Problem
+from rebsync.checker.verify import verify
+from rebsync.files import read_source
+from rebsync.grammars.parser import parse_model
+from rebsync.grammars.properties import parse_properties
+from rebsync.printing import print_model
+from rebsync.property_check import check_properties
+from rebsync.reverse.findings import Grade
+from rebsync.reverse.recovery import extract
+from rebsync.source import Source
+from rebsync.static import analyse
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+CASES = Path(__file__).parent / "cases"
+PROPERTY = """property {{
+  define {{ shown = (sink.last == {value}); }}
+  Assertion {{ Never: !shown; }}
+}}
+"""
+
+_NEVER = 77777
+Input = tuple[str, int]
+
+
+@dataclass(frozen=True)
+class Case:
+    """A node in one language: what it gets, a value that its run shows, and one that none shows.
+
+    `verdict` is what is said of the claim that nobody gets the value that is shown.
+    """
+
+    folder: Path
+    node: str
+    inputs: tuple[Input, ...]
+    shows: int
+    never: int
+    verdict: str
+
+    @property
+    def name(self) -> str:
+        return f"{self.folder.name}-{self.node.rpartition('.')[2]}"
+
+
+def cases() -> list[Case]:
+    """All cases, in each language that they are written in."""
+    return [
+        _case(folder, node)
+        for folder in sorted(CASES.iterdir())
+        for node in ("node.py", "node.cpp")
+        if (folder / node).exists()
+    ]
+
+
+def _case(folder: Path, node: str) -> Case:
+    found = tomllib.loads((folder / "case.toml").read_text(encoding="utf-8"))
+    inputs = tuple((str(topic), int(value)) for topic, value in found.get("inputs", ()))
+    verdict = found.get("verdict", {}).get(node.rpartition(".")[2], "")
+    return Case(folder, node, inputs, found["shows"], found.get("never", _NEVER), verdict)
+
+
+def package(case: Case) -> dict[str, str]:
+    """The files of a ROS package with the node and those around it."""
+    node = (case.folder / case.node).read_text(encoding="utf-8")
+    python = {"sink": _SINK, "source": _source(case.inputs)}
+    started = "node" if case.node.endswith(".cpp") else "node.py"
+    nodes = {"n": started, **{name: f"{name}.py" for name in python}}
+    lines = (f'  <node pkg="closed" type="{t}" name="{n}"/>' for n, t in nodes.items())
+    files = {f"scripts/{name}.py": text for name, text in python.items()}
+    where = "src/node.cpp" if case.node.endswith(".cpp") else "scripts/node.py"
+    return {
+        "package.xml": "<package><name>closed</name></package>\n",
+        "CMakeLists.txt": "project(closed)\nadd_executable(node src/node.cpp)\n",
+        "launch/closed.launch": "\n".join(["<launch>", *lines, "</launch>", ""]),
+        where: node,
+        **files,
+    }
+
+
+_SINK = """#!/usr/bin/env python3
+import rospy
+from std_msgs.msg import Int32
+
+
+class Sink(object):
+    def __init__(self):
+        self.last = -1
+        rospy.Subscriber("out", Int32, self.on_out, queue_size=9)
+
+    def on_out(self, msg):
+        self.last = msg.data
+
+
+if __name__ == "__main__":
+    rospy.init_node("sink")
+    Sink()
+    rospy.spin()
+"""
+_SOURCE = """#!/usr/bin/env python3
+import rospy
+from std_msgs.msg import Int32
+
+
+class Source(object):
+    def __init__(self):
+        self.sent = 0
+{publishers}
+        rospy.Timer(rospy.Duration(1), self.on_second)
+
+    def on_second(self, event):
+{sends}
+        if self.sent < {count}:
+            self.sent += 1
+
+
+if __name__ == "__main__":
+    rospy.init_node("source")
+    Source()
+    rospy.spin()
+"""
+
+
+def _source(inputs: Sequence[Input]) -> str:
+    topics = dict.fromkeys(topic for topic, _ in inputs)
+    publishers = [f'        self.{t} = rospy.Publisher("{t}", Int32, queue_size=9)' for t in topics]
+    sends = [
+        f"        if self.sent == {n}:\n            self.{topic}.publish({value})"
+        for n, (topic, value) in enumerate(inputs)
+    ]
+    return _SOURCE.format(
+        publishers="\n".join(publishers), sends="\n".join(sends), count=len(inputs)
+    )
+
+
+def verdicts(case: Case, folder: Path) -> tuple[str, str]:
+    """What is said of "the sink never gets this": of what a run shows, and of what none shows.
+
+    The model is printed and read again, as a user would verify it. Where places are listed as
+    unreadable, or the model lacks what the property is about, the verdict is "undetermined".
+    """
+    files = {path: Source(path, text) for path, text in package(case).items()}
+    found = extract(files)
+    model = folder / "model.rebeca"
+    model.write_text(print_model(found.model), encoding="utf-8")
+    if any(f.grade is Grade.UNREADABLE for f in found.findings):
+        return "undetermined", "undetermined"
+    return _verdict(model, case.shows), _verdict(model, case.never)
+
+
+def _verdict(model: Path, value: int) -> str:
+    """The verdict of the property that the sink never gets a value."""
+    read = parse_model(read_source(str(model)))
+    assert read.ok, read.diagnostics
+    analysis = analyse(read.model)
+    assert not analysis.errors, analysis.errors
+    stated = parse_properties(Source("case.property", PROPERTY.format(value=value)))
+    if check_properties(stated.properties, analysis):
+        return "undetermined"
+    problem = Problem(read_source(str(model)), analysis, stated.properties)
+    options = Options(limits=Limits(states=20_000), allowed=frozenset({"deadlock"}))
+    return verify(problem, options).verdict
