@@ -82,7 +82,7 @@ class Effects:
 
     def _pointer(self, node: Node) -> None:
         if text_of(node).startswith("&"):
-            self._address(named(node)[0])
+            self.refers(named(node)[0])
         else:
             self._inside(node)
 
@@ -130,6 +130,12 @@ class Effects:
         self._write(part(node, "argument" if value is None else "left"))
         if value is not None:
             self.check(value)
+
+    def _changes(self, node: Node, name: str, why: str) -> None:
+        """Notes that a local of the body changes; what else the model has may not."""
+        if not self._is_noted(name):
+            raise self._touches(node, why)
+        self.written.add(name)
 
     def _write(self, node: Node) -> None:
         name, meaning = self._root(node)
@@ -187,19 +193,14 @@ class Effects:
             case "field_expression" | "pointer_expression":
                 self._subscripts(part(node, "argument"))
 
-    def _address(self, node: Node) -> None:
-        name, meaning = self._root(node)
-        if is_modelled(node, meaning):
-            if self._is_noted(name):
-                self.written.add(name)
-                return
-            raise self._touches(node, f'the address of "{text_of(node)}" is taken')
-        self.check(node)
-        self._found_out(node, name)
-
     def refers(self, node: Node) -> None:
         """Raises `Touches` where a reference to a place could change what the model has."""
-        self._address(node)
+        name, meaning = self._root(node)
+        if is_modelled(node, meaning):
+            self._changes(node, name, f'the address of "{text_of(node)}" is taken')
+            return
+        self.check(node)
+        self._found_out(node, name)
 
     def _declaration(self, node: Node) -> None:
         type_ = text_of(part(node, "type"))
@@ -217,7 +218,7 @@ class Effects:
             if target.type == "function_declarator" and not type_takes_values(type_):
                 self._made_from_names(target)
             if refers and value is not None and "const" not in cpp_roots.specifiers_of(node):
-                self._address(value)
+                self.refers(value)
             elif value is not None and value.type == "argument_list" and type_takes_values(type_):
                 for argument in named(value):
                     self.check(argument)
@@ -231,15 +232,13 @@ class Effects:
             name = text_of(argument)
             meaning = None if name in self._inner else self.scope.meaning(name)
             if isinstance(meaning, Variable | Record):
-                if not self._is_noted(name):
-                    raise self._touches(argument, f'this may change "{name}"')
-                self.written.add(name)
+                self._changes(argument, name, f'this may change "{name}"')
 
     def _range(self, node: Node) -> None:
         declarator, over = part(node, "declarator"), part(node, "right")
         constant = "const" in cpp_roots.specifiers_of(node)
         if declarator.type == "reference_declarator" and not constant:
-            self._address(over)
+            self.refers(over)
         else:
             self.check(over)
         self._inner.update(declared_in(declarator))
@@ -336,10 +335,7 @@ class Effects:
                     raise self._touches(call.node, "this changes a timer")
             case Record() | Variable():
                 if name not in LOOKS and is_modelled(target, meaning):
-                    if self._is_noted(of):
-                        self.written.add(of)
-                    else:
-                        raise self._touches(call.node, f'this may change "{of}"')
+                    self._changes(call.node, of, f'this may change "{of}"')
             case Runtime() | Lambda() | Itself() if name not in LOOKS:
                 raise self._touches(call.node, f'"{of}" acts on the node')
             case _:
@@ -398,13 +394,8 @@ _CHECKS: dict[str, Callable[[Effects, Node], None]] = {
 }
 
 
-def is_outside(cpp: Cpp, scope: Scope, node: Node) -> bool:
-    """Whether a piece of code provably touches nothing that the model has."""
-    return touching(cpp, scope, node) is None
-
-
 def touching(cpp: Cpp, scope: Scope, node: Node) -> Touches | None:
-    """What in a piece of code may touch what the model has, the first; None for nothing."""
+    """What in a piece of code may touch what the model has, the first; None where it is outside."""
     try:
         Effects(cpp, scope).check(node)
     except Touches as touches:

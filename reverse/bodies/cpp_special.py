@@ -12,7 +12,7 @@ from rebsync import model as m
 from rebsync.reverse.bodies import cpp_messages, cpp_plain_locals, cpp_timers
 from rebsync.reverse.bodies.building import bare, negated
 from rebsync.reverse.bodies.cpp_conversions import as_boolean, as_number, converted_to
-from rebsync.reverse.bodies.cpp_effects import Effects, Touches, is_outside
+from rebsync.reverse.bodies.cpp_effects import Effects, Touches, touching
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_time import pause, units
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
@@ -89,7 +89,7 @@ def _each(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
         inner = read(reader, child)
         if inner is not None:
             yield from inner
-        elif not is_outside(reader.cpp, reader.scope, child):
+        elif touching(reader.cpp, reader.scope, child) is not None:
             yield m.ExpressionStatement(reader.expressions.read(child), (), reader.cpp.span(child))
 
 
@@ -118,7 +118,7 @@ def _way(reader: CppStatements, node: Node) -> m.Block:
     inner = read(reader, node)
     if inner is not None:
         done = list(inner)
-    elif not is_outside(reader.cpp, reader.scope, node):
+    elif touching(reader.cpp, reader.scope, node) is not None:
         done = list(reader.done(node, reader.effect(node)))
     else:
         done = []
@@ -256,7 +256,7 @@ def tried(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
     body, span = part(node, "body"), reader.cpp.span(node)
     handlers = [c for c in named(node) if c.type == "catch_clause"]
     statements = named(body)
-    risky = [is_outside(reader.cpp, reader.scope, s) or _unknown(s) for s in statements]
+    risky = [touching(reader.cpp, reader.scope, s) is None or _unknown(s) for s in statements]
     last = max((i for i, r in enumerate(risky) if r), default=-1)
     if not all(risky[: last + 1]):
         why = "an exception may leave this half done"

@@ -9,7 +9,7 @@ from typing import TypeVar
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_conversions import converted_to
-from rebsync.reverse.bodies.cpp_effects import is_outside
+from rebsync.reverse.bodies.cpp_effects import touching
 from rebsync.reverse.bodies.cpp_timers import without_stale
 from rebsync.reverse.bodies.cpp_unknowns import choice
 from rebsync.reverse.bodies.rewriting import STATEMENTS, rewritten
@@ -148,7 +148,7 @@ class NodeClass:
             if is_transition(bodies.unit, function):
                 continue
             scope = bodies.scope(function.cpp, function)
-            if not is_outside(function.cpp, scope, function.body):
+            if touching(function.cpp, scope, function.body) is not None:
                 why = "something calls this that is not read: what it does is not in the model"
                 name = function.node.child_by_field_name("declarator")
                 span = function.cpp.span(name if name is not None else function.node)
