@@ -131,11 +131,11 @@ class Effects:
         if value is not None:
             self.check(value)
 
-    def _changes(self, node: Node, name: str, why: str) -> None:
+    def _changes(self, node: Node, name: str, why: str, path: str = "") -> None:
         """Notes that a local of the body changes; what else the model has may not."""
         if not self._is_noted(name):
             raise self._touches(node, why)
-        self.written.add(name)
+        self.written.add(f"{name}.{path}" if path else name)
 
     def _write(self, node: Node) -> None:
         name, meaning = self._root(node)
@@ -143,11 +143,8 @@ class Effects:
         if not is_modelled(node, meaning):
             self._found_out(node, name)
             return
-        if self._is_noted(name):
-            path = cpp_roots.path_in(node) if isinstance(meaning, Record) else ""
-            self.written.add(f"{name}.{path}" if path else name)
-            return
-        raise self._touches(node, f'this changes "{text_of(node)}"')
+        path = cpp_roots.path_in(node) if isinstance(meaning, Record) else ""
+        self._changes(node, name, f'this changes "{text_of(node)}"', path)
 
     def _found_out(self, node: Node, name: str) -> None:
         """A place that is only known when the code runs: `(on ? count : limit) = 0`."""
