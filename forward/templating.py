@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import marshal
+import re
 import sys
 from functools import cache
 from types import CodeType
@@ -15,6 +16,9 @@ from jinja2.bccache import Bucket
 from rebsync.cache import Cache, open_cache
 
 _MOST = 500  # templates, of a few versions
+
+_MARKUP = re.compile(r"[&<>\[\]\\]")
+_ESCAPES = {"&": "&amp;", "<": "&lt;", ">": "&gt;"}
 
 
 class _Compiled(BytecodeCache):
@@ -54,7 +58,7 @@ def _compiled() -> _Compiled | None:
 @cache
 def environment() -> Environment:
     """Templates of `forward/templates`; an unknown name in one is an error of ours."""
-    return Environment(
+    made = Environment(
         loader=PackageLoader("rebsync.forward"),
         undefined=StrictUndefined,
         trim_blocks=True,
@@ -63,6 +67,13 @@ def environment() -> Environment:
         autoescape=False,
         bytecode_cache=_compiled(),
     )
+    made.filters["prose"] = _prose
+    return made
+
+
+def _prose(text: str) -> str:
+    """A text that stands in Markdown as it is: no HTML, no links and no pictures come of it."""
+    return _MARKUP.sub(lambda m: _ESCAPES.get(m[0], rf"\{m[0]}"), text)
 
 
 def fill(template: str, **context: object) -> str:

@@ -6,6 +6,7 @@ timed_rebeca.lark. Each of these is one pass over the tokens, so lexing stays li
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import field
 from functools import cache
 from importlib.resources import files
@@ -18,8 +19,10 @@ from rebsync.grammars.tables import load
 from rebsync.grammars.tree import TreeBuilder
 from rebsync.records import dataclass
 from rebsync.source import Span
+from rebsync.terminal import controls_in_text, with_escapes
 
 _TRIVIA = frozenset({"COMMENT", "OPEN_COMMENT", "OPEN_STRING", "ILLEGAL"})
+_TEXTS = frozenset({"COMMENT", "STRING"})
 _BEFORE_CAST = frozenset({"ID", "TYPE_ID", "IF", "WHILE", "SWITCH", "FOR", "AFTER", "DEADLINE"})
 _OPERANDS = frozenset(
     {
@@ -79,9 +82,23 @@ def lex(text: str) -> Lexed:
     for token in everything:
         if token.type in _TRIVIA and token.type != "COMMENT":
             scan.diagnostics.append(_illegal(token))
+    scan.diagnostics += controls(everything)
     scan.run()
     comments = tuple(t for t in everything if t.type in ("COMMENT", "OPEN_COMMENT"))
     return Lexed(scan.tokens, comments, tuple(scan.diagnostics))
+
+
+def controls(tokens: Iterable[Token]) -> list[Diagnostic]:
+    """Characters in texts and comments that terminals and editors obey instead of showing them."""
+    found = []
+    for token in tokens:
+        if token.type in _TEXTS and (control := controls_in_text(token)) is not None:
+            at = (token.start_pos or 0) + control.start()
+            what = "text" if token.type == "STRING" else "comment"
+            message = f"a {what} holds the control character U+{ord(control[0]):04X}"
+            hint = f"write {with_escapes(control[0])} instead" if what == "text" else None
+            found.append(Diagnostic("RS114", Span(at, at + 1), message, hint))
+    return found
 
 
 def _illegal(token: Token) -> Diagnostic:

@@ -19,6 +19,8 @@ def order_chain(items: Sequence[Any]) -> m.Expression:
             _combine(operands, operators.pop())
         operators.append(str(operator))
         operands.append(operand)
+        if operator == "instanceof":  # what follows is a type, of which nothing takes a part
+            _combine(operands, operators.pop())
     while operators:
         _combine(operands, operators.pop())
     return operands[0]  # type: ignore[no-any-return]

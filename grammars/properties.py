@@ -12,7 +12,7 @@ from lark import Lark, Token, Tree
 from rebsync import model as m
 from rebsync.diagnostics import Diagnostic, Edit, Severity
 from rebsync.grammars.formulas import OPERATORS, lift
-from rebsync.grammars.lexer import retyped, token_span
+from rebsync.grammars.lexer import controls, retyped, token_span
 from rebsync.grammars.recovery import RecoveringParser
 from rebsync.grammars.tables import load
 from rebsync.grammars.tree import TreeBuilder
@@ -88,6 +88,7 @@ def _lex(text: str) -> tuple[list[Token], list[Diagnostic]]:
     tokens = []
     found = []
     for token in property_grammar().lex(text):
+        found += controls([token])
         if token.type in _ILLEGAL:
             code, message = _ILLEGAL[token.type]
             found.append(Diagnostic(code, token_span(token), message))

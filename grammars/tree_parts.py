@@ -11,6 +11,8 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.source import Span
 
+_TOO_LARGE = 10**100
+
 Children: TypeAlias = list[Any]
 _Kind = TypeVar("_Kind")
 
@@ -131,7 +133,14 @@ def call_of(target: m.Expression | None, name: Token, tail: CallTail, span: Span
 
 
 def integer(token: Token) -> int:
-    """The value of an integer literal: decimal, hexadecimal, binary or octal (leading 0)."""
+    """The value of an integer literal: decimal, hexadecimal, binary or octal (leading 0).
+
+    What is too large for every place of a model is the same number, one that is a float as well.
+    """
+    return min(_whole(token), _TOO_LARGE)
+
+
+def _whole(token: Token) -> int:
     digits = token.rstrip("lL").replace("_", "").lower()
     if len(digits) > 1 and digits[0] == "0" and digits.isdigit():
         return int(digits, 8 if set(digits) <= set("01234567") else 10)

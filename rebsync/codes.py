@@ -22,6 +22,7 @@ SYNTAX = {
     "RS110": "a part of the language that rebsync recognises and refuses",
     "RS112": "a part of the model in the wrong place",
     "RS113": "a language beside Timed Rebeca, recognised and refused",
+    "RS114": "a control character in a text or a comment",
     "RS111": "nesting deeper than rebsync reads",
 }
 
@@ -164,6 +165,7 @@ FILES = {
     "RS811": "a directory without anything to read",
     "RS812": "a file that somebody changed while rebsync was about to write it",
     "RS820": "a folder for the cache that is not used, as others could have written to it",
+    "RS830": "a number of more digits than rebsync reads",
 }
 
 PROPERTIES = {

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
-from typing import Literal, TypeAlias, cast
+from collections.abc import Callable, Mapping
+from typing import Any, Literal, TypeAlias, cast
 
 from rebsync.diagnostics import Findings, RebsyncError, did_you_mean
 from rebsync.records import dataclass
 from rebsync.source import Source
+from rebsync.terminal import one_line, printable
 from rebsync.toml import Table, read_toml
 
 FILE_NAME = "rebsync.toml"
@@ -19,7 +20,7 @@ Drive: TypeAlias = Literal["holonomic", "differential"]
 
 _PACKAGE = re.compile(r"[a-z][a-z0-9_]*\Z")
 _VERSION = re.compile(r"\d+\.\d+\.\d+\Z")
-_EMAIL = re.compile(r"[^@\s]+@[^@\s]+\Z")
+_EMAIL = re.compile(r"[^@\s<>&\"\x00-\x1f\x7f-\x9f]+@[^@\s<>&\"\x00-\x1f\x7f-\x9f]+\Z")
 _SERVER = re.compile(r"[^\W\d][\w$]*\.[^\W\d][\w$]*\Z")
 _TOPIC = re.compile(r"[~/]?[A-Za-z][\w/]*\Z")
 _MESSAGE_TYPE = re.compile(r"[a-z]\w*/(?:msg/)?[A-Z]\w*\Z")
@@ -92,6 +93,27 @@ def parse_config(source: Source) -> Config:
     return config
 
 
+def config_of_record(options: Mapping[str, Any]) -> Config | None:
+    """The settings that a manifest has recorded; None where they are none that a text can have.
+
+    They are as untrusted as a text: what is generated from them must not hold more.
+    """
+    known = {k: v for k, v in options.items() if v is not None and k in Config.__dataclass_fields__}
+    try:
+        lists = {"sensors": "server", "targets": "name"}
+        named = {k: {each[n]: each for each in known.get(k, ())} for k, n in lists.items()}
+        sensors = {
+            name: {k: v for k, v in each.items() if k != "server" and v is not None}
+            for name, each in named["sensors"].items()
+        }
+        targets = {name: each["target"] for name, each in named["targets"].items()}
+        table = Table(Source("", ""), (), {**known, "sensors": sensors, "targets": targets}, [])
+        config = _config(table)
+    except (AttributeError, KeyError, TypeError):  # of another shape than what is written
+        return None
+    return None if table.diagnostics else config
+
+
 def _config(table: Table) -> Config:
     default = Config()
     return Config(
@@ -104,10 +126,10 @@ def _config(table: Table) -> Config:
         drive=cast("Drive", _one_of(table, "drive", DRIVES, default.drive)),
         heading=_number(table, "heading", default.heading, _finite, "finite"),
         maintainers=_maintainers(table),
-        license=table.text("license"),
+        license=_one_line(table, "license"),
         version=_matching(table, "version", default.version, _VERSION, "like 1.2.3")
         or default.version,
-        description=table.text("description"),
+        description=_without_controls(table, "description"),
         sensors=_sensors(table),
         targets=_targets(table),
     )
@@ -118,7 +140,7 @@ def _maintainers(table: Table) -> tuple[Maintainer, ...]:
     for entry in table.tables("maintainers"):
         for key in ("name", "email"):
             entry.require(key)
-        name = entry.text("name", "") or ""
+        name = _one_line(entry, "name") or ""
         email = _matching(entry, "email", "", _EMAIL, "an address such as ada@example.org") or ""
         entry.finish()
         people.append(Maintainer(name, email))
@@ -141,9 +163,26 @@ def _sensors(table: Table) -> tuple[SensorBinding, ...]:
             entry.require(key)
         topic = _matching(entry, "topic", "", _TOPIC, "a topic such as /scan") or ""
         kind = _matching(entry, "type", "", _MESSAGE_TYPE, "like sensor_msgs/LaserScan") or ""
-        bindings.append(SensorBinding(server, topic, kind, entry.text("seen")))
+        bindings.append(SensorBinding(server, topic, kind, _one_line(entry, "seen")))
         entry.finish()
     return tuple(bindings)
+
+
+def _one_line(table: Table, key: str) -> str | None:
+    value = _without_controls(table, key)
+    if value is not None and "\n" in value:
+        table.wrong(key, f"`{key}` must be one line")
+        return None
+    return value
+
+
+def _without_controls(table: Table, key: str) -> str | None:
+    """A text that XML can hold and that no terminal obeys."""
+    value = table.text(key)
+    if value is not None and printable(value) != value:
+        table.wrong(key, f"`{key}` holds control characters: {one_line(value)}")
+        return None
+    return value
 
 
 def _targets(table: Table) -> tuple[ClassTarget, ...]:

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
+from rebsync.long_numbers import MOST_DIGITS, long_number
 from rebsync.source import Source, Span
 
 STANDARD_INPUT = "-"
@@ -65,7 +66,7 @@ def read_bytes(path: str) -> bytes:
 def decode(path: str, data: bytes) -> Source:
     """The text that `data` encodes in UTF-8; a RebsyncError that shows the first wrong byte."""
     try:
-        return Source(path, data.removeprefix(BOM).decode("utf-8"))
+        return _with_short_numbers(Source(path, data.removeprefix(BOM).decode("utf-8")))
     except UnicodeDecodeError as error:
         place = len(error.object[: error.start].decode("utf-8"))
         bad = error.object[error.start]
@@ -79,6 +80,13 @@ def decode(path: str, data: bytes) -> Source:
     )
     text = data.removeprefix(BOM).decode("utf-8", errors="replace")
     raise RebsyncError([Findings(Source(path, text), (mistake,))])
+
+
+def _with_short_numbers(source: Source) -> Source:
+    if (span := long_number(source.text)) is not None:
+        message = f"this number has more than {MOST_DIGITS:,} digits"
+        raise RebsyncError([Findings(source, (Diagnostic("RS830", span, message),))])
+    return source
 
 
 @contextmanager

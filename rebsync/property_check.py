@@ -146,6 +146,9 @@ class _Check:
         match node:
             case m.Paren(inner):
                 return self._expression(inner)
+            case m.IntLiteral(value) if value > 2**31:
+                self.report("RS305", node.span, "the number does not fit an int of 32 bits")
+                return None
             case m.IntLiteral(value):
                 return integer_type(value)
             case m.FloatLiteral():

@@ -8,6 +8,7 @@ from typing import TextIO
 
 from rebsync.diagnostics import Findings, Severity
 from rebsync.report_text import Piece, finding_pieces
+from rebsync.terminal import without_commands
 
 FORMATS = ("text", "json", "sarif", "github")
 
@@ -28,7 +29,7 @@ def report(findings: Sequence[Findings], style: str = "text") -> str:
 
             return as_github(findings)
         case _:
-            return "".join(piece.text for piece in _pieces(findings))
+            return without_commands("".join(piece.text for piece in _pieces(findings)))
 
 
 def print_report(findings: Sequence[Findings], stream: TextIO, style: str = "text") -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import json
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -14,6 +13,7 @@ from rebsync import __version__
 from rebsync.codes import CODES
 from rebsync.diagnostics import Diagnostic, Findings, Severity
 from rebsync.source import NOWHERE, Source, Span
+from rebsync.terminal import encoded, json_text, printable, without_old_commands
 
 Json: TypeAlias = dict[str, Any]
 
@@ -62,7 +62,8 @@ def sarif_log(
 
 def as_github(findings: Sequence[Findings]) -> str:
     """Workflow commands that GitHub shows beside the changed lines."""
-    return "".join(f"{_github_line(source, d)}\n" for source, d in _flat(findings))
+    lines = "".join(f"{_github_line(source, d)}\n" for source, d in _flat(findings))
+    return without_old_commands(lines, "%23")
 
 
 def _flat(findings: Sequence[Findings]) -> Iterator[tuple[Source, Diagnostic]]:
@@ -71,7 +72,7 @@ def _flat(findings: Sequence[Findings]) -> Iterator[tuple[Source, Diagnostic]]:
 
 def dump(value: Json) -> str:
     """One object, for people to look at, too."""
-    return json.dumps(value, indent=2, ensure_ascii=False) + "\n"
+    return json_text(value, indent=2) + "\n"
 
 
 def region(source: Source, span: Span) -> dict[str, int]:
@@ -166,7 +167,7 @@ def fingerprints(findings: Sequence[Findings]) -> Iterator[str]:
             line = source.line(source.position(diagnostic.span.start).line).strip()
         key = (Path(source.path).as_posix(), diagnostic.code, diagnostic.message, line)
         seen[key] += 1
-        yield hashlib.sha256("\0".join((*key, str(seen[key]))).encode()).hexdigest()[:32]
+        yield hashlib.sha256(encoded("\0".join((*key, str(seen[key]))))).hexdigest()[:32]
 
 
 # --- GitHub ------------------------------------------------------------------------------------
@@ -187,6 +188,8 @@ def _github_line(source: Source, diagnostic: Diagnostic) -> str:
 
 
 def _github_data(text: str) -> str:
+    """What GitHub asks for; other controls than line ends would reach the log."""
+    text = "\r".join(map(printable, text.split("\r")))
     return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
 
 

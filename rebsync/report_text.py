@@ -8,6 +8,7 @@ from unicodedata import east_asian_width
 from rebsync.diagnostics import Diagnostic, Severity
 from rebsync.records import dataclass
 from rebsync.source import NOWHERE, Source, Span
+from rebsync.terminal import one_line, printable
 
 _WIDTH = 120
 _CLIPPED = "..."
@@ -28,19 +29,19 @@ def finding_pieces(source: Source, diagnostic: Diagnostic) -> Iterator[Piece]:
     yield Piece(_place(source, diagnostic.span), "bold")
     yield Piece(": ")
     yield Piece(diagnostic.code, style)
-    yield Piece(f" {printable(diagnostic.message)}\n")
+    yield Piece(f" {one_line(diagnostic.message)}\n")
     yield from _excerpt(source, diagnostic.span, style)
     if diagnostic.hint:
         yield Piece("hint: ", "bold green")
         yield Piece(f"{printable(diagnostic.hint)}\n")
     for span, remark in diagnostic.related:
         yield Piece(_place(source, span), "bold")
-        yield Piece(f": note: {printable(remark)}\n")
+        yield Piece(f": note: {one_line(remark)}\n")
         yield from _excerpt(source, span, "cyan")
 
 
 def _place(source: Source, span: Span) -> str:
-    path = printable(source.path)
+    path = one_line(source.path)
     if span is NOWHERE:
         return path
     position = source.position(span.start)
@@ -55,9 +56,9 @@ def _excerpt(source: Source, span: Span, style: str) -> Iterator[Piece]:
     start = position.column - 1
     end = min(start + max(span.end - span.start, 1), max(len(line), start + 1))
     line, start, end = _clipped(line, start, end)
-    yield Piece(f"  {printable(line)}\n")
-    blank = "".join("\t" if c == "\t" else " " * _width(c) for c in line[:start])
-    marked = sum(_width(c) for c in line[start:end])
+    yield Piece(f"  {one_line(line)}\n")
+    blank = "".join("\t" if c == "\t" else " " * _width(c) for c in one_line(line[:start]))
+    marked = sum(_width(c) for c in one_line(line[start:end]))
     yield Piece(f"  {blank}")
     yield Piece("^" + "~" * (max(marked, 1) - 1), style)
     yield Piece("\n")
@@ -73,15 +74,6 @@ def _clipped(line: str, start: int, end: int) -> tuple[str, int, int]:
     after = _CLIPPED if right < len(line) else ""
     shift = len(before) - left
     return before + line[left:right] + after, start + shift, min(end, right) + shift
-
-
-def printable(text: str) -> str:
-    """Control characters must not reach a terminal."""
-    if text.isprintable():
-        return text
-    return "".join(
-        c if c.isprintable() or c in "\t\n" else "\N{REPLACEMENT CHARACTER}" for c in text
-    )
 
 
 def _width(character: str) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import sys
 from collections.abc import Iterator, Mapping
@@ -21,6 +22,7 @@ else:
 Path = tuple[str | int, ...]
 _Value = TypeVar("_Value", bound=str | int | float | bool)
 
+_LARGEST = 10**300  # a float is not much larger
 _HEADER = re.compile(r"\s*(\[\[?)\s*(.+?)\s*\]\]?\s*(?:#.*)?$")
 _KEY = re.compile(r"""\s*((?:"[^"]*"|'[^']*'|[\w.-]|\s*\.\s*)+?)\s*=""")
 _PART = re.compile(r""""([^"]*)"|'([^']*)'|([\w-]+)""")
@@ -54,7 +56,7 @@ class Table:
         """The number at `key`, whole or not."""
         value = self._value(key)
         if isinstance(value, int) and not isinstance(value, bool):
-            return float(value)
+            return float(value) if abs(value) < _LARGEST else math.inf
         return self._scalar(key, default, float, "a number")
 
     def strings(self, key: str) -> tuple[str, ...]:

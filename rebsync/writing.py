@@ -15,6 +15,7 @@ from pathlib import Path
 
 from rebsync.files import BOM, operating_on
 from rebsync.records import dataclass
+from rebsync.terminal import encoded
 
 _STAGED = re.compile(r"\..+\.[0-9a-f]{8}\.rebsync\.tmp\Z")
 _ENDING = {"SIGINT", "SIGTERM", "SIGHUP"}
@@ -26,7 +27,7 @@ def replace_text(path: str, text: str) -> bool:
     An existing file keeps its mode and byte order mark; a link is followed to the real file.
     """
     target = Path(path)
-    data = text.encode("utf-8")
+    data = encoded(text)
     with operating_on(path):
         if target.exists() and not target.is_file() and not target.is_dir():
             target.write_bytes(data)  # a device or a pipe cannot be replaced
@@ -58,9 +59,9 @@ def replace_tree(
     folder = Path(root)
     with operating_on(root):
         writes = [
-            _Replacement(folder / name, text.encode("utf-8"), name in executable)
+            _Replacement(folder / name, encoded(text), name in executable)
             for name, text in texts.items()
-            if _content(folder / name) != text.encode("utf-8")
+            if _content(folder / name) != encoded(text)
         ]
         deletions = [_Replacement(folder / name, None) for name in remove]
         replacements = writes + [each for each in deletions if each.path.is_file()]

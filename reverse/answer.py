@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -22,6 +21,7 @@ from rebsync.reverse.graph_json import graph_data
 from rebsync.reverse.recovery import Extracted, extract
 from rebsync.reverse.report import as_json, as_text, diagnostics, grade_of, report_data, summary
 from rebsync.source import Source
+from rebsync.terminal import json_text
 
 Also: TypeAlias = "Callable[[Mapping[str, Source]], Iterable[Finding]]"
 _NOTHING = Extracted(m.Model((), (), None), (), ())
@@ -73,7 +73,7 @@ def answer(given: Chosen, style: str | None, whole: bool, also: Also = lambda fi
 
 def package_json(given: Chosen, extracted: Extracted) -> str:
     """All that is known of a package, as one object on one line: graph, model, report."""
-    return json.dumps(
+    return json_text(
         {
             "package": _package(given),
             "path": given.root,
@@ -81,9 +81,7 @@ def package_json(given: Chosen, extracted: Extracted) -> str:
             **graph_data(_graph(given, extracted)),
             "model": _model(extracted),
             "report": report_data(extracted),
-        },
-        ensure_ascii=False,
-        allow_nan=False,
+        }
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import field, replace
 from fractions import Fraction
@@ -198,7 +199,9 @@ def _unit_of_time(launch: Launch | None) -> Fraction:
     """The seconds that a unit of time takes in generated nodes."""
     for parameter in launch.parameters if launch is not None else ():
         value = parameter.value
-        if parameter.name == _TIME_UNIT and isinstance(value, (int, float)) and value > 0:
+        if parameter.name != _TIME_UNIT or not isinstance(value, (int, float)):
+            continue
+        if 0 < value < math.inf:
             return Fraction(repr(value))
     return Fraction(1)
 
@@ -269,6 +272,8 @@ class _System:
             return None
         type_, keys = started
         declared = self._lineage(type_)
+        if not declared:
+            return None  # the class could not be read, which is told of it
         known = [
             d.name
             for c in reversed(declared)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections import Counter
 from collections.abc import Iterable
 
@@ -11,6 +10,7 @@ from rebsync.reverse.findings import Finding, Grade
 from rebsync.reverse.graph_json import Data, Item
 from rebsync.reverse.recovery import Extracted
 from rebsync.source import Source
+from rebsync.terminal import json_text, lines_text
 
 _CODES = {Grade.UNREADABLE: "RS941", Grade.APPROXIMATED: "RS942"}
 
@@ -61,7 +61,7 @@ def as_text(extracted: Extracted) -> str:
         rows.append(("elsewhere", outside))
     rows.append(("all", summary(extracted)))
     width = max(len(name) for name, _ in rows)
-    return "".join(f"{name:{width}}  {text}\n" for name, text in rows)
+    return lines_text(f"{name:{width}}  {text}" for name, text in rows)
 
 
 def summary(extracted: Extracted) -> str:
@@ -89,7 +89,7 @@ def _share(statements: int, approximated: int, unreadable: int) -> str:
 
 def as_json(extracted: Extracted) -> str:
     """The report as one object."""
-    return json.dumps(report_data(extracted), indent=2, ensure_ascii=False) + "\n"
+    return json_text(report_data(extracted), indent=2) + "\n"
 
 
 def report_data(extracted: Extracted) -> Item:

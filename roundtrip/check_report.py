@@ -12,6 +12,7 @@ from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.roundtrip.checked import Checked
 from rebsync.roundtrip.outcome import IN_STEP, Outcome, verdict_of
 from rebsync.source import NOWHERE, Source, Span
+from rebsync.terminal import encoded, lines_text
 
 if TYPE_CHECKING:
     from rebsync.roundtrip.difference import Difference
@@ -68,9 +69,7 @@ def as_text(outcomes: Sequence[Outcome], style: str) -> str:
         case _:
             from rebsync.report import report
 
-            parts = (
-                "".join(f"{x}\n" for x in told_lines(o)) + report(o.findings) for o in outcomes
-            )
+            parts = (lines_text(told_lines(o)) + report(o.findings) for o in outcomes)
             return "".join(parts)
 
 
@@ -186,7 +185,7 @@ def _printed(outcome: Outcome) -> Iterator[tuple[Difference, Mover, str]]:
     prints = fingerprints([d for d, _ in told])
     for (difference, mover), print_ in zip(told, prints, strict=True):
         root = Path(outcome.root).as_posix()
-        yield difference, mover, hashlib.sha256(f"{root}\0{print_}".encode()).hexdigest()[:32]
+        yield difference, mover, hashlib.sha256(encoded(f"{root}\0{print_}")).hexdigest()[:32]
 
 
 def _proofs(outcome: Outcome) -> list[tuple[Findings, list[Remark]]]:

@@ -26,6 +26,7 @@ from rebsync.roundtrip.difference import (
     explain,
 )
 from rebsync.source import NOWHERE, Source, Span
+from rebsync.terminal import encoded
 
 _CODES: dict[type[Difference], str] = {
     Added: "RS971",
@@ -182,7 +183,7 @@ def fingerprints(differences: Sequence[Difference]) -> Iterator[str]:
     for difference in differences:
         key = "\0".join((code_of(difference), str(difference.element), _part(difference)))
         seen[key] += 1
-        yield hashlib.sha256(f"{key}\0{seen[key]}".encode()).hexdigest()[:32]
+        yield hashlib.sha256(encoded(f"{key}\0{seen[key]}")).hexdigest()[:32]
 
 
 def _part(difference: Difference) -> str:

@@ -7,9 +7,9 @@ from xml.sax.saxutils import escape, quoteattr
 
 from rebsync.records import dataclass
 from rebsync.report import report
-from rebsync.report_text import printable
 from rebsync.roundtrip.check_report import lines
 from rebsync.roundtrip.outcome import IN_STEP, Outcome, verdict_of
+from rebsync.terminal import lines_text, one_line, printable, without_commands, without_old_commands
 
 _HEAD = '<?xml version="1.0" encoding="UTF-8"?>\n<testsuites name="rebsync">\n'
 
@@ -44,23 +44,23 @@ def _element(root: str, case: _Case) -> str:
     if not case.element:
         return f"{head}/>\n"
     what = f"{case.element} type={_quoted(case.kind)} message={_quoted(case.message)}"
-    text = escape(printable(case.text))
+    text = without_commands(escape(printable(case.text)), "&#35;")
     return f"{head}>\n      <{what}>{text}</{case.element}>\n    </testcase>\n"
 
 
 def _quoted(text: str) -> str:
-    return quoteattr(printable(text))
+    return without_old_commands(quoteattr(printable(text)), "&#35;")
 
 
 def _cases(outcome: Outcome) -> Iterator[_Case]:
     verdict = verdict_of(outcome)
-    first, *rest = lines(outcome)
+    first, *rest = map(one_line, lines(outcome))
     found = report(outcome.findings)
     if verdict == IN_STEP and not found:
         yield _Case(IN_STEP)
     else:
         element = "failure" if outcome.checked is not None else "error"
-        message = first.removeprefix(f"{outcome.root}: ")
+        message = first.removeprefix(f"{one_line(outcome.root)}: ")
         text = "".join(f"{line}\n" for line in rest) + found
         yield _Case(IN_STEP, element, verdict, message, text)
     yield from _properties(outcome)
@@ -82,7 +82,7 @@ def _properties(outcome: Outcome) -> Iterator[_Case]:
         if name not in broken:
             yield _Case(f"property {name}")
     for violation in broken.values():
-        run = "".join(f"{line}\n" for line in run_lines(proof, violation))
+        run = lines_text(run_lines(proof, violation))
         yield _Case(words.title(violation), "failure", "violated", violation.message, run)
     if not properties and not broken:
         yield _Case("nothing goes wrong")

@@ -25,7 +25,7 @@ def made_from(folder: Path) -> str | None:
     try:
         record = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
         return str(record["model"]["name"])
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return None
 
 

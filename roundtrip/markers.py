@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from rebsync.records import dataclass
+from rebsync.terminal import encoded
 
 _MARKER = re.compile(
     r"(?P<before>.*?)(?://|\#|<!--)\s*rebsync:\s*(?P<kind>[\w-]+)\s*(?P<path>.*?)\s*(?:-->)?\s*\Z"
@@ -35,7 +36,7 @@ class Element:
 
 def digest(text: str) -> str:
     """The digest that the manifest records for a text."""
-    return hashlib.sha256(text.encode("utf-8")).hexdigest()
+    return hashlib.sha256(encoded(text)).hexdigest()
 
 
 def elements(text: str) -> Iterator[Element]:

@@ -17,6 +17,7 @@ from rebsync.roundtrip.recorded import conflict_in
 from rebsync.roundtrip.sides import Given, Unread
 from rebsync.roundtrip.units import as_one
 from rebsync.source import Source
+from rebsync.terminal import encoded
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +34,7 @@ class Code:
 def model_given(path: str) -> Given:
     """The model in a file. RebsyncError: it cannot be read, or has mistakes."""
     source = read_source(path)
-    key = key_of("model", digest_of(source.text.encode("utf-8")))
+    key = key_of("model", digest_of(encoded(source.text)))
     model = kept(key, m.Model)
     if model is None:
         model = parsed(source)

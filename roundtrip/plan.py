@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from difflib import unified_diff
+from collections.abc import Mapping
 from enum import Enum
 from itertools import count
 from pathlib import Path
 
 from rebsync.files import read_source
+from rebsync.patches import patch
 from rebsync.records import dataclass
 from rebsync.roundtrip.manifest import BASE, FOLDER
 from rebsync.roundtrip.markers import user_blocks, with_user_blocks
@@ -40,14 +40,11 @@ class Step:
     new: str | None
     plain: str | None = None
 
-    def diff(self) -> Iterator[str]:
+    def diff(self) -> str:
         """The change as a unified diff."""
-        yield from unified_diff(
-            (self.old or "").splitlines(keepends=True),
-            (self.new or "").splitlines(keepends=True),
-            f"a/{self.path}" if self.old is not None else "/dev/null",
-            f"b/{self.path}" if self.new is not None else "/dev/null",
-        )
+        before = f"a/{self.path}" if self.old is not None else "/dev/null"
+        after = f"b/{self.path}" if self.new is not None else "/dev/null"
+        return patch(self.old or "", self.new or "", before, after)
 
 
 def plan(folder: Path, files: Mapping[str, str]) -> tuple[Step, ...]:

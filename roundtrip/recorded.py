@@ -100,9 +100,20 @@ def record_in(source: Source, data: object) -> Record:
             "files": dict(files),
         } if all(isinstance(k, str) and isinstance(v, str) for k, v in files.items()):
             path, known = _path(data), _in_step(data)
+            if not _are_settings(options):
+                raise _damaged(source, NOWHERE, "its options are no settings that generate knows")
             return Record(name, path, digest, options, files, _accepted(data), known)
         case _:
             raise _damaged(source, NOWHERE, "a part of it is missing or of the wrong kind")
+
+
+def _are_settings(options: dict[str, Any]) -> bool:
+    """Whether recorded options are of the kinds that they have; a newer rebsync's may be there."""
+    from rebsync.config import TARGETS, config_of_record
+
+    target = options.get("target", TARGETS[0])
+    known = {**options, "target": TARGETS[0]}  # which others there are is told elsewhere
+    return isinstance(target, str) and config_of_record(known) is not None
 
 
 def _path(data: object) -> str:

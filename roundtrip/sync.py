@@ -11,7 +11,7 @@ from dataclasses import field, replace
 from pathlib import Path
 
 from rebsync import model as m
-from rebsync.config import ClassTarget, Config, Maintainer, SensorBinding, parse_config
+from rebsync.config import Config, config_of_record, parse_config
 from rebsync.diagnostics import Findings, RebsyncError, Severity
 from rebsync.files import read_source
 from rebsync.records import dataclass
@@ -36,6 +36,7 @@ from rebsync.roundtrip.sides import Given
 from rebsync.roundtrip.sync_records import with_what_holds
 from rebsync.roundtrip.verdict import Mover
 from rebsync.source import NOWHERE, Source
+from rebsync.terminal import encoded
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,7 +119,7 @@ class _Syncing:
         """The model as of the last time in step, if it is still known."""
         if is_base_whole(self.checked.kept, self.record):
             return model_given(f"{self.checked.kept.root}/{BASE_MODEL}")
-        is_same = is_text_of(today.source.text.encode("utf-8"), self.record.digest)
+        is_same = is_text_of(encoded(today.source.text), self.record.digest)
         return today if is_same else None
 
     def _of_code(self, base: Given, code: Given) -> Given:
@@ -225,7 +226,7 @@ class _Syncing:
         """
         wanted = self.record.files
         texts = recorded_base(self.checked.kept.root, BASE).items()
-        return {n: t for n, t in texts if is_text_of(t.encode("utf-8"), wanted.get(n, ""))}
+        return {n: t for n, t in texts if is_text_of(encoded(t), wanted.get(n, ""))}
 
     def _differs(self, path: str, text: str | None) -> bool:
         file = Path(self.checked.kept.root, path)
@@ -302,14 +303,7 @@ def _theirs(text: str) -> str:
 
 def _config_of(record: Record) -> Config:
     """The settings with which a package was generated."""
-    known = {name: value for name, value in record.options.items() if name in _FIELDS}
-    people = tuple(Maintainer(**p) for p in known.pop("maintainers", ()))
-    sensors = tuple(SensorBinding(**s) for s in known.pop("sensors", ()))
-    targets = tuple(ClassTarget(**t) for t in known.pop("targets", ()))
-    return Config(**known, maintainers=people, sensors=sensors, targets=targets)
-
-
-_FIELDS = frozenset(Config.__dataclass_fields__)
+    return config_of_record(record.options) or Config()
 
 
 def _is_settled(found: Findings) -> bool:

@@ -16,6 +16,7 @@ from rebsync.roundtrip.manifest import BASE, MANIFEST
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record, read_record, told_in_step, with_accepted
 from rebsync.source import Source
+from rebsync.terminal import encoded
 
 if TYPE_CHECKING:
     from rebsync.roundtrip.sync import Sync
@@ -67,10 +68,10 @@ def _is_edited(sync: Sync) -> bool:
     root = Path(sync.checked.kept.root)
     for name, text in sync.texts.items():
         if text is not None:
-            digests[name] = digest_of(marked(root / name, text).encode("utf-8"))
+            digests[name] = digest_of(encoded(marked(root / name, text)))
     if any(sync.texts.get(name) is None for name in now.missing):
         return True
-    wanted = {n: digest_of(t.encode("utf-8")) for n, t in sync.records.items() if t is not None}
+    wanted = {n: digest_of(encoded(t)) for n, t in sync.records.items() if t is not None}
     return any(wanted.get(BASE + name) != digest for name, digest in digests.items())
 
 
@@ -85,7 +86,7 @@ def _as_will_be(sync: Sync) -> Iterator[Kept]:
         for name, text in changes.items():
             files.pop(name, None)
             if text is not None:
-                files[name] = marked(own / name, text).encode("utf-8")
+                files[name] = encoded(marked(own / name, text))
     with TemporaryDirectory(prefix="rebsync-") as folder:
         root = Path(folder, own.resolve().name)
         for name, data in files.items():

@@ -63,7 +63,7 @@ def test_text() -> None:
         ("a\r\nb\r\n", 3, 4, ["x:2:1: RS101 here", "  b", "  ^"]),
         ("日本 x", 3, 4, ["x:1:4: RS101 here", "  日本 x", "       ^"]),
         ("日本", 0, 2, ["x:1:1: RS101 here", "  日本", "  ^~~~"]),
-        ("\x1b[31m", 0, 1, ["x:1:1: RS101 here", "  \ufffd[31m", "  ^"]),
+        ("\x1b[31m", 0, 1, ["x:1:1: RS101 here", "  \\x1b[31m", "  ^~~~"]),
     ],
     ids=["empty", "end", "two lines", "crlf", "before wide", "wide", "control"],
 )

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import NoReturn
+from typing import NoReturn, TextIO
 
 import click
 
@@ -17,6 +17,8 @@ from rebsync import __version__
 from rebsync.cli.group import LazyGroup
 from rebsync.cli.status import Status
 from rebsync.diagnostics import RebsyncError
+from rebsync.long_numbers import allow_long_numbers
+from rebsync.terminal import one_line, say, without_commands
 
 _AGAIN = 2.0  # seconds after which a signal that did not end the process is repeated
 
@@ -30,6 +32,7 @@ def rebsync() -> None:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; what it returns is the exit status."""
     _print_whatever_the_encoding()
+    allow_long_numbers()
     if arguments is None:
         gc.disable()  # trees have no cycles, and walking them again and again takes a third longer
         _end_in_order()
@@ -67,7 +70,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except SystemExit as error:  # click's own answer to a broken pipe
         status = Status.BROKEN_PIPE if error.code == 1 else error.code
     _tell_of_cache()
-    return _closed(int(status or Status.CLEAN))
+    ended = _closed(int(status or Status.CLEAN))
+    try:
+        sys.stderr.flush()
+    except OSError:
+        _drop(sys.stderr)
+    return ended
 
 
 def _tell_of_cache() -> None:
@@ -105,9 +113,10 @@ def _print_whatever_the_encoding() -> None:
 def _report(error: RebsyncError) -> Status:
     from rebsync.report import print_report
 
-    with suppress(BrokenPipeError):
+    with suppress(OSError):
         if sys.stdout is not None:
             sys.stdout.flush()
+    with suppress(OSError):  # standard error may be full, too, or nobody reads it
         print_report(error.findings, sys.stderr)
     return Status.UNUSABLE
 
@@ -119,15 +128,24 @@ def _os_error(error: OSError) -> Status:
 
 
 def _usage(error: click.ClickException) -> Status:
-    with suppress(BrokenPipeError):
-        error.show()
+    shown = click.UsageError(
+        without_commands(one_line(error.format_message())), getattr(error, "ctx", None)
+    )
+    with suppress(OSError):
+        shown.show()
     return Status.UNUSABLE
 
 
 def _say(message: str, status: Status) -> Status:
-    with suppress(BrokenPipeError):
-        click.echo(message, err=True)
+    with suppress(OSError):
+        say(message, err=True)
     return status
+
+
+def _drop(stream: TextIO) -> None:
+    """What is still to be written goes nowhere, so that the interpreter does not try it again."""
+    with suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def _closed(status: int) -> int:
@@ -137,8 +155,7 @@ def _closed(status: int) -> int:
     try:
         sys.stdout.flush()
     except OSError as error:
-        with suppress(OSError):
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _drop(sys.stdout)
         if not isinstance(error, BrokenPipeError) and status in (Status.CLEAN, Status.FINDINGS):
             return _os_error(error)
         return Status.BROKEN_PIPE if isinstance(error, BrokenPipeError) else status

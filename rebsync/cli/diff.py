@@ -11,6 +11,7 @@ import click
 
 from rebsync.cli.options import output_option, write_output
 from rebsync.cli.status import Status
+from rebsync.terminal import lines_text, say
 
 if TYPE_CHECKING:
     from rebsync.diagnostics import Findings
@@ -81,7 +82,7 @@ def command(
         print_report(loose, sys.stderr)
         sys.stdout.flush()
         if not comparison.is_empty:
-            click.echo(_counted(comparison), err=True)
+            say(_counted(comparison), err=True)
     if done is not None:
         return _DONE[done.verdict] if not loose else max(_DONE[done.verdict], Status.FINDINGS)
     if comparison.is_undetermined:
@@ -134,4 +135,4 @@ def _text(
 
             return sides_page(comparison, sides[0].given, sides[1].given, done)
         case _:
-            return "".join(f"{line}\n" for line in report.lines(comparison, done))
+            return lines_text(report.lines(comparison, done))

@@ -18,6 +18,7 @@ from rebsync.cli.status import Status, worst
 from rebsync.diagnostics import RebsyncError
 from rebsync.records import dataclass
 from rebsync.report import print_report
+from rebsync.terminal import json_text, lines_text, one_line, say, write_data
 
 if TYPE_CHECKING:
     from rebsync.reverse.answer import Answer
@@ -109,25 +110,25 @@ class _Told:
             return Status.UNDETERMINED
         if given.summary and not given.report:
             sys.stdout.flush()
-            click.echo(f"{given.root}: {given.summary}", err=True)
+            say(f"{given.root}: {given.summary}", err=True)
         return _STATUS[given.grade]
 
     def _tell_model(self, given: Answer, model: str) -> None:
         target = self._target(given, ".rebeca")
         if not given.report or target != "-":
-            head = f"// {given.root}\n" if self.several else ""
+            head = f"// {one_line(given.root)}\n" if self.several else ""
             write_output(target, head + model)
         if given.report:
-            click.echo(self._report(given), nl=False)
+            write_data(self._report(given))
 
     def _report(self, given: Answer) -> str:
         """The report; of several each says of which package it is."""
         if not self.several:
             return given.report
         if not given.report.startswith("{"):
-            return f"{given.root}:\n{given.report}"
+            return lines_text([f"{given.root}:"]) + given.report
         told = {"path": given.root, **json.loads(given.report)}
-        return json.dumps(told, ensure_ascii=False) + "\n"
+        return json_text(told) + "\n"
 
     def _target(self, given: Answer, suffix: str) -> str:
         """The file for a package: the one that was named, or one in the directory."""

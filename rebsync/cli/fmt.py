@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
 
 import click
 
@@ -12,8 +11,10 @@ from rebsync.cli.paths import MODEL, expand
 from rebsync.cli.status import Status, worst
 from rebsync.diagnostics import Findings, RebsyncError, Severity
 from rebsync.files import STANDARD_INPUT, read_source
+from rebsync.patches import patch
 from rebsync.report import print_report
 from rebsync.source import Source
+from rebsync.terminal import say
 from rebsync.writing import replace_text
 
 
@@ -45,7 +46,7 @@ def _one(path: str | RebsyncError, check: bool, diff: bool) -> Status:
     if path == STANDARD_INPUT:
         write_output("-", text)
     elif replace_text(path, text):
-        click.echo(f"formatted {path}", err=True)
+        say(f"formatted {path}", err=True)
     return Status.CLEAN
 
 
@@ -65,15 +66,7 @@ def _compare(source: Source, text: str, diff: bool) -> Status:
     if text == source.text:
         return Status.CLEAN
     if diff:
-        write_output("-", "".join(_unified(source, text)))
+        write_output("-", patch(source.text, text, source.path, f"{source.path} (formatted)"))
     else:
-        click.echo(f"would format {source.path}", err=True)
+        say(f"would format {source.path}", err=True)
     return Status.FINDINGS
-
-
-def _unified(source: Source, text: str) -> Iterable[str]:
-    from difflib import unified_diff
-
-    old, new = (t.splitlines(keepends=True) for t in (source.text, text))
-    for line in unified_diff(old, new, source.path, f"{source.path} (formatted)"):
-        yield line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n"

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import click
 
+from rebsync.cli.options import write_output
 from rebsync.cli.status import Status
 from rebsync.config import FILE_NAME, TARGETS, Config, parse_config
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
@@ -17,6 +18,7 @@ from rebsync.report import print_report
 from rebsync.roundtrip.plan import Action, Step, aside, name_to_keep, plan
 from rebsync.source import NOWHERE, Source
 from rebsync.stamps import Stamps, stamps
+from rebsync.terminal import say, say_lines
 from rebsync.writing import alone_in, replace_tree
 
 _SHOWN = (Action.CREATE, Action.UPDATE, Action.MERGE, Action.DELETE)
@@ -51,7 +53,7 @@ def command(
     folder = Path(output) / name
     files = _with_accepted(folder, files)
     if only_list:
-        click.echo("".join(f"{folder / path}\n" for path in sorted(files)), nl=False)
+        say_lines(str(folder / path) for path in sorted(files))
         return Status.CLEAN
     if only_diff:
         return _show(plan(folder, files))
@@ -72,7 +74,7 @@ def _merged(
         wrong = wrong_in(folder, steps, source)
         if wrong and not force:
             print_report(wrong, sys.stderr)
-            click.echo(f"{folder}: nothing was written", err=True)
+            say(f"{folder}: nothing was written", err=True)
             return Status.FINDINGS
         steps = tuple(aside(step) for step in steps) if wrong else steps
     return _write(folder, steps, force, before)
@@ -147,11 +149,7 @@ def _show(steps: tuple[Step, ...]) -> Status:
     changes = [s for s in steps if s.action in (*_SHOWN, Action.CONFLICT)]
     for step in changes:
         if not step.path.startswith(".rebsync/"):
-            for line in step.diff():
-                click.echo(
-                    line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n",
-                    nl=False,
-                )
+            write_output("-", step.diff())
     return Status.FINDINGS if changes else Status.CLEAN
 
 
@@ -171,14 +169,14 @@ def _write(folder: Path, steps: tuple[Step, ...], force: bool, before: Stamps) -
     written = replace_tree(str(folder), texts, remove=remove, ready=refuse_changed)
     own = [path for path in written if not path.startswith(".rebsync/")]
     total = sum(not s.path.startswith(".rebsync/") and s.new is not None for s in steps)
-    click.echo(f"{folder}: {total} files, {len(own)} of them written")
+    say(f"{folder}: {total} files, {len(own)} of them written")
     for step in steps:
         if step.action is Action.KEEP:
-            click.echo(f"kept your edit of {folder / step.path}")
+            say(f"kept your edit of {folder / step.path}")
         if step.action is Action.MERGE:
-            click.echo(f"merged with your edit of {folder / step.path}")
+            say(f"merged with your edit of {folder / step.path}")
     for step in conflicts:
-        click.echo(f"kept your edit as {folder / kept[step.path]}")
+        say(f"kept your edit as {folder / kept[step.path]}")
     return Status.CLEAN
 
 

@@ -16,6 +16,7 @@ from rebsync.edits import apply_edits, certain_edits
 from rebsync.files import STANDARD_INPUT, read_source
 from rebsync.report import print_report, summary
 from rebsync.source import Source
+from rebsync.terminal import say
 from rebsync.writing import replace_text
 
 _ROUNDS = 10
@@ -40,7 +41,7 @@ def command(paths: tuple[str, ...], fix: bool, style: str) -> Status:
     print_report(findings, sys.stdout, style)
     if style == "text" and (counted := summary(findings)):
         sys.stdout.flush()
-        click.echo(counted, err=True)
+        say(counted, err=True)
     return worst(statuses)
 
 
@@ -102,5 +103,5 @@ def _fixed(source: Source) -> Findings:
         text = apply_edits(text, edits)
         found = lint(Source(source.path, text))
     if replace_text(source.path, text):
-        click.echo(f"corrected {source.path}", err=True)
+        say(f"corrected {source.path}", err=True)
     return found

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -12,6 +11,7 @@ import click
 
 from rebsync.diagnostics import RebsyncError
 from rebsync.report import FORMATS
+from rebsync.terminal import write_data
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
@@ -49,11 +49,9 @@ def refuse_to_overwrite(given: str, output: str) -> None:
 
 
 def write_output(output: str, text: str) -> None:
-    """Write a text to a file, or to standard output for `-`, always in UTF-8."""
+    """Write a text to a file, or to standard output for `-`: in UTF-8, cleaned for terminals."""
     if output == "-":
-        sys.stdout.flush()
-        sys.stdout.buffer.write(text.encode("utf-8"))
-        sys.stdout.buffer.flush()
+        write_data(text)
         return
     from rebsync.writing import replace_text
 

@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, TextIO
 
+from rebsync.terminal import one_line
+
 if TYPE_CHECKING:
     from rebsync.checker.exploration import Progress, Report
 
@@ -25,7 +27,7 @@ def progress(stream: TextIO) -> Iterator[Report | None]:
     def report(now: Progress) -> None:
         if time.monotonic() - shown[-1] >= _SILENCE:
             shown.append(time.monotonic())
-            stream.write(_CLEAR + told(now))
+            stream.write(_CLEAR + one_line(told(now)))
             stream.flush()
 
     try:

@@ -14,6 +14,7 @@ from rebsync.cli.problem import keep_what_is_read, read_problem
 from rebsync.cli.runs import STYLES, write_run
 from rebsync.cli.status import Status
 from rebsync.cli.verify import view_named, view_options
+from rebsync.terminal import say
 
 if TYPE_CHECKING:
     from rebsync.checker.simulate import Chooser
@@ -82,7 +83,7 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
         trace = Trace(problem.source.path, semantics, tuple(told))
         write_run(trace, problem.source, given["style"], output)
     if reason is not None:
-        click.echo(f"the run ends here: {reason}", err=True)
+        say(f"the run ends here: {reason}", err=True)
         return Status.UNDETERMINED
     return Status.VIOLATED if told and told[-1].failure else Status.CLEAN
 
@@ -93,7 +94,7 @@ def _seed(given: int | None) -> int:
     from random import SystemRandom
 
     seed = SystemRandom().randrange(1_000_000)
-    click.echo(f"seed {seed}", err=True)
+    say(f"seed {seed}", err=True)
     return seed
 
 
@@ -125,9 +126,9 @@ def _asked(time: int, options: Sequence[str]) -> int | None:
     """The number of the option that is picked; None after an empty line, q, or the last line."""
     numbers = [str(number) for number in range(1, len(options) + 1)]
     for number, option in zip(numbers, options, strict=True):
-        click.echo(f"  {number}) {option}", err=True)
+        say(f"  {number}) {option}", err=True)
     while True:
-        click.echo(f"at {time}, 1 to {len(options)}, q to end: ", nl=False, err=True)
+        say(f"at {time}, 1 to {len(options)}, q to end: ", err=True, end="")
         answer = _line()
         if answer in ("", "q"):
             return None

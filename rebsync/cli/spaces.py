@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from rebsync.cli.options import write_output
+from rebsync.terminal import say
 
 if TYPE_CHECKING:
     from rebsync.checker.problem import Options, Problem
@@ -63,7 +64,7 @@ def write_space(
     if exported is not None:
         write_output(exported, rmc_xml(space, program))
     if found.reason is not None:
-        click.echo(f"this is not the whole state space: {found.reason}", err=True)
+        say(f"this is not the whole state space: {found.reason}", err=True)
     return found.reason is None
 
 

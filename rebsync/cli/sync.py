@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
-from difflib import unified_diff
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from rebsync.cli.options import write_output
 from rebsync.cli.status import Status, status_of, worst
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.files import read_source
+from rebsync.patches import patch
 from rebsync.report import print_report
 from rebsync.roundtrip.checked import check_merged
 from rebsync.roundtrip.packages import Kept, find
 from rebsync.source import NOWHERE, Source
 from rebsync.stamps import Stamps, stamps
+from rebsync.terminal import say
 from rebsync.writing import alone_in
 
 if TYPE_CHECKING:
@@ -96,7 +98,7 @@ def _done(sync: Sync, before: Stamps) -> Status:
 
     written = write(sync, before)
     for path in written:
-        click.echo(f"wrote {path}" if Path(path).exists() else f"deleted {path}")
+        say(f"wrote {path}" if Path(path).exists() else f"deleted {path}")
     print_report(sync.findings, sys.stderr)
     if sync.conflicts:
         sys.stdout.flush()
@@ -104,9 +106,9 @@ def _done(sync: Sync, before: Stamps) -> Status:
         return Status.FINDINGS
     status = _status(sync)
     if status is Status.UNDETERMINED:
-        click.echo(f"{root}: as far as the code can be read, in step with {sync.checked.model}")
+        say(f"{root}: as far as the code can be read, in step with {sync.checked.model}")
     else:
-        click.echo(f"{root}: in step with {sync.checked.model}")
+        say(f"{root}: in step with {sync.checked.model}")
     return status
 
 
@@ -114,10 +116,7 @@ def _shown(sync: Sync) -> Status:
     """Shows the changes as a patch."""
     if sync.refused:
         return _refused(sync)
-    for line in _patch(sync):
-        click.echo(
-            line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n", nl=False
-        )
+    write_output("-", "".join(_patch(sync)))
     sys.stdout.flush()
     print_report(sync.findings, sys.stderr)
     print_report([_open(sync, path) for path in sync.conflicts], sys.stderr)
@@ -133,18 +132,14 @@ def _patch(sync: Sync) -> Iterator[str]:
     for path, text in changes.items():
         exists = Path(path).is_file()
         old = read_source(path).text if exists else ""
-        yield from unified_diff(
-            old.splitlines(keepends=True),
-            (text or "").splitlines(keepends=True),
-            f"a/{path}" if exists else "/dev/null",
-            f"b/{path}" if text is not None else "/dev/null",
-        )
+        before = f"a/{path}" if exists else "/dev/null"
+        yield patch(old, text or "", before, f"b/{path}" if text is not None else "/dev/null")
 
 
 def _refused(sync: Sync) -> Status:
     print_report(sync.findings, sys.stderr)
     print_report(sync.refused, sys.stderr)
-    click.echo(f"{sync.checked.kept.root}: nothing was written", err=True)
+    say(f"{sync.checked.kept.root}: nothing was written", err=True)
     return Status.UNDETERMINED if sync.is_undetermined else Status.FINDINGS
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from rebsync.model import Type
 from rebsync.source import Span
 from rebsync.static.facts import Facts
-from rebsync.static.types import PRIMITIVES, REFUSED, TYPE_NAMES
+from rebsync.static.types import INT_MAX, PRIMITIVES, REFUSED, TYPE_NAMES
 
 
 def resolve(facts: Facts, written: Type, kind: str = "type") -> Type | None:
@@ -14,6 +14,10 @@ def resolve(facts: Facts, written: Type, kind: str = "type") -> Type | None:
     if name in PRIMITIVES or name in facts.declared or name == "ReactiveClass":
         if 0 in written.dimensions:
             facts.error("RS431", written.span, f'the array type "{written}" has no elements')
+            return None
+        if any(length > INT_MAX for length in written.dimensions):
+            message = f'the array type "{name}" has more than {INT_MAX} elements'
+            facts.error("RS305", written.span, message)
             return None
         return written
     _refuse(facts, written, kind)

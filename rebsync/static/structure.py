@@ -7,6 +7,7 @@ from rebsync.model import Constructor, MessageServer, Method, ReactiveClass, Ref
 from rebsync.static.classes import described
 from rebsync.static.facts import Facts
 from rebsync.static.symbols import Callable, ClassInfo
+from rebsync.static.types import INT_MAX
 
 _REFUSED = {
     "featurevar": "a generated ROS system has no features: keep one model per variant",
@@ -30,6 +31,9 @@ def check_class(facts: Facts, info: ClassInfo) -> None:
     if declaration.queue_length < 1:
         message = f'the queue of "{info.name}" has no place for a message'
         facts.error("RS431", declaration.queue_span, message, "write at least (1)")
+    if declaration.queue_length > INT_MAX:
+        message = f'the queue of "{info.name}" is larger than {INT_MAX}'
+        facts.error("RS305", declaration.queue_span, message)
     for member in declaration.members:
         match member:
             case Constructor():

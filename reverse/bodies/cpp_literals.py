@@ -10,6 +10,7 @@ from rebsync import model as m
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_calls import string_of
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
+from rebsync.terminal import with_escapes
 
 _INTEGER = re.compile(r"(0[xX][0-9a-fA-F]+|0[bB][01]+|[0-9]+)(?:[uU]?[lL]{0,2}|[lL]{1,2}[uU])\Z")
 _FLOAT = re.compile(r"((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)([fFlL]?)\Z")
@@ -30,11 +31,11 @@ def literal(cpp: Cpp, node: Node) -> m.Expression:
         case "char_literal" if (code := _character(text)) is not None:
             return m.IntLiteral(code, span)
         case "string_literal" if text.startswith('"'):
-            return m.StringLiteral(text.replace("?\\?", "??"), span)
+            return m.StringLiteral(with_escapes(text.replace("?\\?", "??")), span)
         case "concatenated_string":
             whole = string_of(node)
             if whole is not None:
-                return m.StringLiteral(f'"{whole}"'.replace("?\\?", "??"), span)
+                return m.StringLiteral(with_escapes(f'"{whole}"'.replace("?\\?", "??")), span)
             raise Unread(span, "the model has no such texts")
         case "identifier" if text == "kNull":
             return m.NullLiteral(span)

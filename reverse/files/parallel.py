@@ -18,6 +18,7 @@ from operator import attrgetter
 from typing import TypeVar
 
 from rebsync.diagnostics import RebsyncError
+from rebsync.long_numbers import allow_long_numbers
 from rebsync.reverse.files.packages import Listing
 from rebsync.reverse.files.reading import Chosen, all_listings, read
 
@@ -143,6 +144,7 @@ def _pool(processes: int) -> ProcessPoolExecutor:
 def _begin() -> None:
     """Leaves an interrupt to the first process, and what is there already out of collections."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    allow_long_numbers()
     gc.freeze()
 
 

@@ -9,14 +9,17 @@ from pathlib import Path
 
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import BOM, read_bytes
+from rebsync.long_numbers import MOST_DIGITS, long_number
 from rebsync.records import dataclass
 from rebsync.reverse.files.packages import CODE, Listing, listings, shown, suffix_of
 from rebsync.reverse.files.python_files import SUFFIX, is_script, relevant_python
 from rebsync.reverse.files.relevance import relevant
 from rebsync.reverse.findings import Finding, Grade
 from rebsync.source import NOWHERE, Source, Span
+from rebsync.terminal import controls_in_text
 
 _MUCH = 4 << 20
+_CONTROLS = bytes([*range(1, 9), 11, *range(14, 32), 127])
 _LATIN = "rebsync-latin-1"
 _HINT = "save the file as UTF-8"
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
@@ -120,6 +123,13 @@ def _text(listing: Listing, name: str, data: bytes, findings: list[Finding]) -> 
         return None
     text = data.removeprefix(BOM).decode("utf-8", _LATIN)
     source = Source(path, text.replace("\0", " "))
+    if (span := long_number(text)) is not None:
+        why = f"a number of more than {MOST_DIGITS:,} digits: the file is not read"
+        findings.append(Finding(Grade.UNREADABLE, source, span, why, ""))
+        return None
+    if is_code and _may_have_controls(data) and (span := _first_control(text, name)) is not None:
+        why = f"the control character U+{ord(text[span.start]):04X} is carried as an escape"
+        findings.append(Finding(Grade.APPROXIMATED, source, span, why, "write it as an escape"))
     if data.isascii() and "\0" not in text:
         return source
     if is_code and (at := _first_odd(data, text, name)) is not None:
@@ -142,6 +152,21 @@ def _unreadable(data: bytes) -> tuple[str, str]:
     return "", ""
 
 
+def _may_have_controls(data: bytes) -> bool:
+    return not data.isascii() or len(data.translate(None, _CONTROLS)) < len(data)
+
+
+def _first_control(text: str, name: str) -> Span | None:
+    """The first control character, outside of comments, that a text of the model must not hold."""
+    found = controls_in_text(_without_comments(text, name).replace("\0", " "))
+    return Span(found.start(), found.start() + 1) if found is not None else None
+
+
+def _without_comments(text: str, name: str) -> str:
+    comment = _COMMENT if suffix_of(name) in CODE else _PYTHON_COMMENT
+    return comment.sub(lambda m: " " * len(m[0]), text)
+
+
 def _first_odd(data: bytes, text: str, name: str) -> int | None:
     """Where, outside of comments, the first byte is that is not UTF-8, or NUL."""
     try:
@@ -151,8 +176,7 @@ def _first_odd(data: bytes, text: str, name: str) -> int | None:
             return None
     except UnicodeDecodeError:
         odd = "\0" + "".join(map(chr, range(0x80, 0x100)))
-    comment = _COMMENT if suffix_of(name) in CODE else _PYTHON_COMMENT
-    blank = comment.sub(lambda m: " " * len(m[0]), text)
+    blank = _without_comments(text, name)
     return next((i for i, c in enumerate(blank) if c in odd), None)
 
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from tree_sitter import Node
 
 from rebsync.reverse.graph import PublisherFact
+from rebsync.reverse.syntax.cpp_declarations import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
 
 _ELEMENT = re.compile(r'(?:this->)?(\w+)\s*\[\s*("[^"]*"|\d+)\s*\]\Z')
@@ -60,10 +61,15 @@ def _called_on(node: Node) -> str:
     return text_of(field) if field is not None else ""
 
 
+def _place_of(function: CppFunction | None) -> tuple[str, int] | None:
+    """What tells a function from others."""
+    return (function.cpp.source.path, function.node.start_byte) if function is not None else None
+
+
 def _is_filled_once(
     name: str, keys: Mapping[str, int], facts: Mapping[int, PublisherFact], files: Sequence[Cpp]
 ) -> bool:
-    functions = {facts[n].site.function for n in keys.values()}
+    functions = {_place_of(facts[n].site.function) for n in keys.values()}
     appended = [_is_appended(facts[n]) for n in keys.values()]
     if any(appended) and (not all(appended) or len(functions) != 1):
         return False

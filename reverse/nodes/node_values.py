@@ -14,6 +14,8 @@ from rebsync.reverse.launch.parameters import Parameter
 from rebsync.reverse.nodes.node_units import Start
 from rebsync.reverse.unknowns import Open, Text
 
+_FOR_EVER = 1e18  # seconds
+
 
 @dataclass(frozen=True, slots=True)
 class Instance:
@@ -67,6 +69,8 @@ class Instance:
             return value
         if isinstance(value, bool) or not isinstance(value, int | float):
             return Open("it is no number")
+        if not abs(value) < _FOR_EVER:
+            return Open("it is no time that ends")
         exact = _exact(resolved, value)
         return exact if exact >= 0 else Open("it is negative")
 

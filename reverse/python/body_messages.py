@@ -30,6 +30,7 @@ from rebsync.reverse.python.body_scope import (
 )
 from rebsync.reverse.python.py_index import arguments_of
 from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.source import NOWHERE
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.body_expressions import PyExpressions
@@ -47,7 +48,9 @@ def field_of(
     """What a field holds of the message that an expression gives; None: of a new one."""
     fields = reader.reading.types.fields(type_) or {}
     kind = fields.get(path)
-    assert kind is not None
+    if kind is None:
+        span = reader.frame.span(node) if node is not None else NOWHERE
+        raise Unread(span, f"the type of the field {path} is not known")
     if node is None:
         return zero(field_kind(kind))
     if reader.reading.message_type(node, reader.frame) is None and given is None:

@@ -27,6 +27,7 @@ from rebsync.reverse.python.model_types import (
     string_value,
 )
 from rebsync.reverse.python.py_tree import Py, field, named, text_of
+from rebsync.terminal import with_escapes
 
 _CASTS = {
     "to_byte": "byte",
@@ -117,7 +118,7 @@ class Expressions:
             case "true" | "false":
                 return m.BoolLiteral(node.type == "true", span)
             case "string":
-                return m.StringLiteral(in_double_quotes(text_of(node)), span)
+                return m.StringLiteral(with_escapes(in_double_quotes(text_of(node))), span)
             case "identifier":
                 return self._name(node)
             case "attribute":

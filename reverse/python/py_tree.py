@@ -101,14 +101,19 @@ def _escaped(match: re.Match[str]) -> str:
     return _ESCAPED.get(text, text if text in "\\'\"" else "\\" + text)
 
 
+TOO_LARGE = 10**300  # larger whole numbers are no floats, larger floats infinite
+
+
 def number_of(node: Node) -> int | float | None:
     """The number that a literal says, Python 2's `0777` and `10L` included; None: no such."""
     text = text_of(node).replace("_", "").rstrip("lL")
     try:
         if node.type == "float":
-            return float(text)
-        if re.fullmatch(r"0[0-7]+", text):
-            return int(text, 8)
-        return int(text, 0)
+            value: int | float = float(text)
+        elif re.fullmatch(r"0[0-7]+", text):
+            value = int(text, 8)
+        else:
+            value = int(text, 0)
     except ValueError:
         return None
+    return value if abs(value) < TOO_LARGE else None

@@ -6,6 +6,7 @@ give. Where the files do not tell, the value is unknown, with the reason.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import field
 from typing import TypeVar
@@ -348,13 +349,22 @@ def _number(node: Node, values: Values, frame: Frame) -> Value:
     text = text_of(node).replace("'", "").lower()
     plain = text if text.startswith("0x") else text.rstrip("ful")
     try:
-        if not plain.startswith("0x") and any(c in plain for c in ".e"):
-            return float(plain)
-        if len(plain) > 1 and plain.startswith("0") and plain.isdigit():
-            return int(plain, 8)
-        return float(int(plain)) if text.endswith("f") and plain.isdigit() else int(plain, 0)
-    except ValueError:
-        return values.unknown(f"the number {text}", node, frame)
+        found = _literal(plain, text.endswith("f"))
+    except (ValueError, OverflowError):
+        found = math.inf
+    # what no type of C++ holds is no constant either
+    return found if abs(found) < math.inf else values.unknown(f"the number {text}", node, frame)
+
+
+def _literal(plain: str, is_float: bool) -> int | float:
+    if not plain.startswith("0x") and any(c in plain for c in ".e"):
+        return float(plain)
+    if len(plain) > 1 and plain.startswith("0") and plain.isdigit():
+        return int(plain, 8)
+    value = int(plain, 0)
+    if value >= 1 << 64:
+        raise OverflowError
+    return float(value) if is_float and plain.isdigit() else value
 
 
 def _in_parentheses(value: Value) -> Value:

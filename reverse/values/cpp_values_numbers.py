@@ -57,18 +57,25 @@ def used(value: FromParameter, expression: str, do: Callable[[Value], Value]) ->
     return FromParameter(value.name, known, expression, value.search, value.within)
 
 
+_TOO_LARGE = 1e300  # what is near the end of the floats, or beyond it, is not computed with
+
+
 def computed(operator: str, left: Plain, right: Plain) -> Plain | None:
     """The result of an operation on plain values, as C++ computes it; None where it has none."""
     match left, right:
         case str(), str() if operator in ("==", "!=", "+"):
             return left + right if operator == "+" else (left == right) == (operator == "==")
         case ((bool() | int() | float()), (bool() | int() | float())):
-            return _number(operator, left, right)
+            try:
+                result = _number(operator, left, right)
+            except OverflowError:
+                return None
+            return result if result is None or abs(result) < _TOO_LARGE else None
         case _:
             return None
 
 
-def _number(operator: str, a: float, b: float) -> Plain | None:
+def _number(operator: str, a: float, b: float) -> int | float | None:
     whole = isinstance(a, int) and isinstance(b, int)
     match operator:
         case "+":

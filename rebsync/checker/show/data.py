@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import re
 from collections.abc import Iterable
@@ -11,6 +10,7 @@ from typing import Any, TypeAlias
 from rebsync.checker.result import Coverage, Result, Violation
 from rebsync.checker.show import words
 from rebsync.checker.trace import ShownMessage, ShownRebec, Trace, TraceStep
+from rebsync.terminal import json_text
 
 Json: TypeAlias = dict[str, Any]
 Value: TypeAlias = bool | int | float | str | None
@@ -51,7 +51,7 @@ def trace_json(trace: Trace) -> str:
 
 def dump(value: Json) -> str:
     """The text of an object; every program that reads JSON reads it."""
-    return json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    return json_text(value, indent=2) + "\n"
 
 
 def value_of(text: str) -> Value:

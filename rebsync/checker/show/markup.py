@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import hashlib
 
-from rebsync.report_text import printable
+from rebsync.terminal import printable
 
 _VOID = frozenset({"br", "input", "meta"})
 _ESCAPES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&#39;"})

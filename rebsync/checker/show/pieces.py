@@ -10,7 +10,8 @@ from typing import TextIO
 from unicodedata import combining, east_asian_width
 
 from rebsync.records import dataclass
-from rebsync.report_text import Piece, printable
+from rebsync.report_text import Piece
+from rebsync.terminal import one_line, without_commands
 
 NARROWEST = 40
 _WORD = re.compile(r"\s*\S+|\s+")
@@ -27,12 +28,12 @@ class Line:
 def line(*pieces: Piece | str, hang: int = 0) -> Line:
     """A line of pieces; plain text has no style."""
     made = (p if isinstance(p, Piece) else Piece(p) for p in pieces)
-    return Line(tuple(Piece(printable(p.text), p.style) for p in made), hang)
+    return Line(tuple(Piece(one_line(p.text), p.style) for p in made), hang)
 
 
 def plain(lines: Iterable[Line], width: int | None = None) -> str:
     """The text of lines without styles, broken at a width if there is one."""
-    return "".join(piece.text for piece in _broken(lines, width))
+    return without_commands("".join(piece.text for piece in _broken(lines, width)))
 
 
 def print_lines(lines: Sequence[Line], stream: TextIO) -> None:

@@ -8,7 +8,7 @@ from rebsync.checker.show import words
 from rebsync.checker.show.data import dump, rebec_json
 from rebsync.checker.trace import ShownRebec
 from rebsync.records import dataclass
-from rebsync.report_text import printable
+from rebsync.terminal import printable
 
 
 @dataclass(frozen=True, slots=True)
