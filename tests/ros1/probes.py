@@ -10,10 +10,11 @@ from typing import Any, Protocol
 
 from tests.ros1.recording import Recording
 from tests.ros1.run import Clock, run
-from tests.ros1.workspace import Workspace
+from tests.ros1.workspace import SYSTEM_PYTHON, Workspace
 
 _USUAL = Clock(until=30, quiet=8)
 _SERVERS = ("plain", "low", "high")
+_SHIFTED = Path(__file__).parent / "nodes" / "shifted_clock.py"
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,7 +22,8 @@ class Rebec:
     """A node of the probe package: the lines that each of its servers runs.
 
     `low` has priority 2, `high` priority 1, `plain` none. The sensor hears a topic, by default
-    what is sent to `plain`. The node starts after a `wait`, in seconds of the real clock.
+    what is sent to `plain`. The node starts after a `wait`, in seconds of the real clock. Its own
+    simulated clock is off by an `offset`, as that of another machine is.
     """
 
     constructor: Sequence[str] = ()
@@ -30,6 +32,7 @@ class Rebec:
     high: Sequence[str] = ()
     capacity: int = 20
     wait: float = 0.0
+    offset: float = 0.0
     respawn: bool = False
     hears: str = ""
     parameters: Mapping[str, Any] = field(default_factory=dict)
@@ -90,7 +93,20 @@ def _node(name: str, rebec: Rebec, peers: Sequence[str]) -> str:
     start = f'<node name="{name}" pkg="probe" type="script_node" launch-prefix="{prefix}"'
     respawn = f'respawn="{str(rebec.respawn).lower()}">'
     sensor = f'<remap from="~sensor" to="{rebec.hears or name + "/plain"}"/>\n'
-    return f"{start} {respawn}\n{private}{remaps}{sensor}</node>\n"
+    clock, shifted = _clock(name, rebec)
+    return f"{start} {respawn}\n{private}{remaps}{sensor}{clock}</node>\n{shifted}"
+
+
+def _clock(name: str, rebec: Rebec) -> tuple[str, str]:
+    """Where a node has its time from, and the node that shows it."""
+    if not rebec.offset:
+        return "", ""
+    prefix = f"exec {SYSTEM_PYTHON} {_SHIFTED} /clock_of_{name} {rebec.offset} $*"
+    return (
+        f'<remap from="/clock" to="/clock_of_{name}"/>\n',
+        f'<node name="shift_{name}" pkg="probe" type="script_node" '
+        f"launch-prefix=\"sh -c '{prefix}'\"/>\n",
+    )
 
 
 def _parameter(name: str, value: object) -> str:

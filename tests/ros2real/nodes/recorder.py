@@ -41,6 +41,8 @@ def plain(value: object) -> object:
         return {name: plain(getattr(value, name)) for name in value.get_fields_and_field_types()}
     if hasattr(value, "tolist"):
         return value.tolist()
+    if isinstance(value, bytes):
+        return value[0]  # a byte
     return [plain(item) for item in value] if isinstance(value, list) else value
 
 
@@ -109,10 +111,18 @@ class Recorder:
         before, since = None, time.monotonic()
         while time.monotonic() - since < 2 * self.config["settle"]:
             state = self.state()
-            if state != before or not self.present() >= set(self.config["nodes"]):
+            if state != before or not self.present() >= set(self.config["nodes"]) or self.unready():
                 before, since = state, time.monotonic()
             self.check_time()
             time.sleep(0.05)
+
+    def unready(self) -> set[str]:
+        """The rebecs' nodes that have not even made the publisher of their start."""
+        rebecs = {n for n in self.config["nodes"] if n.rpartition("/")[2] in self.config["rebecs"]}
+        starts = [
+            i for t, infos in self.publishers().items() if t.endswith("/startup") for i in infos
+        ]
+        return rebecs - {_full_name(info) for info in starts}
 
     def check_time(self) -> None:
         if time.monotonic() > self.config["deadline"]:
