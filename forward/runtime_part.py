@@ -6,6 +6,7 @@ from rebsync.forward.cpp_types import cpp_choices
 from rebsync.forward.cpp_words import CppWords
 from rebsync.forward.sensors import played_sensors
 from rebsync.forward.templating import fill
+from rebsync.model import Call, walk
 from rebsync.package import NodeClass, Package
 
 
@@ -30,6 +31,18 @@ def _stems(package: Package) -> list[str]:
     return names
 
 
+def _is_timed(package: Package) -> bool:
+    """Whether the model has an `after`, a deadline or a delay: else its time stands still."""
+    return any(
+        isinstance(found, Call)
+        and (found.after is not None or found.deadline is not None or found.name == "delay")
+        for node in package.classes
+        for part in (*node.constructors, *node.subscriptions, *node.functions)
+        if part.body is not None
+        for found in walk(part.body)
+    )
+
+
 def python_runtime(package: Package, dialect: str, folder: str) -> dict[str, str]:
     """The modules of the run-time part by path, in the folder of the package's modules."""
     return {
@@ -37,6 +50,7 @@ def python_runtime(package: Package, dialect: str, folder: str) -> dict[str, str
             f"{'py' if stem == 'values' else dialect}/{stem}.py.j2",
             package=package.name,
             services=package.services,
+            timed=_is_timed(package),
         )
         for stem in _stems(package)
     }
@@ -51,6 +65,7 @@ def cpp_runtime(package: Package, words: CppWords) -> dict[str, str]:
             package=package.name,
             services=package.services,
             includes=_served_headers(package, words),
+            timed=_is_timed(package),
         )
         for name in names
     }

@@ -93,7 +93,7 @@ def rendered(name: str, package: str) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    return environment.get_template(f"{name}.j2").render(package=package, services=())
+    return environment.get_template(f"{name}.j2").render(package=package, services=(), timed=True)
 
 
 def shared(factory: pytest.TempPathFactory) -> Path:

@@ -1,11 +1,19 @@
-// Runs the executables of a package, each as a thread, under a clock that jumps from timer to timer.
+// Runs the executables of a package, each as a thread, in a time of its own, that of all clocks: when
+// all threads wait it jumps to the next moment for which a timer or a thread waits.
 //
-// Usage: driver SYSTEM UNTIL, where SYSTEM has lines of fields set apart by tabs: `node EXECUTABLE
+// Usage: driver SYSTEM UNTIL [STEP], where SYSTEM has lines of fields set apart by tabs: `node EXECUTABLE
 // NAME`, followed by the `param NAME TYPE VALUE...` and `remap FROM TO` of that node, and
 // `foreign TOPIC` for a subscription of a tool that asks for what was sent before it; and UNTIL is
-// the time of the end in seconds. What happens goes to standard output, one line each.
-#include <chrono>
+// the time of the end in seconds. With a STEP the clock of ROS is that of a simulation, which tells
+// of each of its steps. What happens goes to standard output, one line each.
+#include <pthread.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdint>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -114,9 +122,15 @@ void settle() {
   }
 }
 
-void awaitStartup(std::size_t rebecs) {
-  for (int i = 0; i < 1000 && rclcpp::fake::middleware().written("/startup") < rebecs; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+// On to the next moment for which anybody waits, while the run goes on.
+template <class Goes>
+void play(Goes goes_on) {
+  auto& middleware = rclcpp::fake::middleware();
+  while (true) {
+    settle();
+    const int64_t next = middleware.next();
+    if (next < 0 || !goes_on(next)) return;
+    middleware.advance(next);
   }
 }
 
@@ -137,11 +151,37 @@ bool endsEarly(const std::vector<Process>& processes) {
 
 }  // namespace
 
+// --- the time of the run, in place of the machine's ---------------------------------------------
+
+extern "C" {
+
+int clock_gettime(clockid_t clock, timespec* time) noexcept {
+  if (clock != CLOCK_MONOTONIC) return static_cast<int>(syscall(SYS_clock_gettime, clock, time));
+  const int64_t now = rclcpp::fake::middleware().now();
+  time->tv_sec = now / 1000000000;
+  time->tv_nsec = now % 1000000000;
+  return 0;
+}
+
+int pthread_cond_clockwait(pthread_cond_t* condition, pthread_mutex_t* mutex, clockid_t clock,
+    const timespec* until) {
+  if (clock != CLOCK_MONOTONIC) rclcpp::fake::fail("a thread waits for a time of day");
+  auto& middleware = rclcpp::fake::middleware();
+  const int64_t due = int64_t{until->tv_sec} * 1000000000 + until->tv_nsec;
+  if (middleware.now() >= due) return ETIMEDOUT;
+  const auto sleeper = middleware.wake_at(due, [=] { pthread_cond_broadcast(condition); });
+  pthread_cond_wait(condition, mutex);
+  middleware.forget_sleeper(sleeper);
+  return middleware.now() >= due ? ETIMEDOUT : 0;
+}
+
+}  // extern "C"
+
 int main(int argc, char** argv) {
-  if (argc != 3) return 2;
+  if (argc < 3 || argc > 4) return 2;
   const std::vector<Process> processes = read(argv[1]);
   auto& middleware = rclcpp::fake::middleware();
-  const int64_t end = middleware.now() + static_cast<int64_t>(std::stod(argv[2]) * 1e9);
+  if (argc == 4) middleware.simulate(static_cast<int64_t>(std::stod(argv[3]) * 1e9));
   std::vector<std::thread> running;
   for (const Process& process : processes) {
     running.emplace_back([process] {
@@ -149,12 +189,10 @@ int main(int argc, char** argv) {
       process.main(0, nullptr);
     });
   }
-  awaitStartup(countRebecs(processes));
-  settle();
-  for (int64_t next = middleware.next(); next >= 0 && next <= end; next = middleware.next()) {
-    middleware.advance(next);
-    settle();
-  }
+  const std::size_t rebecs = countRebecs(processes);
+  play([&](int64_t) { return middleware.written("/startup") < rebecs; });
+  const int64_t end = middleware.now() + static_cast<int64_t>(std::stod(argv[2]) * 1e9);
+  play([end](int64_t next) { return next <= end; });
   middleware.record("end", "");
   middleware.shut_down();
   for (std::thread& thread : running) thread.join();

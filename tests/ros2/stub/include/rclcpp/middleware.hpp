@@ -5,6 +5,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <cstdlib>
 #include <deque>
 #include <functional>
 #include <iostream>
@@ -14,6 +15,7 @@
 #include <rclcpp/qos.hpp>
 #include <set>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -21,9 +23,22 @@ namespace rclcpp::fake {
 
 using Data = std::shared_ptr<const void>;
 
+/// What must not happen with the real one either: the run ends here, and says why.
+inline void fail(const std::string& why) {
+  std::cerr << why << std::endl;
+  std::_Exit(3);
+}
+
 /// One thread's work: callbacks one by one, in the order in which they became ready.
 class Executor {
  public:
+  /// What it waits for may change only in its own thread: it may be about to look at it.
+  void changes(const char* what) const {
+    const std::thread::id runner = runner_;
+    if (runner == std::thread::id() || runner == std::this_thread::get_id()) return;
+    fail(std::string(what) + " by another thread while the executor waits");
+  }
+
   void post(std::function<void()> work) {
     const std::lock_guard<std::mutex> lock(mutex_);
     work_.push_back(std::move(work));
@@ -32,16 +47,18 @@ class Executor {
 
   template <class Go>
   void run(Go goes_on) {
+    runner_ = std::this_thread::get_id();
     std::unique_lock<std::mutex> lock(mutex_);
     while (true) {
       changed_.wait(lock, [&] { return !goes_on() || !work_.empty(); });
-      if (!goes_on()) return;
+      if (!goes_on()) break;
       const auto work = std::move(work_.front());
       work_.pop_front();
       lock.unlock();
       work();
       lock.lock();
     }
+    runner_ = std::thread::id();
   }
 
   void wake() {
@@ -53,6 +70,7 @@ class Executor {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::function<void()>> work_;
+  std::atomic<std::thread::id> runner_{std::thread::id()};
 };
 
 struct Reader {
@@ -94,6 +112,41 @@ class Middleware {
 
   int64_t now() const { return now_; }
 
+  /// Whether the clock is that of a simulation, which tells of each of its steps.
+  bool is_simulated() const { return step_ > 0; }
+  void simulate(int64_t step) { step_ = step; }
+
+  std::size_t on_jump(std::function<void()> act) {
+    const std::lock_guard<std::recursive_mutex> lock(clock_mutex_);
+    jumps_.emplace(++jump_, std::move(act));
+    return jump_;
+  }
+  void forget_jump(std::size_t jump) {
+    const std::lock_guard<std::recursive_mutex> lock(clock_mutex_);
+    jumps_.erase(jump);
+  }
+
+  /// Has a thread woken at a time that waits for no more than that.
+  std::size_t wake_at(int64_t due, std::function<void()> wake) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    sleepers_.emplace(++sleeper_, Sleeper{due, std::move(wake)});
+    return sleeper_;
+  }
+  void forget_sleeper(std::size_t sleeper) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    sleepers_.erase(sleeper);
+  }
+
+  std::size_t before_shut_down(std::function<void()> callback) {
+    const std::lock_guard<std::recursive_mutex> lock(context_mutex_);
+    last_calls_.emplace(++last_call_, std::move(callback));
+    return last_call_;
+  }
+  bool forget_before_shut_down(std::size_t callback) {
+    const std::lock_guard<std::recursive_mutex> lock(context_mutex_);
+    return last_calls_.erase(callback) > 0;
+  }
+
   void set(const std::shared_ptr<Alarm>& alarm, int64_t period) {
     const std::lock_guard<std::mutex> lock(mutex_);
     alarm->period = period;
@@ -101,7 +154,7 @@ class Middleware {
     alarms_.push_back(alarm);
   }
 
-  /// When the next timer is due; -1 when there is none.
+  /// When the next timer is due or thread to be woken; -1 when there is none.
   int64_t next() {
     const std::lock_guard<std::mutex> lock(mutex_);
     forget();
@@ -110,13 +163,25 @@ class Middleware {
       const auto alarm = weak.lock();
       if (alarm && (first < 0 || alarm->due < first)) first = alarm->due;
     }
-    return first;
+    for (const auto& entry : sleepers_) {
+      if (first < 0 || entry.second.due < first) first = entry.second.due;
+    }
+    return is_simulated() ? std::min(first, now_ + step_) : std::max(first, first < 0 ? first : now_.load());
   }
 
   /// Sets the clock and rings what is due.
   void advance(int64_t time) {
+    {
+      const std::lock_guard<std::recursive_mutex> lock(clock_mutex_);
+      now_ = time;
+      for (const auto& entry : jumps_) {
+        if (is_simulated()) entry.second();
+      }
+    }
     const std::lock_guard<std::mutex> lock(mutex_);
-    now_ = time;
+    for (const auto& entry : sleepers_) {
+      if (entry.second.due <= time) entry.second.wake();
+    }
     for (const auto& weak : alarms_) {
       const auto alarm = weak.lock();
       if (!alarm || alarm->cancelled || alarm->due > time) continue;
@@ -143,7 +208,15 @@ class Middleware {
 
   bool is_shut_down() const { return shut_down_; }
   void shut_down() {
-    shut_down_ = true;
+    {
+      const std::lock_guard<std::recursive_mutex> lock(context_mutex_);
+      if (shut_down_) return;
+      const auto calls = last_calls_;
+      for (const auto& entry : calls) {
+        if (last_calls_.count(entry.first) > 0) entry.second();
+      }
+      shut_down_ = true;
+    }
     const std::lock_guard<std::mutex> lock(mutex_);
     for (const auto& weak : executors_) {
       if (const auto executor = weak.lock()) executor->wake();
@@ -176,8 +249,22 @@ class Middleware {
     });
   }
 
+  struct Sleeper {
+    int64_t due;
+    std::function<void()> wake;
+  };
+
   std::mutex mutex_;
   std::mutex recording_;
+  std::recursive_mutex clock_mutex_;
+  std::map<std::size_t, std::function<void()>> jumps_;
+  std::size_t jump_ = 0;
+  int64_t step_ = 0;
+  std::map<std::size_t, Sleeper> sleepers_;
+  std::size_t sleeper_ = 0;
+  std::recursive_mutex context_mutex_;
+  std::map<std::size_t, std::function<void()>> last_calls_;
+  std::size_t last_call_ = 0;
   std::map<std::string, std::vector<std::weak_ptr<Reader>>> readers_;
   std::map<std::string, std::vector<std::weak_ptr<Writer>>> writers_;
   std::vector<std::weak_ptr<Alarm>> alarms_;
@@ -239,6 +326,7 @@ inline std::vector<std::shared_ptr<Reader>> Middleware::readers(const std::strin
 }
 
 inline void Middleware::write(Writer& writer, const Data& data, const std::string& text) {
+  if (shut_down_) return;  // nobody hears what is sent without a context
   const std::lock_guard<std::mutex> lock(mutex_);
   record("message", writer.topic_ + "\t" + text);
   written_[writer.topic_].insert(&writer);

@@ -13,6 +13,7 @@
 #include <rclcpp/qos.hpp>
 #include <rclcpp/time.hpp>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -20,13 +21,51 @@
 
 namespace rclcpp {
 
+struct PreShutdownCallbackHandle {
+  std::size_t index = 0;
+};
+
+/// That of all nodes, which are programs of their own only in name.
+class Context {
+ public:
+  using SharedPtr = std::shared_ptr<Context>;
+  PreShutdownCallbackHandle add_pre_shutdown_callback(std::function<void()> callback) {
+    return {fake::middleware().before_shut_down(std::move(callback))};
+  }
+  bool remove_pre_shutdown_callback(const PreShutdownCallbackHandle& handle) {
+    return fake::middleware().forget_before_shut_down(handle.index);
+  }
+};
+
 inline void init(int /* argc */, const char* const* /* argv */) {}
 inline bool ok() { return !fake::middleware().is_shut_down(); }
 inline void shutdown() { fake::middleware().shut_down(); }
 
+/// Lasts while what it does is wanted; when it goes, it no longer runs.
+class JumpHandler {
+ public:
+  using SharedPtr = std::shared_ptr<JumpHandler>;
+  explicit JumpHandler(std::function<void()> act) : jump_{fake::middleware().on_jump(act)} {}
+  ~JumpHandler() { fake::middleware().forget_jump(jump_); }
+  JumpHandler(const JumpHandler&) = delete;
+  JumpHandler& operator=(const JumpHandler&) = delete;
+
+ private:
+  const std::size_t jump_;
+};
+
 class Clock {
  public:
   using SharedPtr = std::shared_ptr<Clock>;
+  bool ros_time_is_active() const { return fake::middleware().is_simulated(); }
+  JumpHandler::SharedPtr create_jump_callback(std::function<void()> before,
+      std::function<void(const rcl_time_jump_t&)> after, const rcl_jump_threshold_t& threshold) {
+    if (before || !threshold.on_clock_change || threshold.min_forward.nanoseconds != 1 ||
+        threshold.min_backward.nanoseconds != -1) {
+      throw std::invalid_argument("the stub tells of every jump, when it is over");
+    }
+    return std::make_shared<JumpHandler>([after] { after(rcl_time_jump_t()); });
+  }
   Time now() const { return Time(fake::middleware().now(), RCL_ROS_TIME); }
   rcl_clock_type_t get_clock_type() const { return RCL_ROS_TIME; }
 };
@@ -81,6 +120,9 @@ class Subscription {
  public:
   using SharedPtr = std::shared_ptr<Subscription>;
   explicit Subscription(std::shared_ptr<fake::Reader> reader) : reader_(std::move(reader)) {}
+  ~Subscription() { reader_->executor->changes("a subscription is destroyed"); }
+  Subscription(const Subscription&) = delete;
+  Subscription& operator=(const Subscription&) = delete;
   const char* get_topic_name() const { return reader_->topic.c_str(); }
 
  private:
@@ -115,6 +157,8 @@ class Node {
   const char* get_fully_qualified_name() const { return full_name_.c_str(); }
   Time now() const { return clock_->now(); }
   Clock::SharedPtr get_clock() { return clock_; }
+  const Node* get_node_base_interface() const { return this; }
+  Context::SharedPtr get_context() const { return std::make_shared<Context>(); }
   Logger get_logger() const { return Logger(name_); }
   const std::shared_ptr<fake::Executor>& fake_executor() const { return executor_; }
 
@@ -186,13 +230,17 @@ class TimerBase {
  public:
   using SharedPtr = std::shared_ptr<TimerBase>;
   void cancel() { alarm_->cancelled = true; }
-  ~TimerBase() { cancel(); }
+  ~TimerBase() {
+    cancel();
+    alarm_->executor->changes("a timer is destroyed");
+  }
   std::shared_ptr<fake::Alarm> alarm_;
 };
 
 template <class NodeT, class Callback>
 TimerBase::SharedPtr create_timer(
     NodeT node, const Clock::SharedPtr& /* clock */, const Duration& period, Callback callback) {
+  node->fake_executor()->changes("a timer is made");
   const auto timer = std::make_shared<TimerBase>();
   const std::weak_ptr<TimerBase> weak = timer;
   timer->alarm_ = std::make_shared<fake::Alarm>(node->fake_executor(), [weak, callback] {
@@ -218,13 +266,13 @@ inline void spin_some(const std::shared_ptr<Node>& /* node */) {}
 }  // namespace rclcpp
 
 #define RCLCPP_ERROR_STREAM(logger, stream) RCLCPP_FAKE_LOG("ERROR", logger, stream)
-#define RCLCPP_WARN_STREAM(logger, stream) RCLCPP_FAKE_LOG("WARN", logger, stream)
 #define RCLCPP_WARN_STREAM_THROTTLE(logger, clock, milliseconds, stream) \
   do {                                                                   \
     static_cast<void>((clock).now());                                    \
     static_cast<void>(milliseconds);                                     \
     RCLCPP_FAKE_LOG("WARN", logger, stream);                             \
   } while (false)
+#define RCLCPP_WARN_STREAM(logger, stream) RCLCPP_FAKE_LOG("WARN", logger, stream)
 #define RCLCPP_FAKE_LOG(level, logger, stream)                               \
   do {                                                                       \
     std::ostringstream fake_text;                                            \

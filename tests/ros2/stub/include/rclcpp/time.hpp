@@ -9,6 +9,18 @@
 
 enum rcl_clock_type_t { RCL_CLOCK_UNINITIALIZED, RCL_ROS_TIME, RCL_SYSTEM_TIME, RCL_STEADY_TIME };
 
+struct rcl_duration_t {
+  int64_t nanoseconds = 0;
+};
+
+struct rcl_jump_threshold_t {
+  bool on_clock_change = false;
+  rcl_duration_t min_forward;
+  rcl_duration_t min_backward;
+};
+
+struct rcl_time_jump_t {};
+
 namespace rclcpp {
 
 class Duration {
