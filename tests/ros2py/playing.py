@@ -30,8 +30,9 @@ def play(folder: Path, until: float) -> Recording:
 
 def recorded(world: World) -> Recording:
     """What happened in a world."""
-    heard = tuple(Heard(topic, stamp, data) for topic, stamp, data in world.messages)
-    log = tuple(Logged(*line) for line in world.log)
+    zero = world.zero
+    heard = tuple(Heard(topic, stamp - zero, data) for topic, stamp, data in world.messages)
+    log = tuple(Logged(node, level, stamp - zero, text) for node, level, stamp, text in world.log)
     output = "\n".join(line.text for line in log)
     served = tuple(_served(m) for m in heard if set(_BODY) <= set(m.fields))
     return Recording(served, heard, log, (), output)
@@ -75,6 +76,14 @@ def _module(name: str, **content: object) -> tuple[str, ModuleType]:
     return name, module
 
 
+def _threshold(
+    *, min_forward: object, min_backward: object, on_clock_change: bool = True
+) -> SimpleNamespace:
+    return SimpleNamespace(
+        min_forward=min_forward, min_backward=min_backward, on_clock_change=on_clock_change
+    )
+
+
 def _rclpy(world: World) -> dict[str, ModuleType]:
     own = {"description": ("string", None), "read_only": ("bool", None)}
     descriptor = type("ParameterDescriptor", (Message,), {"_fields": own})
@@ -103,7 +112,9 @@ def _rclpy(world: World) -> dict[str, ModuleType]:
             _module("rclpy.node", Node=NodeOfThread),
             _module("rclpy.publisher", Publisher=object),
             _module("rclpy.subscription", Subscription=object),
-            _module("rclpy.timer", Timer=object),
+            _module("rclpy.clock", JumpThreshold=_threshold),
+            _module("rclpy.duration", Duration=SimpleNamespace),
+            _module("rclpy.signals", uninstall_signal_handlers=lambda: None),
             _module(
                 "rclpy.qos",
                 QoSProfile=profile,

@@ -11,22 +11,29 @@ import queue
 import sys
 import threading
 import time
-from collections.abc import Callable, Mapping, Sequence, Set
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from types import FrameType, SimpleNamespace
+from unittest.mock import patch
 
 from tests.ros2py.messages import Message, plain
 
 NANOSECONDS = 10**9
 _FIRST = 100 * NANOSECONDS
+_START = NANOSECONDS // 10  # in which nodes agree on time 0
 _STILL = 0.004  # s without anything that happens, at the start
 _MOMENT = 0.0002  # s between looks at what threads do
 _ENDED = 20.0  # s for all nodes to stop
 
 
+_WAIT = threading.Condition.wait
+_MONOTONIC = time.monotonic
+
+
 def _waits(frame: FrameType) -> bool:
     """Whether a thread waits for something that nobody has told it yet."""
-    if frame.f_code is not threading.Condition.wait.__code__:
+    if frame.f_code is not _WAIT.__code__:
         return False
     return frame.f_locals.get("waiter") in frame.f_locals["self"]._waiters
 
@@ -59,6 +66,37 @@ class Timer:
 
     def cancel(self) -> None:
         self.alive = False
+
+
+@dataclass(eq=False)
+class Sleeper:
+    """A thread that waits for no longer than to a time."""
+
+    condition: threading.Condition
+    due: int
+
+
+class Clock:
+    """The clock of a node; that of a simulation tells of each of its steps."""
+
+    def __init__(self, world: World) -> None:
+        self.world = world
+
+    @property
+    def ros_time_is_active(self) -> bool:
+        return self.world.step is not None
+
+    def now(self) -> Time:
+        return Time(self.world.time)
+
+    def create_jump_callback(
+        self, threshold: SimpleNamespace, *, post_callback: Callable[[object], None]
+    ) -> object:
+        smallest = threshold.min_forward.nanoseconds, threshold.min_backward.nanoseconds
+        if smallest != (1, -1) or not threshold.on_clock_change:
+            raise ValueError("every jump is told")
+        self.world.jumps.append(post_callback)
+        return post_callback
 
 
 @dataclass
@@ -123,6 +161,7 @@ class Node:
     def create_timer(
         self, period: float, callback: Callable[[], None], clock: object = None
     ) -> Timer:
+        self._change("made")
         nanoseconds = max(round(period * NANOSECONDS), 1)
         with self.world.lock:
             timer = Timer(self, nanoseconds, self.world.time + nanoseconds, callback)
@@ -131,13 +170,16 @@ class Node:
         return timer
 
     def destroy_timer(self, timer: Timer) -> None:
-        # The executor of a real node dies of it when it is about to call the timer.
-        if self.spinning not in (None, threading.get_ident()):
-            self.world.failures.append(RuntimeError("a timer is destroyed by another thread"))
+        self._change("destroyed")
         with self.world.lock:
             timer.alive = False
             if timer in self.timers:
                 self.timers.remove(timer)
+
+    # The executor of a real node dies of it when it is about to look at the timer.
+    def _change(self, what: str) -> None:
+        if self.spinning not in (None, threading.get_ident()):
+            self.world.failures.append(RuntimeError(f"a timer is {what} by another thread"))
 
     def has_parameter(self, name: str) -> bool:
         return name in self.parameters
@@ -156,8 +198,8 @@ class Node:
     def get_parameter(self, name: str) -> SimpleNamespace:
         return SimpleNamespace(value=self.parameters[name])
 
-    def get_clock(self) -> SimpleNamespace:
-        return SimpleNamespace(now=lambda: Time(self.world.time))
+    def get_clock(self) -> Clock:
+        return Clock(self.world)
 
     def get_logger(self) -> SimpleNamespace:
         def write(level: int) -> Callable[..., None]:
@@ -198,11 +240,18 @@ def _quality(qos: object) -> tuple[int, bool]:
 
 
 class World:
-    """All nodes, topics and timers, and what was published and logged, each with its time."""
+    """All nodes, topics and timers, and what was published and logged, each with its time.
+
+    Time is that of all clocks of the nodes. With a `step`, in nanoseconds, their ROS clock is that
+    of a simulation.
+    """
 
     stamp: Callable[..., Message] = Message
 
-    def __init__(self) -> None:
+    def __init__(self, step: int | None = None) -> None:
+        self.step = step
+        self.sleepers: list[Sleeper] = []
+        self.jumps: list[Callable[[object], None]] = []
         self.lock = threading.RLock()
         self.time = _FIRST
         self.happened = 0
@@ -221,6 +270,13 @@ class World:
         """The node of the thread that asks."""
         with self.lock:
             self.nodes[threading.get_ident()] = node
+
+    @property
+    def zero(self) -> float:
+        """Time 0 of the model, in seconds after the first moment, once a node has told it."""
+        told = [d["zero"] for topic, _, d in self.messages if topic.endswith("/startup")]
+        zero = max((z for z in told if isinstance(z, int)), default=0)
+        return (zero - _FIRST) / NANOSECONDS if zero else 0.0
 
     def subscribers(self, topic: str) -> list[Subscription]:
         with self.lock:
@@ -269,10 +325,45 @@ class World:
     ) -> None:
         """Start nodes, run the clock for some seconds or until all is quiet, and stop them."""
         others = set(sys._current_frames())  # those that threading does not know, too
+        with self._timed(others):
+            self._run(mains, until, quiet, others)
+
+    @contextmanager
+    def _timed(self, others: Set[int]) -> Iterator[None]:
+        """The time of this world in place of the machine's, for threads of nodes."""
+
+        def wait(condition: threading.Condition, timeout: float | None = None) -> bool:
+            if timeout is None or threading.get_ident() in others:
+                return _WAIT(condition, timeout)
+            with self.lock:
+                due = self.time + max(round(timeout * NANOSECONDS), 0)
+                sleeper = Sleeper(condition, due)
+                self.sleepers.append(sleeper)
+                self.happened += 1
+            if due > self.time:
+                _WAIT(condition)
+            with self.lock:
+                self.sleepers.remove(sleeper)
+                return self.time < due
+
+        def monotonic() -> float:
+            return _MONOTONIC() if threading.get_ident() in others else self.time / NANOSECONDS
+
+        waits = patch.object(threading.Condition, "wait", wait)
+        with waits, patch.object(time, "monotonic", monotonic):
+            yield
+
+    def _run(
+        self,
+        mains: Sequence[tuple[Launched, Callable[[], None]]],
+        until: float,
+        quiet: float,
+        others: Set[int],
+    ) -> None:
         threads = [threading.Thread(target=self._main, args=main, daemon=True) for main in mains]
         for thread in threads:
             thread.start()
-        end = _FIRST + round(until * NANOSECONDS)
+        end = _FIRST + _START + round(until * NANOSECONDS)
         self._rest(50)
         while not self.failures and self._advance(end) and not self._is_quiet(quiet):
             self._settle(others)
@@ -322,10 +413,18 @@ class World:
         """Move the clock to the next timer; whether there is one before the end."""
         with self.lock:
             timers = [t for n in self.nodes.values() for t in n.timers if t.alive]
-            due = min((t.due for t in timers), default=end)
+            due = min((t.due for t in [*timers, *self.sleepers]), default=end)
+            if self.step is not None:
+                due = min(due, self.time + self.step)
             self.time = min(max(due, self.time), end)
+            sleepers = [s for s in self.sleepers if s.due <= self.time]
             for timer in timers:
                 if timer.due <= self.time:
                     timer.due += timer.period
                     timer.node.queue.put(lambda t=timer: t.callback() if t.alive else None)  # type: ignore[misc]
-            return due < end
+        for sleeper in sleepers:
+            with sleeper.condition:
+                sleeper.condition.notify_all()
+        for jump in self.jumps if self.step is not None else ():
+            jump(None)
+        return due < end
