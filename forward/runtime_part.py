@@ -33,14 +33,13 @@ def _stems(package: Package) -> list[str]:
 
 def _is_timed(package: Package) -> bool:
     """Whether the model has an `after`, a deadline or a delay: else its time stands still."""
-    return any(
-        isinstance(found, Call)
-        and (found.after is not None or found.deadline is not None or found.name == "delay")
-        for node in package.classes
-        for part in (*node.constructors, *node.subscriptions, *node.functions)
-        if part.body is not None
-        for found in walk(part.body)
-    )
+    bodies = [
+        *(c.body for node in package.classes for c in node.constructors),
+        *(s.body for node in package.classes for s in node.subscriptions),
+        *(f.body for node in package.classes for f in node.functions),
+    ]
+    calls = (c for body in bodies if body is not None for c in walk(body) if isinstance(c, Call))
+    return any(c.after or c.deadline or c.name == "delay" for c in calls)
 
 
 def python_runtime(package: Package, dialect: str, folder: str) -> dict[str, str]:

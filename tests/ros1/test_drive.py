@@ -132,6 +132,25 @@ def test_a_move_takes_the_time_of_the_next_delay_or_the_last_or_a_parameter(
     assert moving[0] >= 1
 
 
+def test_the_last_velocity_is_zero_when_a_node_is_told_to_end_in_mid_move(
+    probe: Workspace, tmp_path: Path
+) -> None:
+    rebecs = {"a": robot(("move 1 0", "delay 20"))}
+    recording = play(probe, tmp_path, rebecs, Clock(until=2))
+    *_, moving, last = recording.velocities("a")
+    assert (moving.x, moving.y) != (0, 0)
+    assert (last.x, last.y, last.turn) == (0, 0, 0)
+
+
+def test_a_robot_stops_when_a_body_fails(probe: Workspace, tmp_path: Path) -> None:
+    lines = ("move 1 0", "send self low 0 after 2")
+    rebecs = {"a": replace(robot(lines, move_time=10.0), low=("divide 1 0",))}
+    recording = play(probe, tmp_path, rebecs, Clock(until=8, quiet=4))
+    stopped = [v.stamp for v in recording.velocities("a") if v.stamp > 0.5 and v.x == 0]
+    assert stopped and 2 <= stopped[0] < 2.5
+    assert all(v.x == 0 for v in recording.velocities("a") if v.stamp > stopped[0])
+
+
 def test_moves_queue_up_when_the_model_is_faster(probe: Workspace, tmp_path: Path) -> None:
     lines = ("move 1 0", "send self low 0")
     rebecs = {"a": replace(robot(lines, move_time=1.0), low=("move 1 0",))}

@@ -89,26 +89,27 @@ def complaints(package: Path, headers: Path) -> list[str]:
         return [text for text in pool.map(check, sources) if text]
 
 
-def build_driver(package: Path, headers: Path, out: Path) -> Path:
+def build_driver(package: Path, headers: Path, out: Path, options: Sequence[str] = ()) -> Path:
     """One program of all executables of a package, which runs a whole system."""
     out.mkdir(parents=True, exist_ok=True)
     mains = [p.stem for p in sorted(package.glob("src/*.cpp")) if "int main(" in p.read_text()]
     table = out / "mains.cpp"
     table.write_text(_table(mains))
     sources = [*sorted(package.glob("src/*.cpp")), table, STUB / "driver.cpp"]
-    common = _common(headers)
+    # What every source includes is compiled once, for the usual options.
+    common = [] if options else _common(headers)
 
     def compile_(source: Path) -> str:
         renamed = [f"-Dmain=main_of_{source.stem}"] if source.stem in mains else []
         target = out / f"{source.stem}.o"
-        flags = [*common, *_flags(package, headers), *renamed]
+        flags = [*common, *_flags(package, headers), *renamed, *options]
         _tool(["g++", "-c", *flags, str(source), "-o", str(target)])
         return str(target)
 
     with ThreadPoolExecutor(2) as pool:
         objects = list(pool.map(compile_, sources))
     program = out / "driver"
-    _tool(["g++", *objects, "-pthread", "-o", str(program)])
+    _tool(["g++", *objects, *options, "-pthread", "-o", str(program)])
     return program
 
 

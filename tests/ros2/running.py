@@ -21,19 +21,27 @@ class RunError(Exception):
 
 
 def run(
-    package: Path, driver: Path, directory: Path, until: float, foreign: Sequence[str] = ()
+    package: Path,
+    driver: Path,
+    directory: Path,
+    until: float,
+    foreign: Sequence[str] = (),
+    step: float | None = None,
 ) -> Recording:
     """Run the package's launch file for that many seconds of its clock.
 
     A tool has subscribed to the `foreign` topics and asks for what was sent before, which rebecs do
-    not keep.
+    not keep. With a `step` the clock is that of a simulation.
     """
     system = directory / "system.txt"
     listened = [f"foreign\t{topic}" for topic in foreign]
     lines = [*listened, *(line for node in launched(package) for line in _lines(node))]
     system.write_text("".join(f"{line}\n" for line in lines))
     done = subprocess.run(
-        [str(driver), str(system), str(until)], capture_output=True, text=True, timeout=120
+        [str(driver), str(system), str(until), *([] if step is None else [str(step)])],
+        capture_output=True,
+        text=True,
+        timeout=120,
     )
     if done.returncode != 0:
         raise RunError(f"{done.returncode}: {done.stderr}\n{done.stdout[-2000:]}")

@@ -43,18 +43,33 @@ reactiveclass Client(5) {
   msgsrv broken() { server.wrong(0); server.claims(2) after(1); server.urgent(11) after(3); }
   msgsrv answer(int x) { got = x; }
 }
-main { Server s(c):(4, true); Client c(s):(); }
+@Robot reactiveclass Robot(5) {
+  statevars { int x; }
+  Robot() { self.go() after(30); }
+  msgsrv go() { @Move(X+1, Y); delay(100); }
+}
+main { Server s(c):(4, true); Client c(s):(); Robot r():(); }
 """
 
 
 @pytest.fixture(scope="module")
-def recording(headers: Path, tmp_path_factory: pytest.TempPathFactory) -> Recording:
+def package(headers: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     directory, config = tmp_path_factory.mktemp("mailbox"), Config(target="ros2-cpp")
     package = written(generated(MODEL, "office", config), directory, "office", config)
     make_messages([package], headers)
-    driver = build_driver(package, headers, directory / "build")
+    return package
+
+
+@pytest.fixture(scope="module")
+def driver(package: Path, headers: Path) -> Path:
+    """With the thread sanitizer: what it finds ends the run."""
+    return build_driver(package, headers, package.parent / "build", ["-fsanitize=thread", "-g"])
+
+
+@pytest.fixture(scope="module")
+def recording(package: Path, driver: Path) -> Recording:
     # The start may not wait for a subscription that never matches.
-    return run(package, driver, directory, 90, foreign=["/s/plain"])
+    return run(package, driver, package.parent, 90, foreign=["/s/plain"])
 
 
 def _between(recording: Recording, start: int, end: int) -> list[str]:
@@ -97,3 +112,20 @@ def test_violations_are_reported_and_serving_goes_on(recording: Recording) -> No
     assert served[-1] == "urgent(11)@63"
     states = [b.state["last"] for b in recording.bodies("s") if b.start >= 60]
     assert states == [100, 100, 11]
+
+
+def test_the_last_velocity_is_zero_when_the_node_ends_in_mid_move(recording: Recording) -> None:
+    *_, moving, last = recording.velocities("r")
+    assert moving.x != 0
+    assert (last.x, last.y, last.turn) == (0, 0, 0)
+
+
+def test_a_simulated_clock_wakes_who_waits(
+    recording: Recording, package: Path, driver: Path
+) -> None:
+    simulated = run(package, driver, package.parent, 41, step=0.02)
+    found = [b for b in simulated.bodies("s") if 0 < b.start < 41]
+    assert found
+    assert [f"{b.server}({b.arguments})@{b.start}" for b in found] == _between(recording, 1, 41)
+    # With the settling time of what may be overtaken, and the time of a step.
+    assert all(b.stamp < b.now + 0.05 + 0.03 for b in found)

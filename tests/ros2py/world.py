@@ -413,7 +413,8 @@ class World:
         """Move the clock to the next timer; whether there is one before the end."""
         with self.lock:
             timers = [t for n in self.nodes.values() for t in n.timers if t.alive]
-            due = min((t.due for t in [*timers, *self.sleepers]), default=end)
+            moments = [t.due for t in timers] + [s.due for s in self.sleepers]
+            due = min(moments, default=end)
             if self.step is not None:
                 due = min(due, self.time + self.step)
             self.time = min(max(due, self.time), end)

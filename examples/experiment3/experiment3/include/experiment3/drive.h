@@ -6,12 +6,14 @@
 #include <ros/ros.h>
 
 #include <algorithm>
+#include <atomic>
 #include <boost/optional.hpp>
 #include <cmath>
 #include <cstdint>
 #include <deque>
-#include <mutex>
+#include <exception>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -37,15 +39,36 @@ class Drive {
     move_time_ = option("move_time", mailbox.timeUnit());
     holonomic_ = option<std::string>("kind", "holonomic") == "holonomic";
     pose_.heading = option("heading", 0.0);
-    cmd_vel_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 100);
+    cmd_vel_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 100, true);
     mailbox.onDelay([this](int64_t start, int32_t duration) { delayed(start, duration); });
     mailbox.onEnd([this](int64_t end) { ended(end); });
+    mailbox.onFailure([this] { fail(); });
+    mailbox.watch([this] { check(); });
+    mailbox.onStop([this] {
+      stop();
+      ros::WallDuration(0.1).sleep();  // roscpp drops what it has not sent yet when it ends
+    });
+    halt();  // a robot may still do what one that died has told it; who comes late hears it, too
+    thread_ = std::thread(&Drive::run, this);
+  }
+
+  Drive(const Drive&) = delete;
+  Drive& operator=(const Drive&) = delete;
+
+  ~Drive() {
+    stop();
+    thread_.join();
   }
 
   /// Moves by whole cells, in the time of the body's next delay.
-  void move(int32_t dx, int32_t dy) { pending_.emplace_back(dx, dy); }
+  void move(int32_t dx, int32_t dy) {
+    const auto lock = waits_.lock();
+    pending_.emplace_back(dx, dy);
+  }
 
  private:
+  static constexpr int64_t kLate = 500000000;  // ns, after which a tick is missed
+
   /// A stretch of the way: where it ends, and from when to when.
   struct Leg {
     double x;
@@ -54,6 +77,7 @@ class Drive {
     ros::Time end;
     ros::Duration planned;
     ros::Time turned;
+    bool prolonged;
   };
 
   template <class T>
@@ -74,13 +98,13 @@ class Drive {
   }
 
   void plan(ros::Time start, double duration) {
-    if (pending_.empty()) return;
+    const auto lock = waits_.lock();
+    if (pending_.empty() || waits_.isStopping()) return;
     const ros::Duration share(duration / static_cast<double>(pending_.size()));
-    std::unique_lock<std::mutex> lock(mutex_);
     for (const auto& cells : pending_) {
       goal_x_ += cells.first * cell_size_;
       goal_y_ += cells.second * cell_size_;
-      legs_.push_back({goal_x_, goal_y_, start, start + share, share, start});
+      legs_.push_back({goal_x_, goal_y_, start, start + share, share, start, false});
       start += share;
     }
     pending_.clear();
@@ -88,8 +112,7 @@ class Drive {
     driving_ = true;
     reckoned_ = ros::Time::now();
     begin(legs_.front(), reckoned_);
-    lock.unlock();  // replacing a timer waits for its callback, which takes the lock
-    tickAfter(kSoon);
+    waits_.notify();
   }
 
   // A leg that starts late is sped up, though no more than twice.
@@ -99,26 +122,96 @@ class Drive {
     leg.turned = leg.start + (leg.end - leg.start) * (1.0 / 3);
   }
 
-  void tick(const ros::TimerEvent& /* event */) {
-    const std::lock_guard<std::mutex> lock(mutex_);
+  void run() {
+    try {
+      auto lock = waits_.lock();
+      while (true) {
+        waits_.until(lock, ros::TIME_MAX, [this] { return driving_; });
+        tick();
+        if (driving_) waits_.until(lock, due_, [] { return false; });
+      }
+    } catch (const Stopped&) {
+    }
+  }
+
+  void tick() {
     const ros::Time now = ros::Time::now();
     reckon(now);
     if (now >= legs_.front().end) finishLeg(now);
     driving_ = !legs_.empty();
-    twist_ = driving_ ? twistAt(now) : geometry_msgs::Twist();
-    cmd_vel_.publish(twist_);
-    if (driving_) tickAfter(std::min(kPeriod, (nextChange(now) - now).toSec()));
+    if (!driving_) expected_ = 0;
+    send(driving_ ? twistAt(now) : geometry_msgs::Twist());
+    if (!driving_) return;
+    const double pause = std::max(std::min(kPeriod, (nextChange(now) - now).toSec()), kSoon);
+    due_ = now + ros::Duration(pause);
+    expected_ = static_cast<int64_t>(due_.toNSec());
   }
 
-  // A leg whose timers came so late that the robot is not there yet goes on for a while.
+  // Called by another thread, which does not wait for this one: a robot must not drive on unguided.
+  void check() {
+    const int64_t due = expected_;
+    if (due == 0 || static_cast<int64_t>(ros::Time::now().toNSec()) < due + kLate) return;
+    cmd_vel_.publish(geometry_msgs::Twist());
+    if (missed_ == due) return;
+    missed_ = due;
+    complain("no velocity in time");
+  }
+
+  // A velocity that does not go out must not be followed by others.
+  void send(const geometry_msgs::Twist& twist) {
+    try {
+      cmd_vel_.publish(twist);
+      twist_ = twist;
+    } catch (const std::exception& error) {
+      complain(error.what());
+      forget();
+    }
+  }
+
+  // A leg whose ticks came so late that the robot is not there yet goes on for half its plan.
   void finishLeg(const ros::Time& now) {
-    if (distance() < cell_size_ / 10) legs_.pop_front();
+    Leg& leg = legs_.front();
+    if (distance() < cell_size_ / 10) {
+      legs_.pop_front();
+    } else if (leg.prolonged) {
+      complain("overrun, " + std::to_string(distance()) + " m from the goal");
+      return forget();
+    } else {
+      leg.prolonged = true;
+    }
     if (!legs_.empty()) begin(legs_.front(), now);
   }
 
-  void tickAfter(double seconds) {
-    const ros::Duration pause(std::max(seconds, kSoon));
-    timer_ = node_.createTimer(pause, &Drive::tick, this, true);
+  // What is planned is dropped; where the robot should be stays, and the next move goes there.
+  void forget() {
+    if (driving_) reckon(ros::Time::now());
+    legs_.clear();
+    driving_ = false;
+    expected_ = 0;
+    twist_ = geometry_msgs::Twist();
+  }
+
+  void halt() {
+    forget();
+    send(twist_);
+  }
+
+  void fail() {
+    const auto lock = waits_.lock();
+    pending_.clear();
+    if (!waits_.isStopping()) halt();
+  }
+
+  // While ROS still sends: the last velocity is zero.
+  void stop() {
+    const auto lock = waits_.lock();
+    if (waits_.isStopping()) return;
+    waits_.stop();
+    halt();
+  }
+
+  void complain(const std::string& facts) const {
+    ROS_ERROR_STREAM(reportLine("drive", mailbox_.self(), "cmd_vel", facts));
   }
 
   ros::Time nextChange(const ros::Time& now) const {
@@ -186,10 +279,11 @@ class Drive {
   bool holonomic_;
   ros::Publisher cmd_vel_;
 
-  std::vector<std::pair<int32_t, int32_t>> pending_;
   boost::optional<double> previous_;
 
-  std::mutex mutex_;
+  // Of all threads, which hold its lock.
+  detail::Waiting waits_;
+  std::vector<std::pair<int32_t, int32_t>> pending_;
   std::deque<Leg> legs_;
   bool driving_ = false;
   double goal_x_ = 0;
@@ -197,7 +291,10 @@ class Drive {
   Pose pose_{0, 0, 0};
   geometry_msgs::Twist twist_;
   ros::Time reckoned_;
-  ros::Timer timer_;
+  ros::Time due_;                     // the next tick
+  std::atomic<int64_t> expected_{0};  // the same in nanoseconds; 0 while nothing is driven
+  int64_t missed_ = 0;                // that which was complained about
+  std::thread thread_;
 };
 
 }  // namespace experiment3

@@ -3,13 +3,16 @@
 #define EXPERIMENT3_MAILBOX_H
 
 #include <ros/ros.h>
+#include <semaphore.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <boost/optional.hpp>
+#include <chrono>
 #include <cmath>
 #include <condition_variable>
+#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -33,7 +36,7 @@ namespace experiment3 {
 
 constexpr uint32_t kQueueSize = 1000;
 constexpr double kRounded = 1e-6;  // units of model time, more than what division loses
-constexpr double kFarAway = 1e9;  // s, still a valid ros::Duration
+constexpr double kFarAway = 1e9;   // s, still a valid ros::Duration
 
 /// A body that has run: what it served, when that arrived, was taken and ended.
 struct Served {
@@ -82,6 +85,112 @@ void readArray(const ros::NodeHandle& node, const std::string& key, std::array<T
   if (node.getParam(key, list)) detail::read(list, values);
 }
 
+namespace detail {
+
+constexpr bool kTimed = true;  // whether time passes in the model
+
+/// Waits for moments of the ROS clock, be it simulated or not, and for what happens before, without
+/// a timer of ROS: who replaces one waits for its callback.
+class Waiting {
+ public:
+  using Lock = std::unique_lock<std::mutex>;
+
+  Lock lock() { return Lock(mutex_); }
+
+  /// Blocks with the lock let go; TIME_MAX is never. Throws Stopped when the node shuts down.
+  template <class Woken>
+  void until(Lock& lock, const ros::Time& due, Woken woken) {
+    while (!stopping_ && ros::Time::now() < due && !woken()) {
+      if (due == ros::TIME_MAX) {
+        changed_.wait(lock);
+      } else {
+        changed_.wait_for(lock, pause(due));
+      }
+    }
+    if (stopping_) throw Stopped();
+  }
+
+  /// Has those look again that wait; call it with the lock.
+  void notify() { changed_.notify_all(); }
+
+  /// Call it with the lock.
+  void stop() {
+    stopping_ = true;
+    notify();
+  }
+  bool isStopping() const { return stopping_; }
+
+ private:
+  // Nobody tells when a simulated clock has moved: it is looked at as often as by ros::Duration.
+  static std::chrono::nanoseconds pause(const ros::Time& due) {
+    if (ros::Time::isSimTime()) return std::chrono::milliseconds(1);
+    const std::chrono::nanoseconds rest((due - ros::Time::now()).toNSec());
+    return std::min<std::chrono::nanoseconds>(rest, std::chrono::seconds(1));
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool stopping_ = false;
+};
+
+/// Whether a program may write a line again: once a minute.
+class Rarely {
+ public:
+  bool again() {
+    const auto now = std::chrono::steady_clock::now();
+    if (last_ && now - *last_ < std::chrono::minutes(1)) return false;
+    last_ = now;
+    return true;
+  }
+
+ private:
+  boost::optional<std::chrono::steady_clock::time_point> last_;
+};
+
+/// Runs an action in a thread of its own at the first SIGINT or SIGTERM, while ROS still sends.
+class Interrupts {
+ public:
+  ~Interrupts() {
+    if (!thread_.joinable()) return;
+    ending_ = true;
+    sem_post(raised());
+    thread_.join();
+  }
+
+  void start(std::function<void()> act) {
+    thread_ = std::thread([this, act] {
+      while (sem_wait(raised()) != 0) continue;  // it has been interrupted
+      if (!ending_) act();
+    });
+    for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { sem_post(raised()); });
+  }
+
+ private:
+  static sem_t* raised() {
+    static sem_t semaphore = {};
+    return &semaphore;
+  }
+
+  std::atomic<bool> ending_{false};
+  std::thread thread_;
+};
+
+/// Whether any code of the program calls Mailbox::delay, be it ever run or not.
+inline bool& delays() {
+  static bool found = false;
+  return found;
+}
+
+template <class Time>
+struct Delaying {
+  static const bool found;
+};
+
+template <class Time>
+const bool Delaying<Time>::found = delays() = true;
+
+}  // namespace detail
+
 class Mailbox {
  public:
   using Body = std::function<void()>;
@@ -98,6 +207,7 @@ class Mailbox {
     const ros::NodeHandle options("mailbox");
     time_unit_ = options.param("time_unit", 1.0);
     settle_ = ros::Duration(options.param("settle", 0.05));
+    publish_state_ = options.param("publish_state", true);
     random_.seed(static_cast<uint32_t>(options.param("seed", 0)) ^ hash(self_));
   }
 
@@ -149,9 +259,10 @@ class Mailbox {
 
   /// Sends to another rebec; what is sent before time 0 goes out at time 0.
   template <class M>
-  void publish(const ros::Publisher& publisher, M message, const When& when) {
+  void publish(const ros::Publisher& publisher, M& message, const When& when) {
     message.timing = when.from(now_);
-    atStart([this, publisher, message]() mutable {
+    if (started_) return publisher.publish(message);
+    kept_.push_back([this, publisher, message]() mutable {
       message.timing = later(message.timing);
       publisher.publish(message);
     });
@@ -174,20 +285,23 @@ class Mailbox {
   }
 
   int32_t now() const { return static_cast<int32_t>(now_); }
-  int32_t arrival() const { return static_cast<int32_t>(current_.timing.arrival); }
+  int32_t arrival() const { return static_cast<int32_t>(current_->timing.arrival); }
   int32_t expiry() const {
-    return static_cast<int32_t>(std::min<int64_t>(current_.timing.deadline, INT32_MAX));
+    return static_cast<int32_t>(std::min<int64_t>(current_->timing.deadline, INT32_MAX));
   }
-  int32_t waitingTime() const { return static_cast<int32_t>(start_ - current_.timing.arrival); }
-  const std::string& sender() const { return current_.sender; }
+  int32_t waitingTime() const { return static_cast<int32_t>(start_ - current_->timing.arrival); }
+  const std::string& sender() const { return current_->sender; }
   const std::string& self() const { return self_; }
 
   /// Keeps the rebec busy; ends early, by an exception, only when the node shuts down.
-  void delay(int32_t time) {
+  template <class Time>
+  void delay(Time time) {
+    static_cast<void>(detail::Delaying<Time>::found);
     if (time < 0) throw Violation("time", "delay " + std::to_string(time));
     const int64_t start = now_;
-    now_ += time;
-    atStart([this, start, time] { on_delay_(start + shift_, time); });
+    const auto duration = static_cast<int32_t>(time);
+    now_ += duration;
+    atStart([this, start, duration] { on_delay_(start + shift_, duration); });
     if (!started_) return;
     delaying_ = true;
     sleepUntil(at(static_cast<double>(now_)));
@@ -206,17 +320,21 @@ class Mailbox {
   T choose(std::initializer_list<T> choices, const boost::optional<T>& seen) {
     if (!seen) return choose(choices);
     if (std::find(choices.begin(), choices.end(), *seen) != choices.end()) return *seen;
-    report("choice", current_.server, text(*seen) + " is outside the choices");
+    report("choice", current_->server, text(*seen) + " is outside the choices");
     return choose(choices);
   }
 
   void assertion(bool holds, const std::string& claim = "does not hold") const {
-    if (!holds) report("assertion", current_.server, claim);
+    if (!holds) report("assertion", current_->server, claim);
   }
 
   void onServed(std::function<void(const Served&)> observer) { on_served_ = std::move(observer); }
   void onDelay(std::function<void(int64_t, int32_t)> observer) { on_delay_ = std::move(observer); }
   void onEnd(std::function<void(int64_t)> observer) { on_end_ = std::move(observer); }
+  /// Called when the node is told to end, while ROS still sends.
+  void onStop(Body observer) { on_stop_ = std::move(observer); }
+  /// Called, by any thread, when something is reported that the model excludes.
+  void onFailure(Body observer) { on_failure_ = std::move(observer); }
 
   /// The moment on the ROS clock that a logical time stands for.
   ros::Time at(double time) const {
@@ -231,19 +349,25 @@ class Mailbox {
   void construct(const Body& body) { perform(body); }
 
   void start() {
+    interrupts_.start([this] {
+      on_stop_();
+      ros::requestShutdown();
+    });
     thread_ = std::thread(&Mailbox::run, this);
     watchdog_.start();
   }
 
+  /// Ends serving; no body runs any more when this returns.
   void stop() {
     watchdog_.stop();
     startup_.stop();
     {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      stopping_ = true;
-      changed_.notify_all();
+      auto lock = waits_.lock();
+      waits_.stop();
     }
     if (thread_.joinable()) thread_.join();
+    auto lock = waits_.lock();
+    served_.wait(lock, [this] { return !busy_; });
   }
 
  private:
@@ -278,28 +402,43 @@ class Mailbox {
   }
 
   void run() {
-    try {
+    ending([this] {
       begin(startup_.agree());
-      while (true) serve(next());
+      auto lock = waits_.lock();
+      while (true) {
+        drain(lock);
+        alarm_ = busy_ ? ros::TIME_MAX : nextDue();  // who serves rouses this one in the end
+        roused_ = false;
+        waits_.until(lock, alarm_, [this] { return roused_; });
+      }
+    });
+  }
+
+  // What a thread does until the node shuts down.
+  template <class Action>
+  static void ending(Action action) {
+    try {
+      action();
     } catch (const Stopped&) {
     }
   }
 
   // Who joins a system that runs serves from the next whole time on.
   void begin(const Beginning& beginning) {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      zero_ = beginning.zero;
-      if (beginning.joins) shift_ = join();
-      now_ += shift_;
-      for (Message& message : waiting_) {
-        if (message.early) message.timing = later(message.timing);
-      }
-      started_ = true;
+    auto lock = waits_.lock();
+    zero_ = beginning.zero;
+    if (beginning.joins) shift_ = join();
+    now_ += shift_;
+    for (Message& message : waiting_) {
+      if (message.early) message.timing = later(message.timing);
     }
+    started_ = busy_ = true;
+    lock.unlock();
     for (const auto& action : kept_) action();
     kept_.clear();
+    lock.lock();
     shift_ = 0;
+    busy_ = false;
   }
 
   int64_t join() const {
@@ -329,12 +468,11 @@ class Mailbox {
   }
 
   Snapshot look() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    const auto first = std::min_element(waiting_.begin(), waiting_.end(), goesBefore);
-    const bool due = started_ && first != waiting_.end() && ros::Time::now() >= dueTime(*first);
-    const std::string server = serving_ ? serving_name_ : due ? first->server.name : "";
-    return {started_, serving_, delaying_, due, server, steps_, served_, waiting_.size(), seen_now_,
-        lateness_};
+    const auto lock = waits_.lock();
+    const bool due = started_ && !busy_ && !waiting_.empty() && ros::Time::now() >= dueTime(*first());
+    const std::string server = due ? first()->server.name : serving_name_;
+    return {started_, serving_, delaying_, due, server, steps_, served_count_, waiting_.size(),
+        seen_now_, lateness_};
   }
 
   void atStart(Body action) {
@@ -347,7 +485,7 @@ class Mailbox {
 
   // The message being served and those that arrive in the future hold a place as well.
   void add(Message message) {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    auto lock = waits_.lock();
     stamp(message);
     if (waiting_.size() + (serving_ ? 1 : 0) >= capacity_) {
       report("overflow", message.server,
@@ -356,20 +494,52 @@ class Mailbox {
     }
     message.receipt = ++received_;
     waiting_.push_back(std::move(message));
-    changed_.notify_all();
+    if (!started_ || busy_) return;  // who serves or begins finds it
+    if (!detail::delays()) ending([this, &lock] { drain(lock); });
+    rouse();
   }
 
-  // Blocks until the first message may be taken; a better one may come in while it waits.
-  Message next() {
-    std::unique_lock<std::mutex> lock(mutex_);
-    while (true) {
-      const auto first = std::min_element(waiting_.begin(), waiting_.end(), goesBefore);
-      const ros::Time due = first == waiting_.end() ? ros::TIME_MAX : dueTime(*first);
-      if (!stopping_ && ros::Time::now() >= due) return take(first);
-      const uint64_t received = received_;
-      wait(lock, due, [&] { return received_ != received; });
-    }
+  // Has the serving thread look again if something is due before it would.
+  void rouse() {
+    if (busy_ || alarm_ <= nextDue()) return;
+    roused_ = true;
+    waits_.notify();
   }
+
+  // Serves what is due in the model's order, unless another thread does: it finds the rest.
+  void drain(detail::Waiting::Lock& lock) {
+    if (busy_ || waits_.isStopping()) return;
+    busy_ = true;
+    try {
+      while (!waits_.isStopping() && ros::Time::now() >= nextDue()) {
+        const Message message = take(first());
+        lock.unlock();
+        serve(message);
+        lock.lock();
+        serving_ = false;
+        seen_now_ = now_;
+        ++steps_;
+        ++served_count_;
+      }
+    } catch (...) {
+      if (!lock.owns_lock()) lock.lock();
+      release();
+      throw;
+    }
+    release();
+  }
+
+  void release() {
+    busy_ = serving_ = false;
+    serving_name_.clear();
+    if (waits_.isStopping()) served_.notify_all();
+  }
+
+  std::vector<Message>::iterator first() {
+    return std::min_element(waiting_.begin(), waiting_.end(), goesBefore);
+  }
+
+  ros::Time nextDue() { return waiting_.empty() ? ros::TIME_MAX : dueTime(*first()); }
 
   Message take(std::vector<Message>::iterator position) {
     Message message = std::move(*position);
@@ -387,71 +557,52 @@ class Mailbox {
     return std::max(at(static_cast<double>(time)), message.earliest);
   }
 
-  void serve(Message message) {
-    current_ = std::move(message);
-    start_ = now_ = std::max(now_, current_.timing.arrival);
-    if (now_ > current_.timing.deadline) {
-      report("deadline", current_.server, times(current_.timing) + ", now " + std::to_string(now_));
+  void serve(const Message& message) {
+    current_ = &message;
+    start_ = now_ = std::max(now_, message.timing.arrival);
+    if (now_ > message.timing.deadline) {
+      report("deadline", message.server, times(message.timing) + ", now " + std::to_string(now_));
     } else {
       warnIfLate();
-      perform(current_.serve);
+      perform(message.serve);
     }
-    const std::lock_guard<std::mutex> lock(mutex_);
-    serving_ = false;
-    seen_now_ = now_;
-    ++steps_;
-    ++served_;
   }
 
   void perform(const Body& body) {
     try {
       body();
     } catch (const Violation& violation) {
-      report(violation.kind(), current_.server, violation.what());
+      report(violation.kind(), current_->server, violation.what());
     } catch (const std::out_of_range& error) {
-      report("index", current_.server, error.what());
+      report("index", current_->server, error.what());
     } catch (const std::exception& error) {
-      report("exception", current_.server, error.what());
+      report("exception", current_->server, error.what());
     }
-    Served served{current_.server.name, current_.arguments, current_.timing.arrival, start_,
+    Served served{current_->server.name, current_->arguments, current_->timing.arrival, start_,
         now_};
-    atStart([this, served]() mutable {
+    if (started_) return finish(served);
+    kept_.push_back([this, served]() mutable {
       for (int64_t* time : {&served.arrival, &served.start, &served.now}) *time += shift_;
-      on_end_(served.now);
-      on_served_(served);
+      finish(served);
     });
   }
 
+  void finish(const Served& served) const {
+    on_end_(served.now);
+    if (publish_state_) on_served_(served);
+  }
+
   void sleepUntil(const ros::Time& due) {
-    std::unique_lock<std::mutex> lock(mutex_);
-    wait(lock, due, [] { return false; });
+    auto lock = waits_.lock();
+    waits_.until(lock, due, [] { return false; });
   }
 
-  template <class Reason>
-  void wait(std::unique_lock<std::mutex>& lock, const ros::Time& due, Reason woken) {
-    lock.unlock();  // replacing a timer waits for its callback, which takes the lock
-    setAlarm(due);
-    lock.lock();
-    changed_.wait(lock, [&] { return stopping_ || ros::Time::now() >= due || woken(); });
-    if (stopping_) throw Stopped();
-  }
-
-  void setAlarm(const ros::Time& due) {
-    const ros::Time now = ros::Time::now();
-    if (due == ros::TIME_MAX || due <= now) return;
-    alarm_ = node_.createTimer(due - now, &Mailbox::ring, this, true);
-  }
-
-  void ring(const ros::TimerEvent& /* event */) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    changed_.notify_all();
-  }
-
-  void warnIfLate() const {
-    const double lateness = (ros::Time::now() - at(static_cast<double>(now_))).toSec();
-    if (lateness <= slack_) return;
-    const std::string facts = times(current_.timing) + ", " + std::to_string(lateness) + " s";
-    ROS_WARN_STREAM_THROTTLE(1.0, reportLine("late", self_, current_.server.name, facts));
+  // Where no time passes in the model, nothing is late.
+  void warnIfLate() {
+    if (!detail::kTimed) return;
+    if (lateness_ <= slack_ || !late_.again()) return;
+    const std::string facts = times(current_->timing) + ", " + std::to_string(lateness_) + " s";
+    ROS_WARN_STREAM(reportLine("late", self_, current_->server.name, facts));
   }
 
   static std::string times(const Timing& timing) {
@@ -462,6 +613,7 @@ class Mailbox {
 
   void report(const std::string& kind, const Server& server, const std::string& facts) const {
     ROS_ERROR_STREAM(reportLine(kind, self_, server.name, facts));
+    on_failure_();
   }
 
   ros::NodeHandle node_;
@@ -471,40 +623,48 @@ class Mailbox {
   const double slack_;
   double time_unit_;
   ros::Duration settle_;
+  bool publish_state_;
   std::mt19937 random_;
 
   std::function<void(const Served&)> on_served_ = [](const Served&) {};
   std::function<void(int64_t, int32_t)> on_delay_ = [](int64_t, int32_t) {};
   std::function<void(int64_t)> on_end_ = [](int64_t) {};
+  Body on_failure_ = [] {};
+  Body on_stop_ = [] {};
 
-  // Of the body that runs: of the main thread before the start, of the serving thread after it.
-  Message current_{{"constructor", kNoPriority}, {}, {}, {}, {}, {}, 0, false};
+  // Of the body that runs: of the main thread before the start, of who serves after it.
+  const Message constructor_{{"constructor", kNoPriority}, {}, {}, {}, {}, {}, 0, false};
+  const Message* current_ = &constructor_;
   int64_t start_ = 0;
   int64_t now_ = 0;
+  detail::Rarely late_;
   ros::Time zero_;
-  bool started_ = false;
   int64_t shift_ = 0;  // of all times of the constructor, while what it did is made up for
   std::vector<Body> kept_;
 
-  std::mutex mutex_;
-  std::condition_variable changed_;
+  // Of all threads, which hold its lock.
+  detail::Waiting waits_;
+  std::atomic<bool> started_{false};  // also asked by bodies, which hold none
   std::vector<Message> waiting_;
   uint64_t received_ = 0;
-  bool serving_ = false;
-  bool stopping_ = false;
+  bool busy_ = false;     // somebody serves one message after the other
+  bool serving_ = false;  // a message is being served
+  std::condition_variable served_;
+  ros::Time alarm_;  // when the serving thread looks again
+  bool roused_ = false;
 
   // For the watchdog.
   std::atomic<bool> delaying_{false};
   std::atomic<uint64_t> steps_{0};
-  uint64_t served_ = 0;
+  uint64_t served_count_ = 0;
   std::string serving_name_;
   int64_t seen_now_ = 0;
   double lateness_ = 0;
 
   std::thread thread_;
-  ros::Timer alarm_;
   Startup startup_;
   Watchdog watchdog_;
+  detail::Interrupts interrupts_;
 };
 
 }  // namespace experiment3
