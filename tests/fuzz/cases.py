@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import subprocess
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import redirect_stderr
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -93,7 +95,8 @@ def _managed() -> tuple[Files, ...]:
     for path in _MODELS:
         for dialect in _DIALECTS:
             text = (ROOT / path).read_text(encoding="utf-8")
-            name, files = package_files(Source("m.rebeca", text), Config(target=dialect))
+            with redirect_stderr(io.StringIO()):
+                name, files = package_files(Source("m.rebeca", text), Config(target=dialect))
             below = {f"{name}/{path}": text.encode() for path, text in files.items()}
             made.append({"m.rebeca": text.encode(), **below})
     return tuple(made)
