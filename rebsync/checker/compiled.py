@@ -26,6 +26,7 @@ from rebsync.checker.exploration import (
     Unavailable,
 )
 from rebsync.checker.graph import Graph
+from rebsync.checker.look import Look, unwatched
 from rebsync.checker.memory import used_memory
 from rebsync.checker.program import Program
 from rebsync.checker.search import NO_MEMORY, endless_reason
@@ -136,8 +137,8 @@ class CompiledSearch:
             now = self._figures()
             waiting = now.states - now.expanded
             report(Progress(now.states, now.transitions, now.level, waiting, seconds, memory))
-        if limits.seconds is not None and seconds >= limits.seconds:
-            return f"the bound of {limits.seconds:g} seconds was reached"
+        if over := limits.out_of_time(seconds):
+            return over
         if limits.memory is not None and memory >= limits.memory:
             return f"the bound of {limits.memory} bytes of memory was reached"
         return None
@@ -206,7 +207,7 @@ class CompiledSearch:
             ordinals.append(ordinal.value)
         return tuple(reversed(ordinals))
 
-    def graph(self) -> Graph:
+    def graph(self, look: Look = unwatched) -> Graph:
         """The state space that was seen; steps to states that were not seen are left out.
 
         Fingerprints do not give it: with them, all of it is searched again.
@@ -216,7 +217,7 @@ class CompiledSearch:
             exact = CompiledSearch(self.program, self.semantics, (), self.first)
             stopped = figures.states if figures.expanded < figures.states else None
             exact.run(Limits(states=stopped, until=self._until))
-            return exact.graph()
+            return exact.graph(look)
         words = max(1, -(-len(self.program.predicates) // 64))
         most = figures.transitions + figures.dropped
         first, labels = _zeros("Q", figures.states + 1), _zeros("Q", figures.states * words)
@@ -224,6 +225,7 @@ class CompiledSearch:
         arrays = native.Arrays(*(a.buffer_info()[0] for a in (first, target, actor, times, labels)))
         edges = 0
         for start in range(0, figures.states, native.STATES_AT_ONCE):
+            look()
             end = min(start + native.STATES_AT_ONCE, figures.states)
             edges = self._library.rebsync_graph(self._engine, arrays, start, end, edges)
             if edges < 0:

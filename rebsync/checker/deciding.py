@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from rebsync.checker.formulas import And, Atom, Formula, Not, Or, Temporal, Timed
 from rebsync.checker.graph import Graph
+from rebsync.checker.look import Look
 from rebsync.checker.problem import Fairness
 from rebsync.checker.temporal import Lasso, check_ltl, check_tctl
 from rebsync.checker.temporal.emptiness import Find, search
-from rebsync.checker.watch import Look
 from rebsync.records import dataclass
 from rebsync.unions import assert_never
 

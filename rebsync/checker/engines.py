@@ -7,7 +7,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from itertools import chain, repeat
 
-from rebsync.checker.exploration import Exploration, Report, Search, Unavailable
+from rebsync.checker.exploration import Exploration, Limits, Report, Search, Unavailable
+from rebsync.checker.look import Stopped
 from rebsync.checker.problem import Options
 from rebsync.checker.program import Program
 from rebsync.checker.search import PAUSED, Interpreted, Pause
@@ -36,7 +37,8 @@ def explore(
         interpreted = Interpreted(program, semantics, invariants, first)
         return interpreted, interpreted.run(options.limits, report)
     if options.engine == "compiled":
-        compiled = _compiled(program, semantics, invariants, first, options)
+        known = program, semantics, invariants, first
+        compiled = _compiled(*known, options, wanted=_in_time(options.limits))
         return compiled, compiled.run(options.limits, report)
     return _auto(program, semantics, invariants, first, options, report)
 
@@ -61,6 +63,17 @@ def _compiled(
         build=build,
         wanted=wanted,
     )
+
+
+def _in_time(limits: Limits) -> Callable[[], bool]:
+    """Always true; raises Stopped when the bound of time is reached."""
+
+    def wanted() -> bool:
+        if limits.began is not None and (over := limits.out_of_time(0.0)):
+            raise Stopped(over)
+        return True
+
+    return wanted
 
 
 def _auto(

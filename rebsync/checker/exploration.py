@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from dataclasses import field
 from typing import Protocol
 
 from rebsync.checker.graph import Graph
+from rebsync.checker.look import Look, unwatched
 from rebsync.checker.steps import Failure, Semantics
 from rebsync.records import dataclass
 
@@ -20,13 +22,22 @@ class Limits:
     """Bounds of a search; None is no bound. `seconds` is by the wall clock, `until` model time.
 
     `until` bounds the time since the start: steps that would pass it are left out, and the search
-    is then incomplete. `memory` is in bytes, of the whole process.
+    is then incomplete. `memory` is in bytes, of the whole process. `began` is the moment by
+    time.perf_counter from which the seconds count, else they count from the search.
     """
 
     states: int | None = None
     seconds: float | None = None
     memory: int | None = None
     until: int | None = None
+    began: float | None = None
+
+    def out_of_time(self, searched: float) -> str | None:
+        """Why to stop after so many seconds of searching, if the time is over."""
+        spent = searched if self.began is None else time.perf_counter() - self.began
+        if self.seconds is None or spent < self.seconds:
+            return None
+        return f"the bound of {self.seconds:g} seconds was reached"
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,8 +117,8 @@ class Search(Protocol):
     def path(self, state: int) -> tuple[int, ...]:
         """A shortest way to a state: first the ordinal of the initial state, then of each step."""
 
-    def graph(self) -> Graph:
-        """The whole state space that was seen, with its labels."""
+    def graph(self, look: Look = unwatched) -> Graph:
+        """The whole state space that was seen, with its labels; `look` is called now and then."""
 
     def marks(self, graph: Graph) -> bytearray:
         """For each state of its graph whether it is on an endless run without time (bit 0), and

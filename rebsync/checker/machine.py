@@ -14,6 +14,7 @@ from collections.abc import Callable
 from dataclasses import field
 from typing import NamedTuple
 
+from rebsync.checker.look import Look, unwatched
 from rebsync.checker.program import NO_DEADLINE, NULL, Cell, Instruction, Program, RebecInfo
 from rebsync.checker.state import Frame, Local, Message, Point
 from rebsync.checker.steps import Failure, FailureKind
@@ -32,6 +33,7 @@ from rebsync.records import dataclass
 
 BUDGET = 10_000_000  # instructions that one body may run before it counts as endless
 DEPTH = 10_000  # frames
+_GLANCE = 10_000  # instructions between two looks at the bounds
 WAYS = 2**20  # ways to choose in one run of a body
 FOREVER = 2**31 - 1  # what currentMessageDeadline reads without a deadline, as in RMC
 
@@ -103,6 +105,7 @@ class Machine:
     sends: list[Sent] = field(default_factory=list)
     running: bool = True
     delayed: int | None = None
+    look: Look = unwatched
 
     def start(self, body: int, arguments: tuple[Cell, ...]) -> None:
         """Runs a body from its beginning."""
@@ -140,12 +143,14 @@ class Machine:
 
     def _run(self) -> None:
         code, run = self.program.code, _OPERATIONS
-        for _ in range(BUDGET):
-            instruction = code[self.pc]
-            self.pc += 1
-            run[instruction.op](self, instruction)
-            if not self.running:
-                return
+        for start in range(0, BUDGET, _GLANCE):
+            for _ in range(min(_GLANCE, BUDGET - start)):
+                instruction = code[self.pc]
+                self.pc += 1
+                run[instruction.op](self, instruction)
+                if not self.running:
+                    return
+            self.look()
         raise EndlessBody(self.pc)
 
     def fail(self, kind: FailureKind, text: str = "") -> Failed:

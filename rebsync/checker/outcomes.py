@@ -8,11 +8,11 @@ from __future__ import annotations
 from bisect import bisect
 from collections.abc import Iterator
 
+from rebsync.checker.look import Look, unwatched
 from rebsync.checker.machine import WAYS, Coverage, EndlessBody, Failed, Machine, Sent
 from rebsync.checker.program import NO_DEADLINE, NULL, UNRANKED, Program
 from rebsync.checker.state import Local, Message
 from rebsync.checker.steps import Failure, Semantics
-from rebsync.checker.watch import Look, unwatched
 from rebsync.records import dataclass
 
 
@@ -152,6 +152,7 @@ class Actor:
             self.semantics == "tts",
             room,
             self.coverage,
+            look=self.look,
         )
         failure = None
         try:

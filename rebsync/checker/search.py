@@ -6,6 +6,7 @@ import time
 from array import array
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from typing import TypeAlias
 
 from rebsync.checker.exploration import (
@@ -17,6 +18,7 @@ from rebsync.checker.exploration import (
     Report,
 )
 from rebsync.checker.graph import Graph
+from rebsync.checker.look import Look, Stopped, unwatched
 from rebsync.checker.machine import BUDGET, DEPTH, WAYS, EndlessBody, Failed, Machine
 from rebsync.checker.memory import used_memory
 from rebsync.checker.program import NO_DEADLINE, Program
@@ -24,7 +26,6 @@ from rebsync.checker.standstill import marks_of
 from rebsync.checker.state import Message, State
 from rebsync.checker.steps import Failure, Semantics, Step
 from rebsync.checker.views import view_of
-from rebsync.checker.watch import Look, Stopped, unwatched
 
 PAUSED = "paused"
 NO_MEMORY = "there was no more memory"
@@ -59,6 +60,7 @@ class Interpreted:
         self._events: dict[object, Event] = {}
         self._until_reached = False
         self._spent = 0.0
+        self._look_at_bounds: Look = unwatched
 
     def run(
         self, limits: Limits, report: Report | None = None, pause: Pause | None = None
@@ -106,22 +108,23 @@ class Interpreted:
     def _search(
         self, limits: Limits, report: Report | None, started: float, pause: Pause | None
     ) -> str | None:
-        if not self.states:
-            for ordinal, step in enumerate(self.view.initial_states()):
-                self._reach(step, -1, ordinal, limits)
         due = time.perf_counter() + _SLICE
 
-        def look() -> None:
+        def look(ends: bool = False) -> None:
             nonlocal due
             now = time.perf_counter()
             if now >= due:
                 due = now + _SLICE
                 if stop := self._look(limits, report, now - started):
                     raise Stopped(stop)
-                if pause and pause():
+                if pause and not ends and pause():
                     raise Stopped(PAUSED)
 
+        self._look_at_bounds = partial(look, ends=True)
         with self._looking(look):
+            if not self.states:
+                for ordinal, step in enumerate(self.view.initial_states()):
+                    self._reach(step, -1, ordinal, limits)
             while self._expanded < len(self.states):
                 if limits.states is not None and len(self.states) >= limits.states:
                     return f"the bound of {limits.states} states was reached"
@@ -137,6 +140,7 @@ class Interpreted:
         try:
             yield
         finally:
+            self._look_at_bounds = unwatched
             for actor in self.view.actors:
                 actor.look = unwatched
 
@@ -147,14 +151,14 @@ class Interpreted:
                 Progress(
                     len(self.states),
                     self._transitions,
-                    self._depths[self._expanded],
+                    self._depths[self._expanded] if self._depths else 0,
                     len(self.states) - self._expanded,
                     seconds,
                     memory,
                 )
             )
-        if limits.seconds is not None and seconds >= limits.seconds:
-            return f"the bound of {limits.seconds:g} seconds was reached"
+        if over := limits.out_of_time(seconds):
+            return over
         if limits.memory is not None and memory >= limits.memory:
             return f"the bound of {limits.memory} bytes of memory was reached"
         return None
@@ -186,6 +190,7 @@ class Interpreted:
 
     def _judge(self, state: State, number: int) -> None:
         for predicate in self.invariants:
+            self._look_at_bounds()  # and no pause, after which this state would not be judged
             try:
                 holds = self.holds(state, predicate)
             except Failed as failed:
@@ -205,6 +210,7 @@ class Interpreted:
         machine = Machine(
             self.program, self.program.rebecs[0], -1, [], message, 0, [], False, 0, states=state
         )
+        machine.look = self._look_at_bounds
         machine.start(self.program.predicates[predicate], ())
         return bool(machine.stack[-1])
 
@@ -218,12 +224,14 @@ class Interpreted:
             state = self._parents[state]
         return tuple(reversed(ordinals))
 
-    def graph(self) -> Graph:
+    def graph(self, look: Look = unwatched) -> Graph:
         """The state space that was seen; steps to states that were not seen are left out."""
+        self._look_at_bounds = look
         words = max(1, -(-len(self.program.predicates) // 64))
         first, target, actor = array("Q", [0]), array("q"), array("i")
         times, labels = array("q"), array("Q")
         for number, state in enumerate(self.states):
+            look()
             for step in self.view.steps(state) if number < self._expanded else ():
                 failed = isinstance(step.result, Failure)
                 to = -1 if isinstance(step.result, Failure) else self.numbers.get(step.result, -2)

@@ -5,27 +5,28 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import field
+from dataclasses import field, replace
 from itertools import islice
 
 from rebsync.checker.engines import explore
 from rebsync.checker.exploration import Event, Exploration, Progress, Report, Search
 from rebsync.checker.formulas import Atom, NamedFormula
 from rebsync.checker.graph import Graph
+from rebsync.checker.look import Stopped
 from rebsync.checker.lowering import lower
 from rebsync.checker.memory import peak_memory, used_memory
 from rebsync.checker.naming import coverage_of, event_name
 from rebsync.checker.problem import Options, Problem
 from rebsync.checker.program import Program
 from rebsync.checker.reduction import self_driven
-from rebsync.checker.result import Result, Verdict, Violation
+from rebsync.checker.result import Coverage, Result, Verdict, Violation
 from rebsync.checker.standstill import ENDLESS, LEAVES, cycle_from, may_stand_still
 from rebsync.checker.steps import Failure, Semantics, ViolationKind
 from rebsync.checker.telling import Teller
 from rebsync.checker.trace import Trace
 from rebsync.checker.unreadable import limited
 from rebsync.checker.views import view_of
-from rebsync.checker.watch import Stopped, Watch
+from rebsync.checker.watch import Watch
 from rebsync.properties import Property
 from rebsync.records import dataclass
 
@@ -42,20 +43,54 @@ _EDGE = 20  # bytes for each edge of a graph
 def verify(problem: Problem, options: Options, report: Report | None = None) -> Result:
     """Everything that can go wrong in a model, with a shortest run to each."""
     started = time.perf_counter()
-    program, formulas = lower(problem.analysis, problem.properties)
+    look = Watch(options.limits, report, started, Progress(0, 0, 0, 0, 0.0, 0, "lowering"))
+    try:
+        program, formulas = lower(problem.analysis, problem.properties, look)
+        return _searched(problem, options, report, started, program, formulas)
+    except Stopped as stopped:  # before there was anything to search
+        return _nothing_found(problem, options, str(stopped), time.perf_counter() - started)
+
+
+def _searched(
+    problem: Problem,
+    options: Options,
+    report: Report | None,
+    started: float,
+    program: Program,
+    formulas: tuple[NamedFormula, ...],
+) -> Result:
+    """What a search finds. Raises Stopped when a bound is reached before it has begun."""
     assertions = formulas[: len(problem.properties.assertions)]
     invariants = _invariants(program, assertions, formulas)
     semantics = options.semantics or semantics_for(program, problem)
     first: frozenset[int] = frozenset()
     if options.reduce and len(assertions) == len(formulas):
         first = self_driven(program)
-    search, exploration = explore(program, semantics, invariants, first, options, report)
+    search, exploration = explore(
+        program, semantics, invariants, first, _counted_from(started, options), report
+    )
     view = view_of(program, exploration.semantics, first)
     teller = Teller(view, problem.source)
     watch = _watch(exploration, options, report, started)
     answer = _Answer(problem, options, program, formulas, search, exploration, teller, watch)
     answer.collect()
     return limited(problem, answer.result(time.perf_counter() - started))
+
+
+def _counted_from(started: float, options: Options) -> Options:
+    """The options with bounds that count what was done before the search, too."""
+    return replace(options, limits=replace(options.limits, began=started))
+
+
+def _nothing_found(problem: Problem, options: Options, reason: str, seconds: float) -> Result:
+    """The answer when a bound was reached before the first state."""
+    names = [entry.name for entry in problem.properties.all]
+    known: tuple[tuple[str, Verdict], ...] = tuple((name, "undetermined") for name in names)
+    memory, semantics = peak_memory(), options.semantics or "tts"
+    return Result(
+        "undetermined", reason, (), known, (), Coverage((), (), ()), 0, 0, 0, semantics,
+        "interpreted", seconds, 0.0, 0.0, memory,
+    )  # fmt: skip
 
 
 def _invariants(
@@ -126,7 +161,7 @@ class _Answer:
             words = max(1, -(-len(self.program.predicates) // 64))
             size = found.states * 8 * (1 + words) + found.transitions * _EDGE
             self.watch.begin("storing all steps", size)
-            self._graph = self.search.graph()
+            self._graph = self.search.graph(self.watch)
         return self._graph
 
     @contextmanager

@@ -3,25 +3,14 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from dataclasses import field, replace
-from typing import TypeAlias
 
 from rebsync.checker.exploration import Limits, Progress, Report
+from rebsync.checker.look import Stopped
 from rebsync.checker.memory import used_memory
 from rebsync.records import dataclass
 
 _SLICE = 0.05  # seconds between two looks at the bounds
-
-Look: TypeAlias = Callable[[], None]  # called now and then by what takes long
-
-
-class Stopped(Exception):
-    """A bound was reached; the text says which."""
-
-
-def unwatched() -> None:
-    """Looks at nothing: there are no bounds."""
 
 
 @dataclass(slots=True)
@@ -46,8 +35,8 @@ class Watch:
         seconds, memory = now - self.started, used_memory()
         if self.report:
             self.report(replace(self.progress, seconds=seconds, memory=memory))
-        if self.limits.seconds is not None and seconds >= self.limits.seconds:
-            raise Stopped(f"the bound of {self.limits.seconds:g} seconds was reached")
+        if over := self.limits.out_of_time(seconds):
+            raise Stopped(over)
         self._check(memory)
 
     def begin(self, task: str, size: int = 0) -> None:

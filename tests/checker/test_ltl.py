@@ -12,10 +12,10 @@ import pytest
 from rebsync.checker.exploration import Unavailable
 from rebsync.checker.formulas import And, Atom, Formula, Not, Or, Temporal, Timed
 from rebsync.checker.graph import Graph
+from rebsync.checker.look import Stopped
 from rebsync.checker.temporal import Fairness, Lasso, check_ltl, compiled_product
 from rebsync.checker.temporal.buchi import translate
 from rebsync.checker.temporal.emptiness import Find, search
-from rebsync.checker.watch import Stopped
 from tests.checker.temporal_graphs import Edge, draw_graph, draw_linear, graph_of, random_cases
 
 P, Q = Atom(0), Atom(1)

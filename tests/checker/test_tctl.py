@@ -8,8 +8,8 @@ import pytest
 
 from rebsync.checker.formulas import And, Atom, Bound, Formula, Not, Or, Temporal, Timed
 from rebsync.checker.graph import Graph
+from rebsync.checker.look import Stopped
 from rebsync.checker.temporal import Lasso, check_tctl
-from rebsync.checker.watch import Stopped
 from tests.checker.temporal_graphs import (
     Edge,
     draw_graph,

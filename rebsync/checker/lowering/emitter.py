@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import field
 
+from rebsync.checker.look import Look, unwatched
 from rebsync.checker.program import Body, Cell, Instruction, Kind, Slot
 from rebsync.model import Constructor, Declarator, MessageServer, Method, Parameter, Type
 from rebsync.records import dataclass
@@ -16,6 +17,7 @@ from rebsync.static.symbols import ClassInfo, ServerSymbol
 from rebsync.static.types import PRIMITIVES, VOID
 
 Declared = MessageServer | Method | Constructor
+_GLANCE = 256  # instructions between two looks at the bounds
 Selector = tuple[str, tuple[Type | None, ...]]
 
 
@@ -38,10 +40,11 @@ class World:
     """What the bodies of a model share: the instructions, and who is known by which number."""
 
     analysis: Analysis
+    look: Look = unwatched
     code: list[Instruction] = field(default_factory=list)
     spans: list[Span] = field(default_factory=list)
     bodies: list[Body | None] = field(default_factory=list)
-    texts: list[str] = field(default_factory=list)
+    texts: dict[str, int] = field(default_factory=dict)
     selectors: dict[Selector, int] = field(default_factory=dict)
     class_numbers: dict[str, int] = field(default_factory=dict)
     rebec_numbers: dict[str, int] = field(default_factory=dict)
@@ -86,6 +89,8 @@ class Emitter:
     def emit(self, op: str, a: int = 0, b: int = 0, constants: tuple[Cell, ...] = ()) -> int:
         """Adds an instruction; gives its place, for `patch`."""
         self.world.code.append(Instruction(op, a, b, constants))
+        if not len(self.world.code) % _GLANCE:
+            self.world.look()
         self.world.spans.append(self.span)
         return len(self.world.code) - 1
 
@@ -101,9 +106,7 @@ class Emitter:
 
     def text(self, text: str) -> int:
         """The number of a text."""
-        if text not in self.world.texts:
-            self.world.texts.append(text)
-        return self.world.texts.index(text)
+        return self.world.texts.setdefault(text, len(self.world.texts))
 
     def allocate(self, size: int) -> int:
         """Cells of the frame, until the scope ends."""

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from rebsync import properties as p
 from rebsync.checker.lowering.conversions import constant, convert, met, promoted
+from rebsync.checker.lowering.defines import Defines
 from rebsync.checker.lowering.emitter import Emitter, kind_of
 from rebsync.checker.lowering.expressions import decide, operate
 from rebsync.checker.lowering.places import Place, index_by, index_pushed, push
@@ -32,14 +35,24 @@ from rebsync.static.types import NULL as NULL_TYPE
 
 
 class Predicates:
-    """The formulas of one file; `rebecs` by their names, `defines` by theirs."""
+    """One formula of a file; `rebecs` by their names with their numbers."""
 
     def __init__(
-        self, emitter: Emitter, rebecs: tuple[RebecInfo, ...], properties: p.Properties
+        self, emitter: Emitter, rebecs: Mapping[str, tuple[int, RebecInfo]], known: Defines
     ) -> None:
         self.e = emitter
-        self.rebecs = {r.name: (i, r) for i, r in enumerate(rebecs)}
-        self.defines = {d.name: d.value for d in properties.defines}
+        self.rebecs = rebecs
+        self.known = known
+        self.defines = known.values
+        self._cells: dict[str, tuple[int, Kind]] = {}
+
+    def whole(self, formula: p.Formula) -> None:
+        """Pushes the value of a formula; what is used more than once is computed first."""
+        for name in self.known.shared(formula):
+            kind = self.value(self.defines[name])
+            self._cells[name] = self.e.allocate(1), kind
+            self.e.emit("SETLOCAL", self._cells[name][0])
+        self.value(formula)
 
     def value(self, node: p.Formula) -> Kind:
         """Pushes the value of a formula without temporal operators; gives its kind."""
@@ -74,9 +87,9 @@ class Predicates:
                 e.emit("CONST", number)
                 return "int"
             case FloatLiteral(text):
-                kind: Kind = "double" if node.is_double else "float"
-                constant(float_value(text), kind, e)
-                return kind
+                real: Kind = "double" if node.is_double else "float"
+                constant(float_value(text), real, e)
+                return real
             case BoolLiteral(truth):
                 e.emit("CONST", int(truth))
                 return "boolean"
@@ -85,6 +98,10 @@ class Predicates:
                 return "rebec"
             case Paren(inner):
                 return self.value(inner)
+            case Name(name) if name in self._cells:
+                cell, kind = self._cells[name]
+                e.emit("LOCAL", cell)
+                return kind
             case Name(name) if name in self.defines:
                 return self.value(self.defines[name])
             case Name(name) if name in self.rebecs:
@@ -179,7 +196,9 @@ class Predicates:
             case Paren(inner):
                 return self.type_of(inner)
             case Name(name) if name in self.defines:
-                return self.type_of(self.defines[name])
+                if name not in self.known.types:
+                    self.known.types[name] = self.type_of(self.defines[name])
+                return self.known.types[name]
             case Name(name) if name in self.rebecs:
                 return Type(self.rebecs[name][1].class_name)
             case Name(name):

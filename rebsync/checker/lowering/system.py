@@ -7,6 +7,8 @@ from dataclasses import replace
 
 from rebsync import properties as p
 from rebsync.checker import formulas as f
+from rebsync.checker.look import Look, unwatched
+from rebsync.checker.lowering.defines import Defines
 from rebsync.checker.lowering.emitter import Declared, Emitter, World, kind_of, size_of
 from rebsync.checker.lowering.predicates import Predicates
 from rebsync.checker.lowering.statements import statements
@@ -32,16 +34,16 @@ _NO_PROPERTIES = p.Properties()
 
 
 def lower(
-    analysis: Analysis, properties: p.Properties = _NO_PROPERTIES
+    analysis: Analysis, properties: p.Properties = _NO_PROPERTIES, look: Look = unwatched
 ) -> tuple[Program, tuple[f.NamedFormula, ...]]:
     """The program of a model without errors, and the entries of its properties in file order.
 
     The predicates of the program are the largest parts of the formulas without temporal
-    operators; an assertion is one predicate.
+    operators; an assertion is one predicate. `look` is called now and then, and may raise.
     """
     main = analysis.model.main
     assert main is not None and not analysis.errors
-    world = World(analysis)
+    world = World(analysis, look)
     for rebec in main.rebecs:
         world.class_numbers.setdefault(rebec.type.name, len(world.class_numbers))
         world.rebec_numbers[rebec.name] = len(world.rebec_numbers)
@@ -186,11 +188,13 @@ def _properties(
     world: World, rebecs: tuple[RebecInfo, ...], properties: p.Properties
 ) -> tuple[tuple[f.NamedFormula, ...], tuple[int, ...]]:
     numbers: list[int] = []
+    by_name = {r.name: (i, r) for i, r in enumerate(rebecs)}
+    known = Defines({d.name: d.value for d in properties.defines})
 
     def predicate(formula: p.Formula) -> int:
         e = Emitter(world, None, BOOLEAN, {}, {}, span=formula.span)
         entry = e.here
-        Predicates(e, rebecs, properties).value(formula)
+        Predicates(e, by_name, known).whole(formula)
         e.emit("RET", 1)
         numbers.append(len(world.bodies))
         world.bodies.append(Body(f"predicate {len(numbers)}", entry, e.here, (), e.frame))

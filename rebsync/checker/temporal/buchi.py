@@ -13,6 +13,7 @@ from dataclasses import field
 from typing import NamedTuple
 
 from rebsync.checker.formulas import Formula
+from rebsync.checker.look import Look, unwatched
 from rebsync.checker.temporal.components import components
 from rebsync.checker.temporal.terms import FALSE, TRUE, Terms
 from rebsync.records import dataclass
@@ -44,10 +45,13 @@ class Automaton:
     anything: int
 
 
-def translate(formula: Formula, wanted: bool = True) -> Automaton:
-    """The automaton of a formula, or of its negation. ValueError: it has operators of TCTL."""
-    translation = _Translation()
-    moves = _without_dead_ends(_merged(translation.run(formula, wanted)))
+def translate(formula: Formula, wanted: bool = True, look: Look = unwatched) -> Automaton:
+    """The automaton of a formula, or of its negation; `look` is called now and then.
+
+    ValueError: it has operators of TCTL.
+    """
+    translation = _Translation(look)
+    moves = _without_dead_ends(_merged(translation.run(formula, wanted), look), look)
     promises = (1 << len(translation.promised)) - 1
     anything = next((s for s, own in enumerate(moves) if own == [Move(0, 0, s, 0)]), -1)
     return Automaton(
@@ -74,6 +78,7 @@ class _Part(NamedTuple):
 class _Translation:
     """Sets of formulas become states; terms, predicates and promises become bits."""
 
+    look: Look = unwatched
     terms: Terms = field(default_factory=Terms)
     predicates: dict[int, int] = field(default_factory=dict)
     promised: dict[int, int] = field(default_factory=dict)
@@ -85,7 +90,7 @@ class _Translation:
         waiting = [start]
         for obligations in waiting:  # grows
             own = []
-            for part in _strongest(self._expand(obligations)):
+            for part in _strongest(self._expand(obligations), self.look):
                 if part.later not in states:
                     states[part.later] = len(waiting)
                     waiting.append(part.later)
@@ -103,6 +108,7 @@ class _Translation:
     def _expand(self, obligations: int) -> Iterator[_Part]:
         waiting = [_Part(0, 0, 0, 0, obligations, 0)]
         while waiting:
+            self.look()
             part = waiting.pop()
             if not part.todo:
                 yield part
@@ -153,7 +159,7 @@ class _Translation:
         return 1 << numbers.setdefault(key, len(numbers))
 
 
-def _strongest(parts: Iterator[_Part]) -> list[_Part]:
+def _strongest(parts: Iterator[_Part], look: Look) -> list[_Part]:
     """Without the moves that ask for all that another one asks for, and for more.
 
     A run that is accepted can always fulfil what holds now and put off only what does not; a
@@ -161,6 +167,7 @@ def _strongest(parts: Iterator[_Part]) -> list[_Part]:
     """
     kept: list[_Part] = []
     for part in parts:
+        look()
         if not any(_asks_less(other, part) for other in kept):
             kept = [other for other in kept if not _asks_less(part, other)]
             kept.append(part)
@@ -176,10 +183,11 @@ def _asks_less(one: _Part, other: _Part) -> bool:
     )
 
 
-def _merged(moves: list[list[Move]]) -> list[list[Move]]:
+def _merged(moves: list[list[Move]], look: Look) -> list[list[Move]]:
     """States that move alike become one: the coarsest bisimulation."""
     classes, count = [0] * len(moves), 1
     while True:
+        look()
         numbers: dict[frozenset[Move], int] = {}
         alike = [frozenset(m._replace(target=classes[m.target]) for m in own) for own in moves]
         classes = [numbers.setdefault(own, len(numbers)) for own in alike]
@@ -188,6 +196,7 @@ def _merged(moves: list[list[Move]]) -> list[list[Move]]:
         count = len(numbers)
     merged: list[list[Move]] = [[] for _ in range(count)]
     for state, own in enumerate(moves):
+        look()
         if not merged[classes[state]]:
             merged[classes[state]] = _fewest([m._replace(target=classes[m.target]) for m in own])
     return merged
@@ -225,11 +234,12 @@ def _homes(moves: list[list[Move]]) -> list[int]:
     return [c if unkept.get(c, -1) == 0 else -1 for c in component]
 
 
-def _without_dead_ends(moves: list[list[Move]]) -> list[list[Move]]:
+def _without_dead_ends(moves: list[list[Move]], look: Look) -> list[list[Move]]:
     """Only states that accept some run, and the first."""
     alive = {state for state, home in enumerate(_homes(moves)) if home >= 0}
     size = -1
     while size != len(alive):
+        look()
         size = len(alive)
         alive |= {s for s, own in enumerate(moves) if any(m.target in alive for m in own)}
     kept = [s for s in range(len(moves)) if s in alive or s == 0]

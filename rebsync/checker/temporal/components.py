@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from array import array
 
-from rebsync.checker.watch import Look, unwatched
+from rebsync.checker.look import Look, unwatched
 
 
 def components(first: array[int], target: array[int], look: Look = unwatched) -> array[int]:

@@ -11,9 +11,9 @@ from array import array
 from collections import deque
 from heapq import heapify, heappop, heappush
 
+from rebsync.checker.look import Stopped
 from rebsync.checker.temporal.components import components
 from rebsync.checker.temporal.timeline import Timeline
-from rebsync.checker.watch import Stopped
 
 FOREVER = 2**62  # later than everything
 NEVER = -1  # earlier than everything

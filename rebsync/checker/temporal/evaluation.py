@@ -8,9 +8,9 @@ from dataclasses import field
 
 from rebsync.checker.formulas import And, Atom, Formula, Not, Or, Temporal, Timed
 from rebsync.checker.graph import Graph
+from rebsync.checker.look import Look, unwatched
 from rebsync.checker.temporal.outcome import Outcome, Window
 from rebsync.checker.temporal.timeline import Timeline
-from rebsync.checker.watch import Look, unwatched
 from rebsync.records import dataclass
 from rebsync.unions import assert_never
 

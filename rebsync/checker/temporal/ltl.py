@@ -11,11 +11,11 @@ from collections.abc import Callable
 
 from rebsync.checker.formulas import Formula
 from rebsync.checker.graph import Graph
+from rebsync.checker.look import Look, unwatched
 from rebsync.checker.temporal.buchi import translate
 from rebsync.checker.temporal.emptiness import Find, Reached, search
 from rebsync.checker.temporal.lasso import Lasso, lasso
 from rebsync.checker.temporal.product import Fairness, Product
-from rebsync.checker.watch import Look, unwatched
 
 __all__ = ["Fairness", "check_ltl"]
 
@@ -39,7 +39,7 @@ def check_ltl(
     The prefix is the shortest after which nothing can save the formula any more; if there is none,
     the shortest with which the automaton comes into a cycle that it accepts.
     """
-    product = Product.of(graph, translate(formula, wanted=False), fairness, look)
+    product = Product.of(graph, translate(formula, wanted=False, look=look), fairness, look)
     found = find(product)
     if found.decided >= 0:
         start, prefix = found.path(product, found.decided)

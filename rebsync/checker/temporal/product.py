@@ -14,8 +14,8 @@ from dataclasses import field
 from typing import Literal, TypeAlias
 
 from rebsync.checker.graph import Graph
+from rebsync.checker.look import Look, unwatched
 from rebsync.checker.temporal.buchi import Automaton
-from rebsync.checker.watch import Look, unwatched
 from rebsync.records import dataclass
 
 Fairness: TypeAlias = Literal["none", "weak", "progress"]

@@ -10,10 +10,10 @@ from dataclasses import field
 
 from rebsync.checker.formulas import And, Atom, Formula, Not, Or, Temporal, Timed
 from rebsync.checker.graph import Graph
+from rebsync.checker.look import Look, unwatched
 from rebsync.checker.temporal.evaluation import Evaluation, reduced
 from rebsync.checker.temporal.explanation import explain
 from rebsync.checker.temporal.lasso import Lasso, lasso
-from rebsync.checker.watch import Look, unwatched
 from rebsync.records import dataclass
 from rebsync.unions import assert_never
 

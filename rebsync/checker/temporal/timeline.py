@@ -5,7 +5,7 @@ from __future__ import annotations
 from array import array
 
 from rebsync.checker.graph import Graph
-from rebsync.checker.watch import Look, unwatched
+from rebsync.checker.look import Look, unwatched
 from rebsync.records import dataclass
 
 
