@@ -6,7 +6,7 @@ timed_rebeca.lark. Each of these is one pass over the tokens, so lexing stays li
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import field
 from functools import cache
 from importlib.resources import files
@@ -37,6 +37,7 @@ _NO_ARGUMENTS = frozenset({"ϕ", "φ", "∅"})
 _SECTIONS = ("knownrebecs", "statevars", "main")
 _BEFORE_NAMED_BRACE = frozenset({"INTERFACE", "EXTENDS", "IMPLEMENTS", "COMMA", "RECORD", "DOT"})
 _SERVER_WORDS = ("msgsrv",)
+_OPENED, _CLOSED = frozenset("([{"), frozenset(")]}")
 MAX_NESTING = 100
 MAX_CHAIN = 200
 
@@ -77,7 +78,7 @@ def token_span(token: Token) -> Span:
 
 def lex(text: str) -> Lexed:
     """All tokens of a text; what belongs to no token becomes a diagnostic."""
-    everything = list(rebeca_grammar().lex(text))
+    everything = list(_not_too_deep(rebeca_grammar().lex(text)))
     scan = _Scan([t for t in everything if t.type not in _TRIVIA])
     for token in everything:
         if token.type in _TRIVIA and token.type != "COMMENT":
@@ -99,6 +100,19 @@ def controls(tokens: Iterable[Token]) -> list[Diagnostic]:
             hint = f"write {with_escapes(control[0])} instead" if what == "text" else None
             found.append(Diagnostic("RS114", Span(at, at + 1), message, hint))
     return found
+
+
+def _not_too_deep(tokens: Iterable[Token]) -> Iterator[Token]:
+    """The tokens up to the first bracket that nests too deeply: the rest is not read anyway."""
+    depth = 0
+    for token in tokens:
+        yield token
+        if token in _OPENED:
+            depth += 1
+            if depth > MAX_NESTING:
+                return
+        elif token in _CLOSED:
+            depth = max(depth - 1, 0)
 
 
 def _illegal(token: Token) -> Diagnostic:
@@ -208,11 +222,16 @@ class _Scan:
     def _mend_angle_choices(self) -> None:
         """`?<a, b>` of the thesis stands for `?(a, b)`."""
         tokens = self.tokens
+        end = 0
         for i in range(len(tokens) - 1):
             if tokens[i] != "?" or tokens[i + 1] != "<":
                 continue
-            end = next((j for j in range(i + 2, len(tokens)) if tokens[j] in (">", ";", "}")), None)
-            if end is None or tokens[end] != ">":
+            end = max(end, i + 2)
+            while end < len(tokens) and tokens[end] not in (">", ";", "}"):
+                end += 1
+            if end == len(tokens):
+                return
+            if tokens[end] != ">":
                 continue
             opening, closing = token_span(tokens[i + 1]), token_span(tokens[end])
             tokens[i + 1] = retyped(tokens[i + 1], "LPAR", "(")

@@ -24,7 +24,10 @@ _Value = TypeVar("_Value", bound=str | int | float | bool)
 
 _LARGEST = 10**300  # a float is not much larger
 _HEADER = re.compile(r"\s*(\[\[?)\s*(.+?)\s*\]\]?\s*(?:#.*)?$")
-_KEY = re.compile(r"""\s*((?:"[^"]*"|'[^']*'|[\w.-]|\s*\.\s*)+?)\s*=""")
+_KEY = re.compile(r"""\s*(?=\S)((?:"[^"]*"|'[^']*'|[\w.-]|[ \t]+(?=[\w."'-]))+)[ \t]*=""")
+_NAME = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
+_DEEP = re.compile(rf"(?<![\w-]){_NAME}(?:[ \t]*\.[ \t]*{_NAME}){{100}}")  # dotted names
+_LONG = 1000  # characters of a line in which places are not looked for
 _PART = re.compile(r""""([^"]*)"|'([^']*)'|([\w-]+)""")
 _DECODE_PLACE = re.compile(r"\s*\(at line (\d+), column (\d+)\)|\s*\(at end of document\)")
 
@@ -156,6 +159,10 @@ class Table:
 
 def read_toml(source: Source) -> Table:
     """The top table of a TOML text; a RebsyncError when it is no TOML."""
+    if found := _DEEP.search(source.text):  # for which the standard library takes quadratic time
+        span = Span(found.start(), found.start() + 1)
+        mistake = Diagnostic("RS807", span, "this TOML is nested too deeply")
+        raise RebsyncError([Findings(source, (mistake,))])
     try:
         values = tomllib.loads(source.text.replace("\r\n", "\n"))
     except tomllib.TOMLDecodeError as error:
@@ -195,7 +202,9 @@ def _places(source: Source) -> dict[Path, Span]:
     table: Path = ()
     offset = 0
     for line in source.text.splitlines(keepends=True):
-        if header := _HEADER.match(line):
+        if len(line) > _LONG:
+            pass
+        elif header := _HEADER.match(line):
             table = _header_path(header, counts)
             places.setdefault(table, _span(offset, header, 2))
         elif key := _KEY.match(line):

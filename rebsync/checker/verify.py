@@ -145,6 +145,8 @@ class _Answer:
     caveats: list[str] = field(default_factory=list)
     verdicts: dict[str, Verdict] = field(default_factory=dict)
     _graph: Graph | None = None
+    _assertions: dict[int, list[Property]] | None = None
+    _traces: dict[tuple[int, int], Trace] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.reason = self.exploration.reason
@@ -204,9 +206,11 @@ class _Answer:
         self.violations.append(Violation(kind, name, message, path, line, trace))
 
     def _trace(self, event: Event) -> Trace:
-        if event.state < 0:
-            return self.teller.trace((), event.ordinal)
-        return self.teller.trace(self.search.path(event.state), event.ordinal)
+        key = event.state, event.ordinal
+        if key not in self._traces:  # many assertions can be false in one state
+            path = self.search.path(event.state) if event.state >= 0 else ()
+            self._traces[key] = self.teller.trace(path, event.ordinal)
+        return self._traces[key]
 
     def _failure(self, event: Event, failure: Failure) -> None:
         body = self.program.body_at(failure.pc)
@@ -243,12 +247,21 @@ class _Answer:
                     self._property(failure.kind, entry, message, self._trace(event))
 
     def _assertion(self, event: Event, predicate: int) -> None:
-        assertions = len(self.problem.properties.assertions)
-        for entry, formula in islice(self._entries(), assertions):
-            if formula.formula == Atom(predicate):
-                self.verdicts[entry.name] = "violated"
-                message = "it is false in this state"
-                self._property("property", entry, message, self._trace(event))
+        for entry in self._asserted().get(predicate, ()):
+            self.verdicts[entry.name] = "violated"
+            message = "it is false in this state"
+            self._property("property", entry, message, self._trace(event))
+
+    def _asserted(self) -> dict[int, list[Property]]:
+        """The assertions by the predicates that they are."""
+        if self._assertions is None:
+            self._assertions = {}
+            for entry, formula in zip(
+                self.problem.properties.assertions, self.formulas, strict=False
+            ):
+                if isinstance(formula.formula, Atom):
+                    self._assertions.setdefault(formula.formula.predicate, []).append(entry)
+        return self._assertions
 
     def _property(self, kind: ViolationKind, entry: Property, message: str, trace: Trace) -> None:
         source = self.problem.property_source
