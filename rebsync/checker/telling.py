@@ -136,7 +136,9 @@ class Teller:
         return self.source.position(span.start).line
 
     def _value(self, cell: Cell, kind: Kind) -> str:
-        return shown(cell, kind, tuple(r.name for r in self.view.program.rebecs))
+        if kind == "rebec":
+            return self._rebec(int(cell)) or "null"
+        return shown(cell, kind)
 
     # --- states
 

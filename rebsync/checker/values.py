@@ -94,13 +94,13 @@ def stored(value: int | float | bool, kind: Kind) -> Cell:
     return wrap(number, _BITS[kind]) if kind in _BITS else number
 
 
-def shown(cell: Cell, kind: Kind, rebecs: tuple[str, ...] = ()) -> str:
-    """A cell as a model would write its value."""
+def shown(cell: Cell, kind: Kind) -> str:
+    """A cell as a model would write its value; one of a rebec is its number, or null."""
     match kind:
         case "boolean":
             return "true" if cell else "false"
         case "rebec":
-            return rebecs[cell] if cell >= 0 else "null"
+            return str(cell) if cell >= 0 else "null"
         case "float":
             return f"{real(cell):.9g}"
         case "double":

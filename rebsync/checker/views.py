@@ -6,18 +6,52 @@ docs/semantics.md; the compiled engine must agree with it in every number.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from typing import TypeAlias
+from typing import TypeAlias, overload
 
 from rebsync.checker.machine import Coverage, Sent
 from rebsync.checker.outcomes import Actor, Outcome
-from rebsync.checker.program import Program
+from rebsync.checker.program import NO_DEADLINE, Program
 from rebsync.checker.state import Local, State, later
 from rebsync.checker.steps import TIME, Action, Failure, Semantics, Step
 
+NEVER = NO_DEADLINE  # a wait longer than every other
+
 _Begun: TypeAlias = tuple[State | Failure, tuple[int, ...]]
 """The rebecs constructed so far, or what failed; and all that was chosen."""
+
+_Changes: TypeAlias = dict[int, Local]
+"""The rebecs that a step changes, by their numbers: a state may have many more."""
+
+_Maker: TypeAlias = Callable[[Action, _Changes], Step]
+
+
+class Steps(Sequence[Step]):
+    """The steps of a state, each made when it is asked for: it holds the state that it leads to."""
+
+    def __init__(
+        self,
+        make: Callable[[Action, _Changes], Step],
+        moves: list[tuple[Action, _Changes | Failure]],
+    ) -> None:
+        self._make = make
+        self._moves = moves
+
+    def __len__(self) -> int:
+        return len(self._moves)
+
+    @overload
+    def __getitem__(self, index: int) -> Step: ...
+    @overload
+    def __getitem__(self, index: slice) -> Steps: ...
+    def __getitem__(self, index: int | slice) -> Step | Steps:
+        if isinstance(index, slice):
+            return Steps(self._make, self._moves[index])
+        action, changes = self._moves[index]
+        return (
+            Step(action, changes) if isinstance(changes, Failure) else self._make(action, changes)
+        )
 
 
 class _Bodies:
@@ -38,11 +72,28 @@ class _Bodies:
         return tuple(self._constructed())
 
     def _constructed(self) -> Iterator[Step]:
-        """The ways to construct all rebecs, what the last one chooses changing first."""
-        empty: State = tuple(Local((), ()) for _ in self.actors)
-        begun: list[Iterator[_Begun]] = [iter([(empty, ())])]
+        """The ways to construct all rebecs; up to the first that has several, one after another."""
+        locals_ = [Local((), ()) for _ in self.actors]
+        choices: tuple[int, ...] = ()
+        for index, actor in enumerate(self.actors):
+            outcomes = tuple(actor.construct(locals_[index].bag))
+            if len(outcomes) > 1:
+                yield from self._branching(tuple(locals_), index, choices)
+                return
+            changes, _ = self._deliver(locals_, index, outcomes[0])
+            choices = (*choices, *outcomes[0].choices)
+            if isinstance(changes, Failure):
+                yield Step(Action(TIME, -1, choices), changes)
+                return
+            for number, local in changes.items():
+                locals_[number] = local
+        yield self._step(Action(TIME, -1, choices), tuple(locals_))
+
+    def _branching(self, start: State, first: int, chosen: tuple[int, ...]) -> Iterator[Step]:
+        """The ways to construct the rebecs from `first` on; the last one's choices change first."""
+        begun: list[Iterator[_Begun]] = [iter([(start, chosen)])]
         while begun:
-            index = len(begun) - 1
+            index = first + len(begun) - 1
             state, choices = next(begun[-1], (None, ()))
             if state is None:
                 begun.pop()
@@ -57,32 +108,33 @@ class _Bodies:
         """What the constructor of one more rebec makes of a state."""
         outcomes = tuple(self.actors[index].construct(state[index].bag))
         for outcome, result in self._delivered(state, index, outcomes):
-            yield result, (*choices, *outcome.choices)
+            reached = result if isinstance(result, Failure) else _changed(state, result)
+            yield reached, (*choices, *outcome.choices)
 
-    def steps(self, state: State) -> tuple[Step, ...]:
+    def steps(self, state: State) -> Sequence[Step]:
         """Rebecs in the order of main, messages in that of the bag, choices from first to last."""
         ranks = [a.rank(local) for a, local in zip(self.actors, state, strict=True)]
         able = [rank for rank in ranks if rank is not None]
         if not able:
             return tuple(self._idle(state))
+        make = self._maker(state)
         for index in self.first:
             if ranks[index] is not None:
-                steps = tuple(self._acts(state, index))
-                if not any(isinstance(step.result, Failure) for step in steps):
-                    return steps
+                moves = list(self._acts(state, index))
+                if not any(isinstance(changes, Failure) for _, changes in moves):
+                    return Steps(make, moves)
         first = min(able)
-        return tuple(
-            s for i, rank in enumerate(ranks) if rank == first for s in self._acts(state, i)
-        )
+        acting = (i for i, rank in enumerate(ranks) if rank == first)
+        return Steps(make, [move for i in acting for move in self._acts(state, i)])
 
-    def _acts(self, state: State, index: int) -> Iterator[Step]:
+    def _acts(self, state: State, index: int) -> Iterator[tuple[Action, _Changes | Failure]]:
         outcomes = self.actors[index].outcomes(state[index])
         for outcome, result in self._delivered(state, index, outcomes):
-            action = Action(index, outcome.slot, outcome.choices)
-            if isinstance(result, Failure):
-                yield Step(action, result)
-            else:
-                yield self._step(action, result)
+            yield Action(index, outcome.slot, outcome.choices), result
+
+    def _maker(self, state: State) -> _Maker:
+        """What makes the steps of one state."""
+        return lambda action, changes: self._step(action, _changed(state, changes))
 
     def next_state(self, state: State, action: Action) -> Step | None:
         """The step that an action makes; None when the state does not allow it."""
@@ -94,8 +146,8 @@ class _Bodies:
 
     def _delivered(
         self, state: State, index: int, outcomes: tuple[Outcome, ...]
-    ) -> Iterator[tuple[Outcome, State | Failure]]:
-        """The outcomes with the states that they lead to.
+    ) -> Iterator[tuple[Outcome, _Changes | Failure]]:
+        """The outcomes with what they change.
 
         A body that fails by an overflow has run only up to there: what it would have chosen
         afterwards makes no further steps.
@@ -111,20 +163,21 @@ class _Bodies:
             yield outcome, result
 
     def _deliver(
-        self, state: State, index: int, outcome: Outcome
-    ) -> tuple[State | Failure, Sent | None]:
-        locals_ = list(state)
+        self, state: Sequence[Local], index: int, outcome: Outcome
+    ) -> tuple[_Changes | Failure, Sent | None]:
+        changes: _Changes = {}
         for sent in outcome.sends:
             if sent.receiver == index:
                 continue
-            received = self.actors[sent.receiver].receive(locals_[sent.receiver], sent.message)
+            before = changes.get(sent.receiver) or state[sent.receiver]
+            received = self.actors[sent.receiver].receive(before, sent.message)
             if received is None:
                 return Failure("overflow", sent.pc, sent.receiver), sent
-            locals_[sent.receiver] = received
+            changes[sent.receiver] = received
         if isinstance(outcome.result, Failure):
             return outcome.result, None
-        locals_[index] = outcome.result
-        return tuple(locals_), None
+        changes[index] = outcome.result
+        return changes, None
 
     def _step(self, action: Action, state: State) -> Step:
         """The step to a state; the floating view lets time pass in it."""
@@ -135,6 +188,8 @@ class _Bodies:
         return iter(())
 
     def _later(self, state: State, time: int) -> State:
+        if not time:
+            return state
         return tuple(later(local, time, self.program.reads_clock) for local in state)
 
 
@@ -151,6 +206,13 @@ class Exact(_Bodies):
             yield Step(Action(TIME), self._later(state, time), time)
 
 
+def _changed(state: State, changes: _Changes) -> State:
+    locals_ = list(state)
+    for index, local in changes.items():
+        locals_[index] = local
+    return tuple(locals_)
+
+
 def _next(local: Local) -> int | None:
     """When a rebec that cannot act now will be able to."""
     if local.point:
@@ -164,9 +226,26 @@ class Floating(_Bodies):
     semantics: Semantics = "ftts"
 
     def _step(self, action: Action, state: State) -> Step:
-        times = [max(local.busy, local.bag[0].arrival, 0) for local in state if local.bag]
-        time = min(times, default=0)
+        time = min(map(_wait, state), default=0)
+        time = 0 if time == NEVER else time
         return Step(action, self._later(state, time), time)
+
+    def _maker(self, state: State) -> _Maker:
+        waits = list(map(_wait, state))
+        soonest = sorted(range(len(waits)), key=waits.__getitem__)
+
+        def make(action: Action, changes: _Changes) -> Step:
+            others = next((waits[i] for i in soonest if i not in changes), NEVER)
+            time = min(others, *map(_wait, changes.values()))
+            time = 0 if time == NEVER else time
+            return Step(action, self._later(_changed(state, changes), time), time)
+
+        return make
+
+
+def _wait(local: Local) -> int:
+    """How long it is in the floating view until a rebec can take a message."""
+    return max(local.busy, local.bag[0].arrival, 0) if local.bag else NEVER
 
 
 class Untimed(_Bodies):
