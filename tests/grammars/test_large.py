@@ -1,0 +1,71 @@
+"""Texts that are large without need are refused after a glance; tokens and bytes are counted."""
+
+from __future__ import annotations
+
+import tracemalloc
+
+import pytest
+
+from rebsync.diagnostics import RebsyncError
+from rebsync.grammars.lexer import MAX_NESTING, lex
+from rebsync.source import Source
+from rebsync.toml import read_toml
+
+
+@pytest.mark.parametrize("bracket", ["{", "(", "["])
+def test_a_million_brackets_are_not_read(bracket: str) -> None:
+    found = lex(bracket * 1_000_000)
+    assert len(found.tokens) == MAX_NESTING + 1
+    assert [d.code for d in found.diagnostics] == ["RS111"]
+
+
+def test_a_comment_takes_no_more_memory_than_its_text() -> None:
+    text = "/* " + "a b c d e\n" * 100_000
+    lex("")
+    tracemalloc.start()
+    try:
+        found = lex(text)
+        _, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert [d.code for d in found.diagnostics] == ["RS103"]
+    assert most < 10 * len(text)
+
+
+def test_choices_in_angles_without_an_end_take_linear_time() -> None:
+    """With quadratic time this takes minutes."""
+    found = lex("?<" * 50_000)
+    assert any(d.code == "RS111" for d in found.diagnostics)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[" + ".".join("a" * 50_000) + "]\n",
+        ".".join("a" * 50_000) + " = 1\n",
+        '["a" . ' + " . ".join(["'b'"] * 50_000) + "]\n",
+        "a = " + "[" * 50_000 + "]" * 50_000 + "\n",
+        "a = " + "{a=" * 50_000 + "1" + "}" * 50_000 + "\n",
+    ],
+)
+def test_deep_toml_is_refused(text: str) -> None:
+    with pytest.raises(RebsyncError) as raised:
+        read_toml(Source("rebsync.toml", text))
+    (found,) = raised.value.findings[0].diagnostics
+    assert found.code == "RS807"
+    assert "nested too deeply" in found.message
+
+
+@pytest.mark.parametrize(
+    "line", [". " * 400, "." * 900, "a b " * 200, " " * 5000, "[a" + " " * 900]
+)
+def test_places_are_looked_for_in_linear_time(line: str) -> None:
+    """With what grows exponentially this never ends."""
+    table = read_toml(Source("rebsync.toml", f'x = """\n{line}\n"""\n'))
+    table.finish()
+    assert [d.code for d in table.diagnostics] == ["RS808"]
+
+
+def test_dots_in_texts_are_no_depth() -> None:
+    dots = " ".join(["one.two.three"] * 100)
+    assert read_toml(Source("rebsync.toml", f'x = "{dots}"\n')).text("x") == dots
