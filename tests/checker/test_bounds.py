@@ -1,4 +1,4 @@
-"""Bounds hold before the search, and what needs no time takes none: work is counted, not seconds."""
+"""Bounds hold before the search, too; where work is needless it is counted, not timed."""
 
 from __future__ import annotations
 

@@ -56,9 +56,7 @@ def test_deep_toml_is_refused(text: str) -> None:
     assert "nested too deeply" in found.message
 
 
-@pytest.mark.parametrize(
-    "line", [". " * 400, "." * 900, "a b " * 200, " " * 5000, "[a" + " " * 900]
-)
+@pytest.mark.parametrize("line", [". " * 400, "." * 900, "a b " * 200, "[a" + " " * 900])
 def test_places_are_looked_for_in_linear_time(line: str) -> None:
     """With what grows exponentially this never ends."""
     table = read_toml(Source("rebsync.toml", f'x = """\n{line}\n"""\n'))
