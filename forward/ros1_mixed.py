@@ -62,6 +62,7 @@ def _cmake_lists(
         build_depends=sorted([*depends, "message_generation"]),
         run_depends=sorted([*depends, "message_runtime"]),
         messages=message_names(package),
+        library=[s for s in ros1_package.library_of(package) if f"src/{s}.cpp" in files],
         executables=[e for e in built if f"src/{e.name}.cpp" in files],
         scripts=scripts,
     )

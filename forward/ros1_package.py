@@ -6,7 +6,7 @@ from rebsync.forward.message_files import FIELD_TYPES, message_names, service_na
 from rebsync.forward.runtime_part import message_packages
 from rebsync.forward.templating import fill
 from rebsync.forward.yaml_values import yaml_name, yaml_value
-from rebsync.package import Instance, NodeClass, NodeParameter, Package, Remap
+from rebsync.package import Instance, NodeParameter, Package, Remap
 from rebsync.printing import print_line
 from rebsync.records import dataclass
 
@@ -28,10 +28,15 @@ def manifest(package: Package) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Executable:
-    """A program and its sources."""
+    """A program and its source."""
 
     name: str
-    sources: tuple[str, ...]
+    source: str
+
+    @property
+    def runs_rebec(self) -> bool:
+        """Whether it needs the classes."""
+        return self.name.endswith("_node")
 
 
 def cmake_lists(package: Package) -> str:
@@ -43,29 +48,25 @@ def cmake_lists(package: Package) -> str:
         build_depends=sorted([*depends, "message_generation"]),
         run_depends=sorted([*depends, "message_runtime"]),
         messages=message_names(package),
+<<<<<<< HEAD
         services=service_names(package),
+=======
+        library=library_of(package),
+>>>>>>> 97a61e9 (Export headers and a library of the classes)
         executables=executables_of(package),
     )
 
 
 def executables_of(package: Package) -> list[Executable]:
-    """The programs, each with the files that it is made of."""
-    found = []
-    for node in package.classes:
-        if node.executable:
-            sources = [f"{node.file}_node", node.file, *_base_sources(package, node)]
-            found.append(Executable(f"{node.file}_node", tuple(sorted(sources))))
-        if any(s.stands_in for s in node.sensors):
-            found.append(Executable(f"{node.file}_stand_in", (f"{node.file}_stand_in",)))
-    return sorted(found, key=lambda e: e.name)
+    """The programs, each with the file that it is made of."""
+    runs = (f"{n.file}_node" for n in package.classes if n.executable)
+    plays = (f"{n.file}_stand_in" for n in package.classes if any(s.stands_in for s in n.sensors))
+    return [Executable(name, name) for name in sorted([*runs, *plays])]
 
 
-def _base_sources(package: Package, node: NodeClass) -> list[str]:
-    found = []
-    for base in map(package.node_class, node.bases):
-        if not base.interface:
-            found += [base.file, *_base_sources(package, base)]
-    return found
+def library_of(package: Package) -> list[str]:
+    """The sources of the classes, which are one library."""
+    return sorted(n.file for n in package.classes if not n.interface)
 
 
 # --- launch file and parameters -----------------------------------------------------------------

@@ -30,18 +30,40 @@ def _run(*command: str | Path) -> None:
     assert done.returncode == 0, done.stdout
 
 
+_USER = """
+cmake_minimum_required(VERSION 3.16)
+project(user)
+find_package(experiment2 REQUIRED)
+add_executable(user main.cpp)
+target_link_libraries(user experiment2::experiment2_nodes)
+"""
+_MAIN = """
+#include <memory>
+#include <experiment2/r1.hpp>
+int main() { return std::make_shared<experiment2::R1>(rclcpp::NodeOptions()) == nullptr; }
+"""
+
+
 def test_ament_builds_and_installs_the_package(headers: Path, tmp_path: Path) -> None:
     package, build, prefix = package_of(_NAME, tmp_path), tmp_path / "build", tmp_path / "install"
     stubs = [*_STUBS, "rosidl_default_generators", "rosidl_default_runtime"]
-    _run(
-        *("cmake", "-S", package, "-B", build, f"-DCMAKE_INSTALL_PREFIX={prefix}"),
+    options = (
         *(f"-D{name}_DIR={_PREFIX}" for name in stubs),
         *(f"-DREBSYNC_STUB={STUB / 'include'}", f"-DREBSYNC_HEADERS={headers}"),
         *("-DPython3_EXECUTABLE=/usr/bin/python3", "-DPYTHON_EXECUTABLE=/usr/bin/python3"),
     )
+    _run("cmake", "-S", package, "-B", build, f"-DCMAKE_INSTALL_PREFIX={prefix}", *options)
     _run("cmake", "--build", build, "--parallel", "2")
     _run("cmake", "--install", build)
-    for node in launched(package):
+    nodes = launched(package)
+    user = tmp_path / "user"
+    user.mkdir()
+    (user / "CMakeLists.txt").write_text(_USER)
+    (user / "main.cpp").write_text(_MAIN)
+    shutil.rmtree(package)  # what is exported is what is installed
+    _run("cmake", "-S", user, "-B", user / "build", f"-DCMAKE_PREFIX_PATH={prefix}", *options)
+    _run("cmake", "--build", user / "build")
+    for node in nodes:
         assert os.access(prefix / "lib" / _NAME / node.executable, os.X_OK)
     share = prefix / "share" / _NAME
     for installed in (f"launch/{_NAME}.launch.py", "config/params.yaml", "package.xml"):

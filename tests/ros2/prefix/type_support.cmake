@@ -4,3 +4,6 @@ target_link_libraries(${rosidl_generate_interfaces_TARGET}__rosidl_typesupport_c
   INTERFACE ${rosidl_generate_interfaces_TARGET}__rosidl_generator_cpp)
 add_dependencies(${rosidl_generate_interfaces_TARGET}__rosidl_typesupport_cpp
   ${rosidl_generate_interfaces_TARGET}__cpp)
+install(TARGETS ${rosidl_generate_interfaces_TARGET}__rosidl_typesupport_cpp
+  EXPORT export_${rosidl_generate_interfaces_TARGET}__rosidl_typesupport_cpp)
+ament_export_targets(export_${rosidl_generate_interfaces_TARGET}__rosidl_typesupport_cpp)

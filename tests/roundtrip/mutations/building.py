@@ -21,10 +21,10 @@ KINDS = (
         "program of another name",
         in_files("CMakeLists.txt", r"OUTPUT_NAME (\w+)", r"OUTPUT_NAME \1_b"),
     ),
-    Kind("integers no longer wrap", in_files("CMakeLists.txt", r"(?<=pedantic) -fwrapv", "")),
+    Kind("integers no longer wrap", in_files("CMakeLists.txt", r"(?<=dantic|PUBLIC) -fwrapv", "")),
     Kind(
         "another name for a call",
-        in_files("CMakeLists.txt", r"(?<=pedantic) (-fwrapv)", r" \1 -Dafter=deadline"),
+        in_files("CMakeLists.txt", r"(?<=dantic|PUBLIC) (-fwrapv)", r" \1 -Dafter=deadline"),
     ),
     Kind("source gone", gone("_node.cpp")),
     Kind(
