@@ -96,6 +96,8 @@ def render(
             f"{_FOLDER}/package.xml.j2", package=package, depends=_depends(package)
         ),
         f"{name}/setup.cfg": fill(f"{_FOLDER}/setup.cfg.j2", package=name),
+        f"{name}/.flake8": fill("py/flake8.j2"),
+        f"{name}/test/test_style.py": fill(f"{_FOLDER}/test_style.py.j2"),
         f"{name}/ruff.toml": fill("py/ruff.toml.j2", packages=[name, interfaces(name)]),
         f"{name}/resource/{name}": "\n",
         f"{name}/launch/{name}.launch.py": launch_file(package),
