@@ -48,11 +48,8 @@ def cmake_lists(package: Package) -> str:
         build_depends=sorted([*depends, "message_generation"]),
         run_depends=sorted([*depends, "message_runtime"]),
         messages=message_names(package),
-<<<<<<< HEAD
         services=service_names(package),
-=======
         library=library_of(package),
->>>>>>> 97a61e9 (Export headers and a library of the classes)
         executables=executables_of(package),
     )
 
