@@ -39,6 +39,7 @@ from rebsync.reverse.graph import Graph
 from rebsync.reverse.launch.launched import Launch, LaunchedNode
 from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_joined import Joined, Part
+from rebsync.reverse.nodes.node_lacking import marked_lacking
 from rebsync.reverse.nodes.node_launch import is_launch, system_of
 from rebsync.reverse.nodes.node_presence import is_generated, may_have_nodes
 from rebsync.reverse.nodes.node_programs import Program, programs, with_nodes
@@ -133,7 +134,8 @@ def extract(
         nodes = nodes.beside(python.nodes.classes, python.nodes.rebecs)
     made = _System(code, classes, read, launch if only is None else None, started, python)
     main = _main(made, nodes, only is not None and len(files) > 1)
-    model = m.Model(tuple(made.heads() if read else ()), (*read, *nodes.classes), main)
+    of_people = tuple(marked_lacking(c, findings.all) for c in nodes.classes)
+    model = m.Model(tuple(made.heads() if read else ()), (*read, *of_people), main)
     statements = tuple(findings.statements.items())
     asked_for = python.graph if python is not None else Graph()
     return Extracted(model, tuple(findings.all), statements, asking, asked_for)
