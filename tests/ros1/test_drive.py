@@ -135,10 +135,13 @@ def test_a_move_takes_the_time_of_the_next_delay_or_the_last_or_a_parameter(
 def test_the_last_velocity_is_zero_when_a_node_is_told_to_end_in_mid_move(
     probe: Workspace, tmp_path: Path
 ) -> None:
-    if getattr(probe, "root", tmp_path).name == "probe_py":
-        pytest.xfail("fixme: the last velocity of rospy does not go out")
-    rebecs = {"a": robot(("move 1 0", "delay 20"))}
-    recording = play(probe, tmp_path, rebecs, Clock(until=2))
+    # The node alone: whoever records must outlive it. A play without processes ends by itself.
+    if isinstance(probe, Workspace):
+        lines = ("move 1 0", "send self high 0 after 2")
+        rebecs = {"a": replace(robot(lines, move_time=20.0), high=("interrupt",))}
+        recording = play(probe, tmp_path, rebecs, Clock(until=8, quiet=6))
+    else:
+        recording = play(probe, tmp_path, {"a": robot(("move 1 0", "delay 20"))}, Clock(until=2))
     *_, moving, last = recording.velocities("a")
     assert (moving.x, moving.y) != (0, 0)
     assert (last.x, last.y, last.turn) == (0, 0, 0)

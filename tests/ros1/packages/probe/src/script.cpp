@@ -1,5 +1,7 @@
 #include "probe/script.h"
 
+#include <unistd.h>
+
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -70,6 +72,7 @@ void Script::step(const std::string& line) {
   if (verb == "value") notes_.push_back(value_);
   if (verb == "sense") sensed();
   if (verb == "kill") std::raise(SIGKILL);
+  if (verb == "interrupt") ::kill(::getpid(), SIGINT);
   if (verb == "hang") std::this_thread::sleep_for(std::chrono::seconds(x));
   if (verb == "quit") std::_Exit(1);
   if (verb == "throw") throw std::runtime_error("of the user's code");

@@ -79,6 +79,8 @@ class Script:
             self.sense()
         if verb == "kill":
             os.kill(os.getpid(), signal.SIGKILL)
+        if verb == "interrupt":
+            os.kill(os.getpid(), signal.SIGINT)
         if verb == "hang":
             time.sleep(x)
         if verb == "quit":
