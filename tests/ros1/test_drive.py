@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.ros1.probes import Rebec, play
+from tests.ros1.probes import Player, Rebec, play
 from tests.ros1.recording import Pose, Recording
 from tests.ros1.run import Clock
 from tests.ros1.workspace import Workspace
@@ -133,7 +133,7 @@ def test_a_move_takes_the_time_of_the_next_delay_or_the_last_or_a_parameter(
 
 
 def test_the_last_velocity_is_zero_when_a_node_is_told_to_end_in_mid_move(
-    probe: Workspace, tmp_path: Path
+    probe: Workspace | Player, tmp_path: Path
 ) -> None:
     # The node alone: whoever records must outlive it. A play without processes ends by itself.
     if isinstance(probe, Workspace):
