@@ -105,6 +105,7 @@ def test_stopping_in_a_long_delay_is_quick_and_sends_nothing(
     recording = play(probe, tmp_path, rebecs, Clock(until=3, rate=rate))
     assert recording.bodies("a") == recording.bodies("b") == ()
     late = [m.topic for m in recording.late if m.topic != "/rosout"]
-    assert [t for t in late if not t.endswith("/cmd_vel")] == []  # zero velocity goes out at the end
+    # The zero velocity at the end goes out.
+    assert [t for t in late if not t.endswith("/cmd_vel")] == []
     assert "escalating" not in recording.output
     assert recording.problems() == ()
