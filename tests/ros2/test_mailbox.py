@@ -123,7 +123,7 @@ def test_the_last_velocity_is_zero_when_the_node_ends_in_mid_move(recording: Rec
 def test_a_simulated_clock_wakes_who_waits(
     recording: Recording, package: Path, driver: Path
 ) -> None:
-    simulated = run(package, driver, package.parent, 13, step=0.05)
+    simulated = run(package, driver, package.parent, 15, step=0.05)
     found = [b for b in simulated.bodies("s") if 0 < b.start < 13]
     assert found
     assert [f"{b.server}({b.arguments})@{b.start}" for b in found] == _between(recording, 1, 13)

@@ -8,6 +8,7 @@ from typing import Any, TypeAlias, get_args
 
 from rebsync.checker.steps import Action, Semantics
 from rebsync.diagnostics import RebsyncError, did_you_mean
+from rebsync.long_numbers import long_number
 from rebsync.records import dataclass
 from rebsync.source import Source
 
@@ -97,12 +98,14 @@ def trace_from_json(source: Source, violation: str | None = None) -> Recorded:
 
 def _parsed(source: Source) -> _Json:
     try:
-        return json.loads(source.text)
+        if long_number(source.text) is None:
+            return json.loads(source.text)
+        message = "a number in this is too long"
     except json.JSONDecodeError as error:
         message = f"this is no JSON: {error.msg} in line {error.lineno}, column {error.colno}"
     except RecursionError:
         message = "this nests deeper than rebsync reads"
-    except ValueError:
+    except ValueError:  # where Python's own limit is in force
         message = "a number in this is too long"
     hint = "a run is what `--format json` prints"
     raise RebsyncError.of(source.path, "RS921", message, hint)

@@ -226,7 +226,7 @@ def broken(place: str, value: object) -> str:
         ("", "RS921", "this is no JSON: Expecting value in line 1, column 1"),
         ("{", "RS921", "this is no JSON"),
         ("[" * 100_000, "RS921", "this nests deeper than rebsync reads"),
-        ("9" * 5000, "RS921", "a number in this is too long"),
+        ("9" * 20_000, "RS921", "a number in this is too long"),
         ("3", "RS922", "the text is not an object"),
         ("{}", "RS922", "semantics is missing"),
         (broken("trace", 3), "RS922", "trace is not a list"),
