@@ -164,6 +164,9 @@ FILES = {
     "RS810": "a missing key in a configuration file",
     "RS811": "a directory without anything to read",
     "RS812": "a file that somebody changed while rebsync was about to write it",
+    "RS813": "a link that is not followed",
+    "RS814": "a pipe, a device or the like where a file is wanted",
+    "RS815": "a path that leads out of what it belongs to",
     "RS820": "a folder for the cache that is not used, as others could have written to it",
     "RS830": "a number of more digits than rebsync reads",
 }

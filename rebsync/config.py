@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any, Literal, TypeAlias, cast
 
 from rebsync.diagnostics import Findings, RebsyncError, did_you_mean
+from rebsync.files import read_source
 from rebsync.records import dataclass
 from rebsync.source import Source
 from rebsync.terminal import one_line, printable
@@ -80,6 +83,18 @@ class Config:
         """The binding of the server `class_name.server`, if the user gave one."""
         wanted = f"{class_name}.{server}"
         return next((s for s in self.sensors if s.server == wanted), None)
+
+
+def settings_beside(model: str) -> tuple[Source, Config]:
+    """The settings beside a model, and their text; the usual ones where there are none.
+
+    RebsyncError: they cannot be read, or are wrong.
+    """
+    path = Path(model).parent / FILE_NAME
+    if not os.path.lexists(path):
+        return Source(str(path), ""), Config()
+    source = read_source(str(path))
+    return source, parse_config(source)
 
 
 def parse_config(source: Source) -> Config:

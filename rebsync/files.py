@@ -4,17 +4,24 @@ from __future__ import annotations
 
 import errno
 import os
+import re
+import stat
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
-from pathlib import Path
+from contextlib import contextmanager, suppress
 
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
+from rebsync.folder import Folder, content_of, open_regular
 from rebsync.long_numbers import MOST_DIGITS, long_number
 from rebsync.source import Source, Span
+from rebsync.trees import is_within, repository
 
 STANDARD_INPUT = "-"
+RECORDS = ".rebsync"  # the folder of a package with what it was made from
 _LARGEST = 64 << 20
+_RECORD = re.compile(rf"((?:.*?/)?)({re.escape(RECORDS)}/.*)", re.DOTALL)
+# What a shell makes of `<(command)`: pipes that are open already, and that a user has named.
+_STREAM = re.compile(r"/dev/(?:stdin|fd/\d+)|/proc/self/fd/\d+")
 BOM = b"\xef\xbb\xbf"
 _CODES = {
     errno.ENOENT: ("RS801", "no such file or directory"),
@@ -41,15 +48,16 @@ def read_source(path: str) -> Source:
 
 
 def read_bytes(path: str) -> bytes:
-    """The bytes of a file, or of standard input for `-`."""
+    """The bytes of a regular file, or of standard input for `-`.
+
+    RebsyncError: it cannot be read, is no regular file, is a link that leads out of a repository,
+    or is in a folder of records and a link is on the way to it from there.
+    """
     if not path:
         raise RebsyncError.of('""', "RS801", "the name of a file is empty")
     try:
         if path != STANDARD_INPUT:
-            with Path(path).open("rb") as file:
-                size = os.fstat(file.fileno()).st_size
-                # To ask for so much takes long: only where the size is not known.
-                data = file.read() if 0 < size <= _LARGEST else file.read(_LARGEST + 1)
+            data = content_of(_opened(path), _LARGEST)
         elif sys.stdin is not None:
             data = sys.stdin.buffer.read(_LARGEST + 1)
         else:
@@ -61,6 +69,60 @@ def read_bytes(path: str) -> bytes:
     if len(data) > _LARGEST:
         raise RebsyncError.of(path, "RS806", f"larger than {_LARGEST >> 20} MiB, too large to read")
     return data
+
+
+def source_below(root: str, name: str) -> Source | None:
+    """The text of a file of a package; None where there is none.
+
+    RebsyncError: it cannot be read, is no regular file, or is behind a link.
+    """
+    path = f"{root}/{name}"
+    try:
+        with Folder(root) as folder:
+            return decode(path, content_of(folder.open(name), _LARGEST))
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    except OSError as error:
+        raise os_mistake(path, error) from None
+
+
+def names_below(root: str, name: str) -> list[str]:
+    """The files of a package in and below one of its directories, by their paths in that.
+
+    RebsyncError: one of them is a link or no regular file, or cannot be told of.
+    """
+    ignored = suppress(FileNotFoundError, NotADirectoryError)
+    with operating_on(f"{root}/{name}"), ignored, Folder(root) as folder:
+        return [each.removeprefix(f"{name}/") for each in folder.files(name)]
+    return []
+
+
+def _opened(path: str) -> int:
+    """A handle to read a file, by the name that a user, or what lies beside it, has for it."""
+    if (records := _RECORD.match(path)) is not None:
+        with Folder(records[1] or ".") as folder:
+            return folder.open(records[2])
+    if _STREAM.fullmatch(path):
+        return os.open(path, os.O_RDONLY)
+    found = os.stat(path, follow_symlinks=False)  # noqa: PTH116 - of many files
+    if not stat.S_ISLNK(found.st_mode):
+        return open_regular(path, path, found)
+    above, name = os.path.split(followed(path))
+    with Folder(above) as folder:
+        return folder.open(name)
+
+
+def followed(path: str) -> str:
+    """The real path of what a link leads to.
+
+    OSError: it leads nowhere. RebsyncError: it lies in a repository, and leads out of it.
+    """
+    real = os.path.realpath(path, strict=True)
+    tree = repository(os.path.realpath(os.path.dirname(path) or "."))  # noqa: PTH120
+    if tree is not None and not is_within(real, tree):
+        message = "this link leads out of the repository, and is not followed"
+        raise RebsyncError.of(path, "RS813", message, "put the file itself here")
+    return real
 
 
 def decode(path: str, data: bytes) -> Source:

@@ -6,40 +6,77 @@ import errno
 import os
 import re
 import secrets
-import shutil
 import signal
 import stat
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
-from rebsync.files import BOM, operating_on
+from rebsync.diagnostics import RebsyncError
+from rebsync.files import BOM, followed, operating_on
+from rebsync.folder import Folder, content_of, open_regular, refuse_special
 from rebsync.records import dataclass
 from rebsync.terminal import encoded
 
-_STAGED = re.compile(r"\..+\.[0-9a-f]{8}\.rebsync\.tmp\Z")
+STAGED = re.compile(r"\..+\.[0-9a-f]{8}\.rebsync\.tmp\Z")
 _ENDING = {"SIGINT", "SIGTERM", "SIGHUP"}
 
 
 def replace_text(path: str, text: str) -> bool:
     """Make `text` the content of a file; False if it was so already.
 
-    An existing file keeps its mode and byte order mark; a link is followed to the real file.
+    An existing file keeps its mode and byte order mark; a link is followed to the real file, unless
+    it leads out of the repository that it lies in.
     """
-    target = Path(path)
     data = encoded(text)
     with operating_on(path):
-        if target.exists() and not target.is_file() and not target.is_dir():
-            target.write_bytes(data)  # a device or a pipe cannot be replaced
+        if not _is_replaceable(path):
+            Path(path).write_bytes(data)  # a device or a pipe cannot be replaced
             return True
-        old = _content(target)
-        if old is not None and old.startswith(BOM):
-            data = BOM + data
-        if old == data:
-            return False
-        target.parent.stat()
-    _replace_all([_Replacement(target, data)])
+        above, name = os.path.split(real_path(path))
+        with Folder(above) as folder:
+            each = _Replacement(path, folder.handle, name, data)
+            old = _content(each)
+            if old is not None and old.startswith(BOM):
+                each.data = BOM + data
+            if old == each.data:
+                return False
+            _replace_all([each])
     return True
+
+
+def _is_replaceable(path: str) -> bool:
+    """Whether a path is not that of a device or a pipe, such as `/dev/stdout`, to write into.
+
+    RebsyncError: it is, behind a link in a repository.
+    """
+    try:
+        found = os.stat(path)  # noqa: PTH116
+    except OSError:
+        return True
+    if stat.S_ISREG(found.st_mode) or stat.S_ISDIR(found.st_mode):
+        return True
+    if not path.startswith("/dev/"):
+        real_path(path)
+    return False
+
+
+def real_path(path: str) -> str:
+    """The path of the file to write for `path`, without links.
+
+    OSError: there is no such directory. RebsyncError: a link leads out of its repository.
+    """
+    if os.path.islink(path):  # noqa: PTH114
+        return followed(path)
+    above, name = os.path.split(path)
+    return f"{os.path.realpath(above or '.', strict=True).rstrip(os.sep)}{os.sep}{name}"
+
+
+def told(path: str) -> str:
+    """The path of a file that was written, and where it is if that is a link."""
+    if not os.path.islink(path):  # noqa: PTH114
+        return path
+    return f"{path}, a link to {os.path.relpath(os.path.realpath(path))}"
 
 
 def replace_tree(
@@ -48,125 +85,181 @@ def replace_tree(
     executable: Collection[str] = (),
     remove: Collection[str] = (),
     ready: Callable[[], None] = lambda: None,
+    beside: Mapping[str, str] | None = None,
 ) -> tuple[str, ...]:
     """Make files below `root` hold `texts`, and delete `remove`: all of it or nothing.
 
-    `ready` is called at the last moment before; what it raises leaves all as it was.
+    `ready` is called at the last moment before; what it raises leaves all as it was. `beside` are
+    texts of files elsewhere, by their real paths. RebsyncError: a link is in the way.
 
     The paths are relative, with `/`. Gives those written or deleted; the others already were so.
-    Files appear in the order given, and go last: so a machine that dies half-way leaves a prefix.
+    Files appear in the order given, those elsewhere first, and go last: so a machine that dies
+    half-way leaves a prefix.
     """
-    folder = Path(root)
-    with operating_on(root):
-        writes = [
-            _Replacement(folder / name, encoded(text), name in executable)
-            for name, text in texts.items()
-            if _content(folder / name) != encoded(text)
-        ]
-        deletions = [_Replacement(folder / name, None) for name in remove]
-        replacements = writes + [each for each in deletions if each.path.is_file()]
-        if replacements and not folder.exists() and not folder.is_symlink():
-            _create_tree(folder, replacements)
-        else:
-            _replace_all(replacements, ready)
-    return tuple(each.path.relative_to(folder).as_posix() for each in replacements)
+    with operating_on(root), ExitStack() as folders:
+        if not os.path.isdir(root):  # noqa: PTH112
+            if texts:
+                _create_tree(Path(root), texts, executable)
+            return tuple(texts)
+        tree = folders.enter_context(Folder(root))
+        created: list[tuple[int, str]] = []
+        try:
+            replacements = list(_elsewhere(beside or {}, folders))
+            for name, text in texts.items():
+                with operating_on(f"{root}/{name}"):
+                    place = tree.place(name, created)
+                data = encoded(text)
+                replacements.append(
+                    _Replacement(f"{root}/{name}", *place, data, name in executable, name)
+                )
+            writes = [each for each in replacements if _content(each) != each.data]
+            deletions = [
+                _Replacement(f"{root}/{name}", *tree.place(name), None, key=name)
+                for name in remove
+                if tree.status(name) is not None
+            ]
+            _replace_all([*writes, *deletions], ready)
+        except BaseException:
+            _take_away(created)
+            raise
+    return tuple(each.key for each in (*writes, *deletions))
+
+
+def _elsewhere(texts: Mapping[str, str], folders: ExitStack) -> Iterator[_Replacement]:
+    for path, text in texts.items():
+        above, name = os.path.split(path)
+        folder = folders.enter_context(Folder(above))
+        yield _Replacement(path, folder.handle, name, encoded(text), key=path)
 
 
 @dataclass(slots=True)
 class _Replacement:
-    """One file to be: its new bytes (None to delete it), and what is staged beside it."""
+    """One file to be: its new bytes (None to delete it), and what is staged beside it.
 
-    path: Path
+    `folder` is the handle of its directory, in which all happens; `path` is for messages only.
+    """
+
+    path: str
+    folder: int
+    name: str
     data: bytes | None
     executable: bool = False
-    staged: Path | None = None
-    saved: Path | None = None
+    key: str = ""
+    staged: str | None = None
+    saved: str | None = None
     existed: bool = False
     done: bool = False
-
-    @property
-    def real(self) -> Path:
-        return self.path.resolve() if self.path.is_symlink() else self.path
 
     @property
     def mode(self) -> int:
         return 0o777 if self.executable else 0o666
 
+    @property
+    def status(self) -> os.stat_result | None:
+        """What is known of the file that is there, if one is. RebsyncError: it is a link."""
+        try:
+            found = os.stat(self.name, dir_fd=self.folder, follow_symlinks=False)
+        except FileNotFoundError:
+            return None
+        if stat.S_ISLNK(found.st_mode):
+            message = "this is a link, and rebsync writes through none here"
+            raise RebsyncError.of(self.path, "RS813", message, "put the file itself here")
+        refuse_special(self.path, found)
+        return found
 
-def _content(path: Path) -> bytes | None:
-    return path.read_bytes() if path.is_file() else None
+
+def _content(each: _Replacement) -> bytes | None:
+    with operating_on(each.path):
+        found = each.status
+        if found is None:
+            return None
+        return content_of(open_regular(each.name, each.path, found, each.folder))
 
 
-def _create_tree(root: Path, replacements: list[_Replacement]) -> None:
+def _create_tree(root: Path, texts: Mapping[str, str], executable: Collection[str]) -> None:
     """A tree that is not there yet appears in one step."""
     created: list[Path] = []
-    stage = _beside(root)
+    _refuse_link(root)
     try:
-        _make_folder(root.parent, created)
-        for each in replacements:
-            path = stage / each.path.relative_to(root)
-            path.parent.mkdir(parents=True, exist_ok=True)
-            _write(path, each.data or b"", each.mode)
-        stage.rename(root)
+        make_folder(root.parent, created)
+        with Folder(str(root.parent)) as above:
+            stage = _beside(root.name)
+            os.mkdir(stage, dir_fd=above.handle)
+            try:
+                with Folder(str(root), above.take(stage)) as tree:
+                    for name, text in texts.items():
+                        place = tree.place(name, [])
+                        mode = 0o777 if name in executable else 0o666
+                        _write(*place, encoded(text), mode)
+                os.rename(stage, root.name, src_dir_fd=above.handle, dst_dir_fd=above.handle)
+            except BaseException:
+                above.remove(stage)
+                raise
+            _sync_directory(above.handle)
     except BaseException:
-        shutil.rmtree(stage, ignore_errors=True)
         _undo([], created)
         raise
-    _sync_directory(root.parent)
+
+
+def _refuse_link(root: Path) -> None:
+    """RebsyncError: a link that leads nowhere is where a directory is to be."""
+    if root.is_symlink():
+        message = "this is a link, and it leads to no directory"
+        raise RebsyncError.of(str(root), "RS813", message)
 
 
 def _replace_all(
     replacements: list[_Replacement], ready: Callable[[], None] = lambda: None
 ) -> None:
     """Stage every file, then put all in place; on any failure the old ones come back."""
-    created: list[Path] = []
     try:
         for each in replacements:
-            with operating_on(str(each.path)):
-                _stage(each, created)
+            with operating_on(each.path):
+                _stage(each)
                 if len(replacements) > 1:
                     _save(each)
         with _undisturbed():
             ready()
             _put_all(replacements)
-            created = []
     except BaseException:
         with _undisturbed():
-            _undo(replacements, created)
+            _undo(replacements, [])
         raise
-    for folder in {each.real.parent for each in replacements}:
+    for folder in {each.folder for each in replacements}:
         _sync_directory(folder)
 
 
-def _stage(each: _Replacement, created: list[Path]) -> None:
-    real = each.real
-    if real.is_dir():
-        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
-    if real.exists() and not os.access(real, os.W_OK):
+def _stage(each: _Replacement) -> None:
+    found = each.status
+    if found is not None and not os.access(each.name, os.W_OK, dir_fd=each.folder):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
     if each.data is None:
         return
-    each.existed = real.exists()
-    _make_folder(real.parent, created)
-    each.staged = _beside(real)
-    _write(each.staged, each.data, each.mode)
-    if each.existed:
-        kept = stat.S_IMODE(real.stat().st_mode)
-        each.staged.chmod(kept | (kept & 0o444) >> 2 if each.executable else kept)
+    each.existed = found is not None
+    each.staged = _beside(each.name)
+    kept = None
+    if found is not None:
+        kept = stat.S_IMODE(found.st_mode)
+        kept |= (kept & 0o444) >> 2 if each.executable else 0
+    _write(each.folder, each.staged, each.data, each.mode, kept)
 
 
 def _save(each: _Replacement) -> None:
     """Keep the old file under a second name until all new ones are in place."""
-    real = each.real
-    if real.exists():
-        each.saved = _beside(real)
-        try:
-            each.saved.hardlink_to(real)
-        except OSError:
-            shutil.copy2(real, each.saved)
+    found = each.status
+    if found is None:
+        return
+    each.saved = _beside(each.name)
+    at = each.folder
+    try:
+        os.link(each.name, each.saved, src_dir_fd=at, dst_dir_fd=at, follow_symlinks=False)
+    except OSError:
+        data = content_of(open_regular(each.name, each.path, found, at))
+        _write(at, each.saved, data, 0o600, stat.S_IMODE(found.st_mode))
+        os.utime(each.saved, ns=(found.st_atime_ns, found.st_mtime_ns), dir_fd=at)
 
 
-def _make_folder(folder: Path, created: list[Path]) -> None:
+def make_folder(folder: Path, created: list[Path]) -> None:
     missing = []
     while not folder.exists():
         missing.append(folder)
@@ -183,123 +276,78 @@ def _make_folder(folder: Path, created: list[Path]) -> None:
 
 def _put_all(replacements: list[_Replacement]) -> None:
     for each in replacements:
-        with operating_on(str(each.path)):
+        with operating_on(each.path):
             _put(each)
-    saved = [each.saved for each in replacements]
+    saved = [(each.folder, each.saved) for each in replacements]
     for each in replacements:
         each.done, each.saved, each.staged = False, None, None
-    for path in saved:
-        _discard(path)
+    for folder, name in saved:
+        _discard(folder, name)
 
 
 def _put(each: _Replacement) -> None:
-    real = each.real
     each.done = True
     if each.staged:
-        each.staged.replace(real)
+        at = each.folder
+        os.replace(each.staged, each.name, src_dir_fd=at, dst_dir_fd=at)
     else:
-        real.unlink()
+        os.unlink(each.name, dir_fd=each.folder)
 
 
 def _undo(replacements: list[_Replacement], created: list[Path]) -> None:
     for each in reversed(replacements):
+        at = each.folder
         if each.done and each.saved:
             with suppress(OSError):
-                each.saved.replace(each.real)
-        elif each.done and not each.existed and each.staged and not each.staged.exists():
-            _discard(each.real)
-        _discard(each.saved)
-        _discard(each.staged)
+                os.replace(each.saved, each.name, src_dir_fd=at, dst_dir_fd=at)
+        elif each.done and not each.existed and each.staged and not _is_there(at, each.staged):
+            _discard(at, each.name)
+        _discard(at, each.saved)
+        _discard(at, each.staged)
     for folder in reversed(created):
         with suppress(OSError):
             folder.rmdir()
 
 
-def _discard(path: Path | None) -> None:
-    if path:
+def _take_away(created: list[tuple[int, str]]) -> None:
+    """Takes directories away again that were made, and that nothing is in."""
+    for folder, name in reversed(created):
         with suppress(OSError):
-            path.unlink()
+            os.rmdir(name, dir_fd=folder)
 
 
-def _beside(path: Path) -> Path:
-    return path.with_name(f".{path.name[:100]}.{secrets.token_hex(4)}.rebsync.tmp")
+def _is_there(folder: int, name: str) -> bool:
+    try:
+        os.stat(name, dir_fd=folder, follow_symlinks=False)
+    except OSError:
+        return False
+    return True
 
 
-def _write(path: Path, data: bytes, mode: int) -> None:
-    """A new file, on the disk for good when this returns."""
-    handle = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode)
+def _discard(folder: int, name: str | None) -> None:
+    if name:
+        with suppress(OSError):
+            os.unlink(name, dir_fd=folder)
+
+
+def _beside(name: str) -> str:
+    return f".{name[:100]}.{secrets.token_hex(4)}.rebsync.tmp"
+
+
+def _write(folder: int, name: str, data: bytes, mode: int, exact: int | None = None) -> None:
+    """A new file, on the disk for good when this returns; `exact` is its mode without umask."""
+    handle = os.open(name, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode, dir_fd=folder)
     with os.fdopen(handle, "wb") as file:
+        if exact is not None:
+            os.fchmod(handle, exact)
         file.write(data)
         file.flush()
-        os.fsync(file.fileno())
+        os.fsync(handle)
 
 
-def _sync_directory(folder: Path) -> None:
+def _sync_directory(folder: int) -> None:
     with suppress(OSError):
-        handle = os.open(folder, os.O_RDONLY)
-        try:
-            os.fsync(handle)
-        finally:
-            os.close(handle)
-
-
-# --- others who write, and interruptions ---------------------------------------------------------
-
-
-@contextmanager
-def alone_in(root: str, *files: str) -> Iterator[None]:
-    """One process at a time writes the tree `root`, and `files` that may lie elsewhere.
-
-    What a killed one left behind is taken away.
-    """
-    folder = Path(root)
-    created: list[Path] = []
-    with operating_on(root):
-        _make_folder(folder.parent, created)
-    folders = {os.path.realpath(path.parent) for path in (folder, *map(Path, files))}
-    try:
-        with ExitStack() as locks:
-            for each in sorted(folders):  # in one order, so that no two wait for each other
-                locks.enter_context(_locked(Path(each)))
-            _clear(folder)
-            for file in map(Path, files):
-                _clear_beside(file.resolve())
-            yield
-    finally:
-        _undo([], created)
-
-
-@contextmanager
-def _locked(folder: Path) -> Iterator[None]:
-    """Holds the folder's lock, where the system has such locks."""
-    handle = None
-    with suppress(OSError, ImportError):
-        import fcntl
-
-        handle = os.open(folder, os.O_RDONLY)
-        fcntl.flock(handle, fcntl.LOCK_EX)
-    try:
-        yield
-    finally:
-        if handle is not None:
-            os.close(handle)
-
-
-def _clear(root: Path) -> None:
-    with suppress(OSError):
-        for stage in root.parent.glob(f".{root.name[:100]}.*.rebsync.tmp"):
-            if _STAGED.match(stage.name):
-                shutil.rmtree(stage, ignore_errors=True)
-        for staged in root.rglob(".*.rebsync.tmp"):
-            if _STAGED.match(staged.name):
-                _discard(staged)
-
-
-def _clear_beside(file: Path) -> None:
-    with suppress(OSError):
-        for staged in file.parent.glob(f".{file.name[:100]}.*.rebsync.tmp"):
-            if _STAGED.match(staged.name) and staged.is_file():
-                _discard(staged)
+        os.fsync(folder)
 
 
 @contextmanager

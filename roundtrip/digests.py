@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import hashlib
-import os
-from pathlib import Path
+from collections.abc import Iterator
 
-from rebsync.files import BOM
+from rebsync.diagnostics import RebsyncError
+from rebsync.files import BOM, operating_on, read_bytes
 from rebsync.records import dataclass
 from rebsync.reverse.files.packages import Listing, is_read
 from rebsync.reverse.files.python_files import may_be_script
+from rebsync.reverse.files.stores import contents
 from rebsync.roundtrip.manifest import BASE_MODEL
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
 from rebsync.roundtrip.units import listing_of
-
-_PART = 1 << 16  # bytes that are read at once; much more is memory from the system for each file
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,11 +51,9 @@ def standing(kept: Kept, record: Record | None) -> Standing:
         listing.files = {name: path.removeprefix("./") for name, path in listing.files.items()}
     digests: dict[str, str] = {}
     changed = []
-    for name, path in listing.files.items():
-        try:
-            data = _content(path)
-        except OSError as error:
-            digests[name] = f"unreadable: {error.strerror}"
+    for name, data in _contents(listing):
+        if isinstance(data, str):
+            digests[name] = f"unreadable: {data}"
             changed.append(name)
             continue
         digest = digests[name] = digest_of(data)
@@ -67,16 +64,17 @@ def standing(kept: Kept, record: Record | None) -> Standing:
     return Standing(listing, digests, tuple(changed), tuple(missing))
 
 
-def _content(path: str) -> bytes:
-    """The bytes of a file, without the detour that a path object is for many thousand files."""
-    handle = os.open(path, os.O_RDONLY)
-    try:
-        parts = [os.read(handle, _PART)]
-        while len(parts[-1]) == _PART:
-            parts.append(os.read(handle, _PART))
-        return b"".join(parts)
-    finally:
-        os.close(handle)
+def _contents(listing: Listing) -> Iterator[tuple[str, bytes | str]]:
+    """The bytes of each file, or why it has none."""
+    with operating_on(listing.root), contents(listing) as files:
+        for name in listing.files:
+            try:
+                data: bytes | str = files.read(name)
+            except OSError as error:
+                data = str(error.strerror)
+            except RebsyncError as error:
+                data = error.findings[0].diagnostics[0].message
+            yield name, data
 
 
 def _counts(name: str) -> bool:
@@ -91,8 +89,8 @@ def _counts(name: str) -> bool:
 def is_base_whole(kept: Kept, record: Record) -> bool:
     """Whether the model as of the last time that both were in step is as it was recorded."""
     try:
-        return is_text_of(Path(kept.root, BASE_MODEL).read_bytes(), record.digest)
-    except OSError:
+        return is_text_of(read_bytes(f"{kept.root}/{BASE_MODEL}"), record.digest)
+    except RebsyncError:
         return False
 
 

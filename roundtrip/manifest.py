@@ -9,11 +9,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rebsync import __version__
+from rebsync.diagnostics import RebsyncError
+from rebsync.files import RECORDS, read_source
 
 if TYPE_CHECKING:
     from rebsync.config import Config
 
-FOLDER = ".rebsync"
+FOLDER = RECORDS
 MANIFEST = f"{FOLDER}/manifest.json"
 BASE_MODEL = f"{FOLDER}/base.rebeca"
 BASE = f"{FOLDER}/base/"
@@ -23,9 +25,9 @@ FORMAT = 1
 def made_from(folder: Path) -> str | None:
     """The name of the model that a package was made from; None where nothing tells."""
     try:
-        record = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
+        record = json.loads(read_source(f"{folder}/{MANIFEST}").text)
         return str(record["model"]["name"])
-    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+    except (RebsyncError, ValueError, KeyError, TypeError, RecursionError):
         return None
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from rebsync.diagnostics import Diagnostic, Findings
-from rebsync.files import read_source
+from rebsync.files import names_below, source_below
 from rebsync.records import dataclass
 from rebsync.roundtrip.markers import user_blocks, with_user_blocks
 from rebsync.roundtrip.merge_files import renamed_files
@@ -58,14 +58,14 @@ def merged_code(
     refused: list[Findings] = []
     renamed = renamed_files(root, base, theirs)
     for new, old in renamed.items():
-        texts[new], stages = _renamed(Path(root, old), base[old], theirs[new], favour)
+        texts[new], stages = _renamed(root, old, base[old], theirs[new], favour)
         texts[old] = None
         conflicts |= {new: stages} if stages is not None else {}
     for path in sorted({*base, *theirs} - {*renamed, *renamed.values()}):
         if base.get(path) == theirs.get(path):
             continue
         here = moved.get(path, path)
-        merged = _file(Path(root, here), base.get(path), theirs.get(path), favour)
+        merged = _file(root, here, base.get(path), theirs.get(path), favour)
         match merged:
             case Findings():
                 refused.append(merged)
@@ -79,16 +79,17 @@ def merged_code(
 
 
 def _file(
-    path: Path, base: str | None, theirs: str | None, favour: Favour
+    root: str, name: str, base: str | None, theirs: str | None, favour: Favour
 ) -> tuple[str, Stages | None] | Findings | None:
     """The text of one file, its conflict if there is one; None where it goes."""
-    if not path.is_file():
+    path, source = Path(root, name), source_below(root, name)
+    if source is None:
         if theirs is None:
             return None
         if base is None or favour is Favour.MODEL:
             return theirs, None
         return _refusal(path, "this generated file is to change, and it is not there")
-    ours = read_source(str(path)).text
+    ours = source.text
     base, theirs = (_as_here(text, ours) for text in (base, theirs))
     if theirs is None:
         if ours == base or favour is Favour.MODEL:
@@ -101,9 +102,12 @@ def _file(
     return merged.text, stages
 
 
-def _renamed(path: Path, base: str, theirs: str, favour: Favour) -> tuple[str, Stages | None]:
+def _renamed(
+    root: str, name: str, base: str, theirs: str, favour: Favour
+) -> tuple[str, Stages | None]:
     """The edited file of a class that has another name now, with all that is generated now."""
-    ours = read_source(str(path)).text
+    source = source_below(root, name)
+    ours = source.text if source is not None else base
     base, theirs = (_with_line_ends(text, ours) for text in (base, theirs))
     merged = merged_text(ours, base, theirs, LABELS, favour.value)
     return merged.text, Stages(base, ours, theirs) if merged.conflicts else None
@@ -159,9 +163,6 @@ def _ancestors(
 
 def recorded_base(root: str, folder: str) -> dict[str, str]:
     """The texts that were generated last time, as far as they are kept."""
-    base = Path(root, folder)
-    return {
-        path.relative_to(base).as_posix(): read_source(str(path)).text
-        for path in sorted(base.rglob("*"))
-        if path.is_file()
-    }
+    names = names_below(root, folder.rstrip("/"))
+    found = ((name, source_below(root, folder + name)) for name in names)
+    return {name: source.text for name, source in found if source is not None}

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from difflib import SequenceMatcher
 from pathlib import Path, PurePosixPath
 
-from rebsync.files import read_source
+from rebsync.files import source_below
 from rebsync.roundtrip.digests import Standing
 from rebsync.roundtrip.recorded import Record
 
@@ -28,7 +28,7 @@ def renamed_files(root: str, base: Mapping[str, str], theirs: Mapping[str, str])
 
     The class that they are of has another name now, so that the edits are to be in its new file.
     """
-    gone = [p for p in sorted(base.keys() - theirs.keys()) if _is_edited(Path(root, p), base[p])]
+    gone = [p for p in sorted(base.keys() - theirs.keys()) if _is_edited(root, p, base[p])]
     come = [p for p in sorted(theirs.keys() - base.keys()) if not Path(root, p).exists()]
     found: dict[str, str] = {}
     for old in gone:
@@ -40,8 +40,9 @@ def renamed_files(root: str, base: Mapping[str, str], theirs: Mapping[str, str])
     return found
 
 
-def _is_edited(path: Path, generated: str) -> bool:
-    return path.is_file() and read_source(str(path)).text.replace("\r\n", "\n") != generated
+def _is_edited(root: str, name: str, generated: str) -> bool:
+    source = source_below(root, name)
+    return source is not None and source.text.replace("\r\n", "\n") != generated
 
 
 def _kind(name: str) -> tuple[str, str]:

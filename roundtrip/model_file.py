@@ -7,9 +7,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from rebsync.diagnostics import RebsyncError
+from rebsync.files import read_bytes
 from rebsync.roundtrip.digests import is_text_of
 from rebsync.roundtrip.packages import SKIPPED, SUFFIX, Kept
 from rebsync.roundtrip.recorded import Record
+from rebsync.trees import repository
+from rebsync.writing import told
 
 _NEAR = ("..", ".", "../models", "../model", "models", "model")
 
@@ -22,10 +25,20 @@ def model_of(kept: Kept, record: Record) -> str:
     if kept.model is not None:
         return kept.model
     tried = _tried(kept.root, record)
-    for path in tried:
-        if Path(path).is_file():
+    for path in filter(os.path.lexists, tried):
+        if kept.holds(os.path.realpath(path)):
             return path
+        raise _outside(kept, path)
     raise _lost(kept, record, tried)
+
+
+def _outside(kept: Kept, path: str) -> RebsyncError:
+    """A package may not say of a file elsewhere that this is its model."""
+    where = f"the repository {kept.tree}"
+    if repository(kept.tree) is None:
+        where = f"{kept.tree}, and no repository is there"
+    message = f"its model would be {told(path)}, which is outside of {where}"
+    return RebsyncError.of(kept.root, "RS815", message, f"if that is meant, --model {path} says so")
 
 
 def _tried(root: str, record: Record) -> list[str]:
@@ -56,6 +69,6 @@ def _models(tree: str) -> Iterator[str]:
 
 def _has_text(path: str, digest: str) -> bool:
     try:
-        return is_text_of(Path(path).read_bytes(), digest)
-    except OSError:
+        return is_text_of(read_bytes(path), digest)
+    except RebsyncError:
         return False

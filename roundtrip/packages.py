@@ -5,13 +5,14 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from functools import cache
+from dataclasses import replace
 from pathlib import Path
 
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import STANDARD_INPUT, operating_on, os_mistake
 from rebsync.records import dataclass
 from rebsync.roundtrip.manifest import FOLDER
+from rebsync.trees import is_within, repository, tree_of
 
 SUFFIX = ".rebeca"
 SETTINGS = "rebsync.toml"
@@ -22,13 +23,24 @@ SKIPPED = frozenset({"node_modules", "__pycache__"})
 class Kept:
     """A package with a model; `model` is its path where a user or settings say it.
 
-    `tree` is the directory that holds all that belongs together: a repository, or else what is
-    around the package.
+    `tree` is the real directory that holds all that belongs together: a repository, or else what
+    is around the package. `named` is the directory that a user named, or that of the file.
     """
 
     root: str
     tree: str
     model: str | None = None
+    named: str | None = None
+
+    def holds(self, real: str) -> bool:
+        """Whether a real path is of what belongs together, so that the package may speak of it."""
+        if is_within(real, self.tree):
+            return True
+        return (
+            repository(self.tree) is None
+            and self.named is not None
+            and (is_within(real, os.path.realpath(self.named)))
+        )
 
 
 def find(paths: Iterable[str], model: str | None = None) -> Iterator[Kept]:
@@ -38,7 +50,8 @@ def find(paths: Iterable[str], model: str | None = None) -> Iterator[Kept]:
     """
     seen: set[tuple[int, int]] = set()
     for path in paths:
-        every = list(_packages(path, model))
+        named = path if Path(path or ".").is_dir() else str(Path(path).parent)
+        every = [replace(kept, named=named) for kept in _packages(path, model)]
         if not every:
             message = "there is no package here that was made from a model"
             hint = f"`rebsync generate` makes one, with a folder {FOLDER} that is to be committed"
@@ -162,6 +175,7 @@ def _entries(folder: str, top: bool) -> tuple[list[str], list[str]]:
     for entry in every:
         try:
             is_folder = entry.is_dir(follow_symlinks=False) or _is_link_to_package(entry)
+            is_folder |= entry.name == FOLDER and entry.is_dir()  # if a link, reading it says so
         except OSError:
             continue
         if not is_folder:
@@ -180,26 +194,16 @@ def _unrecorded(folder: str, roots: list[str]) -> Iterator[Kept]:
     prefix = "" if folder == "." else f"{folder.rstrip('/')}/"
     if any(root.startswith(prefix) for root in roots):
         return
-    from rebsync.config import Config, parse_config
-    from rebsync.files import read_source
+    from rebsync.config import Config, settings_beside
     from rebsync.forward.generate import package_name
 
     config = Config()
     with suppress(RebsyncError):
-        config = parse_config(read_source(f"{prefix}{SETTINGS}"))
+        _, config = settings_beside(f"{prefix}{SETTINGS}")
     for model in sorted(Path(folder).glob(f"*{SUFFIX}")):
         root = f"{prefix}{package_name(model.stem, config)}"
         if Path(root, "package.xml").is_file():
             yield Kept(root, tree_of(root), f"{prefix}{model.name}")
-
-
-@cache
-def _repository(folder: str) -> str | None:
-    """The working tree of git that a directory is in."""
-    if (Path(folder) / ".git").exists():
-        return folder
-    above = str(Path(folder).parent)
-    return _repository(above) if above != folder else None
 
 
 def path_to_model(model: str, root: str) -> str:
@@ -211,17 +215,11 @@ def path_to_model(model: str, root: str) -> str:
     there, here = Path(os.path.realpath(model)), Path(os.path.realpath(root))
     if model == STANDARD_INPUT or there.parent == here.parent:
         return ""
-    tree = _repository(str(here)) or str(Path.cwd())
-    if _repository(str(there)) != _repository(str(here)) or not _are_below(tree, there, here):
+    tree = repository(str(here)) or str(Path.cwd())
+    if repository(str(there)) != repository(str(here)) or not _are_below(tree, there, here):
         return ""
     return Path(os.path.relpath(there, here)).as_posix()
 
 
 def _are_below(tree: str, *paths: Path) -> bool:
     return all(Path(tree) in path.parents for path in paths)
-
-
-def tree_of(root: str) -> str:
-    """The directory with all that belongs to a package."""
-    here = os.path.realpath(root)
-    return _repository(here) or str(Path(here).parent)

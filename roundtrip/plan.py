@@ -7,7 +7,7 @@ from enum import Enum
 from itertools import count
 from pathlib import Path
 
-from rebsync.files import read_source
+from rebsync.files import names_below, source_below
 from rebsync.patches import patch
 from rebsync.records import dataclass
 from rebsync.roundtrip.manifest import BASE, FOLDER
@@ -55,15 +55,14 @@ def plan(folder: Path, files: Mapping[str, str]) -> tuple[Step, ...]:
     """
     ordered = sorted(files.items(), key=lambda file: (file[0].startswith(f"{FOLDER}/"), file[0]))
     steps = [_step(folder, path, text) for path, text in ordered]
-    base = folder / FOLDER / "base"
-    once = {p.relative_to(base).as_posix() for p in base.rglob("*") if p.is_file()}
+    once = set(names_below(str(folder), BASE.rstrip("/")))
     for path in sorted(once - set(files)):
         steps += _stale(folder, path)
     return tuple(steps)
 
 
 def _step(folder: Path, path: str, text: str) -> Step:
-    old = _read(folder / path)
+    old = _read(folder, path)
     if old is None:
         return Step(path, Action.CREATE, None, text)
     if path.startswith(f"{FOLDER}/"):
@@ -71,7 +70,7 @@ def _step(folder: Path, path: str, text: str) -> Step:
     new = with_user_blocks(text, user_blocks(old))
     if old == new:
         return Step(path, Action.UNCHANGED, old, new)
-    base = _read(folder / (BASE + path))
+    base = _read(folder, BASE + path)
     if base is not None and old == with_user_blocks(base, user_blocks(old)):
         return Step(path, Action.UPDATE, old, new)
     if base == text:
@@ -96,7 +95,7 @@ def _merged(path: str, old: str, base: str | None, text: str) -> Step:
 
 def _stale(folder: Path, path: str) -> list[Step]:
     """A file that is generated no more goes, unless it was edited; so does its base."""
-    old, base = _read(folder / path), _read(folder / (BASE + path))
+    old, base = _read(folder, path), _read(folder, BASE + path)
     steps = []
     if old is not None:
         edited = base is None or old != base
@@ -115,12 +114,11 @@ def name_to_keep(folder: Path, step: Step) -> str:
     """The name under which an edited file is kept: `FILE.orig`, `FILE.orig.2` and so on."""
     for number in count(1):
         name = f"{step.path}.orig" + (f".{number}" if number > 1 else "")
-        if not (folder / name).exists() or _read(folder / name) == step.old:
+        if not (folder / name).exists() or _read(folder, name) == step.old:
             return name
     raise AssertionError("count() does not end")
 
 
-def _read(path: Path) -> str | None:
-    if not path.is_file():
-        return None
-    return read_source(str(path)).text
+def _read(folder: Path, name: str) -> str | None:
+    source = source_below(str(folder), name)
+    return source.text if source is not None else None

@@ -9,11 +9,12 @@ from rebsync.diagnostics import Findings, RebsyncError
 from rebsync.roundtrip.digests import is_base_whole, standing
 from rebsync.roundtrip.manifest import BASE_MODEL
 from rebsync.roundtrip.merge_models import whole
-from rebsync.roundtrip.packages import Kept, tree_of
+from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.plan import Action, Step
 from rebsync.roundtrip.recorded import read_record
 from rebsync.roundtrip.sides import Given
 from rebsync.source import Source
+from rebsync.trees import tree_of
 
 _WAY_OUT = "--force keeps edited files as FILE.orig"
 _EDITED = (Action.KEEP, Action.MERGE)

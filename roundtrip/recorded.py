@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Iterable
-from pathlib import Path
 from typing import Any
 
 from rebsync import __version__
@@ -47,7 +47,7 @@ def read_record(root: str) -> Record:
     RebsyncError: it is not there, damaged, or in a format of a newer rebsync.
     """
     path = f"{root}/{MANIFEST}"
-    if not Path(path).is_file():
+    if not os.path.lexists(path):
         message = "the manifest is missing: what the package was made from is not known"
         raise RebsyncError.of(path, "RS961", message, _AGAIN)
     source = read_source(path)
@@ -98,7 +98,7 @@ def record_in(source: Source, data: object) -> Record:
             "model": {"name": str(name), "digest": str(digest)},
             "options": dict(options),
             "files": dict(files),
-        } if all(isinstance(k, str) and isinstance(v, str) for k, v in files.items()):
+        } if _is_name(name) and all(map(_is_file, files.items())):
             path, known = _path(data), _in_step(data)
             if not _are_settings(options):
                 raise _damaged(source, NOWHERE, "its options are no settings that generate knows")
@@ -114,6 +114,20 @@ def _are_settings(options: dict[str, Any]) -> bool:
     target = options.get("target", TARGETS[0])
     known = {**options, "target": TARGETS[0]}  # which others there are is told elsewhere
     return isinstance(target, str) and config_of_record(known) is not None
+
+
+def _is_name(name: str) -> bool:
+    """Whether this is the name of a file, and no path that leads elsewhere."""
+    return name not in ("", ".", "..") and not {"/", "\0"} & set(name)
+
+
+def _is_file(item: tuple[object, object]) -> bool:
+    """Whether this is a file of a package with its digest."""
+    match item:
+        case (str() as path, str()):
+            return all(map(_is_name, path.split("/")))
+        case _:
+            return False
 
 
 def _path(data: object) -> str:

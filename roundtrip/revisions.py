@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import os
 import posixpath
-import subprocess
-from dataclasses import replace
+import stat
+from collections.abc import Iterator
+from contextlib import suppress
 from itertools import islice
-from pathlib import Path, PurePosixPath
-from tempfile import TemporaryDirectory
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rebsync.diagnostics import RebsyncError
-from rebsync.files import STANDARD_INPUT, decode, read_bytes
+from rebsync.files import STANDARD_INPUT, decode, operating_on
+from rebsync.git import finished, git, git_without_files
+from rebsync.git_objects import revision as objects_of
+from rebsync.reverse.files.stores import Disk, Store, join
 from rebsync.roundtrip.difference import Place
 from rebsync.roundtrip.models import Code, model_given, parsed
 from rebsync.roundtrip.sides import Given, Unread
@@ -34,48 +37,59 @@ def read_side(name: str) -> Code:
     if name == STANDARD_INPUT:
         return Code(model_given(name), ())
     if os.path.lexists(name):
-        return _path(name, name)
+        return _path(name)
     revision, colon, path = name.partition(":")
     if not colon or not revision:
         raise RebsyncError.of(name, "RS801", "no such file or directory", _FORMS)
     return _revision(name, revision, path)
 
 
-def _path(path: str, shown: str, root: tuple[str, str] | None = None) -> Code:
-    """What a path has; `root` is a directory around it, and what that is called."""
-    if not Path(path).is_dir():
-        return _model(path, shown) if path.endswith(MODEL) else _code(path, shown, root)
-    models = sorted(p.name for p in Path(path).iterdir() if p.suffix == MODEL and p.is_file())
-    if models and not (Path(path) / "package.xml").is_file():
+def _path(path: str, store: Store | None = None) -> Code:
+    """What a path has, on the disk or in a revision."""
+    files = store or Disk()
+    with operating_on(path):
+        if not files.is_folder(path):
+            return _model(path, store) if path.endswith(MODEL) else _code(path, store)
+        models = sorted(_models(files, path))
+    if models and not files.exists(join(path, MANIFEST)):
         if len(models) == 1:
-            return _model(str(Path(path, models[0])), _below(shown, models[0]))
+            return _model(_below(path, models[0]), store)
         hint = f"name one of them: {', '.join(models)}"
-        raise RebsyncError.of(shown, "RS943", "there are several models here", hint)
-    return _code(path, shown, root)
+        raise RebsyncError.of(path, "RS943", "there are several models here", hint)
+    return _code(path, store)
 
 
-def _below(shown: str, inside: str) -> str:
+def _models(files: Store, folder: str) -> Iterator[str]:
+    """The names of the models in a directory."""
+    for entry in files.entries(folder):
+        if Path(entry.name).suffix == MODEL:
+            with suppress(OSError):  # a link that leads nowhere
+                if stat.S_ISREG(entry.stat().st_mode):
+                    yield entry.name
+
+
+def _below(folder: str, name: str) -> str:
     """A path in a directory, as the user named that."""
-    return f"{shown}{inside}" if shown.endswith((":", "/")) else f"{shown}/{inside}"
+    return f"{folder}{name}" if folder.endswith("/") else join(folder, name)
 
 
-def _model(path: str, shown: str) -> Code:
-    if path == shown:
+def _model(path: str, store: Store | None) -> Code:
+    if store is None:
         return Code(model_given(path), ())
-    source = decode(shown, read_bytes(path))
+    source = decode(path, store.read(path))
     return Code(Given(parsed(source), source), ())
 
 
-def _code(path: str, shown: str, root: tuple[str, str] | None) -> Code:
+def _code(path: str, store: Store | None) -> Code:
     """What the code of a package or of one file says."""
     from rebsync.reverse.findings import Grade
     from rebsync.reverse.recovery import extract
     from rebsync.reverse.report import diagnostics
 
-    chosen = _chosen(path, shown, root or (path, shown))
+    chosen = _chosen(path, store)
     extracted = extract(chosen.files, chosen.only)
     if not extracted.model.classes:
-        raise RebsyncError.of(shown, "RS943", "no class of a model was found here")
+        raise RebsyncError.of(path, "RS943", "no class of a model was found here")
     findings = (*chosen.findings, *extracted.findings)
     unread = tuple(
         Unread(Place(f.source, f.span), f.why, f.within)
@@ -83,32 +97,23 @@ def _code(path: str, shown: str, root: tuple[str, str] | None) -> Code:
         if f.grade is Grade.UNREADABLE
     )
     partial = chosen.only is not None and extracted.model.main is None
-    given = Given(extracted.model, Source(shown, ""), unread, partial)
+    given = Given(extracted.model, Source(path, ""), unread, partial)
     return Code(given, diagnostics(findings))
 
 
-def _chosen(path: str, shown: str, root: tuple[str, str]) -> Chosen:
-    """The files of the one package that a path stands for, under the names to be told."""
+def _chosen(path: str, store: Store | None) -> Chosen:
+    """The files of the one package that a path stands for."""
     from rebsync.reverse.files.reading import packages, read
     from rebsync.roundtrip.units import both_at
 
-    def named(source: Source) -> Source:
-        inside = source.path.removeprefix(root[0]).lstrip("/")
-        return Source(_below(root[1], inside) if inside else root[1], source.text)
-
-    both = both_at(path)
-    found = [read(both)] if both is not None else list(islice(packages([path]), 2))
+    both = both_at(path, store)
+    found = [read(both)] if both is not None else list(islice(packages([path], store), 2))
     if not found:
-        raise RebsyncError.of(shown, "RS943", "no class of a model was found here")
+        raise RebsyncError.of(path, "RS943", "no class of a model was found here")
     if len(found) > 1:
-        roots = [f"{shown}{f.root.removeprefix(path)}" for f in found]
-        hint = f"name one of them, such as {' or '.join(roots)}"
-        raise RebsyncError.of(shown, "RS943", "there are several packages here", hint)
-    if path == shown:
-        return found[0]
-    files = {inside: named(source) for inside, source in found[0].files.items()}
-    findings = tuple(replace(f, source=named(f.source)) for f in found[0].findings)
-    return replace(found[0], files=files, findings=findings, root=shown)
+        hint = f"name one of them, such as {' or '.join(f.root for f in found)}"
+        raise RebsyncError.of(path, "RS943", "there are several packages here", hint)
+    return found[0]
 
 
 # --- revisions ----------------------------------------------------------------------------------
@@ -116,84 +121,50 @@ def _chosen(path: str, shown: str, root: tuple[str, str]) -> Chosen:
 
 def _revision(name: str, revision: str, path: str) -> Code:
     """A model or package of a revision: `path` is from the top of the repository, or from here."""
-    if _git(name, "rev-parse", "--verify", "--quiet", f"{revision}^{{commit}}") is None:
+    top = None if revision.startswith("-") else _id(name, f"{revision}^{{commit}}^{{tree}}")
+    if top is None:
         message = f'no such file, and git knows no revision "{revision}" here'
-        raise RebsyncError.of(name, "RS801", message, _FORMS)
-    for tried in dict.fromkeys((path, f"./{path}")):
-        kind = _git(name, "cat-file", "-t", f"{revision}:{tried}")
-        if kind is not None:
-            return _object(name, f"{revision}:{tried}", path, kind.decode().strip())
+        raise RebsyncError.of(name, "RS801", message, _trust() or _FORMS)
+    here = _told(name, "rev-parse", "--show-prefix")
+    with objects_of(revision, top) as files:
+        for tried in dict.fromkeys((path, f"{here}{path}")):
+            inside = posixpath.normpath(tried).strip("/") if tried else ""
+            whole = files.path("" if inside == "." else inside)
+            if files.exists(whole):
+                return _path(whole, files)
     message = f'the revision "{revision}" has no "{path}"'
-    raise RebsyncError.of(name, "RS801", message, _earlier(name, revision, path))
+    raise RebsyncError.of(name, "RS801", message, _earlier(revision, path, here))
 
 
-def _earlier(name: str, revision: str, path: str) -> str | None:
+def _earlier(revision: str, path: str, here: str) -> str | None:
     """The hint that a file had another name in a revision, if git can tell."""
-    here = (_git(name, "rev-parse", "--show-prefix") or b"").decode().strip()
-    renamed = _git(name, "diff", "--name-status", "-z", "--diff-filter=R", "-M", revision) or b""
-    parts = os.fsdecode(renamed).split("\0")
-    for old, new in zip(parts[1::3], parts[2::3], strict=False):
+    asked = ("--cached", "--name-status", "-z", "--diff-filter=R", "-M")
+    listed = git_without_files("diff-index", "--no-ext-diff", "--no-textconv", *asked, revision)
+    rows = os.fsdecode(listed or b"").split("\0")
+    for old, new in zip(rows[1::3], rows[2::3], strict=False):
         if new in (path, f"{here}{path}"):
             return f"there it was {old}: {revision}:{old}"
     return None
 
 
-def _object(name: str, object_: str, path: str, kind: str) -> Code:
-    """The model or package that a blob or a tree of git holds."""
-    with TemporaryDirectory(prefix="rebsync-") as folder:
-        if kind == "tree":
-            _write_tree(name, object_, folder)
-            return _path(folder, name)
-        if not path.endswith(MODEL) and (around := _around(name, object_)) is not None:
-            _write_tree(name, around, folder)
-            inside = _full(name, object_).removeprefix(f"{around.partition(':')[2]}/")
-            return _path(str(Path(folder, inside)), name, (folder, around))
-        target = Path(folder, PurePosixPath(path).name)
-        target.write_bytes(_git(name, "cat-file", "blob", object_) or b"")
-        return _path(str(target), name)
-
-
-def _full(name: str, object_: str) -> str:
-    """The path of an object of git from the top of the repository."""
-    path = object_.partition(":")[2]
-    if not path.startswith("./"):
-        return path
-    here = (_git(name, "rev-parse", "--show-prefix") or b"").decode().strip()
-    return posixpath.normpath(f"{here}{path}")
-
-
-def _around(name: str, object_: str) -> str | None:
-    """The nearest package around a file of a revision."""
-    revision, _, _ = object_.partition(":")
-    for folder in PurePosixPath(_full(name, object_)).parents:
-        inside = "" if str(folder) == "." else f"{folder}/"
-        if _git(name, "cat-file", "-e", f"{revision}:{inside}{MANIFEST}") is not None:
-            return f"{revision}:{inside.rstrip('/')}"
+def _trust() -> str | None:
+    """The hint of git where it does not trust a repository, as it is somebody else's."""
+    with suppress(OSError):
+        said = os.fsdecode(finished("rev-parse", "--git-dir").stderr)
+        if "safe.directory" in said:
+            return f"git does not trust this repository: {said.splitlines()[0]}"
     return None
 
 
-def _write_tree(name: str, object_: str, folder: str) -> None:
-    """Writes the regular files of a tree; links and submodules are left out."""
-    listed = _git(name, "ls-tree", "-r", "-z", "--full-tree", object_) or b""
-    lines = (line for line in listed.split(b"\0") if line.startswith(b"100"))
-    rows = [line.partition(b"\t") for line in lines]
-    hashes = b"".join(about.split()[2] + b"\n" for about, _, _ in rows)
-    data = _git(name, "cat-file", "--batch", given=hashes) or b""
-    at = 0
-    for _, _, path in rows:
-        end = data.index(b"\n", at)
-        size = int(data[at:end].split()[2])
-        target = Path(folder, os.fsdecode(path))
-        target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_bytes(data[end + 1 : end + 1 + size])
-        at = end + size + 2
+def _id(name: str, object_: str) -> str | None:
+    """The id of an object of git; None where it knows none."""
+    return _told(name, "rev-parse", "--verify", "--quiet", object_).strip() or None
 
 
-def _git(name: str, *arguments: str, given: bytes = b"") -> bytes | None:
-    """What a command of git prints; None where it fails. RebsyncError: there is no git."""
+def _told(name: str, *arguments: str) -> str:
+    """What a command of git prints, nothing where it fails. RebsyncError: there is no git."""
     try:
-        done = subprocess.run(["git", *arguments], input=given, capture_output=True, check=False)
+        return os.fsdecode(git(*arguments) or b"").removesuffix("\n")
     except OSError as error:
         message = f"git cannot be run: {error.strerror}"
         raise RebsyncError.of(name, "RS806", message) from None
-    return done.stdout if done.returncode == 0 else None

@@ -6,12 +6,9 @@ import json
 import re
 from collections.abc import Iterator
 from dataclasses import asdict, fields
-from pathlib import Path
 
-from rebsync.config import Config, parse_config
+from rebsync.config import Config, settings_beside
 from rebsync.diagnostics import Diagnostic, Findings
-from rebsync.files import read_source
-from rebsync.roundtrip.packages import SETTINGS
 from rebsync.roundtrip.recorded import Record
 from rebsync.source import NOWHERE, Source, Span
 
@@ -21,12 +18,7 @@ _APART = frozenset({"target"})  # what the command line may say otherwise
 
 def changed_settings(model: str, record: Record) -> tuple[Findings, ...]:
     """The settings beside a model that are not as recorded. RebsyncError: they are wrong."""
-    path = Path(model).parent / SETTINGS
-    source = Source(str(path), "")
-    config = Config()
-    if path.is_file():
-        source = read_source(str(path))
-        config = parse_config(source)
+    source, config = settings_beside(model)
     found = tuple(
         Diagnostic("RS955", _place(source, key), _message(key, record.options[key], value), _HINT)
         for key, value in _recorded(config)

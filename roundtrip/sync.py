@@ -11,9 +11,9 @@ from dataclasses import field, replace
 from pathlib import Path
 
 from rebsync import model as m
-from rebsync.config import Config, config_of_record, parse_config
+from rebsync.config import Config, config_of_record, settings_beside
 from rebsync.diagnostics import Findings, RebsyncError, Severity
-from rebsync.files import read_source
+from rebsync.files import source_below
 from rebsync.records import dataclass
 from rebsync.roundtrip.checked import Checked
 from rebsync.roundtrip.difference import (
@@ -30,7 +30,6 @@ from rebsync.roundtrip.merge_code import Stages, ancestors, merged_code, recorde
 from rebsync.roundtrip.merge_files import moved_files
 from rebsync.roundtrip.merge_models import Compared, Favour, as_code_says, merged_model
 from rebsync.roundtrip.models import code_given, model_given, parsed
-from rebsync.roundtrip.packages import SETTINGS
 from rebsync.roundtrip.recorded import Record, conflict_in, read_record, with_accepted
 from rebsync.roundtrip.sides import Given
 from rebsync.roundtrip.sync_records import with_what_holds
@@ -229,17 +228,14 @@ class _Syncing:
         return {n: t for n, t in texts if is_text_of(encoded(t), wanted.get(n, ""))}
 
     def _differs(self, path: str, text: str | None) -> bool:
-        file = Path(self.checked.kept.root, path)
-        if text is None or not file.is_file():
-            return text is not None or file.is_file()
-        return read_source(str(file)).text != text
+        source = source_below(self.checked.kept.root, path)
+        return text != (source.text if source is not None else None)
 
     # --- generation -----------------------------------------------------------------------------
 
     def _config(self) -> Config:
         """Today's settings, for the dialect that the package is in."""
-        path = Path(self.checked.model).parent / SETTINGS
-        config = parse_config(read_source(str(path))) if path.is_file() else Config()
+        source, config = settings_beside(self.checked.model)
         options = _config_of(self.record)
         from rebsync.forward.generate import package_name
 
@@ -247,7 +243,7 @@ class _Syncing:
         if old != new:
             message = f"the package was {old} when its code was generated, and is {new} now"
             hint = "`rebsync generate` writes the new package beside the old one"
-            raise RebsyncError.of(str(path), "RS955", message, hint)
+            raise RebsyncError.of(source.path, "RS955", message, hint)
         return replace(config, target=options.target)
 
     @property

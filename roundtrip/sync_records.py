@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from rebsync.diagnostics import Findings
 from rebsync.files import BOM, read_bytes
+from rebsync.folder import Folder
 from rebsync.roundtrip.digests import Standing, digest_of, standing
 from rebsync.roundtrip.manifest import BASE, MANIFEST
 from rebsync.roundtrip.packages import Kept
@@ -50,10 +51,11 @@ def with_what_holds(sync: Sync) -> Sync:
     return replace(sync, findings=findings, records=records, is_undetermined=unknown)
 
 
-def marked(path: Path, text: str) -> str:
+def marked(root: str, name: str, text: str) -> str:
     """A text with the byte order mark that its file has."""
-    if path.is_file() and read_bytes(str(path)).startswith(BOM):
-        return BOM.decode("utf-8") + text
+    with suppress(OSError), Folder(root) as folder:
+        if folder.read(name).startswith(BOM):
+            return BOM.decode("utf-8") + text
     return text
 
 
@@ -65,10 +67,10 @@ def _is_edited(sync: Sync) -> bool:
     """Whether a file that a model is read from will not be as it is generated."""
     now = sync.checked.standing
     digests = {name: digest for name, digest in now.digests.items() if name not in sync.texts}
-    root = Path(sync.checked.kept.root)
+    root = sync.checked.kept.root
     for name, text in sync.texts.items():
         if text is not None:
-            digests[name] = digest_of(encoded(marked(root / name, text)))
+            digests[name] = digest_of(encoded(marked(root, name, text)))
     if any(sync.texts.get(name) is None for name in now.missing):
         return True
     wanted = {n: digest_of(encoded(t)) for n, t in sync.records.items() if t is not None}
@@ -86,7 +88,7 @@ def _as_will_be(sync: Sync) -> Iterator[Kept]:
         for name, text in changes.items():
             files.pop(name, None)
             if text is not None:
-                files[name] = encoded(marked(own / name, text))
+                files[name] = encoded(marked(str(own), name, text))
     with TemporaryDirectory(prefix="rebsync-") as folder:
         root = Path(folder, own.resolve().name)
         for name, data in files.items():

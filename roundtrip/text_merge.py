@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import subprocess
 from collections.abc import Iterator
 from difflib import SequenceMatcher
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from rebsync.git import finished
 from rebsync.records import dataclass
 
 _CONFLICT = 128  # from this exit status on `git merge-file` has failed; below it counts conflicts
@@ -77,12 +77,7 @@ def _by_git(ours: str, base: str, theirs: str, labels: tuple[str, str]) -> Merge
             Path(folder, name).write_bytes(text.encode("utf-8"))
         told = ("-L", labels[0], "-L", "as generated last time", "-L", labels[1])
         try:
-            done = subprocess.run(
-                ["git", "merge-file", "-p", "-q", *told, *names],
-                cwd=folder,
-                capture_output=True,
-                check=False,
-            )
+            done = finished("merge-file", "-p", "-q", *told, *names, folder=folder)
         except OSError:
             return None
     if not 0 <= done.returncode < _CONFLICT:

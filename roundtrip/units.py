@@ -6,24 +6,29 @@ own for these. Files go by their paths from the folder of both.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Collection, Iterable
+from dataclasses import replace
 from itertools import islice
 
 from rebsync.reverse.files.packages import MANIFEST, Listing, listings
+from rebsync.reverse.files.stores import Store
 
 _MESSAGES = "_interfaces"
 
 
-def listing_of(root: str, tree: str, generated: Iterable[str]) -> Listing:
+def listing_of(
+    root: str, tree: str | None, generated: Iterable[str], store: Store | None = None
+) -> Listing:
     """The files of a package; `generated` are the paths of those that were generated.
 
     RebsyncError: there is no such directory, or it may not be read.
     """
     folders = folders_of(generated)
     if not folders:
-        return next(listings(root, tree), Listing(root, {}))
-    whole = Listing(root, {})
-    for listing in listings(root, tree):
+        return next(listings(root, tree, store), Listing(root, {}))
+    whole = Listing(root, {}, tree=os.path.realpath(tree or root), store=store)
+    for listing in listings(root, tree, store):
         inside = listing.root.removeprefix(root).strip("/")
         if inside and inside not in folders:
             continue  # of somebody else
@@ -32,20 +37,23 @@ def listing_of(root: str, tree: str, generated: Iterable[str]) -> Listing:
         whole.files |= {n: p for n, p in found.items() if n.partition("/")[0] in folders}
         odd = {f"{prefix}{name}": why for name, why in listing.odd.items()}
         whole.odd |= {n: w for n, w in odd.items() if n.partition("/")[0] in folders}
+        linked = {f"{prefix}{name}": path for name, path in listing.linked.items()}
+        whole.linked |= {n: p for n, p in linked.items() if n in whole.files}
         whole.size += listing.size
     return whole
 
 
-def both_at(path: str) -> Listing | None:
+def both_at(path: str, store: Store | None = None) -> Listing | None:
     """The nodes and the messages in a folder of both, read as one; None where there is no such.
 
     RebsyncError: there is no such path, or it may not be read.
     """
-    found = [each.root for each in islice(listings(path), 4) if each.is_package]
+    found = [each.root for each in islice(listings(path, store=store), 4) if each.is_package]
     if len(found) != 2 or found[1] != f"{found[0]}{_MESSAGES}":
         return None
     inside = (root.removeprefix(path).strip("/") for root in found)
-    return as_one(listing_of(path, path, [f"{folder}/{MANIFEST}" for folder in inside]))
+    names = [f"{folder}/{MANIFEST}" for folder in inside]
+    return as_one(listing_of(path, path if store is None else None, names, store))
 
 
 def folders_of(names: Iterable[str]) -> tuple[str, ...]:
@@ -76,6 +84,7 @@ def as_one(listing: Listing) -> Listing:
     folders = folders_of(listing.files)
     if not folders:
         return listing
-    named = {name_as_one(name, folders): path for name, path in listing.files.items()}
-    files = {name: path for name, path in named.items() if name is not None}
-    return Listing(listing.root, files, odd=listing.odd, size=listing.size)
+    named = {name: name_as_one(name, folders) for name in listing.files}
+    files = {n: listing.files[name] for name, n in named.items() if n is not None}
+    linked = {n: p for name, p in listing.linked.items() if (n := named[name]) is not None}
+    return replace(listing, files=files, linked=linked, only=None, is_package=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 from collections import Counter
 from dataclasses import field
@@ -134,9 +135,11 @@ class _Told:
         """The file for a package: the one that was named, or one in the directory."""
         if self.output == "-" or not Path(self.output).is_dir():
             return self.output
-        self.names[given.name] += 1
-        again = f"_{self.names[given.name]}" if self.names[given.name] > 1 else ""
-        return str(Path(self.output) / f"{given.name}{again}{suffix}")
+        # What a package calls itself may be a path, or hidden.
+        name = re.sub(r"[^\w+.-]", "_", given.name).lstrip(".") or "package"
+        self.names[name] += 1
+        again = f"_{self.names[name]}" if self.names[name] > 1 else ""
+        return str(Path(self.output) / f"{name}{again}{suffix}")
 
 
 def _nothing(path: str, asks: bool) -> RebsyncError:

@@ -15,7 +15,7 @@ from rebsync.patches import patch
 from rebsync.report import print_report
 from rebsync.source import Source
 from rebsync.terminal import say
-from rebsync.writing import replace_text
+from rebsync.writing import replace_text, told
 
 
 @click.command("fmt")
@@ -46,7 +46,7 @@ def _one(path: str | RebsyncError, check: bool, diff: bool) -> Status:
     if path == STANDARD_INPUT:
         write_output("-", text)
     elif replace_text(path, text):
-        say(f"formatted {path}", err=True)
+        say(f"formatted {told(path)}", err=True)
     return Status.CLEAN
 
 

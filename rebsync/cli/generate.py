@@ -11,15 +11,16 @@ import click
 
 from rebsync.cli.options import write_output
 from rebsync.cli.status import Status
-from rebsync.config import FILE_NAME, TARGETS, Config, parse_config
+from rebsync.config import TARGETS, Config, settings_beside
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
-from rebsync.files import read_source
+from rebsync.files import RECORDS, followed, operating_on, read_source
+from rebsync.locking import alone_in
 from rebsync.report import print_report
 from rebsync.roundtrip.plan import Action, Step, aside, name_to_keep, plan
 from rebsync.source import NOWHERE, Source
 from rebsync.stamps import Stamps, stamps
 from rebsync.terminal import say, say_lines
-from rebsync.writing import alone_in, replace_tree
+from rebsync.writing import replace_tree
 
 _SHOWN = (Action.CREATE, Action.UPDATE, Action.MERGE, Action.DELETE)
 
@@ -45,12 +46,13 @@ def command(
         raise click.UsageError("--list, --diff and --force exclude each other")
     if output in ("", "-"):
         raise click.UsageError(f'-o names a directory, not "{output}"')
-    config = _config(model)
+    _, config = settings_beside(model)
     if target is not None:
         config = replace(config, target=target)
     source = read_source(model)
     name, files = package_files(source, config, output)
     folder = Path(output) / name
+    _refuse_link(folder)
     files = _with_accepted(folder, files)
     if only_list:
         say_lines(str(folder / path) for path in sorted(files))
@@ -62,6 +64,13 @@ def command(
             _refuse_another_model(folder, f"{_stem(model)}.rebeca")
         before = stamps(str(folder))
         return _merged(folder, plan(folder, files), source, force, before)
+
+
+def _refuse_link(folder: Path) -> None:
+    """A link that leads out of a repository is no place for a new package."""
+    if folder.is_symlink() and not (folder / RECORDS).is_dir():
+        with operating_on(str(folder)):
+            followed(str(folder))
 
 
 def _merged(
@@ -109,11 +118,6 @@ def _refuse_another_model(folder: Path, name: str) -> None:
             f"this package was made from {other}, not from {name}; nothing was written",
             "choose another `package` in rebsync.toml; --force if the model has a new name",
         )
-
-
-def _config(model: str) -> Config:
-    path = Path(model).parent / FILE_NAME
-    return parse_config(read_source(str(path))) if path.is_file() else Config()
 
 
 def package_files(source: Source, config: Config, output: str = ".") -> tuple[str, dict[str, str]]:

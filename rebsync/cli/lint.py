@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Iterable
 from pathlib import Path
@@ -17,7 +18,7 @@ from rebsync.files import STANDARD_INPUT, read_source
 from rebsync.report import print_report, summary
 from rebsync.source import Source
 from rebsync.terminal import say
-from rebsync.writing import replace_text
+from rebsync.writing import replace_text, told
 
 _ROUNDS = 10
 
@@ -76,7 +77,7 @@ def _lint_property(source: Source) -> Findings:
 
     parsed = parse_properties(source)
     model_path = Path(source.path).with_suffix(MODEL)
-    if not model_path.is_file():
+    if not os.path.lexists(model_path):
         message = f"the model {model_path.name} is not beside this file"
         alone = Diagnostic("RS911", parsed.properties.span, message, "names were not checked")
         return _sorted(source, (*parsed.diagnostics, alone))
@@ -103,5 +104,5 @@ def _fixed(source: Source) -> Findings:
         text = apply_edits(text, edits)
         found = lint(Source(source.path, text))
     if replace_text(source.path, text):
-        say(f"corrected {source.path}", err=True)
+        say(f"corrected {told(source.path)}", err=True)
     return found

@@ -13,6 +13,7 @@ from rebsync.cli.options import write_output
 from rebsync.cli.status import Status, status_of, worst
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.files import read_source
+from rebsync.locking import alone_in
 from rebsync.patches import patch
 from rebsync.report import print_report
 from rebsync.roundtrip.checked import check_merged
@@ -20,7 +21,7 @@ from rebsync.roundtrip.packages import Kept, find
 from rebsync.source import NOWHERE, Source
 from rebsync.stamps import Stamps, stamps
 from rebsync.terminal import say
-from rebsync.writing import alone_in
+from rebsync.writing import told
 
 if TYPE_CHECKING:
     from rebsync.roundtrip.sync import Sync
@@ -98,7 +99,7 @@ def _done(sync: Sync, before: Stamps) -> Status:
 
     written = write(sync, before)
     for path in written:
-        say(f"wrote {path}" if Path(path).exists() else f"deleted {path}")
+        say(f"wrote {told(path)}" if Path(path).exists() else f"deleted {path}")
     print_report(sync.findings, sys.stderr)
     if sync.conflicts:
         sys.stdout.flush()

@@ -5,13 +5,15 @@ from __future__ import annotations
 import os
 import stat
 from collections.abc import Iterator
-from dataclasses import field
+from dataclasses import field, replace
 from pathlib import Path
 
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import operating_on, os_mistake
 from rebsync.records import dataclass
 from rebsync.reverse.files.python_files import SUFFIX, is_script, may_be_script
+from rebsync.reverse.files.stores import Disk, Entry, Store, join
+from rebsync.trees import is_within, tree_of
 
 MANIFEST = "package.xml"
 HEADERS = frozenset({".h", ".hh", ".hpp", ".hxx", ".cuh", ".ipp", ".tpp", ".inl", ".H"})
@@ -23,6 +25,7 @@ _IGNORING = frozenset({"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"})
 _BUILT = frozenset({"CMakeCache.txt", ".catkin", "_setup_util.py", "local_setup.sh", ".built_by"})
 _BUILDS = frozenset({"build", "devel", "install", "log"})
 _TESTS = frozenset({"test", "tests"})
+_DISK = Disk()
 LEADS_OUT = "a link that leads out of the tree"
 
 
@@ -32,7 +35,8 @@ class Listing:
 
     `only` is the file that is asked for, if it is one; `odd` are the files that cannot be read,
     each with the reason; `size` is that of all code in bytes. Paths have slashes, and are text
-    whatever the bytes of the names.
+    whatever the bytes of the names. `linked` are the real paths of what is behind links, in the
+    directory `tree`; `store` is where the files are, if not on the disk.
     """
 
     root: str
@@ -41,20 +45,25 @@ class Listing:
     odd: dict[str, str] = field(default_factory=dict)
     is_package: bool = True
     size: int = 0
+    linked: dict[str, str] = field(default_factory=dict)
+    tree: str = ""
+    store: Store | None = None
 
 
-def listings(path: str, within: str | None = None) -> Iterator[Listing]:
+def listings(path: str, within: str | None = None, store: Store | None = None) -> Iterator[Listing]:
     """The packages in a directory, one at a time; or a file with the package around it.
 
     A file belongs to the nearest package above it. Files outside of all packages come first, as
-    one listing. What links lead to outside of the directory `within` is not read but listed as
-    odd. RebsyncError: there is no such path, or it may not be read.
+    one listing. What links lead to outside of the directory `within`, or else of the tree that a
+    package is in, is not read but listed as odd; without `within`, a link to a package is that
+    package. RebsyncError: there is no such path, or it may not be read.
     """
+    files = store or _DISK
     with operating_on(path):
-        if not stat.S_ISDIR(Path(path).stat().st_mode):
-            yield _around(path)
+        if not files.is_folder(path):
+            yield _around(path, store)
             return
-    walk = _Walk(os.path.realpath(within) if within is not None else None)
+    walk = _Walk(store, os.path.realpath(within) if within is not None else None)
     waiting = [path]
     while waiting:
         listing, inner = walk.package(waiting.pop())
@@ -63,15 +72,33 @@ def listings(path: str, within: str | None = None) -> Iterator[Listing]:
             yield listing
 
 
-def _around(path: str) -> Listing:
+def _around(path: str, store: Store | None) -> Listing:
     """A file together with the package that it is in, if it is in one."""
+    if store is not None:
+        return _around_in(store, path)
     here = Path(path) if ".." not in Path(path).parts else Path(path).resolve()
-    root = next((d for d in _above(here) if _has_manifest(str(d))), None)
+    root = next((d for d in _above(here) if _DISK.exists(f"{d}/{MANIFEST}")), None)
     if root is None:
         return Listing(str(here.parent), {here.name: path}, here.name, is_package=False)
     inside = here.absolute().relative_to(root.absolute()).as_posix()
     listing, _ = _Walk().package(str(root))
-    return Listing(listing.root, {**listing.files, inside: path}, inside, listing.odd)
+    return replace(listing, files={**listing.files, inside: path}, only=inside)
+
+
+def _around_in(store: Store, path: str) -> Listing:
+    """The same of a file that is not on the disk."""
+    root, found = path, False
+    while "/" in root and not found:
+        root = root.rpartition("/")[0]
+        found = store.exists(f"{root}/{MANIFEST}")
+    if not found:
+        root = f"{path.partition(':')[0]}:"
+        found = store.exists(f"{root}{MANIFEST}")
+    inside = path.removeprefix(root).lstrip("/")
+    if not found:
+        return Listing(root, {inside: path}, inside, is_package=False, store=store)
+    listing, _ = _Walk(store).package(root)
+    return replace(listing, files={**listing.files, inside: path}, only=inside)
 
 
 def _above(file: Path) -> Iterator[Path]:
@@ -84,44 +111,53 @@ def _above(file: Path) -> Iterator[Path]:
 class _Walk:
     """Goes through directories, into each once, whatever links there are.
 
-    What links lead to outside of the directory `within` is left out, if there is one.
+    What links lead to outside of the real directory `within` is left out; where that is not given,
+    outside of the tree of the package that is gone through.
     """
 
+    store: Store | None = None
     within: str | None = None
-    seen: set[tuple[int, int]] = field(default_factory=set)
+    seen: set[object] = field(default_factory=set)
+
+    @property
+    def files(self) -> Store:
+        return self.store or _DISK
 
     def package(self, root: str) -> tuple[Listing, list[str]]:
         """The files under a directory but for those of packages within, and these packages."""
-        listing = Listing(root, {}, is_package=_has_manifest(root))
+        is_package = self._has_manifest(root)
+        tree = self.within or ("" if self.store is not None else tree_of(root))
+        listing = Listing(root, {}, is_package=is_package, tree=tree, store=self.store)
         inner: list[str] = []
-        waiting = [(root, "")]
+        waiting = [(root, "", "")]
         while waiting:
-            folder, inside = waiting.pop()
+            folder, inside, real = waiting.pop()
             folders = []
             for entry in self._entries(listing, folder, inside):
-                if self._leads_out(entry):
-                    if _is_folder(entry) or is_read(entry.name, inside):
-                        listing.odd[inside + shown(entry.name)] = LEADS_OUT
-                elif _is_folder(entry):
-                    folders.append(entry)
+                where = f"{real}/{entry.name}" if real else ""
+                if entry.is_symlink():
+                    where = os.path.realpath(entry.path)
+                    if self._is_left_out(listing, entry, where, inside):
+                        continue
+                if _is_folder(entry):
+                    folders.append((entry, where))
                 else:
-                    _add(listing, entry, inside)
-            for entry in reversed(folders):
-                if _has_manifest(entry.path):
+                    _add(listing, entry, inside, where, self.files)
+            for entry, where in reversed(folders):
+                if self._has_manifest(entry.path):
                     inner.append(entry.path)
-                elif not _is_built(entry):
-                    waiting.append((entry.path, f"{inside}{shown(entry.name)}/"))
+                elif not self._is_built(entry):
+                    waiting.append((entry.path, f"{inside}{shown(entry.name)}/", where))
         return listing, sorted(inner)
 
-    def _entries(self, listing: Listing, folder: str, inside: str) -> list[os.DirEntry[str]]:
+    def _entries(self, listing: Listing, folder: str, inside: str) -> list[Entry]:
         """What is in a directory that was not seen before, in an order that is always the same."""
         try:
-            found = os.stat(folder)  # noqa: PTH116
-            if (found.st_dev, found.st_ino) in self.seen:
+            found = self.files.identity(folder)
+            if found in self.seen:
                 return []
-            self.seen.add((found.st_dev, found.st_ino))
-            with os.scandir(folder) as entries:
-                every = sorted(entries, key=lambda e: e.name)
+            self.seen.add(found)
+            every = sorted(self.files.entries(folder), key=lambda e: e.name)
         except OSError as error:
             if not inside:
                 raise os_mistake(folder, error) from None
@@ -131,11 +167,25 @@ class _Walk:
             return []
         return [e for e in every if not e.name.startswith(".") and e.name != "node_modules"]
 
-    def _leads_out(self, entry: os.DirEntry[str]) -> bool:
-        if self.within is None or not entry.is_symlink():
+    def _is_left_out(self, listing: Listing, entry: Entry, real: str, inside: str) -> bool:
+        """Whether a link is not followed; it is listed as odd if there may be code behind it."""
+        if self.store is None:
+            if is_within(real, listing.tree):
+                return False
+            if self.within is None and _is_folder(entry) and self._has_manifest(entry.path):
+                return False
+        if self.store is not None or _is_folder(entry) or is_read(entry.name, inside):
+            listing.odd[inside + shown(entry.name)] = LEADS_OUT
+        return True
+
+    def _has_manifest(self, folder: str) -> bool:
+        return self.files.exists(join(folder, MANIFEST))
+
+    def _is_built(self, entry: Entry) -> bool:
+        """Whether a directory holds what a build made."""
+        if entry.name not in _BUILDS:
             return False
-        real = os.path.realpath(entry.path)
-        return real != self.within and not real.startswith(self.within.rstrip(os.sep) + os.sep)
+        return any(self.files.exists(f"{entry.path}/{name}") for name in _BUILT)
 
 
 def is_read(name: str, inside: str) -> bool:
@@ -153,9 +203,9 @@ def suffix_of(path: str) -> str:
     return name[at:] if at > 0 and name != "." * len(name) else ""
 
 
-def _add(listing: Listing, entry: os.DirEntry[str], inside: str) -> None:
-    """Puts a file among those to read, or those that cannot be."""
-    if not is_read(entry.name, inside) and not _is_script(entry):
+def _add(listing: Listing, entry: Entry, inside: str, real: str, files: Store) -> None:
+    """Puts a file among those to read, or those that cannot be; `real` is its path if linked."""
+    if not is_read(entry.name, inside) and not _is_script(entry, real, files):
         return
     suffix = suffix_of(entry.name)
     name = inside + shown(entry.name)
@@ -167,48 +217,32 @@ def _add(listing: Listing, entry: os.DirEntry[str], inside: str) -> None:
     if stat.S_ISREG(found.st_mode):
         listing.files[name] = entry.path
         listing.size += found.st_size if suffix in CODE or suffix == SUFFIX else 0
+        if real:
+            listing.linked[name] = real
     else:
         listing.odd[name] = "this is no regular file"
 
 
-def _is_script(entry: os.DirEntry[str]) -> bool:
+def _is_script(entry: Entry, real: str, files: Store) -> bool:
     """Whether a file without a suffix says in its first line that Python runs it.
 
     A link to a file that has one is another name for it.
     """
-    if not may_be_script(entry.name):
+    if not may_be_script(entry.name) or real.endswith(SUFFIX):
         return False
     try:
-        if entry.is_symlink() and os.path.realpath(entry.path).endswith(SUFFIX):
-            return False
         if not stat.S_ISREG(entry.stat().st_mode):
             return False
-        with Path(entry.path).open("rb") as file:
-            return is_script(file.read(80))
-    except OSError:
+        return is_script(files.head(real or entry.path))
+    except (OSError, RebsyncError):
         return False  # nothing says that it is code
 
 
-def _is_built(entry: os.DirEntry[str]) -> bool:
-    """Whether a directory holds what a build made."""
-    if entry.name not in _BUILDS:
-        return False
-    return any(_exists(f"{entry.path}/{name}") for name in _BUILT)
-
-
-def _has_manifest(folder: str) -> bool:
-    return _exists(f"{folder}/{MANIFEST}")
-
-
-def _is_folder(entry: os.DirEntry[str]) -> bool:
+def _is_folder(entry: Entry) -> bool:
     try:
         return entry.is_dir()
     except OSError:
         return False  # then reading it says why
-
-
-def _exists(path: str) -> bool:
-    return os.path.exists(path)  # noqa: PTH110 - a path object for each of many costs more
 
 
 def shown(path: str) -> str:

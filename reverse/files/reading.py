@@ -8,12 +8,13 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from rebsync.diagnostics import RebsyncError
-from rebsync.files import BOM, read_bytes
+from rebsync.files import BOM, operating_on, os_mistake
 from rebsync.long_numbers import MOST_DIGITS, long_number
 from rebsync.records import dataclass
 from rebsync.reverse.files.packages import CODE, Listing, listings, shown, suffix_of
 from rebsync.reverse.files.python_files import SUFFIX, is_script, relevant_python
 from rebsync.reverse.files.relevance import relevant
+from rebsync.reverse.files.stores import Store, contents
 from rebsync.reverse.findings import Finding, Grade
 from rebsync.source import NOWHERE, Source, Span
 from rebsync.terminal import controls_in_text
@@ -49,19 +50,20 @@ def chosen(path: str) -> Chosen:
     return next(packages([path]), Chosen({}, None, path))
 
 
-def packages(paths: Iterable[str]) -> Iterator[Chosen]:
+def packages(paths: Iterable[str], store: Store | None = None) -> Iterator[Chosen]:
     """What paths stand for: each package in turn, so that one at a time is in memory.
 
-    RebsyncError: there is no such path, or it may not be read.
+    `store` is where they are, if not on the disk. RebsyncError: there is no such path, or it may
+    not be read.
     """
-    for listing in all_listings(paths):
+    for listing in all_listings(paths, store):
         yield read(listing)
 
 
-def all_listings(paths: Iterable[str]) -> Iterator[Listing]:
+def all_listings(paths: Iterable[str], store: Store | None = None) -> Iterator[Listing]:
     """The packages that paths stand for, not yet read; files outside of packages if they matter."""
     for path in paths:
-        found = listings(path)
+        found = listings(path, store=store)
         first = next(found, None)
         second = next(found, None)
         if first is not None and (second is None or first.is_package or _has_code(first)):
@@ -85,14 +87,12 @@ def read(listing: Listing) -> Chosen:
     """The files of a package that matter."""
     findings = [_listed(listing, name, why) for name, why in listing.odd.items()]
     texts, code, python = dict[str, bytes](), dict[str, bytes](), dict[str, bytes]()
-    for name, path in listing.files.items():
-        try:
-            data = read_bytes(path)
-        except RebsyncError as error:
+    for name, data in _contents(listing):
+        if isinstance(data, RebsyncError):
             if name == listing.only:
-                raise
+                raise data
             if _is_code(name):
-                findings.append(_listed(listing, name, _message(error)))
+                findings.append(_listed(listing, name, _message(data)))
             continue
         suffix = suffix_of(name)
         is_python = suffix == SUFFIX or (not suffix and is_script(data))
@@ -107,6 +107,19 @@ def read(listing: Listing) -> Chosen:
     return Chosen(
         files, listing.only, shown(listing.root), tuple(findings), len(code) - len(wanted)
     )
+
+
+def _contents(listing: Listing) -> Iterator[tuple[str, bytes | RebsyncError]]:
+    """The bytes of each file, or why it has none."""
+    with operating_on(listing.root), contents(listing) as files:
+        for name, path in listing.files.items():
+            try:
+                data: bytes | RebsyncError = files.read(name)
+            except RebsyncError as error:
+                data = error
+            except OSError as error:
+                data = os_mistake(path, error)
+            yield name, data
 
 
 # --- text ---------------------------------------------------------------------------------------

@@ -339,9 +339,9 @@ def test_a_model_elsewhere_is_found_again(check: Check, package: Path) -> None:
     assert main(["generate", "models/guard.rebeca", "-o", "ros/src"]) == 0
     record = json.loads(Path("ros/src/guard/.rebsync/manifest.json").read_text())
     assert record["model"]["path"] == "../../../models/guard.rebeca"
-    assert check("ros") == (0, "ros/src/guard: in step\n")
+    assert check() == (0, "patrol: in step\nros/src/guard: in step\n")
     replace("models/guard.rebeca", "delay(1)", "delay(2)")
-    status, shown = check("ros")
+    status, shown = check(".")
     assert (status, "models/guard.rebeca:25" in shown) == (1, True)
 
 

@@ -190,4 +190,9 @@ def test_the_input_is_not_overwritten_by_the_output(tmp_path: Path, command: lis
 
 
 def test_a_text_without_end_is_not_read_for_ever(tmp_path: Path) -> None:
-    assert "/dev/zero: RS806 larger than 64 MiB" in rebsync("lint", "/dev/zero", cwd=tmp_path).out
+    assert "/dev/zero: RS814 this is a device" in rebsync("lint", "/dev/zero", cwd=tmp_path).out
+    line = f'head -c 70000000 /dev/zero | "{sys.executable}" -m rebsync lint /dev/stdin'
+    done = subprocess.run(
+        ["sh", "-c", line], cwd=tmp_path, env=environment(), capture_output=True, check=False
+    )
+    assert b"/dev/stdin: RS806 larger than 64 MiB" in done.stdout
