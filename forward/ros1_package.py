@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rebsync.forward.message_files import FIELD_TYPES, message_names, service_names
-from rebsync.forward.runtime_part import message_packages
+from rebsync.forward.runtime_part import message_packages, odometry_topic
 from rebsync.forward.templating import fill
 from rebsync.forward.yaml_values import yaml_name, yaml_value
 from rebsync.package import Instance, NodeParameter, Package, Remap
@@ -142,5 +142,6 @@ def parameters(package: Package) -> str:
         ],
         settings=package.settings,
         services=package.services,
+        odometry=odometry_topic(package, is_ros2=False),
         moves=any(c.moves for c in package.classes),
     )

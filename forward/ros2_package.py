@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rebsync.forward.cpp_class import CppClass
 from rebsync.forward.message_files import message_names, service_names
-from rebsync.forward.runtime_part import message_packages
+from rebsync.forward.runtime_part import message_packages, odometry_topic
 from rebsync.forward.templating import fill
 from rebsync.forward.yaml_values import is_yaml_word, yaml_name, yaml_value
 from rebsync.package import Instance, Package, Remap, StandIn, Value
@@ -154,6 +154,7 @@ def parameters(package: Package) -> str:
         ],
         settings=package.settings,
         services=package.services,
+        odometry=odometry_topic(package, is_ros2=True),
         moves=any(c.moves for c in package.classes),
     )
 

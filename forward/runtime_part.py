@@ -15,6 +15,8 @@ def message_packages(package: Package) -> set[str]:
     found = {"diagnostic_msgs"}
     if any(c.moves for c in package.classes):
         found.add("geometry_msgs")
+        if package.settings.odometry is not None:
+            found |= {"nav_msgs", "std_msgs"}
     for node in package.classes:
         found |= {s.type.partition("/")[0] for s in node.sensors if "/" in s.type}
     return found - {package.name}
@@ -49,6 +51,7 @@ def python_runtime(package: Package, dialect: str, folder: str) -> dict[str, str
             f"{'py' if stem == 'values' else dialect}/{stem}.py.j2",
             package=package.name,
             services=package.services,
+            odometry=odometry_topic(package, dialect.startswith("ros2")),
             timed=_is_timed(package),
         )
         for stem in _stems(package)
@@ -63,11 +66,19 @@ def cpp_runtime(package: Package, words: CppWords) -> dict[str, str]:
             f"{words.TEMPLATES}/{name}.j2",
             package=package.name,
             services=package.services,
+            odometry=odometry_topic(package, words.TEMPLATES.startswith("ros2")),
             includes=_served_headers(package, words),
             timed=_is_timed(package),
         )
         for name in names
     }
+
+
+def odometry_topic(package: Package, is_ros2: bool) -> str:
+    """The topic of the odometry; private names have a slash behind the tilde in ROS 2."""
+    topic = package.settings.odometry or ""
+    private = topic.startswith("~") and not topic.startswith("~/") and is_ros2
+    return topic.replace("~", "~/", 1) if private else topic
 
 
 def _served_headers(package: Package, words: CppWords) -> list[str]:

@@ -78,6 +78,7 @@ class _View:
                 config.cell_size,
                 config.drive,
                 config.heading,
+                config.odometry,
             ),
             self.topics.messages,
             tuple(self.env.values()),

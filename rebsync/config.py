@@ -67,6 +67,7 @@ class Config:
     cell_size: float = 1.0
     drive: Drive = "holonomic"
     heading: float = 0.0
+    odometry: str | None = None
     maintainers: tuple[Maintainer, ...] = ()
     license: str | None = None
     version: str = "0.1.0"
@@ -131,6 +132,7 @@ def config_of_record(options: Mapping[str, Any]) -> Config | None:
 
 def _config(table: Table) -> Config:
     default = Config()
+    drive, odometry = _drive(table)
     return Config(
         package=_matching(table, "package", None, _PACKAGE, "lower case, digits and `_`"),
         target=_one_of(table, "target", TARGETS, default.target),
@@ -138,7 +140,8 @@ def _config(table: Table) -> Config:
         slack=_number(table, "slack", default.slack, _not_negative, "0 or more"),
         seed=_seed(table, default.seed),
         cell_size=_number(table, "cell_size", default.cell_size, _positive, "above 0"),
-        drive=cast("Drive", _one_of(table, "drive", DRIVES, default.drive)),
+        drive=drive,
+        odometry=odometry,
         heading=_number(table, "heading", default.heading, _finite, "finite"),
         maintainers=_maintainers(table),
         license=_one_line(table, "license"),
@@ -148,6 +151,18 @@ def _config(table: Table) -> Config:
         sensors=_sensors(table),
         targets=_targets(table),
     )
+
+
+def _drive(table: Table) -> tuple[Drive, str | None]:
+    """The kind of drive, and the topic of its odometry: `drive = "kind"`, or a table of both."""
+    if not isinstance(table.raw("drive"), dict):
+        return cast("Drive", _one_of(table, "drive", DRIVES, "holonomic")), None
+    entry = table.table("drive")
+    assert entry is not None
+    kind = cast("Drive", _one_of(entry, "kind", DRIVES, "holonomic"))
+    odometry = _matching(entry, "odometry", None, _TOPIC, "a topic such as /odom")
+    entry.finish()
+    return kind, odometry
 
 
 def _maintainers(table: Table) -> tuple[Maintainer, ...]:

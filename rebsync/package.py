@@ -273,6 +273,7 @@ class Settings:
     cell_size: float = 1.0
     drive: str = "holonomic"
     heading: float = 0.0
+    odometry: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

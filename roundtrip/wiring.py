@@ -75,6 +75,7 @@ _SETTINGS = {
         ("drive/cell_size", "cell_size"),
         ("drive/kind", "drive"),
         ("drive/heading", "heading"),
+        ("drive/odometry", "[drive] odometry"),
     )
 }
 

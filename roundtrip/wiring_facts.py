@@ -51,7 +51,7 @@ _SERVER = re.compile(r'\bServer\s+(\w+)\s*\{\s*("[^"]*")\s*,\s*([^}]*?)\s*\}')
 _ENTRY = re.compile(r"^([ \t]*)(\w+):[ \t]*([^\n#]*?)[ \t]*(?:#.*)?$", re.MULTILINE)
 _BEARING = {
     "mailbox": ("time_unit", "settle"),
-    "drive": ("cell_size", "kind", "heading", "move_time"),
+    "drive": ("cell_size", "kind", "heading", "move_time", "odometry"),
 }
 _PROGRAM = re.compile(r"\b(add_executable|set_target_properties)\s*\(\s*(\S+)\s+([^)]*)\)")
 _NAMED = re.compile(r"\bset_target_properties\s*\(\s*(\S+)\s[^)]*\bOUTPUT_NAME\s+(\w+)")

@@ -136,3 +136,16 @@ def test_what_is_no_toml(text: str, line: int) -> None:
     ((code, at, message, _),) = mistakes(text)
     assert (code, at) == ("RS807", line)
     assert "TOML" in message
+
+
+def test_a_drive_is_a_word_or_a_table() -> None:
+    def read(text: str) -> Config:
+        return parse_config(Source("rebsync.toml", text))
+
+    assert (read('drive = "differential"').drive, read("").odometry) == ("differential", None)
+    both = read('[drive]\nkind = "differential"\nodometry = "~odom"\n')
+    assert (both.drive, both.odometry) == ("differential", "~odom")
+    with pytest.raises(RebsyncError) as error:
+        read('[drive]\nodometry = "no topic"\nspeed = 3\n')
+    messages = [d.message for d in error.value.findings[0].diagnostics]
+    assert messages == ['`odometry` cannot be "no topic"', "unknown key `speed`"]

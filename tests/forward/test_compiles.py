@@ -24,6 +24,7 @@ from tests.ros1.workspace import missing_ros
 from tests.strategies import models
 
 _DRAWN = 10
+_ODOMETRY = Path(__file__).parents[1] / "ros1" / "models" / "odometry.rebeca"
 _REASON = missing_ros()
 pytestmark = [
     pytest.mark.ros1,
@@ -60,6 +61,14 @@ def test_many_rebecs(tmp_path: Path) -> None:
     files = generated(text, "ring")
     assert files["launch/ring.launch"].count('<remap from="~next/go"') == 60
     assert complaints([written(files, tmp_path, "ring", Config())], tmp_path) == []
+
+
+def test_odometry(tmp_path: Path) -> None:
+    config = Config(odometry="~odom")
+    text = _ODOMETRY.read_text(encoding="utf-8")
+    package = written(generated(text, "odometry", config), tmp_path, "odometry", config)
+    assert "nav_msgs" in (package / "include" / "odometry" / "drive.h").read_text()
+    assert complaints([package], tmp_path) == []
 
 
 def _drawn(count: int) -> list[str]:

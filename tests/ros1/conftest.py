@@ -93,7 +93,9 @@ def rendered(name: str, package: str) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    return environment.get_template(f"{name}.j2").render(package=package, services=(), timed=True)
+    return environment.get_template(f"{name}.j2").render(
+        package=package, services=(), timed=True, odometry=""
+    )
 
 
 def shared(factory: pytest.TempPathFactory) -> Path:

@@ -11,6 +11,7 @@ from tests.forward.test_compiles import _drawn
 from tests.ros2.building import complaints, make_messages
 
 _DRAWN = 4
+_ODOMETRY = Path(__file__).parents[1] / "ros1" / "models" / "odometry.rebeca"
 
 
 def test_cases(headers: Path, tmp_path: Path) -> None:
@@ -29,6 +30,14 @@ def test_drawn_models(headers: Path, tmp_path: Path) -> None:
         for i, text in enumerate(_drawn(_DRAWN))
     ]
     assert _complaints(packages, headers) == []
+
+
+def test_odometry(headers: Path, tmp_path: Path) -> None:
+    config = Config(target="ros2-cpp", odometry="~odom")
+    text = _ODOMETRY.read_text(encoding="utf-8")
+    package = written(generated(text, "odometry", config), tmp_path, "odometry", config)
+    assert "nav_msgs" in (package / "include" / "odometry" / "drive.hpp").read_text()
+    assert _complaints([package], headers) == []
 
 
 def _complaints(packages: list[Path], headers: Path) -> list[str]:

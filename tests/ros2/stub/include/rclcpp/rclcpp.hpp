@@ -273,6 +273,7 @@ inline void spin_some(const std::shared_ptr<Node>& /* node */) {}
     RCLCPP_FAKE_LOG("WARN", logger, stream);                             \
   } while (false)
 #define RCLCPP_WARN_STREAM(logger, stream) RCLCPP_FAKE_LOG("WARN", logger, stream)
+#define RCLCPP_INFO_STREAM(logger, stream) RCLCPP_FAKE_LOG("INFO", logger, stream)
 #define RCLCPP_FAKE_LOG(level, logger, stream)                               \
   do {                                                                       \
     std::ostringstream fake_text;                                            \
