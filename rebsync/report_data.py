@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import os
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -143,7 +144,7 @@ def _sarif_artifact(source: Source) -> Json:
     path = Path(source.path)
     if path.is_absolute():
         return {"uri": path.as_uri()}
-    return {"uri": quote(path.as_posix())}
+    return {"uri": quote(os.fsencode(path.as_posix()))}
 
 
 def _sarif_fix(source: Source, diagnostic: Diagnostic) -> Json:

@@ -125,7 +125,8 @@ def _is_file(item: tuple[object, object]) -> bool:
     """Whether this is a file of a package with its digest."""
     match item:
         case (str() as path, str()):
-            return all(map(_is_name, path.split("/")))
+            parts = path.split("/")
+            return all(map(_is_name, parts)) and ".git" not in (p.casefold() for p in parts)
         case _:
             return False
 

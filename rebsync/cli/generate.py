@@ -13,7 +13,7 @@ from rebsync.cli.options import write_output
 from rebsync.cli.status import Status
 from rebsync.config import TARGETS, Config, settings_beside
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
-from rebsync.files import RECORDS, followed, operating_on, read_source
+from rebsync.files import followed, operating_on, read_source
 from rebsync.locking import alone_in
 from rebsync.report import print_report
 from rebsync.roundtrip.plan import Action, Step, aside, name_to_keep, plan
@@ -67,8 +67,8 @@ def command(
 
 
 def _refuse_link(folder: Path) -> None:
-    """A link that leads out of a repository is no place for a new package."""
-    if folder.is_symlink() and not (folder / RECORDS).is_dir():
+    """A link that leads out of a repository is no place for a package, new or not."""
+    if folder.is_symlink():
         with operating_on(str(folder)):
             followed(str(folder))
 

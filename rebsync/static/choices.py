@@ -26,14 +26,14 @@ def check_choice(choice: Choice, types: list[Type | None], body: Body) -> Type |
         message = f"{_HERE[body.kind]} cannot choose: only a message server can"
         hint = "choose in the server and pass the value on"
         facts.error("RS422", choice.span, message, hint)
-    seen: list[Value] = []
+    seen: set[tuple[type, Value]] = set()
     for option, type_ in zip(choice.options, types, strict=True):
         if type_ is not None:
             _check_option(option, seen, body)
     return _widest(choice, types, body)
 
 
-def _check_option(option: Expression, seen: list[Value], body: Body) -> None:
+def _check_option(option: Expression, seen: set[tuple[type, Value]], body: Body) -> None:
     value = constant(option)
     if value is None:
         hint = "write literals; in their place an if can choose between other values"
@@ -41,11 +41,11 @@ def _check_option(option: Expression, seen: list[Value], body: Body) -> None:
             hint = "an env variable may change at the start: write its value as a literal"
         message = "an option of ?(...) must be constant"
         body.facts.error("RS421", option.span, message, hint)
-    elif any(value == v and type(value) is type(v) for v in seen):
+    elif (type(value), value) in seen:
         message = f"the option {str(value).lower()} stands here twice"
         body.facts.warn("RS512", option.span, message, "each counts as a choice of its own")
     else:
-        seen.append(value)
+        seen.add((type(value), value))
 
 
 def _is_env(name: Name, body: Body) -> bool:

@@ -60,7 +60,7 @@ def test_both_engines_stop_at_one_number_of_ways(monkeypatch: pytest.MonkeyPatch
 
 @ENGINES
 def test_numbers_beyond_what_c_holds(engine: type[Interpreted | CompiledSearch]) -> None:
-    model = CHOOSER.replace("60", "1").replace("A(2)", f"A({2**32})")
+    model = CHOOSER.replace("60", "1").replace("A(2)", f"A({2**31 - 1})")
     found = searched(engine, model.replace("x = ", "self.go(); x = "), Limits(states=9))
     assert [event.cause for event in found.events] == []
     found = searched(engine, CHOOSER.replace("60", "1"), Limits(states=2**64 + 1, until=2**64))

@@ -225,8 +225,8 @@ def test_what_cannot_be_read_is_undetermined(check: Check) -> None:
         ("patrol/launch/patrol.launch", 'to="robot2/go"', 'to="robot1/go"'),
         (
             "patrol/launch/patrol.launch",
-            '<node name="robot1"',
-            '<node respawn="true" name="robot1"',
+            'output="screen" respawn="$(arg respawn)"',
+            'output="screen" respawn="true"',
         ),
         ("patrol/launch/patrol.launch", "[robot1, robot2]", "[robot2]"),
         ("patrol/msg/RobotGo.msg", "int32", "int16"),

@@ -438,3 +438,15 @@ def test_code_behind_a_link_within_the_repository(run: Run, package: Path) -> No
     assert run("sync")[0] == 0  # the code is as it is to be
     assert "% 7" in Path("patrol.rebeca").read_text()
     assert Path(SOURCE).is_symlink()
+
+
+def test_a_package_that_is_a_link_to_outside_is_not_written(package: Path, run: Run) -> None:
+    """Not even where what it leads to looks like a package."""
+    victim = package.parent.parent / "victim"
+    shutil.rmtree(victim, ignore_errors=True)
+    (victim / ".rebsync").mkdir(parents=True)
+    git("init", "-q")
+    shutil.rmtree("patrol")
+    Path("patrol").symlink_to(victim)
+    assert run("generate", "patrol.rebeca")[0] == 2
+    assert sorted(p.name for p in victim.iterdir()) == [".rebsync"]
