@@ -10,7 +10,7 @@ from rebsync.config import parse_config
 from rebsync.forward.message_files import field_type
 from rebsync.forward.view import view
 from rebsync.grammars.parser import parse_model
-from rebsync.package import NodeClass, Package
+from rebsync.package import Package
 from rebsync.printing import print_line
 from rebsync.reverse.build.build_files import BuildFiles
 from rebsync.reverse.build.cmake import read_build
@@ -85,22 +85,15 @@ def test_targets_are_the_classes(name: str) -> None:
     package, build = package_of(name), build_of(name)
     assert not build.unknowns
     assert build.project == name
+    library = {c.file for c in package.classes if not c.interface}
     for node in package.classes:
         target = build.executable(f"{node.file}_node")
         assert (target is not None) is node.executable
         if target is not None:
-            files = {node.file, f"{node.file}_node", *_bases(package, node)}
+            files = {*library, f"{node.file}_node"}
             assert set(build.sources_of(target)) == {f"src/{file}.cpp" for file in files}
             assert not build.missing_of(target)
     assert {n.type for n in launch_of(name).nodes} <= {t.file for t in build.targets}
-
-
-def _bases(package: Package, node: NodeClass) -> set[str]:
-    found = set()
-    for base in map(package.node_class, node.bases):
-        if not base.interface:
-            found |= {base.file, *_bases(package, base)}
-    return found
 
 
 @pytest.mark.parametrize("name", NAMES)
