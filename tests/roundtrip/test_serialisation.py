@@ -116,7 +116,6 @@ def test_no_other_values_are_written(value: object) -> None:
         '[["Severity"],["__class__"],[[0,0]],2]',
         '[["dict"],[1],[[0,0]],2]',
         '[["set"],[1],[[0,1],[0,2]],3]',
-        f"[[],[{'9' * 5000}],[],0]",
         "[" * 100_000,
         pickle.dumps(Evil()),
         pickle.dumps((1, 2)),
@@ -170,6 +169,8 @@ def test_the_table_has_all_that_its_classes_hold() -> None:
             continue
         for field in fields(found):
             for held in _named_in(module, str(field.type), set()):
+                if getattr(held, "_is_protocol", False):
+                    continue  # what such a field has is None where the value is kept
                 if held.__module__.startswith("rebsync.") and held.__name__[0].isupper():
                     assert serialised_types.MODULES.get(held.__name__) == held.__module__, held
 

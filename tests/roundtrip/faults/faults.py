@@ -284,7 +284,7 @@ def _of_entries(patrol: Patrol) -> Iterator[Fault]:
     yield Fault("a source that is read-only", mode(written, 0o444), 2, "RS803", is_user=True)
     yield Fault("a directory that is read-only", mode(above, 0o555), 2, "RS803", is_user=True)
     yield Fault("a source that may not be read", mode(source, 0), 4, "RS941", is_user=True)
-    yield Fault("a link in the tree", linked(source, is_out=False), 2, "RS813")
+    yield Fault("a link in the tree", linked(written, is_out=False), 2, "RS813")
     yield Fault("a link out of the tree", linked(source, is_out=True), 4, "RS941")
     nowhere = entry(f"{folder}/x.{suffix}", lambda p: p.symlink_to("nowhere"))
     away = linked_folder("patrol", "elsewhere/patrol")
