@@ -36,11 +36,11 @@ class Kept:
         """Whether a real path is of what belongs together, so that the package may speak of it."""
         if is_within(real, self.tree):
             return True
-        return (
-            repository(self.tree) is None
-            and self.named is not None
-            and (is_within(real, os.path.realpath(self.named)))
-        )
+        if repository(self.tree) is not None:
+            return False
+        # Without a repository the user says what belongs together: by name, or by going there.
+        chosen = (self.named or os.curdir, os.curdir)
+        return any(is_within(real, os.path.realpath(path)) for path in chosen)
 
 
 def find(paths: Iterable[str], model: str | None = None) -> Iterator[Kept]:

@@ -23,3 +23,9 @@ _LONG = ("ros1/", "ros2/", "ros2py/", "forward/test_compiles", "hooks/")
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Puts the files that take long before all others."""
     items.sort(key=lambda item: not item.nodeid.removeprefix("tests/").startswith(_LONG))
+
+
+@pytest.fixture(autouse=True)
+def nothing_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What one test has been refused as a cache is not told in the next."""
+    monkeypatch.setattr("rebsync.cache._refused", {})

@@ -218,10 +218,11 @@ def test_what_the_user_named_may_hold_the_model(
     package.rename(folder / "ros" / "deep" / "patrol")
     says(folder / "ros" / "deep" / "patrol", "../../../patrol.rebeca")
     assert run("check", ".")[0] == 0
-    assert run("check", "ros")[0] == 2
-    git("init", "-q")
-    assert run("check", "ros/deep/patrol")[0] == 0
+    assert run("check", "ros")[0] == 0  # who calls is where the model is
     monkeypatch.chdir("ros")
+    assert run("check", "deep")[0] == 2
+    assert run("check", "..")[0] == 0
+    git("init", "-q", cwd=folder)
     assert run("check")[0] == 0
 
 
