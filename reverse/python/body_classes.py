@@ -36,6 +36,7 @@ from rebsync.reverse.python.body_scope import (
 )
 from rebsync.reverse.python.body_starts import constructor, declared
 from rebsync.reverse.python.body_statements import PyStatements
+from rebsync.reverse.python.object_model import decorated_callback
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import LAMBDA, Scope
 from rebsync.reverse.python.py_tree import field, named
@@ -122,6 +123,9 @@ class PyClass:
         reading = self.reading
         scope = reading.code.scopes[server.cpp.source.path, server.body.id]
         frame = Frame(scope, server=server.name)
+        if why := decorated_callback(scope):
+            unread = Unread(scope.py.span(scope.node), why)
+            reading.findings.unreadable(scope.py.source, unread, reading.unit.name)
         parameters = scope.parameters[1:] if scope.self_name is not None else scope.parameters
         frame.bound |= {p.name: Nobody() for p in parameters}
         if server.message and server.type is not None:

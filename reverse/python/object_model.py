@@ -199,8 +199,8 @@ def _is_made(reading: Reading, made: Scope) -> bool:
 
 
 def decorated_callback(scope: Scope) -> str:
-    """Why it is not known what a callback does; empty where nothing decorates it."""
-    if scope.kind != FUNCTION:
+    """Why it is not known what a free function does; empty where nothing decorates it."""
+    if scope.kind != FUNCTION or scope.is_method:
         return ""
     unknown = sorted(set(scope.decorators) - _PLAIN_DECORATORS)
     return f'what "@{unknown[0]}" makes of this callback is not read' if unknown else ""
