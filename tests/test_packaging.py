@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import re
+import subprocess
 import sys
 from pathlib import Path
 from typing import Any
@@ -69,3 +71,21 @@ def test_the_version_is_told_once() -> None:
 def test_core_modules_do_not_import_the_top_level_folders(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     assert not re.search(r"^(from|import) (forward|grammars|reverse|roundtrip)\b", text, re.M)
+
+
+@pytest.mark.parametrize("plugin", ["launch_testing", "launch_ros", "launch_pytest"])
+def test_plugins_of_a_sourced_ros_2_are_not_loaded(plugin: str, tmp_path: Path) -> None:
+    """Those of Humble and Jazzy: their hooks do not fit, or warn, which is an error here."""
+    facts = tmp_path / f"{plugin}_of_ros-1.0.dist-info"
+    facts.mkdir()
+    (facts / "METADATA").write_text(f"Name: {plugin}_of_ros\nVersion: 1.0\n")
+    (facts / "entry_points.txt").write_text(f"[pytest11]\n{plugin} = no_such_module_of_ros\n")
+    done = subprocess.run(
+        [sys.executable, "-m", "pytest", "--collect-only", "-q", __file__],
+        cwd=ROOT,
+        env={**os.environ, "PYTHONPATH": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert done.returncode == 0, done.stderr
