@@ -104,8 +104,8 @@ def test_stopping_in_a_long_delay_is_quick_and_sends_nothing(
     }
     recording = play(probe, tmp_path, rebecs, Clock(until=3, rate=rate))
     assert recording.bodies("a") == recording.bodies("b") == ()
-    late = [m.topic for m in recording.late if m.topic != "/rosout"]
-    # The zero velocity at the end goes out.
-    assert [t for t in late if not t.endswith("/cmd_vel")] == []
+    late = {m.topic for m in recording.late if not m.topic.endswith("/cmd_vel")}
+    # The zero velocity at the end goes out, and a heartbeat may be on its way.
+    assert late <= {"/rosout", "/startup", "/diagnostics"}
     assert "escalating" not in recording.output
     assert recording.problems() == ()

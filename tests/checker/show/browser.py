@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import base64
 import json
+import os
 import re
 import shutil
+import signal
 import subprocess
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any
@@ -26,6 +28,7 @@ _OPTIONS = (
     "--hide-scrollbars",
 )
 _ELEMENT = "element-6066-11e4-a52e-4f735466cecf"
+_ENDS = 20.0  # s, within which a driver ends its browser and itself
 _NAMES = ("chromium", "chromium-browser", "google-chrome")
 
 
@@ -88,7 +91,11 @@ class Browser:
 def browser(profile: Path, *options: str) -> Iterator[Browser]:
     """Starts a browser with a fresh profile, and ends it."""
     driver = subprocess.Popen(
-        ["chromedriver", "--port=0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+        ["chromedriver", "--port=0"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        start_new_session=True,
     )
     try:
         root = f"http://127.0.0.1:{_port(driver.stdout)}/session"
@@ -97,12 +104,22 @@ def browser(profile: Path, *options: str) -> Iterator[Browser]:
         try:
             yield Browser(url)
         finally:
-            _request("DELETE", url)
+            with suppress(OSError):  # it is ended below
+                _request("DELETE", url)
     finally:
-        driver.terminate()
-        driver.wait()
+        _end(driver)
         if driver.stdout is not None:
             driver.stdout.close()
+
+
+def _end(driver: subprocess.Popen[str]) -> None:
+    """Ends a driver and its browser: on a busy machine it may wait for that for good."""
+    driver.terminate()
+    try:
+        driver.wait(_ENDS)
+    except subprocess.TimeoutExpired:
+        os.killpg(driver.pid, signal.SIGKILL)
+        driver.wait()
 
 
 def _wanted(options: Sequence[str]) -> dict[str, Any]:
@@ -124,5 +141,5 @@ def _port(output: IO[str] | None) -> int:
 def _request(method: str, url: str, value: object = None) -> Any:  # noqa: ANN401
     body = None if method != "POST" else json.dumps(value or {}).encode()
     request = Request(url, body, {"Content-Type": "application/json"}, method=method)
-    with build_opener(ProxyHandler({})).open(request, timeout=60) as answer:
+    with build_opener(ProxyHandler({})).open(request, timeout=120) as answer:
         return json.load(answer)["value"]
