@@ -46,7 +46,10 @@ _MAIN = "from probe.script import main\n\n__all__ = ['main']\n"
 _HEAD = """
 from launch import LaunchDescription
 from launch.actions import ExecuteProcess
+from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
+
+CLOCK = {"use_sim_time": LaunchConfiguration("use_sim_time")}
 
 
 def generate_launch_description():
@@ -91,7 +94,8 @@ def _node(node: Launched, rebec: Rebec, folder: Path) -> str:
     prefix = f'sh -c \'sleep {rebec.wait}; exec "$0" "$@"\''
     return (
         f"        Node(package='probe', executable='script_node', name={node.name!r},\n"
-        f"             parameters=[{str(file)!r}], remappings={list(node.remaps.items())!r},\n"
+        f"             parameters=[{str(file)!r}, CLOCK],\n"
+        f"             remappings={list(node.remaps.items())!r},\n"
         f"             prefix={prefix!r}, respawn={rebec.respawn}, output='screen'),\n"
     )
 

@@ -1,9 +1,10 @@
-"""A rebec that is killed in the middle, and comes back, on a real ROS 2."""
+"""Rebecs that are killed and come back, or told something from outside, on a real ROS 2."""
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
@@ -44,7 +45,7 @@ def generate_launch_description():
         PythonLaunchDescriptionSource({launch!r}),
         launch_arguments={{"respawn": {respawn!r}}}.items(),
     )
-    return LaunchDescription([ExecuteProcess(cmd={reaper!r}, output="screen"), system])
+    return LaunchDescription([ExecuteProcess(cmd={beside!r}, output="screen"), system])
 """
 
 
@@ -55,17 +56,27 @@ class Relay:
     workspace: Workspace
     dialect: str
 
-    def run(self, directory: Path, respawned: bool) -> Recording:
+    @property
+    def messages(self) -> str:
+        """The package that has the messages."""
+        return "relay_interfaces" if self.dialect == "ros2-py" else "relay"
+
+    def killed(self, directory: Path, respawned: bool) -> Recording:
         """Kill the counter after some seconds; who starts it again is the launcher, or nobody."""
-        launch = self.workspace.root / "install/share/relay/launch/relay.launch.py"
-        package = "relay_interfaces" if self.dialect == "ros2-py" else "relay"
-        words = [package, "counter_node", "respawned" if respawned else "by hand"]
+        words = [self.messages, "counter_node", "respawned" if respawned else "by hand"]
         reaper = [SYSTEM_PYTHON, str(_REAPER), *words]
+        return self.run(directory, reaper, _CLOCK, respawned)
+
+    def run(
+        self, directory: Path, beside: Sequence[str], clock: Clock, respawned: bool = False
+    ) -> Recording:
+        """Run the system with a command beside it."""
+        launch = self.workspace.root / "install/share/relay/launch/relay.launch.py"
         wrapper = directory / "wrapper.launch.py"
-        text = _LAUNCH.format(launch=str(launch), respawn=str(respawned).lower(), reaper=reaper)
+        text = _LAUNCH.format(launch=str(launch), respawn=str(respawned).lower(), beside=beside)
         wrapper.write_text(text)
         command = ["ros2", "launch", str(wrapper)]
-        return run_command(self.workspace, command, ["/t", "/c"], ["t", "c"], directory, _CLOCK)
+        return run_command(self.workspace, command, ["/t", "/c"], ["t", "c"], directory, clock)
 
 
 @pytest.fixture(scope="module", params=DIALECTS)
@@ -83,7 +94,7 @@ def relay(
 def test_a_killed_rebec_comes_back_to_the_common_time(
     relay: Relay, tmp_path: Path, respawned: bool
 ) -> None:
-    recording = relay.run(tmp_path, respawned)
+    recording = relay.killed(tmp_path, respawned)
     said = [r.facts for r in recording.reports("restarted") if r.rebec == "c"]
     assert len(said) == 1, recording.problems()
     found = re.fullmatch(r"serves from (\d+) on, what came before is lost", said[0])
@@ -106,3 +117,15 @@ def test_a_killed_rebec_comes_back_to_the_common_time(
     (stray,) = [b for b in recording.bodies("c") if b.arguments == "0"]
     assert stray.start == stray.arrival > 0
     assert stray.start - 0.5 < stray.stamp < stray.start + 1.5
+
+
+def test_an_empty_message_from_a_shell_is_served_when_it_comes(
+    relay: Relay, tmp_path: Path
+) -> None:
+    say = f"sleep 5; exec ros2 topic pub --once /c/count {relay.messages}/msg/CounterCount '{{}}'"
+    clock = replace(_CLOCK, until=16, quiet=16)
+    recording = relay.run(tmp_path, ["sh", "-c", say], clock)
+    (empty,) = [b for b in recording.bodies("c") if b.arguments == "0"]
+    assert empty.start == empty.arrival > 0
+    assert empty.start - 0.5 < empty.stamp < empty.start + 1.5
+    assert recording.reports() == ()

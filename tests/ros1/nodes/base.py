@@ -9,24 +9,22 @@ import rospy
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from std_msgs.msg import Float64
+from wheels import Wheels
 
 PERIOD = 0.02  # s
 
 
 class Base:
-    """Begins away from the origin and turned, as odometry does."""
+    """Tells odometry until it has driven some metres."""
 
-    def __init__(self, name: str, grip: float, fastest: float, told: float) -> None:
-        self.x, self.y, self.heading = 3.0, -2.0, 0.7
-        self.grip, self.fastest = grip, fastest
+    def __init__(self, name: str, wheels: Wheels, told: float) -> None:
+        self.wheels, self.told = wheels, told
         self.twist = Twist()
         self.velocities: list = []
         self.differences: list = []
-        self.begun = self.x, self.y, self.heading
         self.odometry = rospy.Publisher(f"/{name}/odom", Odometry, queue_size=10)
         rospy.Subscriber(f"/{name}/cmd_vel", Twist, self.hear)
         rospy.Subscriber(f"/{name}/drive/difference", Float64, self.note)
-        self.told = told  # metres, behind which odometry is lost
 
     def hear(self, twist: Twist) -> None:
         self.twist = twist
@@ -37,33 +35,21 @@ class Base:
 
     def step(self, elapsed: float) -> None:
         """Drives on for some seconds."""
-        way = self.grip * elapsed
-        forward = max(-self.fastest, min(self.fastest, self.twist.linear.x)) * way
-        left = max(-self.fastest, min(self.fastest, self.twist.linear.y)) * way
-        self.x += forward * math.cos(self.heading) - left * math.sin(self.heading)
-        self.y += forward * math.sin(self.heading) + left * math.cos(self.heading)
-        self.heading += self.twist.angular.z * elapsed
-        if math.hypot(*self.driven()) >= self.told:
+        told = self.twist
+        self.wheels.step(told.linear.x, told.linear.y, told.angular.z, elapsed)
+        if math.hypot(*self.wheels.driven()) >= self.told:
             return
         msg = Odometry()
         msg.header.stamp = rospy.Time.now()
-        msg.pose.pose.position.x, msg.pose.pose.position.y = self.x, self.y
-        msg.pose.pose.orientation.z = math.sin(self.heading / 2)
-        msg.pose.pose.orientation.w = math.cos(self.heading / 2)
+        msg.pose.pose.position.x, msg.pose.pose.position.y = self.wheels.x, self.wheels.y
+        msg.pose.pose.orientation.z = math.sin(self.wheels.heading / 2)
+        msg.pose.pose.orientation.w = math.cos(self.wheels.heading / 2)
         self.odometry.publish(msg)
-
-    def driven(self) -> tuple:
-        """How far it is from where it began, in the directions that it had then."""
-        east, north, turn = self.x - self.begun[0], self.y - self.begun[1], -self.begun[2]
-        return (
-            east * math.cos(turn) - north * math.sin(turn),
-            east * math.sin(turn) + north * math.cos(turn),
-        )
 
 
 rospy.init_node("base")
 name, grip, fastest, told, seconds = sys.argv[1], *map(float, sys.argv[2:6])
-base = Base(name, grip, fastest, told)
+base = Base(name, Wheels(grip, fastest), told)
 end = rospy.Time.now() + rospy.Duration(seconds)
 stop = threading.Event()
 last = rospy.Time.now()
@@ -75,7 +61,7 @@ while last < end:
 print(
     json.dumps(
         {
-            "driven": base.driven(),
+            "driven": base.wheels.driven(),
             "differences": base.differences,
             "last": base.velocities[-1] if base.velocities else None,
         }
