@@ -76,7 +76,7 @@ def test_nobody_stops_serving(name: str, dialect: str, build_real: Builder, tmp_
     environment = workspace.environment(tmp_path)
     command = ["ros2", "launch", str(launch), f"params_file:={own}"]
     with launched(command, tmp_path, environment):
-        watcher = [SYSTEM_PYTHON, str(_WATCHER), str(_SECONDS)]
+        watcher = [SYSTEM_PYTHON, str(_WATCHER), str(len(rebecs)), str(_SECONDS)]
         done = subprocess.run(
             watcher, env=environment, stdout=subprocess.PIPE, text=True, check=True
         )

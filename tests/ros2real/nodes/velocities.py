@@ -24,7 +24,8 @@ def main(topic: str, path: str) -> None:
 
         node.create_subscription(Twist, topic, hear, 1000)
         try:
-            rclpy.spin(node)
+            while True:  # rclpy of Humble may not wake up for SIGTERM
+                rclpy.spin_once(node, timeout_sec=0.5)
         except (KeyboardInterrupt, ExternalShutdownException):
             return
 

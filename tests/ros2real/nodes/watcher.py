@@ -1,6 +1,7 @@
-"""Tells how nodes serve, from their diagnostics: `watcher.py SECONDS`.
+"""Tells how nodes serve, from their diagnostics: `watcher.py NODES SECONDS`.
 
-For each the bodies that it served, and the longest time in which it served none, in seconds.
+For each the bodies that it served in that time, from when as many nodes have served one, and the
+longest time in which it served none, in seconds.
 """
 
 from __future__ import annotations
@@ -11,6 +12,8 @@ import time
 
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
+
+STARTUP = 120.0  # s, on a busy machine
 
 
 class Watcher:
@@ -44,10 +47,13 @@ class Watcher:
         print(json.dumps(facts, sort_keys=True))
 
 
-def main(seconds: float) -> None:
+def main(nodes: int, seconds: float) -> None:
     rclpy.init()
     node, watcher = rclpy.create_node("watcher"), Watcher()
     node.create_subscription(DiagnosticArray, "/diagnostics", watcher.hear, 100)
+    end = time.monotonic() + STARTUP
+    while len(watcher.served) < nodes and time.monotonic() < end:
+        rclpy.spin_once(node, timeout_sec=1.0)
     end = time.monotonic() + seconds
     while time.monotonic() < end:
         rclpy.spin_once(node, timeout_sec=1.0)
@@ -55,4 +61,4 @@ def main(seconds: float) -> None:
 
 
 if __name__ == "__main__":
-    main(float(sys.argv[1]))
+    main(int(sys.argv[1]), float(sys.argv[2]))
