@@ -15,6 +15,7 @@ from itertools import zip_longest
 from lark import Lark, Token
 
 from rebsync.diagnostics import Diagnostic, Edit, closest
+from rebsync.grammars.amount import too_large
 from rebsync.grammars.tables import load
 from rebsync.grammars.tree import TreeBuilder
 from rebsync.records import dataclass
@@ -52,8 +53,8 @@ class Lexed:
 
     @property
     def hopeless(self) -> bool:
-        """Whether parsing would only add follow-up mistakes: another language, or too deep."""
-        return any(d.code in ("RS111", "RS113") for d in self.diagnostics)
+        """Whether parsing would only add follow-up mistakes: another language, or too much."""
+        return any(d.code in ("RS111", "RS113", "RS115") for d in self.diagnostics)
 
     @property
     def everything(self) -> list[Token]:
@@ -78,6 +79,8 @@ def token_span(token: Token) -> Span:
 
 def lex(text: str) -> Lexed:
     """All tokens of a text; what belongs to no token becomes a diagnostic."""
+    if (mistake := too_large(text)) is not None:
+        return Lexed([], (), (mistake,))
     everything = list(_not_too_deep(rebeca_grammar().lex(text)))
     scan = _Scan([t for t in everything if t.type not in _TRIVIA])
     for token in everything:

@@ -11,6 +11,7 @@ from lark import Lark, Token, Tree
 
 from rebsync import model as m
 from rebsync.diagnostics import Diagnostic, Edit, Severity
+from rebsync.grammars.amount import too_large
 from rebsync.grammars.formulas import OPERATORS, lift
 from rebsync.grammars.lexer import controls, retyped, token_span
 from rebsync.grammars.recovery import RecoveringParser
@@ -55,6 +56,8 @@ class ParsedProperties:
 
 def parse_properties(source: Source) -> ParsedProperties:
     """Read a property file; mistakes become diagnostics, and reading goes on behind them."""
+    if (mistake := too_large(source.text)) is not None:
+        return ParsedProperties(source, Properties(), (mistake,))
     tokens, diagnostics = _lex(source.text)
     parser = _PropertyParser(property_grammar(), "properties", tokens)
     raw = parser.run()

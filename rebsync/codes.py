@@ -23,6 +23,7 @@ SYNTAX = {
     "RS112": "a part of the model in the wrong place",
     "RS113": "a language beside Timed Rebeca, recognised and refused",
     "RS114": "a control character in a text or a comment",
+    "RS115": "more words and signs than rebsync reads",
     "RS111": "nesting deeper than rebsync reads",
 }
 

@@ -13,11 +13,14 @@ import subprocess
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from tempfile import TemporaryDirectory
+from threading import Timer
 from typing import IO
 
 from rebsync.diagnostics import RebsyncError
+from rebsync.git_files import refuse_special_files
 
-_PATIENCE = 60.0  # seconds; a pipe in the place of a file of git would be waited for for ever
+_PATIENCE = 10.0  # seconds; what a configuration includes may be a pipe, which git waits for
+_MOST_OF_ALL = 60.0  # seconds, for all objects of a revision
 _OFF = (
     "core.fsmonitor=",
     f"core.hooksPath={os.devnull}",
@@ -87,6 +90,7 @@ def finished(
     *arguments: str, folder: str | None = None, given: bytes = b""
 ) -> subprocess.CompletedProcess[bytes]:
     """A command of git that has ended; as `git`."""
+    refuse_special_files(folder, _chosen(here=folder is None))
     try:
         return subprocess.run(
             _command(arguments),
@@ -104,7 +108,11 @@ def finished(
 
 @contextmanager
 def conversation(*arguments: str) -> Iterator[tuple[IO[bytes], IO[bytes]]]:
-    """A command of git to write to and to read from as long as is wanted. OSError: as `git`."""
+    """A command of git to write to and to read from. OSError: as `git`.
+
+    What it gives ends when it has taken too long.
+    """
+    refuse_special_files(None, _chosen(here=True))
     with subprocess.Popen(
         _command(arguments),
         env=_environment(os.environ, here=True),
@@ -114,12 +122,19 @@ def conversation(*arguments: str) -> Iterator[tuple[IO[bytes], IO[bytes]]]:
     ) as process:
         assert process.stdin is not None
         assert process.stdout is not None
+        late = Timer(_MOST_OF_ALL, process.kill)
+        late.start()
         try:
             yield process.stdin, process.stdout
         finally:
+            late.cancel()
             process.kill()
             with suppress(OSError):
                 process.stdin.close()
+
+
+def _chosen(*, here: bool) -> str | None:
+    return os.environ.get("GIT_DIR") if here else None
 
 
 def _command(arguments: tuple[str, ...]) -> list[str]:

@@ -133,7 +133,7 @@ def package_files(source: Source, config: Config, output: str = ".") -> tuple[st
     from rebsync.static import analyse
 
     parsed = parse_model(source)
-    analysis = analyse(parsed.model)
+    analysis = analyse(parsed.model, incomplete=not parsed.ok)
     findings = Findings(source, (*parsed.diagnostics, *analysis.diagnostics))
     if findings.errors:
         raise RebsyncError([Findings(source, findings.errors)])

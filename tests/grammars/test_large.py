@@ -3,20 +3,46 @@
 from __future__ import annotations
 
 import tracemalloc
+from time import process_time
 
 import pytest
 
 from rebsync.diagnostics import RebsyncError
+from rebsync.grammars.amount import MOST_PARTS
 from rebsync.grammars.lexer import MAX_NESTING, lex
+from rebsync.grammars.parser import parse_model
+from rebsync.grammars.properties import parse_properties
 from rebsync.source import Source
 from rebsync.toml import read_toml
 
+READERS = (parse_model, parse_properties)
+
 
 @pytest.mark.parametrize("bracket", ["{", "(", "["])
-def test_a_million_brackets_are_not_read(bracket: str) -> None:
-    found = lex(bracket * 1_000_000)
+def test_many_brackets_are_not_read(bracket: str) -> None:
+    found = lex(bracket * MOST_PARTS)
     assert len(found.tokens) == MAX_NESTING + 1
     assert [d.code for d in found.diagnostics] == ["RS111"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["{", "}", ";", "a ", "1 ", "x = x + 1;\n", "R r(r):();\n", "// a\n", "/**/", '"a"', "\u00a7"],
+)
+def test_what_is_too_much_is_refused_at_once(text: str) -> None:
+    """With a second each for what takes minutes and gigabytes where it is read."""
+    start = process_time()
+    model, properties = (read(Source("a", text * 1_000_000)) for read in READERS)
+    assert process_time() - start < 4
+    for found in (model.diagnostics, properties.diagnostics):
+        assert [d.code for d in found] == ["RS115"]
+    assert model.model.classes == ()
+
+
+def test_what_is_just_not_too_much_is_read() -> None:
+    text = "// a /* b\n" * 50_000 + "/* a" + " b" * MOST_PARTS + " */" + '"' + "a " * MOST_PARTS
+    assert [d.code for d in lex(text).diagnostics] == ["RS103"]
+    assert not lex(" " * 2 * MOST_PARTS).diagnostics
 
 
 def test_a_comment_takes_no_more_memory_than_its_text() -> None:

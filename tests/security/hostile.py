@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from rebsync import git_files
 from rebsync.cli import main
 from rebsync.trees import repository
 
@@ -33,8 +34,14 @@ def git(*arguments: str, given: bytes = b"", cwd: Path | None = None) -> str:
         capture_output=True,
         check=True,
     )
-    repository.cache_clear()
+    unchecked()
     return done.stdout.decode().strip()
+
+
+def unchecked() -> None:
+    """Nothing of repositories is known any more."""
+    repository.cache_clear()
+    git_files._refuse.cache_clear()
 
 
 def everything(folder: Path) -> dict[str, bytes]:
