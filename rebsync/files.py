@@ -14,7 +14,7 @@ from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.folder import Folder, content_of, open_regular
 from rebsync.long_numbers import MOST_DIGITS, long_number
 from rebsync.source import Source, Span
-from rebsync.trees import is_within, repository
+from rebsync.trees import leads_out, repository_of_link
 
 STANDARD_INPUT = "-"
 RECORDS = ".rebsync"  # the folder of a package with what it was made from
@@ -112,17 +112,23 @@ def _opened(path: str) -> int:
         return folder.open(name)
 
 
-def followed(path: str) -> str:
+def followed(path: str, named: str | None = None) -> str:
     """The real path of what a link leads to.
 
-    OSError: it leads nowhere. RebsyncError: it lies in a repository, and leads out of it.
+    OSError: it leads nowhere. RebsyncError: it lies in a repository, and leads out of it; or out of
+    the directory `named` by the user that it was found in, where there is no repository.
     """
     real = os.path.realpath(path, strict=True)
-    tree = repository(os.path.realpath(os.path.dirname(path) or "."))  # noqa: PTH120
-    if tree is not None and not is_within(real, tree):
-        message = "this link leads out of the repository, and is not followed"
-        raise RebsyncError.of(path, "RS813", message, "put the file itself here")
+    if leads_out(path, real, named):
+        raise leading_out(path)
     return real
+
+
+def leading_out(path: str, hint: str = "put the file itself here") -> RebsyncError:
+    """The mistake of a link that is not followed."""
+    where = "the repository" if repository_of_link(path) else "the directory that was named"
+    message = f"this link leads out of {where}, and is not followed"
+    return RebsyncError.of(path, "RS813", message, hint)
 
 
 def decode(path: str, data: bytes) -> Source:

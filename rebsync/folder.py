@@ -41,7 +41,7 @@ class Folder:
     def __init__(self, path: str, handle: int | None = None) -> None:
         """OSError: there is no such directory, or it may not be read."""
         self.path = path
-        self._inner = {"": _opened(os.path.realpath(path)) if handle is None else handle}
+        self._inner = {"": opened(os.path.realpath(path)) if handle is None else handle}
 
     def __enter__(self) -> Folder:
         return self
@@ -174,7 +174,7 @@ class Folder:
             raise RebsyncError.of(f"{self.path}/{name}", "RS813", message, _HINT)
 
 
-def _opened(real: str) -> int:
+def opened(real: str) -> int:
     """A handle of a real directory, none of whose parts has become a link since."""
     if hasattr(os, "O_NOFOLLOW_ANY") or not hasattr(os, "O_PATH"):
         return os.open(real, _FOLDER | getattr(os, "O_NOFOLLOW_ANY", _NO_LINK))

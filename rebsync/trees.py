@@ -24,6 +24,31 @@ def tree_of(root: str) -> str:
     return repository(here) or str(Path(here).parent)
 
 
+def tree_of_code(root: str, named: str) -> str:
+    """The real directory in which code of a package may be behind links.
+
+    Without a repository it is the directory that a user named, or else the package itself.
+    """
+    here, chosen = os.path.realpath(root), os.path.realpath(named)
+    return repository(here) or (chosen if is_within(here, chosen) else here)
+
+
+def repository_of_link(link: str) -> str | None:
+    """The working tree of git that a link itself lies in, wherever it leads."""
+    return repository(os.path.realpath(os.path.dirname(link) or os.curdir))  # noqa: PTH120
+
+
+def leads_out(link: str, real: str, named: str | None = None) -> bool:
+    """Whether a link to a real path leads out of the repository that it lies in.
+
+    Where it lies in none, out of the directory that a user named, if it was found there.
+    """
+    tree = repository_of_link(link)
+    if tree is None and named is not None:
+        tree = os.path.realpath(named)
+    return tree is not None and not is_within(real, tree)
+
+
 def is_within(real: str, tree: str) -> bool:
     """Whether a real path is of a tree: in it, and not of what git keeps for itself."""
     if real == tree:

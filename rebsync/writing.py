@@ -14,7 +14,7 @@ from pathlib import Path
 
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import BOM, followed, operating_on
-from rebsync.folder import Folder, content_of, open_regular, refuse_special
+from rebsync.folder import Folder, content_of, open_regular, opened, refuse_special
 from rebsync.records import dataclass
 from rebsync.terminal import encoded
 
@@ -86,11 +86,13 @@ def replace_tree(
     remove: Collection[str] = (),
     ready: Callable[[], None] = lambda: None,
     beside: Mapping[str, str] | None = None,
+    real: str | None = None,
 ) -> tuple[str, ...]:
     """Make files below `root` hold `texts`, and delete `remove`: all of it or nothing.
 
     `ready` is called at the last moment before; what it raises leaves all as it was. `beside` are
-    texts of files elsewhere, by their real paths. RebsyncError: a link is in the way.
+    texts of files elsewhere, by their real paths. `real` is where `root` was found to be: it is no
+    link by now. RebsyncError: a link is in the way.
 
     The paths are relative, with `/`. Gives those written or deleted; the others already were so.
     Files appear in the order given, those elsewhere first, and go last: so a machine that dies
@@ -101,7 +103,8 @@ def replace_tree(
             if texts:
                 _create_tree(Path(root), texts, executable)
             return tuple(texts)
-        tree = folders.enter_context(Folder(root))
+        handle = opened(real) if real is not None else None
+        tree = folders.enter_context(Folder(root, handle))
         created: list[tuple[int, str]] = []
         try:
             replacements = list(_elsewhere(beside or {}, folders))

@@ -46,7 +46,7 @@ class Standing:
 def standing(kept: Kept, record: Record | None) -> Standing:
     """How a package stands against what its manifest records; without one, all is changed."""
     wanted = record.files if record is not None else {}
-    listing = listing_of(kept.root, kept.tree, wanted)
+    listing = listing_of(kept.root, kept.tree_of_code, wanted)
     if kept.root == ".":  # as servers name the files of a change
         listing.files = {name: path.removeprefix("./") for name, path in listing.files.items()}
     digests: dict[str, str] = {}

@@ -25,7 +25,7 @@ def write(sync: Sync, before: Stamps) -> tuple[str, ...]:
     `before` are the files from when it was begun. RebsyncError: a file cannot be written, somebody
     has changed it since, or a link leads out of what belongs together.
     """
-    root = os.path.realpath(sync.checked.kept.root)
+    root = sync.checked.kept.to_write()
     texts = {p: marked(root, p, t) for p, t in sync.texts.items() if t is not None}
     # Last what is only true when all the rest is there.
     ordered = sorted(sync.records.items(), key=lambda r: (r[0] == MANIFEST, r[0] == BASE_MODEL))
@@ -40,7 +40,9 @@ def write(sync: Sync, before: Stamps) -> tuple[str, ...]:
         before.refuse_changed([*beside, *(f"{root}/{path}" for path in (*texts, *gone))])
 
     try:
-        written = replace_tree(root, texts, remove=gone, ready=refuse_changed, beside=beside)
+        written = replace_tree(
+            root, texts, remove=gone, ready=refuse_changed, beside=beside, real=root
+        )
     except RebsyncError as error:
         raise RebsyncError([_as_shown(f, root, sync, beside) for f in error.findings]) from None
     _tell_git(sync)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import sys
 from collections import Counter
@@ -17,6 +18,7 @@ import click
 from rebsync.cli.options import output_option, refuse_to_overwrite, write_output
 from rebsync.cli.status import Status, worst
 from rebsync.diagnostics import RebsyncError
+from rebsync.files import followed, operating_on
 from rebsync.records import dataclass
 from rebsync.report import print_report
 from rebsync.terminal import json_text, lines_text, one_line, say, write_data
@@ -139,7 +141,11 @@ class _Told:
         name = re.sub(r"[^\w+.-]", "_", given.name).lstrip(".") or "package"
         self.names[name] += 1
         again = f"_{self.names[name]}" if self.names[name] > 1 else ""
-        return str(Path(self.output) / f"{name}{again}{suffix}")
+        path = str(Path(self.output) / f"{name}{again}{suffix}")
+        if os.path.islink(path):  # noqa: PTH114
+            with operating_on(path):
+                followed(path, self.output)
+        return path
 
 
 def _nothing(path: str, asks: bool) -> RebsyncError:

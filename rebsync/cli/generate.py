@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from contextlib import suppress
 from dataclasses import replace
@@ -52,7 +53,7 @@ def command(
     source = read_source(model)
     name, files = package_files(source, config, output)
     folder = Path(output) / name
-    _refuse_link(folder)
+    _real(folder)
     files = _with_accepted(folder, files)
     if only_list:
         say_lines(str(folder / path) for path in sorted(files))
@@ -66,11 +67,15 @@ def command(
         return _merged(folder, plan(folder, files), source, force, before)
 
 
-def _refuse_link(folder: Path) -> None:
-    """A link that leads out of a repository is no place for a package, new or not."""
-    if folder.is_symlink():
-        with operating_on(str(folder)):
-            followed(str(folder))
+def _real(folder: Path) -> str:
+    """Where the package is, or is to be.
+
+    RebsyncError: it is a link that leads out of its repository, or else of the directory it is in.
+    """
+    with operating_on(str(folder)):
+        if folder.is_symlink():
+            return followed(str(folder), str(folder.parent))
+        return os.path.realpath(folder)
 
 
 def _merged(
@@ -170,7 +175,9 @@ def _write(folder: Path, steps: tuple[Step, ...], force: bool, before: Stamps) -
     def refuse_changed() -> None:
         before.refuse_changed(str(folder / path) for path in (*texts, *remove))
 
-    written = replace_tree(str(folder), texts, remove=remove, ready=refuse_changed)
+    written = replace_tree(
+        str(folder), texts, remove=remove, ready=refuse_changed, real=_real(folder)
+    )
     own = [path for path in written if not path.startswith(".rebsync/")]
     total = sum(not s.path.startswith(".rebsync/") and s.new is not None for s in steps)
     say(f"{folder}: {total} files, {len(own)} of them written")

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from rebsync.diagnostics import RebsyncError
-from rebsync.files import STANDARD_INPUT, os_mistake
+from rebsync.files import STANDARD_INPUT, followed, os_mistake
 
 MODEL = ".rebeca"
 PROPERTY = ".property"
@@ -37,12 +37,24 @@ def _files(path: str, suffixes: tuple[str, ...]) -> Iterator[str | RebsyncError]
             file = Path(folder, name)
             if name.endswith(suffixes) and not name.startswith(".") and not _special(file):
                 found = True
-                yield str(file)
+                yield _within(str(file), path)
     for error in errors:
         yield os_mistake(str(error.filename or path), error)
     if not found and not errors:
         wanted = " or ".join(f"*{suffix}" for suffix in suffixes)
         yield RebsyncError.of(path, "RS811", f"there is no {wanted} below this directory")
+
+
+def _within(file: str, named: str) -> str | RebsyncError:
+    """A file below a directory that was named; its mistake where it is a link that leads out."""
+    if os.path.islink(file):  # noqa: PTH114
+        try:
+            followed(file, named)
+        except OSError as error:
+            return os_mistake(file, error)
+        except RebsyncError as error:
+            return error
+    return file
 
 
 def _special(path: Path) -> bool:

@@ -52,6 +52,7 @@ def command(paths: tuple[str, ...], model: str | None, conflict: str, dry_run: b
 
 def _one(kept: Kept, conflict: str, dry_run: bool) -> Status:
     try:
+        kept.to_write()
         if dry_run:
             return _shown(_worked_out(kept, conflict))
         models = _models_of(kept)

@@ -13,7 +13,7 @@ from rebsync.files import operating_on, os_mistake
 from rebsync.records import dataclass
 from rebsync.reverse.files.python_files import SUFFIX, is_script, may_be_script
 from rebsync.reverse.files.stores import Disk, Entry, Store, join
-from rebsync.trees import is_within, tree_of
+from rebsync.trees import is_within, tree_of_code
 
 MANIFEST = "package.xml"
 HEADERS = frozenset({".h", ".hh", ".hpp", ".hxx", ".cuh", ".ipp", ".tpp", ".inl", ".H"})
@@ -63,7 +63,7 @@ def listings(path: str, within: str | None = None, store: Store | None = None) -
         if not files.is_folder(path):
             yield _around(path, store)
             return
-    walk = _Walk(store, os.path.realpath(within) if within is not None else None)
+    walk = _Walk(path, store, os.path.realpath(within) if within is not None else None)
     waiting = [path]
     while waiting:
         listing, inner = walk.package(waiting.pop())
@@ -81,7 +81,7 @@ def _around(path: str, store: Store | None) -> Listing:
     if root is None:
         return Listing(str(here.parent), {here.name: path}, here.name, is_package=False)
     inside = here.absolute().relative_to(root.absolute()).as_posix()
-    listing, _ = _Walk().package(str(root))
+    listing, _ = _Walk(str(here.parent)).package(str(root))
     return replace(listing, files={**listing.files, inside: path}, only=inside)
 
 
@@ -97,7 +97,7 @@ def _around_in(store: Store, path: str) -> Listing:
     inside = path.removeprefix(root).lstrip("/")
     if not found:
         return Listing(root, {inside: path}, inside, is_package=False, store=store)
-    listing, _ = _Walk(store).package(root)
+    listing, _ = _Walk(root, store).package(root)
     return replace(listing, files={**listing.files, inside: path}, only=inside)
 
 
@@ -112,9 +112,10 @@ class _Walk:
     """Goes through directories, into each once, whatever links there are.
 
     What links lead to outside of the real directory `within` is left out; where that is not given,
-    outside of the tree of the package that is gone through.
+    outside of the tree of the package that is gone through, or of the directory `named`.
     """
 
+    named: str
     store: Store | None = None
     within: str | None = None
     seen: set[object] = field(default_factory=set)
@@ -126,7 +127,7 @@ class _Walk:
     def package(self, root: str) -> tuple[Listing, list[str]]:
         """The files under a directory but for those of packages within, and these packages."""
         is_package = self._has_manifest(root)
-        tree = self.within or ("" if self.store is not None else tree_of(root))
+        tree = self.within or ("" if self.store is not None else tree_of_code(root, self.named))
         listing = Listing(root, {}, is_package=is_package, tree=tree, store=self.store)
         inner: list[str] = []
         waiting = [(root, "", "")]

@@ -451,3 +451,118 @@ def test_a_package_that_is_a_link_to_outside_is_not_written(package: Path, run: 
     Path("patrol").symlink_to(victim)
     assert run("generate", "patrol.rebeca")[0] == 2
     assert sorted(p.name for p in victim.iterdir()) == [".rebsync"]
+
+
+# --- packages and files behind links that a directory holds -------------------------------------
+
+
+@pytest.fixture
+def elsewhere(package: Path, tmp_path: Path) -> Path:
+    """The package is a link out of the directory, and its model has moved on."""
+    away = tmp_path / "away"
+    away.mkdir()
+    linked(package, away / "patrol")
+    shutil.copy("patrol.rebeca", away)
+    replace(str(away / "patrol.rebeca"), "% 4", "% 5")
+    replace("patrol.rebeca", "% 4", "% 5")
+    return away
+
+
+@pytest.mark.parametrize("named", [[], ["."], ["patrol"], ["patrol/src/robot.cpp"]])
+def test_a_linked_package_out_of_the_repository_is_read_only(
+    run: Run, elsewhere: Path, named: list[str]
+) -> None:
+    git("init", "-q")
+    before = everything(elsewhere)
+    for option in ([], ["--dry-run"]):
+        status, shown = run("sync", *option, *named)
+        assert (status, "patrol: RS813 this link leads out of the repository" in shown) == (2, True)
+        assert f"`rebsync sync {elsewhere}/patrol` writes there" in shown
+    assert everything(elsewhere) == before
+    assert run("check", *named)[0] == 1
+    assert run("sync", f"{elsewhere}/patrol")[0] == 0
+    assert "% 5" in (elsewhere / SOURCE).read_text()
+
+
+@pytest.mark.parametrize("named", [[], ["."], ["../ws"]])
+def test_nor_out_of_the_directory_that_was_named(
+    run: Run, elsewhere: Path, named: list[str]
+) -> None:
+    """An archive that was unpacked is no repository."""
+    Path("../ws").symlink_to(Path.cwd())
+    before = everything(elsewhere)
+    status, shown = run("sync", *named)
+    assert (status, "leads out of the directory that was named" in shown) == (2, True), shown
+    assert run("generate", "patrol.rebeca")[0] == 2
+    assert everything(elsewhere) == before
+
+
+@pytest.mark.parametrize("named", ["patrol", "patrol/", "patrol/src/robot.cpp", ".."])
+def test_but_where_it_is_named(run: Run, elsewhere: Path, named: str) -> None:
+    status, shown = run("sync", named)
+    assert status == 0, shown
+    assert "% 5" in (elsewhere / SOURCE).read_text()
+
+
+def test_a_package_that_becomes_a_link_out_meanwhile(
+    run: Run, package: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    git("init", "-q")
+    replace("patrol.rebeca", "% 4", "% 5")
+    away = tmp_path / "away"
+    shutil.copytree(package, away)
+    before = everything(away)
+    from rebsync.roundtrip import sync_writing
+
+    real = sync_writing.replace_tree
+
+    def late(*arguments: object, **others: object) -> tuple[str, ...]:
+        shutil.rmtree(package)
+        package.symlink_to(away)
+        return real(*arguments, **others)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(sync_writing, "replace_tree", late)
+    status, _ = run("sync")
+    assert status == 2
+    assert everything(away) == before
+
+
+@pytest.mark.parametrize("is_repository", [True, False])
+@pytest.mark.parametrize("command", ["fmt", "fmt --check", "lint", "lint --fix"])
+def test_models_behind_links_that_a_directory_holds(
+    run: Run, package: Path, tmp_path: Path, command: str, is_repository: bool
+) -> None:
+    if is_repository:
+        git("init", "-q")
+    outside = tmp_path / "secret.rebeca"
+    outside.write_text("reactiveclass  Secret(4){msgsrv m(){?<1,2>;}}\n")
+    text = outside.read_text()
+    Path("in").mkdir()
+    Path("in/a.rebeca").symlink_to(outside)
+    Path("in/b.rebeca").symlink_to("../patrol.rebeca")
+    status, shown = run(*command.split(), "in")
+    assert (status, "in/a.rebeca: RS813" in shown, "Secret" in shown) == (2, True, False), shown
+    assert ("in/b.rebeca: RS813" in shown) is not is_repository
+    assert outside.read_text() == text
+    assert run(*command.split(), ".")[1].count("RS813") == 1
+    if not is_repository and command == "fmt":
+        assert run("fmt", "in/a.rebeca")[0] == 2  # it is read, and is no model
+        assert "RS813" not in run("fmt", "in/a.rebeca")[1]
+
+
+def test_a_model_is_not_extracted_behind_a_link(run: Run, package: Path, tmp_path: Path) -> None:
+    outside = tmp_path / "start_up"
+    outside.write_text("here\n")
+    Path("out").mkdir()
+    Path("out/patrol.rebeca").symlink_to(outside)
+    status, shown = run("extract", "patrol", "-o", "out")
+    assert (status, "RS813" in shown, outside.read_text()) == (2, True, "here\n")
+
+
+def test_code_behind_links_where_no_repository_is(run: Run, package: Path, tmp_path: Path) -> None:
+    linked(package / "src" / "robot.cpp", package.parent / "common" / "robot.cpp")
+    assert run("check", ".")[0] == 0
+    assert "leads out" not in run("extract", ".")[1]
+    for command in ("check", "extract"):
+        status, shown = run(command, "patrol")
+        assert (status, "a link that leads out of the tree" in shown) == (4, True), shown
