@@ -512,16 +512,13 @@ def test_a_package_that_becomes_a_link_out_meanwhile(
     away = tmp_path / "away"
     shutil.copytree(package, away)
     before = everything(away)
-    from rebsync.roundtrip import sync_writing
-
-    real = sync_writing.replace_tree
 
     def late(*arguments: object, **others: object) -> tuple[str, ...]:
         shutil.rmtree(package)
         package.symlink_to(away)
-        return real(*arguments, **others)  # type: ignore[arg-type]
+        return rebsync.writing.replace_tree(*arguments, **others)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(sync_writing, "replace_tree", late)
+    monkeypatch.setattr("rebsync.roundtrip.sync_writing.replace_tree", late)
     status, _ = run("sync")
     assert status == 2
     assert everything(away) == before
