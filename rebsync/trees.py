@@ -27,10 +27,12 @@ def tree_of(root: str) -> str:
 def tree_of_code(root: str, named: str) -> str:
     """The real directory in which code of a package may be behind links.
 
-    Without a repository it is the directory that a user named, or else the package itself.
+    Without a repository it is the directory that a user named or is in, or else the package itself.
     """
-    here, chosen = os.path.realpath(root), os.path.realpath(named)
-    return repository(here) or (chosen if is_within(here, chosen) else here)
+    here = os.path.realpath(root)
+    chosen = map(os.path.realpath, (named, os.curdir))
+    around = [folder for folder in chosen if is_within(here, folder)]
+    return repository(here) or min(around, key=len, default=here)
 
 
 def repository_of_link(link: str) -> str | None:

@@ -26,10 +26,11 @@ def rebsync(
     cwd: Path,
     stdin: bytes = b"",
     env: Mapping[str, str] | None = None,
+    before: tuple[str, ...] = (),
 ) -> Outcome:
-    """Run `rebsync` with these arguments in a directory."""
+    """Run `rebsync` with these arguments in a directory; `before` is a program that starts it."""
     done = subprocess.run(
-        [sys.executable, "-m", "rebsync", *arguments],
+        [*before, sys.executable, "-m", "rebsync", *arguments],
         cwd=cwd,
         input=stdin,
         capture_output=True,

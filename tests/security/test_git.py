@@ -402,6 +402,28 @@ def test_repositories_without_pipes(
         assert run("diff", "HEAD:patrol.rebeca", "HEAD:patrol")[0] == 0
 
 
+def test_a_repository_with_longer_ids(
+    package: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Objects are known by SHA-256 there, when they are read and when conflicts are told of."""
+    for name, value in NAMES.items():
+        monkeypatch.setenv(name, value)
+    git("init", "-q", "--object-format=sha256")
+    git("add", "-A")
+    git("commit", "-q", "-m", "all")
+    run = runner(capsys, monkeypatch)
+    replace(SOURCE, "n > 3", "n > 5")
+    status, shown = run("diff", "HEAD:patrol", "patrol")
+    assert (status, "n > 3" in shown, "n > 5" in shown) == (1, True, True), shown
+    replace("patrol.rebeca", "n > 3", "n >= 4")
+    assert run("sync")[0] == 1
+    listed = [line.split() for line in git("ls-files", "-u").splitlines()]
+    assert [(len(id_), stage) for _, id_, stage, _ in listed] == [(64, n) for n in "123"]
+    texts = [git("cat-file", "blob", id_) for _, id_, _, _ in listed]
+    assert ["n > 3" in texts[0], "n >= 4" in texts[1], "n > 5" in texts[2]] == [True] * 3
+    assert "UU patrol.rebeca" in git("status", "--short")
+
+
 def test_merging_texts_does_not_depend_on_settings(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

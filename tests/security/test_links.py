@@ -556,10 +556,14 @@ def test_a_model_is_not_extracted_behind_a_link(run: Run, package: Path, tmp_pat
     assert (status, "RS813" in shown, outside.read_text()) == (2, True, "here\n")
 
 
-def test_code_behind_links_where_no_repository_is(run: Run, package: Path, tmp_path: Path) -> None:
+def test_code_behind_links_where_no_repository_is(
+    run: Run, package: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     linked(package / "src" / "robot.cpp", package.parent / "common" / "robot.cpp")
     assert run("check", ".")[0] == 0
     assert "leads out" not in run("extract", ".")[1]
+    assert run("check", "patrol")[0] == 0
+    monkeypatch.chdir("patrol")
     for command in ("check", "extract"):
-        status, shown = run(command, "patrol")
+        status, shown = run(command, str(package))
         assert (status, "a link that leads out of the tree" in shown) == (4, True), shown
