@@ -17,11 +17,17 @@ from rebsync.printing import print_line
 
 
 def header(
-    c: CppClass, model_name: str, constructors: list[str], access: list[str], root: str = ""
+    c: CppClass,
+    model_name: str,
+    constructors: list[str],
+    access: list[str],
+    root: str = "",
+    closing: Sequence[str] = (),
 ) -> str:
     """`include/<package>/<class>.h`; `access` is what ROS asks of the class besides.
 
-    `root` is the class that those without a base descend from.
+    `root` is the class that those without a base descend from; the `closing` lines stand behind
+    the class.
     """
     package, node = c.package.name, c.node
     shared = shared_interfaces(c.package)
@@ -52,6 +58,7 @@ def header(
         constructor_declarations=constructors,
         function_groups=groups,
         member_groups=_member_groups(c),
+        closing=closing,
     )
 
 

@@ -77,6 +77,7 @@ def _own_modules(c: PyClass, words: PyWords) -> Mapping[str, Iterable[str]]:
     messages |= {s.type for s in c.node.sensors if s.stands_in} | {"Timing"}
     modules: dict[str, Iterable[str]] = {
         f"{package}.drive": ("Drive",),
+        f"{package}.lifecycle": ("RebecNode",),
         f"{package}.mailbox": _MAILBOX,
         words.messages(package): messages,
         words.services(package): [s.type for s in c.package.services],

@@ -13,8 +13,7 @@ from rebsync.model import Type
 from rebsync.names import graph_name
 from rebsync.package import ConstructorOf, Value
 
-ROOT = "rclcpp::Node"
-_OPTIONS = "const rclcpp::NodeOptions& options"
+_OPTIONS = "const {}::NodeOptions& options"
 _PARAMETERS = {
     "byte": ("int", "0"),
     "short": ("int", "0"),
@@ -30,12 +29,21 @@ _CASTS = {
 }
 
 
+def root(c: CppClass) -> str:
+    """What the classes of nodes descend from: that with a life cycle is made from outside."""
+    return "lifecycle::RebecNode" if c.package.settings.lifecycle else "rclcpp::Node"
+
+
+def _options(c: CppClass) -> str:
+    return _OPTIONS.format(root(c).partition("::")[0])
+
+
 def constructor_declarations(c: CppClass) -> list[str]:
     """The constructors of the C++ class, in its header."""
-    lines = [f"  explicit {c.type_name}({_OPTIONS});"] if c.node.executable else []
+    lines = [f"  explicit {c.type_name}({_options(c)});"] if c.node.executable else []
     if c.node.inherited_from or not c.node.executable:
         length = None if c.node.executable else c.node.queue_length
-        lines += call_lines(c.type_name, _wiring_parameters(length), ";", "  ")
+        lines += call_lines(c.type_name, _wiring_parameters(c, length), ";", "  ")
     return lines
 
 
@@ -44,12 +52,12 @@ def access(c: CppClass) -> list[str]:
     return [f"  ~{c.type_name}() override {{ mailbox_.stop(); }}"] if c.node.executable else []
 
 
-def _wiring_parameters(queue_length: int | None = None) -> list[str]:
+def _wiring_parameters(c: CppClass, queue_length: int | None = None) -> list[str]:
     """An abstract class tells its queue length here, although every heir has its own."""
     length, priority = "std::size_t queue_length", "int best_priority"
     if queue_length is not None:
         length, priority = f"{length} = {queue_length}", f"{priority} = kNoPriority"
-    return ["const Inherited& inherited", _OPTIONS, length, priority]
+    return ["const Inherited& inherited", _options(c), length, priority]
 
 
 def constructor_definitions(c: CppClass) -> list[list[str]]:
@@ -59,7 +67,7 @@ def constructor_definitions(c: CppClass) -> list[list[str]]:
     if c.node.executable:
         definitions.append(_constructor(c, wires_itself))
     if c.node.inherited_from or not c.node.executable:
-        head = call_lines(f"{c.type_name}::{c.type_name}", _wiring_parameters(), "")
+        head = call_lines(f"{c.type_name}::{c.type_name}", _wiring_parameters(c), "")
         initial = _initialisers(c, "inherited", "queue_length", "best_priority")
         definitions.append(with_initialisers(head, initial, [*_parameters_read(c), *wiring(c)]))
     return definitions
@@ -67,7 +75,7 @@ def constructor_definitions(c: CppClass) -> list[list[str]]:
 
 def _constructor(c: CppClass, wires_itself: bool) -> list[str]:
     """The public one: it constructs the rebec and starts to serve."""
-    head = [f"{c.type_name}::{c.type_name}({_OPTIONS})"]
+    head = [f"{c.type_name}::{c.type_name}({_options(c)})"]
     own, best = f'Inherited{{"{c.node.file}"}}', best_priority(c) or "kNoPriority"
     length = str(c.node.queue_length)
     if wires_itself:
@@ -93,7 +101,7 @@ def _initialisers(c: CppClass, inherited: str, queue_length: str, best: str) -> 
     else:
         name = "inherited.name" if inherited == "inherited" else f'"{c.node.file}"'
         priority = "" if best == "kNoPriority" else f", {best}"
-        found = [f"{ROOT}({name}, options)", f"mailbox_(*this, {queue_length}{priority})"]
+        found = [f"{root(c)}({name}, options)", f"mailbox_(*this, {queue_length}{priority})"]
     if c.owns_drive:
         found.append("drive_(*this, mailbox_)")
     for sensor in c.node.sensors:
@@ -160,13 +168,36 @@ def _declared(
 
 def node_main(c: CppClass) -> str:
     """`src/<class>_node.cpp`: runs one rebec in a process of its own."""
-    return fill("ros2_cpp/node.cpp.j2", package=c.package.name, c=c)
+    lifecycle = c.package.settings.lifecycle
+    return fill("ros2_cpp/node.cpp.j2", package=c.package.name, c=c, lifecycle=lifecycle)
+
+
+def component(c: CppClass) -> str:
+    """The class of a component: with a life cycle that of the node, which makes the rebec."""
+    space = "nodes::" if c.package.settings.lifecycle else ""
+    return f"{c.package.name}::{space}{c.type_name}"
+
+
+def managed(c: CppClass) -> list[str]:
+    """The class of the node with a life cycle, behind that of the rebec in its header."""
+    if not c.node.executable or not c.package.settings.lifecycle:
+        return []
+    name = f"k{c.type_name}"
+    return [
+        "",
+        "namespace nodes {",
+        "",
+        f'inline constexpr char {name}[] = "{c.node.file}";',
+        f"using {c.type_name} = lifecycle::Managed<::{c.package.name}::{c.type_name}, {name}>;",
+        "",
+        "}  // namespace nodes",
+    ]
 
 
 def registration(c: CppClass) -> list[str]:
     """What makes the class a component."""
     if not c.node.executable:
         return []
-    name = f"{c.package.name}::{c.type_name}"
+    name = component(c)
     macro = f"RCLCPP_COMPONENTS_REGISTER_NODE({name})"
     return ["", "#include <rclcpp_components/register_node_macro.hpp>", "", macro]

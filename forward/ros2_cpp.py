@@ -10,12 +10,13 @@ from rebsync.forward.message_files import message_files
 from rebsync.forward.readme import readme
 from rebsync.forward.remarks import Remarks
 from rebsync.forward.ros2_constructors import (
-    ROOT,
     access,
     constructor_declarations,
     constructor_definitions,
+    managed,
     node_main,
     registration,
+    root,
 )
 from rebsync.forward.ros2_package import cmake_lists, launch_file, manifest, parameters
 from rebsync.forward.runtime_part import cpp_runtime, cpp_stand_in
@@ -51,7 +52,7 @@ def render(
 
 def _class_files(c: CppClass, model_name: str) -> dict[str, str]:
     include = f"include/{c.package.name}/{c.node.file}"
-    declared = header(c, model_name, constructor_declarations(c), access(c), ROOT)
+    declared = header(c, model_name, constructor_declarations(c), access(c), root(c), managed(c))
     files = {f"{include}.hpp": declared}
     if c.node.interface:
         return files

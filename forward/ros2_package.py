@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from rebsync.forward.cpp_class import CppClass
 from rebsync.forward.message_files import message_names, service_names
+from rebsync.forward.ros2_constructors import component
 from rebsync.forward.runtime_part import message_packages, odometry_topic
 from rebsync.forward.templating import fill
 from rebsync.forward.yaml_values import is_yaml_word, yaml_name, yaml_value
@@ -19,7 +20,8 @@ def _message_packages(package: Package) -> list[str]:
 
 
 def _depends(package: Package) -> list[str]:
-    return sorted([*_message_packages(package), "rclcpp", "rclcpp_components"])
+    found = [*_message_packages(package), "rclcpp", "rclcpp_components"]
+    return sorted([*found, *(["rclcpp_lifecycle"] if package.settings.lifecycle else [])])
 
 
 def manifest(package: Package) -> str:
@@ -41,8 +43,9 @@ def cmake_lists(package: Package, classes: list[CppClass]) -> str:
         messages=message_names(package),
         services=service_names(package),
         sources=sorted(c.node.file for c in classes if not c.node.interface),
-        components=sorted(f"{package.name}::{c.type_name}" for c in runs),
+        components=sorted(map(component, runs)),
         executables=sorted(executables),
+        lifecycle=package.settings.lifecycle,
     )
 
 
@@ -70,6 +73,7 @@ def launch_file(package: Package) -> str:
         package=package,
         nodes=nodes,
         system=system,
+        lifecycle=package.settings.lifecycle,
         typed=any("ParameterValue(" in value for value in values),
     )
 

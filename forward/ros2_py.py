@@ -33,13 +33,16 @@ def interfaces(package: str) -> str:
 
 
 class Rclpy:
-    """The words of rclpy."""
+    """The words of rclpy; `node` is the class that those of rebecs derive from."""
+
+    def __init__(self, node: str = "Node") -> None:
+        self._node = node
 
     def messages(self, package: str) -> str:
         return f"{interfaces(package)}.msg"
 
     def base(self) -> str:
-        return "Node"
+        return self._node
 
     def services(self, package: str) -> str:
         return f"{interfaces(package)}.srv"
@@ -89,7 +92,8 @@ def render(
     package: Package, analysis: Analysis, topics: Topics, remarks: Remarks, model_name: str
 ) -> dict[str, str]:
     """The files of the two packages by path, relative to the folder that holds them."""
-    name, words = package.name, Rclpy()
+    name = package.name
+    words = Rclpy("RebecNode" if package.settings.lifecycle else "Node")
     files: dict[str, str] = {
         "README.md": readme(package, model_name, _FOLDER, _SENSORS),
         f"{name}/package.xml": fill(
@@ -137,6 +141,7 @@ def _interfaces(package: Package) -> dict[str, str]:
 
 def _depends(package: Package) -> list[str]:
     own = {"rcl_interfaces", "rclpy", interfaces(package.name)}
+    own |= {"lifecycle_msgs"} if package.settings.lifecycle else set()
     return sorted(own | message_packages(package))
 
 
@@ -153,8 +158,11 @@ def _node(c: PyClass) -> str:
         f"{package}.{c.node.file}": (c.type_name,),
         f"{package}.startup": ("stoppable",),
     }
-    used = {c.type_name, "stoppable"}
-    return fill(f"{_FOLDER}/node.py.j2", c=c, imports=imports(used, dict(sorted(modules.items()))))
+    if lifecycle := c.package.settings.lifecycle:
+        modules[f"{package}.lifecycle"] = ("Managed",)
+    used = {c.type_name, "stoppable", "Managed"}
+    found = imports(used, dict(sorted(modules.items())))
+    return fill(f"{_FOLDER}/node.py.j2", c=c, imports=found, lifecycle=lifecycle)
 
 
 def _stand_in(package: Package, node: NodeClass) -> str:

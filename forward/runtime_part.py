@@ -22,7 +22,7 @@ def message_packages(package: Package) -> set[str]:
     return found - {package.name}
 
 
-def _stems(package: Package) -> list[str]:
+def _stems(package: Package, is_ros2: bool) -> list[str]:
     names = ["mailbox", "startup", "values", "watchdog"]
     if any(c.moves for c in package.classes):
         names.append("drive")
@@ -30,6 +30,8 @@ def _stems(package: Package) -> list[str]:
         names.append("sensor")
     if package.services:
         names.append("services")
+    if is_ros2 and package.settings.lifecycle:
+        names.append("lifecycle")
     return names
 
 
@@ -53,22 +55,26 @@ def python_runtime(package: Package, dialect: str, folder: str) -> dict[str, str
             services=package.services,
             odometry=odometry_topic(package, dialect.startswith("ros2")),
             timed=_is_timed(package),
+            lifecycle=package.settings.lifecycle,
         )
-        for stem in _stems(package)
+        for stem in _stems(package, dialect.startswith("ros2"))
     }
 
 
 def cpp_runtime(package: Package, words: CppWords) -> dict[str, str]:
     """The headers of the run-time part by path."""
-    names = (f"{stem}.{words.HEADER}" for stem in _stems(package))
+    is_ros2 = words.TEMPLATES.startswith("ros2")
+    names = (f"{stem}.{words.HEADER}" for stem in _stems(package, is_ros2))
     return {
         f"include/{package.name}/{name}": fill(
             f"{words.TEMPLATES}/{name}.j2",
             package=package.name,
             services=package.services,
-            odometry=odometry_topic(package, words.TEMPLATES.startswith("ros2")),
+            odometry=odometry_topic(package, is_ros2),
             includes=_served_headers(package, words),
             timed=_is_timed(package),
+            lifecycle=package.settings.lifecycle,
+            node="lifecycle::RebecNode" if package.settings.lifecycle else "rclcpp::Node",
         )
         for name in names
     }

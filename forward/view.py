@@ -79,6 +79,7 @@ class _View:
                 config.drive,
                 config.heading,
                 config.odometry,
+                config.lifecycle,
             ),
             self.topics.messages,
             tuple(self.env.values()),

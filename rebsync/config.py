@@ -68,6 +68,7 @@ class Config:
     drive: Drive = "holonomic"
     heading: float = 0.0
     odometry: str | None = None
+    lifecycle: bool = False
     maintainers: tuple[Maintainer, ...] = ()
     license: str | None = None
     version: str = "0.1.0"
@@ -115,6 +116,9 @@ def config_of_record(options: Mapping[str, Any]) -> Config | None:
     They are as untrusted as a text: what is generated from them must not hold more.
     """
     known = {k: v for k, v in options.items() if v is not None and k in Config.__dataclass_fields__}
+    if "odometry" in known:
+        known["drive"] = {"kind": known.get("drive", DRIVES[0]), "odometry": known["odometry"]}
+    known["ros2"] = {"lifecycle": known.get("lifecycle", False)}
     try:
         lists = {"sensors": "server", "targets": "name"}
         named = {k: {each[n]: each for each in known.get(k, ())} for k, n in lists.items()}
@@ -143,6 +147,7 @@ def _config(table: Table) -> Config:
         drive=drive,
         odometry=odometry,
         heading=_number(table, "heading", default.heading, _finite, "finite"),
+        lifecycle=_lifecycle(table),
         maintainers=_maintainers(table),
         license=_one_line(table, "license"),
         version=_matching(table, "version", default.version, _VERSION, "like 1.2.3")
@@ -163,6 +168,16 @@ def _drive(table: Table) -> tuple[Drive, str | None]:
     odometry = _matching(entry, "odometry", None, _TOPIC, "a topic such as /odom")
     entry.finish()
     return kind, odometry
+
+
+def _lifecycle(table: Table) -> bool:
+    """Whether nodes of ROS 2 have a life cycle: `lifecycle` of the table `[ros2]`."""
+    entry = table.table("ros2")
+    if entry is None:
+        return False
+    found = entry.flag("lifecycle")
+    entry.finish()
+    return found
 
 
 def _maintainers(table: Table) -> tuple[Maintainer, ...]:

@@ -274,6 +274,7 @@ class Settings:
     drive: str = "holonomic"
     heading: float = 0.0
     odometry: str | None = None
+    lifecycle: bool = False
 
 
 @dataclass(frozen=True, slots=True)

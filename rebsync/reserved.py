@@ -12,7 +12,17 @@ from rebsync.names import CPP_KEYWORDS, PYTHON_KEYWORDS, carry, uncarry
 RUNTIME_CLASSES = frozenset(
     {
         *("Announcement", "Beginning", "Drive", "Inherited", "Mailbox", "Pose", "Publishers"),
-        *("Rebec", "Recipient", "Sensor", "Served", "Server", "Services", "Snapshot", "Startup"),
+        *(
+            "Rebec",
+            "RebecNode",
+            "Recipient",
+            "Sensor",
+            "Served",
+            "Server",
+            "Services",
+            "Snapshot",
+            "Startup",
+        ),
         *("Stopped", "Timing", "Violation", "Watchdog", "When"),
     }
 )
@@ -31,7 +41,7 @@ NO_CLASSES = (
     CPP_KEYWORDS
     | RUNTIME_TYPES
     | _FREE_FUNCTIONS
-    | {"kNull", "msg", "rcl_interfaces", "rclcpp", "reportLine"}
+    | {"kNull", "lifecycle", "msg", "nodes", "rcl_interfaces", "rclcpp", "reportLine"}
 )
 RUNTIME_TOPICS = frozenset({"cmd_vel", "state"})
 RUNTIME_FIELDS = ("timing", "sender")
@@ -84,7 +94,16 @@ def uncarry_local(carried: str, reserved: Collection[str], functions: Collection
 
 
 # The headers of generated packages that are the same for every model.
-RUNTIME_HEADERS = ("mailbox", "services", "startup", "values", "watchdog", "drive", "sensor")
+RUNTIME_HEADERS = (
+    "lifecycle",
+    "mailbox",
+    "services",
+    "startup",
+    "values",
+    "watchdog",
+    "drive",
+    "sensor",
+)
 
 # --- Python -------------------------------------------------------------------------------------
 

@@ -62,6 +62,10 @@ class Table:
             return float(value) if abs(value) < _LARGEST else math.inf
         return self._scalar(key, default, float, "a number")
 
+    def flag(self, key: str) -> bool:
+        """The truth value at `key`; false where there is none."""
+        return self._scalar(key, False, bool, "true or false") is True
+
     def strings(self, key: str) -> tuple[str, ...]:
         """The array of strings at `key`."""
         value = self._value(key)

@@ -31,6 +31,11 @@ def made_from(folder: Path) -> str | None:
         return None
 
 
+def _options(config: Config) -> dict[str, object]:
+    """The settings as they are recorded; an option that is off is as if there were none."""
+    return {key: value for key, value in asdict(config).items() if value is not False}
+
+
 def with_manifest(
     files: Mapping[str, str], model_name: str, model_text: str, config: Config, path: str = ""
 ) -> dict[str, str]:
@@ -46,7 +51,7 @@ def with_manifest(
         "rebsync": __version__,
         "model": {**model, "path": path} if path else model,
         "target": config.target,
-        "options": asdict(config),
+        "options": _options(config),
         "files": {path: digest(text) for path, text in sorted(files.items())},
         "elements": {
             path: {e.name: e.digest for e in found}

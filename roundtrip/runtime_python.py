@@ -11,7 +11,7 @@ from rebsync.roundtrip.python_trees import bindings, said, span_of, tree_of, wit
 from rebsync.source import Source, Span
 
 MODULE = re.compile(
-    r"(?:.*/)?(?:__init__|drive|mailbox|sensor|services|startup|values|watchdog)\.py\Z"
+    r"(?:.*/)?(?:__init__|drive|lifecycle|mailbox|sensor|services|startup|values|watchdog)\.py\Z"
 )
 _OTHERS = re.compile(r"(?:.*/)?(?:setup|\w+_sensors|\w+\.launch)\.py\Z")
 PYTHON = re.compile(r"(?:.*\.py|(?:.*/)?scripts/\w+)\Z")

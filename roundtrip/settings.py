@@ -13,16 +13,18 @@ from rebsync.roundtrip.recorded import Record
 from rebsync.source import NOWHERE, Source, Span
 
 _HINT = "`rebsync generate` takes the setting into the code"
+_OFF = {"lifecycle": False}  # what is recorded only where it is on
 _APART = frozenset({"target"})  # what the command line may say otherwise
 
 
 def changed_settings(model: str, record: Record) -> tuple[Findings, ...]:
     """The settings beside a model that are not as recorded. RebsyncError: they are wrong."""
     source, config = settings_beside(model)
+    options = {**_OFF, **record.options}
     found = tuple(
-        Diagnostic("RS955", _place(source, key), _message(key, record.options[key], value), _HINT)
+        Diagnostic("RS955", _place(source, key), _message(key, options[key], value), _HINT)
         for key, value in _recorded(config)
-        if key not in _APART and key in record.options and record.options[key] != value
+        if key not in _APART and key in options and options[key] != value
     )
     return (Findings(source, found),) if found else ()
 

@@ -36,6 +36,7 @@ _RUNTIME = {
     "drive": ("\nclass Drive", "def move("),
     "sensor": ("\nclass Sensor", "def seen("),
     "services": ("\nclass Services", "def answer("),
+    "lifecycle": ("\nclass RebecNode", "\nclass Managed("),
 }
 
 
@@ -168,7 +169,8 @@ class Classes:
         members += [self._server(owner, f, s) for f in rest if (s := served[f.name]) is not None]
         members += [self._method(owner, f) for f in rest if served[f.name] is None]
         members += [self._method(owner, f) for f in self._bodies.helpers(owner)]
-        above = (c for c in _once(self.line(owner)[1:]) if not self._is_helping(c))
+        own = (c for c in _once(self.line(owner)[1:]) if not is_runtime_file(c.py.source))
+        above = (c for c in own if not self._is_helping(c))
         bases = [c for c in above if self._is_base(owner, c)]
         extends = [class_name(c.name) for c in bases if self._has_mailbox(c)]
         return m.ReactiveClass(

@@ -40,6 +40,7 @@ _NAMED = frozenset({"Server", "logging.getLogger", "getLogger", "rclpy.logging.g
 _CALLED = frozenset(
     {
         *("self._wire", "super()._wire", "super().__init__", "Node.__init__"),
+        "RebecNode.__init__",
         "self._mailbox.on_served",
     }
 )

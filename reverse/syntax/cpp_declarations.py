@@ -35,7 +35,7 @@ _DECLARATOR, _BODY, _TYPE = FIELDS["declarator"], FIELDS["body"], FIELDS["type"]
 # Declarators, each with the value that follows it.
 Declared: TypeAlias = "list[tuple[Node, Node | None]]"
 # What every node of rclcpp is.
-_ROOTS = frozenset({"rclcpp::Node", "rclcpp_lifecycle::LifecycleNode"})
+_ROOTS = frozenset({"rclcpp::Node", "rclcpp_lifecycle::LifecycleNode", "lifecycle::RebecNode"})
 
 # One type, with its scope or, after `using`, without.
 _STD = re.compile(r"^(?:::)?std::(?=\w+\Z)")
