@@ -2,10 +2,20 @@
 
 from __future__ import annotations
 
+import json
+
 import pytest
 
-from rebsync.config import ClassTarget, Config, Maintainer, SensorBinding, parse_config
+from rebsync.config import (
+    ClassTarget,
+    Config,
+    Maintainer,
+    SensorBinding,
+    config_of_record,
+    parse_config,
+)
 from rebsync.diagnostics import RebsyncError
+from rebsync.roundtrip.manifest import MANIFEST, with_manifest
 from rebsync.source import Source
 
 
@@ -149,3 +159,25 @@ def test_a_drive_is_a_word_or_a_table() -> None:
         read('[drive]\nodometry = "no topic"\nspeed = 3\n')
     messages = [d.message for d in error.value.findings[0].diagnostics]
     assert messages == ['`odometry` cannot be "no topic"', "unknown key `speed`"]
+
+
+def test_a_life_cycle_is_asked_for_in_the_table_of_ros2() -> None:
+    def read(text: str) -> Config:
+        return parse_config(Source("rebsync.toml", text))
+
+    assert (read("").lifecycle, read("[ros2]\n").lifecycle) == (False, False)
+    assert read("[ros2]\nlifecycle = true\n").lifecycle
+    assert mistakes('[ros2]\nlifecycle = "yes"\nlifecyle = true\n')[0][2:] == (
+        "`lifecycle` must be true or false",
+        None,
+    )
+
+
+@pytest.mark.parametrize(
+    "text", ['[drive]\nkind = "differential"\nodometry = "/odom"', "[ros2]\nlifecycle = true", ""]
+)
+def test_recorded_settings_are_those_that_were_read(text: str) -> None:
+    config = parse_config(Source("rebsync.toml", text))
+    recorded = json.loads(with_manifest({}, "m.rebeca", "", config)[MANIFEST])["options"]
+    assert config_of_record(recorded) == config
+    assert ("lifecycle" in recorded) == config.lifecycle

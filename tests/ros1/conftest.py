@@ -94,7 +94,12 @@ def rendered(name: str, package: str) -> str:
         lstrip_blocks=True,
     )
     return environment.get_template(f"{name}.j2").render(
-        package=package, services=(), timed=True, odometry=""
+        package=package,
+        services=(),
+        timed=True,
+        odometry="",
+        lifecycle=False,
+        node="rclcpp::Node",
     )
 
 
