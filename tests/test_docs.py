@@ -53,7 +53,9 @@ def test_every_setting_is_described_with_its_default() -> None:
     assert set(rows) == {f.name for f in fields(Config)}
     for field in fields(Config):
         default = getattr(Config(), field.name)
-        if isinstance(default, (int, float)):
+        if isinstance(default, bool):
+            assert rows[field.name] == f"`{str(default).lower()}`"
+        elif isinstance(default, (int, float)):
             assert rows[field.name] == f"`{default}`"
         elif isinstance(default, str):
             assert rows[field.name] == f'`"{default}"`'
