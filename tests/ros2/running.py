@@ -12,7 +12,7 @@ import yaml
 from tests.ros1.recording import ERROR, WARNING, Heard, Logged, Recording, Served
 from tests.ros2.launching import Launched, launched
 
-_LEVELS = {"WARN": WARNING, "ERROR": ERROR}
+_LEVELS = {"INFO": 2, "WARN": WARNING, "ERROR": ERROR}
 _BODY = ("server", "arguments", "arrival", "start", "now")
 
 

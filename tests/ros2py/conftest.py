@@ -13,6 +13,9 @@ from typing import Any
 
 import pytest
 
+from rebsync.config import Config
+from rebsync.forward.templating import fill
+from tests.forward.compiling import generated, written
 from tests.ros1.conftest import rendered
 from tests.ros1.probes import Player, Rebec
 from tests.ros1.recording import Recording
@@ -30,6 +33,8 @@ _MODULES = {
     "values": "py/values.py",
 }
 _SERVERS = ("plain", "low", "high")
+_MODEL = "reactiveclass Script(3) { Script() { } } main { Script s():(); }"
+_MAIN = "from probe.script import main\n\n__all__ = ['main']\n"
 
 
 @dataclass(frozen=True)
@@ -115,3 +120,18 @@ def write_probe(package: Path, interfaces: Path) -> None:
     for file in _MESSAGES.glob("*.msg"):
         text = file.read_text().replace("Timing timing", "probe_interfaces/Timing timing")
         (messages / file.name).write_text(text)
+
+
+def probe_packages(folder: Path) -> Path:
+    """The two packages for colcon whose rebecs run scripts, made in a folder."""
+    config = Config(target="ros2-py")
+    package = written(generated(_MODEL, "probe", config), folder, "probe", config)
+    shutil.rmtree(package / "probe_interfaces" / "msg")
+    write_probe(package / "probe" / "probe", package / "probe_interfaces")
+    (package / "probe" / "probe" / "script_node.py").write_text(_MAIN)
+    messages = sorted(f.stem for f in (package / "probe_interfaces" / "msg").glob("*.msg"))
+    build_file = fill(
+        "ros2_py/CMakeLists.txt.j2", package="probe_interfaces", messages=messages, services=()
+    )
+    (package / "probe_interfaces" / "CMakeLists.txt").write_text(build_file)
+    return package

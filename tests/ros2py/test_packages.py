@@ -11,6 +11,7 @@ import pytest
 from tests.ros1 import test_examples as behaviour
 from tests.ros1.conftest import tool
 from tests.ros2.building import make_messages, missing_rosidl
+from tests.ros2py.conftest import probe_packages
 
 _NAME = "warehouse"
 _REASON = missing_rosidl()
@@ -66,3 +67,11 @@ class TestMessages:
         make_messages([package], tmp_path)
         made = list((tmp_path / package.name).rglob("*__struct.hpp"))
         assert len(made) == len(list(package.glob("msg/*.msg"))) > 10
+
+
+def test_the_packages_that_run_scripts_have_all_messages(tmp_path: Path) -> None:
+    """Those that only a real ROS 2 builds."""
+    folder = probe_packages(tmp_path) / "probe_interfaces"
+    build_file = (folder / "CMakeLists.txt").read_text()
+    messages = {f"msg/{file.name}" for file in (folder / "msg").iterdir()}
+    assert {message for message in messages if message in build_file} == messages != set()

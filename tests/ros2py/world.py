@@ -205,7 +205,7 @@ class Node:
         def write(level: int) -> Callable[..., None]:
             return lambda text, **_: self.world.write(self.get_name(), level, text)
 
-        return SimpleNamespace(warning=write(4), error=write(8))
+        return SimpleNamespace(info=write(2), warning=write(4), error=write(8))
 
     def get_subscriptions_info_by_topic(self, topic: str) -> list[SimpleNamespace]:
         found = self.world.subscribers(topic)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,9 +10,6 @@ from typing import Any
 import pytest
 import yaml
 
-from rebsync.config import Config
-from rebsync.forward.templating import fill
-from tests.forward.compiling import generated, written
 from tests.ros1.probes import Player, Rebec
 from tests.ros1.recording import Recording
 from tests.ros1.run import Clock
@@ -22,7 +18,7 @@ from tests.ros1.test_startup import (
     test_a_node_that_is_only_waited_for_is_named,
     test_a_rebec_that_starts_again_is_named,
 )
-from tests.ros2py.conftest import probe_nodes, write_probe
+from tests.ros2py.conftest import probe_nodes, probe_packages
 from tests.ros2py.test_drive import *  # noqa: F403 - the same tests, on the probe below
 from tests.ros2py.test_mailbox import *  # noqa: F403
 from tests.ros2py.test_startup import *  # noqa: F403
@@ -38,11 +34,8 @@ __all__ = [
 ]
 
 _DIALECT = "ros2-py"
-_MESSAGES = ("Announcement", "Note", "ScriptState", "Timing")
 _NODE = Path(__file__).parent / "nodes" / "listener.py"
 _LISTENER = "        ExecuteProcess(cmd=['/usr/bin/python3', *{topics!r}], output='screen'),\n"
-_MODEL = "reactiveclass Script(3) { Script() { } } main { Script s():(); }"
-_MAIN = "from probe.script import main\n\n__all__ = ['main']\n"
 _HEAD = """
 from launch import LaunchDescription
 from launch.actions import ExecuteProcess
@@ -103,15 +96,5 @@ def _node(node: Launched, rebec: Rebec, folder: Path) -> str:
 @pytest.fixture(scope="module")
 def probe(build_real: Builder, tmp_path_factory: pytest.TempPathFactory) -> Player:
     """The package whose rebecs run scripts, with the run-time part as it is now."""
-    config = Config(target=_DIALECT)
-    folder = written(
-        *(generated(_MODEL, "probe", config), tmp_path_factory.mktemp("probe"), "probe", config)
-    )
-    shutil.rmtree(folder / "probe_interfaces" / "msg")
-    write_probe(folder / "probe" / "probe", folder / "probe_interfaces")
-    (folder / "probe" / "probe" / "script_node.py").write_text(_MAIN)
-    build_file = folder / "probe_interfaces" / "CMakeLists.txt"
-    build_file.write_text(
-        fill("ros2_py/CMakeLists.txt.j2", package="probe_interfaces", messages=_MESSAGES)
-    )
+    folder = probe_packages(tmp_path_factory.mktemp("probe"))
     return _Real(build_real(folder, "probe"), tmp_path_factory)
