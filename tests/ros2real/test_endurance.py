@@ -36,16 +36,17 @@ _LIDAR = """
 }
 main { Car car():(); }
 """
-# Each ticks, tells the next one, and is busy for a while: half of them are robots.
+# Each ticks and tells the next one; half of them drive. They have room for what a busy machine is
+# late with: a tick that is dropped would be the last one.
 _RING = """
-@Robot reactiveclass Walker(30) {
+@Robot reactiveclass Walker(30000) {
   knownrebecs { Runner next; }
   statevars { int heard; }
   Walker() { self.tick() after(1); }
   msgsrv tick() { next.poke(heard); @Move(X+1, Y); delay(1); self.tick() after(1); }
   msgsrv poke(int x) { heard += 1; }
 }
-reactiveclass Runner(30) {
+reactiveclass Runner(30000) {
   knownrebecs { Walker next; }
   statevars { int heard; }
   Runner() { self.tick() after(1); }
