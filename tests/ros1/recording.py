@@ -121,10 +121,11 @@ class Recording:
         """All warnings and errors in the log, as text."""
         return tuple(f"{line.node}: {line.text}" for line in self.log if line.level >= WARNING)
 
-    def velocities(self, rebec: str) -> tuple[Velocity, ...]:
-        """What a robot's cmd_vel said."""
-        heard = self.heard(f"/{rebec}/cmd_vel")
-        return tuple(_velocity(m.stamp, m.fields) for m in heard)
+    def velocities(self, rebec: str, late: bool = False) -> tuple[Velocity, ...]:
+        """What a robot's cmd_vel said, and, if asked for, after the nodes were told to stop."""
+        heard = [*self.messages, *(self.late if late else ())]
+        own = [m for m in heard if m.topic == f"/{rebec}/cmd_vel"]
+        return tuple(_velocity(m.stamp, m.fields) for m in own)
 
     def path(self, rebec: str, start: Pose = ORIGIN) -> tuple[tuple[float, Pose], ...]:
         """Where a robot's velocities took it, with the times of the turns."""

@@ -142,7 +142,7 @@ def test_the_last_velocity_is_zero_when_a_node_is_told_to_end_in_mid_move(
         recording = play(probe, tmp_path, rebecs, Clock(until=8, quiet=6))
     else:
         recording = play(probe, tmp_path, {"a": robot(("move 1 0", "delay 20"))}, Clock(until=2))
-    *_, moving, last = recording.velocities("a")
+    *_, moving, last = recording.velocities("a", late=True)
     assert (moving.x, moving.y) != (0, 0)
     assert (last.x, last.y, last.turn) == (0, 0, 0)
 
