@@ -11,14 +11,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
-from rebsync.folder import Folder, content_of, open_regular
+from rebsync.folder import LARGEST, Folder, content_of, open_regular, too_large
 from rebsync.long_numbers import MOST_DIGITS, long_number
 from rebsync.source import Source, Span
 from rebsync.trees import leads_out, repository_of_link
 
 STANDARD_INPUT = "-"
 RECORDS = ".rebsync"  # the folder of a package with what it was made from
-_LARGEST = 64 << 20
 _RECORD = re.compile(rf"((?:.*?/)?)({re.escape(RECORDS)}/.*)", re.DOTALL)
 # What a shell makes of `<(command)`: pipes that are open already, and that a user has named.
 _STREAM = re.compile(r"/dev/(?:stdin|fd/\d+)|/proc/self/fd/\d+")
@@ -57,17 +56,17 @@ def read_bytes(path: str) -> bytes:
         raise RebsyncError.of('""', "RS801", "the name of a file is empty")
     try:
         if path != STANDARD_INPUT:
-            data = content_of(_opened(path), _LARGEST)
+            data = content_of(_opened(path), LARGEST)
         elif sys.stdin is not None:
-            data = sys.stdin.buffer.read(_LARGEST + 1)
+            data = sys.stdin.buffer.read(LARGEST + 1)
         else:
             raise RebsyncError.of(path, "RS806", "standard input is closed")
     except ValueError as error:
         raise RebsyncError.of(path, "RS806", str(error)) from None
     except OSError as error:
         raise os_mistake(path, error) from None
-    if len(data) > _LARGEST:
-        raise RebsyncError.of(path, "RS806", f"larger than {_LARGEST >> 20} MiB, too large to read")
+    if len(data) > LARGEST:
+        raise too_large(path)
     return data
 
 
@@ -79,7 +78,7 @@ def source_below(root: str, name: str) -> Source | None:
     path = f"{root}/{name}"
     try:
         with Folder(root) as folder:
-            return decode(path, content_of(folder.open(name), _LARGEST))
+            return decode(path, content_of(folder.open(name), LARGEST))
     except (FileNotFoundError, NotADirectoryError):
         return None
     except OSError as error:

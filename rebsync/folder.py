@@ -10,6 +10,7 @@ import errno
 import os
 import stat
 from collections.abc import Iterator
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from types import TracebackType
@@ -22,6 +23,7 @@ _FOLDER = os.O_RDONLY | getattr(os, "O_DIRECTORY", 0) | getattr(os, "O_CLOEXEC",
 _FILE = os.O_RDONLY | _NO_LINK | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0)
 _ON_THE_WAY = (os.O_PATH if hasattr(os, "O_PATH") else os.O_RDONLY) | (_FOLDER & ~os.O_RDONLY)
 _HINT = "put the file or directory itself here"
+_ODD = frozenset({"", ".", ".."})
 _KINDS = {
     stat.S_IFIFO: "a pipe",
     stat.S_IFSOCK: "a socket",
@@ -70,7 +72,8 @@ class Folder:
         if name in self._inner:
             return self._inner[name]
         above, _, last = name.rpartition("/")
-        self._refuse_odd(last, name)
+        if last in _ODD or "\0" in last:
+            raise self._odd(name)
         outer = self.inner(above, created)
         try:
             handle = os.open(last, _FOLDER | _NO_LINK, dir_fd=outer)
@@ -87,8 +90,10 @@ class Folder:
     def place(self, name: str, created: list[tuple[int, str]] | None = None) -> tuple[int, str]:
         """The handle of the directory that a file is in, and its name there; as `inner`."""
         above, _, last = name.rpartition("/")
-        self._refuse_odd(last, name)
-        return self.inner(above, created), last
+        if last in _ODD or "\0" in last:
+            raise self._odd(name)
+        handle = self._inner.get(above)
+        return self.inner(above, created) if handle is None else handle, last
 
     def status(self, name: str) -> os.stat_result | None:
         """What is known of a regular file; None where there is nothing of this name.
@@ -104,16 +109,22 @@ class Folder:
         refuse_special(f"{self.path}/{name}", found)
         return found
 
-    def open(self, name: str) -> int:
-        """A handle to read a regular file. OSError, RebsyncError: it cannot be opened."""
+    def open(self, name: str, is_seen: bool = False) -> int:
+        """A handle to read a regular file. OSError, RebsyncError: it cannot be opened.
+
+        `is_seen`: a moment ago it was a regular file, so that it is looked at when it is open.
+        """
         handle, last = self.place(name)
+        if is_seen:
+            with suppress(OSError):
+                return open_regular(last, f"{self.path}/{name}", None, handle)
         found = os.stat(last, dir_fd=handle, follow_symlinks=False)
         self._refuse_link(handle, last, name, found)
         return open_regular(last, f"{self.path}/{name}", found, handle)
 
-    def read(self, name: str) -> bytes:
-        """The bytes of a regular file. OSError, RebsyncError: it cannot be read."""
-        return content_of(self.open(name))
+    def read(self, name: str, is_seen: bool = False) -> bytes:
+        """The bytes of a regular file; as `open`. OSError, RebsyncError: it cannot be read."""
+        return content_of(self.open(name, is_seen))
 
     def files(self, name: str = "") -> Iterator[str]:
         """The files in and below a directory, in the order of their names.
@@ -160,10 +171,9 @@ class Folder:
             created.append((outer, last))
         return os.open(last, _FOLDER | _NO_LINK, dir_fd=outer)
 
-    def _refuse_odd(self, part: str, name: str) -> None:
-        if part in ("", ".", "..") or "\0" in part:
-            message = "this path leads out of the package"
-            raise RebsyncError.of(f"{self.path}/{name}", "RS815", message)
+    def _odd(self, name: str) -> RebsyncError:
+        message = "this path leads out of the package"
+        return RebsyncError.of(f"{self.path}/{name}", "RS815", message)
 
     def _refuse_link(
         self, handle: int, last: str, name: str, found: os.stat_result | None = None
@@ -210,19 +220,34 @@ def _made_by_the_kernel() -> frozenset[int]:
     return frozenset(Path(path).stat().st_dev for path in mounted)
 
 
-def open_regular(name: str, path: str, found: os.stat_result, folder: int | None = None) -> int:
+def open_regular(
+    name: str, path: str, found: os.stat_result | None, folder: int | None = None
+) -> int:
     """A handle to read a file that is no link, and is told of as `path`; `found` is its status.
 
-    OSError: it cannot be opened. RebsyncError: it is no regular file, now or when it is opened.
+    OSError: it cannot be opened. RebsyncError: it is no regular file, now or when it is opened, or
+    one that is too large.
     """
-    refuse_special(path, found)
+    if found is not None:
+        refuse_special(path, found)
     handle = os.open(name, _FILE, dir_fd=folder)
     try:
-        refuse_special(path, os.fstat(handle))
+        now = os.fstat(handle)
+        refuse_special(path, now)
+        if now.st_size > LARGEST:
+            raise too_large(path)
     except BaseException:
         os.close(handle)
         raise
     return handle
+
+
+LARGEST = 64 << 20
+
+
+def too_large(path: str) -> RebsyncError:
+    """The mistake of a file that is not read, as it would fill the memory."""
+    return RebsyncError.of(path, "RS806", f"larger than {LARGEST >> 20} MiB, too large to read")
 
 
 _PART = 1 << 16  # bytes that are read at once; much more is memory from the system for each file

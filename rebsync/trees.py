@@ -30,9 +30,10 @@ def tree_of_code(root: str, named: str) -> str:
     Without a repository it is the directory that a user named or is in, or else the package itself.
     """
     here = os.path.realpath(root)
+    if (tree := repository(here)) is not None:
+        return tree
     chosen = map(os.path.realpath, (named, os.curdir))
-    around = [folder for folder in chosen if is_within(here, folder)]
-    return repository(here) or min(around, key=len, default=here)
+    return min((folder for folder in chosen if is_within(here, folder)), key=len, default=here)
 
 
 def repository_of_link(link: str) -> str | None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import errno
 import os
 import re
-import secrets
 import signal
 import stat
 from collections.abc import Callable, Collection, Iterator, Mapping
@@ -334,7 +333,7 @@ def _discard(folder: int, name: str | None) -> None:
 
 
 def _beside(name: str) -> str:
-    return f".{name[:100]}.{secrets.token_hex(4)}.rebsync.tmp"
+    return f".{name[:100]}.{os.urandom(4).hex()}.rebsync.tmp"
 
 
 def _write(folder: int, name: str, data: bytes, mode: int, exact: int | None = None) -> None:

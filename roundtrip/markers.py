@@ -58,7 +58,7 @@ def elements(text: str) -> Iterator[Element]:
 
 def _block(lines: list[str], first: int) -> Iterator[str]:
     indent: int | None = None
-    for line in lines[first:]:
+    for line in map(lines.__getitem__, range(first, len(lines))):  # no copy for each element
         depth = len(line) - len(line.lstrip())
         if indent is None and line.strip() and not _MARKER.match(line):
             indent = depth
@@ -72,7 +72,7 @@ def _block(lines: list[str], first: int) -> Iterator[str]:
 def _suite(lines: list[str], first: int) -> Iterator[str]:
     """The same in Python: a definition, its decorators, and what is indented below it."""
     indent, opened = None, False
-    for line in lines[first:]:
+    for line in map(lines.__getitem__, range(first, len(lines))):  # no copy for each element
         code, depth = line.strip(), len(line) - len(line.lstrip())
         if opened and code and depth <= (indent or 0) and code[0] not in ")]}":
             return

@@ -12,7 +12,6 @@ from rebsync.roundtrip.digests import is_text_of
 from rebsync.roundtrip.packages import SKIPPED, SUFFIX, Kept
 from rebsync.roundtrip.recorded import Record
 from rebsync.trees import repository
-from rebsync.writing import told
 
 _NEAR = ("..", ".", "../models", "../model", "models", "model")
 
@@ -34,6 +33,8 @@ def model_of(kept: Kept, record: Record) -> str:
 
 def _outside(kept: Kept, path: str) -> RebsyncError:
     """A package may not say of a file elsewhere that this is its model."""
+    from rebsync.writing import told
+
     where = f"the repository {kept.tree}"
     if repository(kept.tree) is None:
         where = f"{kept.tree}, and no repository is there"
@@ -47,7 +48,8 @@ def _tried(root: str, record: Record) -> list[str]:
     places = [record.path] if record.path else [f"{folder}/{record.model}" for folder in _NEAR]
     if record.path:
         places.append(f"../{record.model}")
-    return list(dict.fromkeys(os.path.normpath(Path(start, place)) for place in places))
+    whole = (os.path.join(start, place) for place in places)  # noqa: PTH118 - of many packages
+    return list(dict.fromkeys(map(os.path.normpath, whole)))
 
 
 def _lost(kept: Kept, record: Record, tried: list[str]) -> RebsyncError:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import re
 from collections.abc import Iterable
 from typing import Any
 
@@ -17,6 +18,8 @@ from rebsync.source import NOWHERE, Source, Span
 
 _AGAIN = "`rebsync generate` writes it anew"
 _MARK = "<<<<<<< "
+# Nearly all paths: to look at the parts of each of many thousand takes long.
+_PLAIN = re.compile(r"(?:[\w-][\w.-]*/)*[\w-][\w.-]*", re.ASCII)
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,6 +128,8 @@ def _is_file(item: tuple[object, object]) -> bool:
     """Whether this is a file of a package with its digest."""
     match item:
         case (str() as path, str()):
+            if _PLAIN.fullmatch(path):
+                return True
             parts = path.split("/")
             return all(map(_is_name, parts)) and ".git" not in (p.casefold() for p in parts)
         case _:

@@ -109,8 +109,9 @@ class Contents:
         if name == listing.only or self._root is None or inside is None:
             return read_bytes(path)
         if self._linked is not None and name in listing.linked:
-            return self._linked.read(os.path.relpath(listing.linked[name], listing.tree))
-        return self._root.read(inside)
+            linked = os.path.relpath(listing.linked[name], listing.tree)
+            return self._linked.read(linked, is_seen=True)
+        return self._root.read(inside, is_seen=True)
 
 
 def _inside(root: str, path: str) -> str | None:

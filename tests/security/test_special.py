@@ -148,3 +148,13 @@ def test_a_pipe_that_a_user_names(package: Path) -> None:
     assert (done.returncode, done.stdout) in ((0, ""), (2, "")), done
     text = Path("patrol.rebeca").read_bytes()
     assert rebsync("lint", "/dev/stdin", cwd=package.parent, stdin=text).status == 0
+
+
+@pytest.mark.parametrize("place", ["patrol/src/robot.cpp", "patrol/.rebsync/manifest.json"])
+def test_a_file_that_would_fill_the_memory(run: Run, place: str) -> None:
+    """It takes no place in an archive, or in a repository."""
+    os.truncate(place, 1 << 40)
+    for command in ("check", "extract", "sync"):
+        status, shown = run(*[command, "patrol"])
+        if command != "extract" or "src" in place:
+            assert (status in (2, 4), "larger than 64 MiB" in shown) == (True, True), shown
