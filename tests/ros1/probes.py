@@ -22,7 +22,7 @@ class Rebec:
     """A node of the probe package: the lines that each of its servers runs.
 
     `low` has priority 2, `high` priority 1, `plain` none. The sensor hears a topic, by default
-    what is sent to `plain`. The node starts after a `wait`, in seconds of the real clock. Its own
+    one to which nobody sends. The node starts after a `wait`, in seconds of the real clock. Its own
     simulated clock is off by an `offset`, as that of another machine is.
     """
 
@@ -92,7 +92,7 @@ def _node(name: str, rebec: Rebec, peers: Sequence[str]) -> str:
     prefix = f"sh -c 'sleep {rebec.wait}; exec $0 $*'"
     start = f'<node name="{name}" pkg="probe" type="script_node" launch-prefix="{prefix}"'
     respawn = f'respawn="{str(rebec.respawn).lower()}">'
-    sensor = f'<remap from="~sensor" to="{rebec.hears or name + "/plain"}"/>\n'
+    sensor = f'<remap from="~sensor" to="{rebec.hears or name + "/sensed"}"/>\n'
     clock, shifted = _clock(name, rebec)
     return f"{start} {respawn}\n{private}{remaps}{sensor}{clock}</node>\n{shifted}"
 

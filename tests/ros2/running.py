@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import subprocess
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -27,15 +28,18 @@ def run(
     until: float,
     foreign: Sequence[str] = (),
     step: float | None = None,
+    parameters: Mapping[str, object] | None = None,
 ) -> Recording:
     """Run the package's launch file for that many seconds of its clock.
 
     A tool has subscribed to the `foreign` topics and asks for what was sent before, which rebecs do
-    not keep. With a `step` the clock is that of a simulation.
+    not keep. With a `step` the clock is that of a simulation. Each node gets the `parameters` too.
     """
     system = directory / "system.txt"
+    own = parameters or {}
+    nodes = [replace(n, parameters={**n.parameters, **own}) for n in launched(package)]
     listened = [f"foreign\t{topic}" for topic in foreign]
-    lines = [*listened, *(line for node in launched(package) for line in _lines(node))]
+    lines = [*listened, *(line for node in nodes for line in _lines(node))]
     system.write_text("".join(f"{line}\n" for line in lines))
     done = subprocess.run(
         [str(driver), str(system), str(until), *([] if step is None else [str(step)])],

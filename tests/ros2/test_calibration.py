@@ -14,6 +14,10 @@ _SYSTEM = (
     *("node\tcalibration_node\ttold", "remap\t~/moved\telsewhere"),
     *("param\twhole\tint\t5", "param\treal\tfloat\t2.5", "param\ttruth\tbool\ttrue"),
     *("param\tname\tstr\tx y", "param\tgrid\tints\t4\t5"),
+    "param\tqos_overrides./told/quality.subscription.reliability\tstr\treliable",
+    "param\tqos_overrides./told/deep.publisher.history\tstr\tkeep_all",
+    "param\tqos_overrides./told/deep.publisher.depth\tint\t20",
+    "param\tqos_overrides./told/shallow.publisher.depth\tint\t2",
     *("param\twrong\tstr\tmany", "param\trounded\tint\t1"),
 )
 

@@ -10,7 +10,7 @@ from rebsync.config import Config
 from tests.forward.compiling import generated, written
 from tests.ros1.recording import Recording
 from tests.ros2.building import build_driver, make_messages
-from tests.ros2.running import run
+from tests.ros2.running import RunError, run
 
 MODEL = """
 env int[2][2] grid = {{1, 2}, {3, 4}};
@@ -129,3 +129,13 @@ def test_a_simulated_clock_wakes_who_waits(
     assert [f"{b.server}({b.arguments})@{b.start}" for b in found] == _between(recording, 1, 13)
     # With the settling time of what may be overtaken, and the time of a step.
     assert all(b.stamp < b.now + 0.05 + 0.07 for b in found)
+
+
+@pytest.mark.parametrize("policy", ["depth", "reliability"])
+def test_no_parameter_may_have_messages_of_the_model_lost(
+    package: Path, driver: Path, policy: str
+) -> None:
+    value: object = 10 if policy == "depth" else "best_effort"
+    parameters = {f"qos_overrides./s/plain.subscription.{policy}": value}
+    with pytest.raises(RunError, match="/s/plain carries messages of the model"):
+        run(package, driver, package.parent, 5, parameters=parameters)

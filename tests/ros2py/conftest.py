@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -22,6 +21,7 @@ from tests.ros1.recording import Recording
 from tests.ros1.run import Clock
 from tests.ros2py.messages import Message
 from tests.ros2py.playing import installed, recorded
+from tests.ros2py.quality import DurabilityPolicy, QoSProfile
 from tests.ros2py.world import Launched, Node, World
 
 _HERE = Path(__file__).parent
@@ -69,7 +69,7 @@ def _listen(world: World, topic: str) -> None:
     """A node that is no rebec and asks for what was sent before it came."""
     node = Node(world, world.context.launched)
     world.add(node)
-    kept = SimpleNamespace(depth=1, durability=True)
+    kept = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     node.create_subscription(Message, topic, lambda message: None, kept)
     world.spin(node)
 
@@ -81,7 +81,8 @@ def probe_nodes(
     common: dict[str, Any] = {"mailbox.rebecs": list(names)}
     common["mailbox.instances.Script"] = list(rebecs)
     for key, value in parameters.items():
-        common[key.replace("/", ".")] = [""] if value == [] else value
+        name = key if key.startswith("qos_overrides.") else key.replace("/", ".")
+        common[name] = [""] if value == [] else value
     return [_launched(name, rebec, names, common) for name, rebec in rebecs.items()]
 
 
@@ -96,7 +97,7 @@ def _launched(
         else:
             own[key.replace("/", ".")] = [""] if value == [] else value
     remaps = {f"~/{p}/{s}": f"{p}/{s}" for p in peers for s in _SERVERS}
-    remaps["~/sensor"] = rebec.hears or f"{name}/plain"
+    remaps["~/sensor"] = rebec.hears or f"{name}/sensed"
     return Launched(name, own, remaps)
 
 

@@ -14,6 +14,7 @@ from tests.ros1.recording import Heard, Logged, Recording, Served
 from tests.ros2.launching import Launched as Described
 from tests.ros2.launching import launched as described
 from tests.ros2py.messages import Message, modules
+from tests.ros2py.quality import modules as qualities
 from tests.ros2py.world import Launched, Node, World
 
 _BODY = ("server", "arguments", "arrival", "start", "now")
@@ -87,6 +88,8 @@ def _threshold(
 def _rclpy(world: World) -> dict[str, ModuleType]:
     own = {"description": ("string", None), "read_only": ("bool", None)}
     descriptor = type("ParameterDescriptor", (Message,), {"_fields": own})
+    answer = {"successful": ("bool", None), "reason": ("string", None)}
+    result = type("SetParametersResult", (Message,), {"_fields": answer})
 
     class ExternalShutdownException(Exception):
         pass
@@ -98,11 +101,6 @@ def _rclpy(world: World) -> dict[str, ModuleType]:
             super().__init__(world, world.context.launched)
             world.add(self)
 
-    def profile(**values: object) -> SimpleNamespace:
-        return SimpleNamespace(**values)
-
-    sensor_data = profile(depth=5)
-    durability = SimpleNamespace(TRANSIENT_LOCAL=True, VOLATILE=False)
     spin = {"init": lambda: None, "spin": world.spin, "try_shutdown": lambda: None}
     spin["ok"] = lambda: not world.stopping
     return dict(
@@ -115,13 +113,10 @@ def _rclpy(world: World) -> dict[str, ModuleType]:
             _module("rclpy.clock", JumpThreshold=_threshold),
             _module("rclpy.duration", Duration=SimpleNamespace),
             _module("rclpy.signals", uninstall_signal_handlers=lambda: None),
-            _module(
-                "rclpy.qos",
-                QoSProfile=profile,
-                DurabilityPolicy=durability,
-                qos_profile_sensor_data=sensor_data,
-            ),
+            *qualities(),
             _module("rcl_interfaces"),
-            _module("rcl_interfaces.msg", ParameterDescriptor=descriptor),
+            _module(
+                "rcl_interfaces.msg", ParameterDescriptor=descriptor, SetParametersResult=result
+            ),
         ]
     )

@@ -18,6 +18,7 @@ from types import FrameType, SimpleNamespace
 from unittest.mock import patch
 
 from tests.ros2py.messages import Message, plain
+from tests.ros2py.quality import QoSOverridingOptions, QoSProfile, override
 
 NANOSECONDS = 10**9
 _FIRST = 100 * NANOSECONDS
@@ -101,19 +102,19 @@ class Clock:
 
 @dataclass
 class Subscription:
-    """A subscription; `kept` says that it asks for what was sent before."""
+    """A subscription, and what it asks for."""
 
     node: Node
     topic_name: str
     callback: Callable[[Message], None]
-    kept: bool
+    quality: QoSProfile
 
 
 class Publisher:
     """A publisher; `kept` are the messages for those that come later."""
 
-    def __init__(self, node: Node, topic: str, depth: int, keeps: bool) -> None:
-        self.node, self.topic_name, self.depth, self.keeps = node, topic, depth, keeps
+    def __init__(self, node: Node, topic: str, quality: QoSProfile) -> None:
+        self.node, self.topic_name, self.quality = node, topic, quality
         self.kept: list[Message] = []
 
     def publish(self, message: Message) -> None:
@@ -124,7 +125,7 @@ class Publisher:
 
     def matches(self, subscription: Subscription) -> bool:
         """Whether a subscription asks for no more than there is: it hears nothing otherwise."""
-        return self.keeps or not subscription.kept
+        return self.quality.offers(subscription.quality)
 
 
 class Node:
@@ -143,18 +144,33 @@ class Node:
     def get_fully_qualified_name(self) -> str:
         return f"/{self.launched.name}"
 
-    def create_publisher(self, type_: type[Message], topic: str, qos: object) -> Publisher:
-        depth, keeps = _quality(qos)
-        publisher = Publisher(self, self.launched.resolved(topic), depth, keeps)
+    def create_publisher(
+        self,
+        type_: type[Message],
+        topic: str,
+        qos: QoSProfile | int,
+        *,
+        qos_overriding_options: QoSOverridingOptions | None = None,
+    ) -> Publisher:
+        name = self.launched.resolved(topic)
+        quality = override(f"{name}.publisher", qos, qos_overriding_options, self._found)
+        publisher = Publisher(self, name, quality)
         with self.world.lock:
             self.world.publishers.append(publisher)
         return publisher
 
     def create_subscription(
-        self, type_: type[Message], topic: str, callback: Callable[[Message], None], qos: object
+        self,
+        type_: type[Message],
+        topic: str,
+        callback: Callable[[Message], None],
+        qos: QoSProfile | int,
+        *,
+        qos_overriding_options: QoSOverridingOptions | None = None,
     ) -> Subscription:
         name = self.launched.resolved(topic)
-        subscription = Subscription(self, name, callback, _quality(qos)[1])
+        quality = override(f"{name}.subscription", qos, qos_overriding_options, self._found)
+        subscription = Subscription(self, name, callback, quality)
         self.world.subscribe(subscription)
         return subscription
 
@@ -198,6 +214,11 @@ class Node:
     def get_parameter(self, name: str) -> SimpleNamespace:
         return SimpleNamespace(value=self.parameters[name])
 
+    def _found(self, name: str, fallback: object) -> object:
+        if name not in self.parameters:
+            self.declare_parameter(name, fallback)
+        return self.parameters[name]
+
     def get_clock(self) -> Clock:
         return Clock(self.world)
 
@@ -209,12 +230,7 @@ class Node:
 
     def get_subscriptions_info_by_topic(self, topic: str) -> list[SimpleNamespace]:
         found = self.world.subscribers(topic)
-        return [
-            SimpleNamespace(
-                node_name=s.node.get_name(), qos_profile=SimpleNamespace(durability=s.kept)
-            )
-            for s in found
-        ]
+        return [SimpleNamespace(node_name=s.node.get_name(), qos_profile=s.quality) for s in found]
 
 
 @dataclass(frozen=True)
@@ -231,12 +247,6 @@ class Time:
     def from_msg(message: object) -> Time:
         sec, nanosec = getattr(message, "sec", 0), getattr(message, "nanosec", 0)
         return Time(sec * NANOSECONDS + nanosec)
-
-
-def _quality(qos: object) -> tuple[int, bool]:
-    if isinstance(qos, int):
-        return qos, False
-    return getattr(qos, "depth", 10), bool(getattr(qos, "durability", None))
 
 
 class World:
@@ -286,7 +296,9 @@ class World:
         with self.lock:
             self.subscriptions.append(subscription)
             for publisher in self.publishers:
-                if publisher.topic_name == subscription.topic_name and subscription.kept:
+                if publisher.topic_name != subscription.topic_name:
+                    continue
+                if subscription.quality.keeps and publisher.matches(subscription):
                     for message in publisher.kept:
                         self._send(subscription, message)
 
@@ -295,8 +307,8 @@ class World:
             self.happened += 1
             now = (self.time - _FIRST) / NANOSECONDS
             self.messages.append((publisher.topic_name, now, plain(message)))
-            if publisher.keeps:
-                publisher.kept = [*publisher.kept, message][-publisher.depth :]
+            if publisher.quality.keeps:
+                publisher.kept = [*publisher.kept, message][-publisher.quality.depth :]
             for subscription in self.subscribers(publisher.topic_name):
                 if publisher.matches(subscription):
                     self._send(subscription, message)

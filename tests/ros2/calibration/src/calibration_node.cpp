@@ -42,6 +42,8 @@ std::string outcome(const std::function<void()>& action) {
     return "ParameterAlreadyDeclaredException";
   } catch (const rclcpp::exceptions::InvalidParameterTypeException&) {
     return "InvalidParameterTypeException";
+  } catch (const rclcpp::exceptions::InvalidQosOverridesException&) {
+    return "InvalidQosOverridesException";
   } catch (const rclcpp::exceptions::RCLErrorBase&) {
     return "RCLErrorBase";
   } catch (const std::runtime_error&) {
@@ -163,6 +165,47 @@ void tellTopics(rclcpp::Node& node) {
   tell("transient local ones", text(lasting));
 }
 
+// Which of the parameters qos_overrides./told/... count, and what a callback refuses.
+void tellOverrides(rclcpp::Node& node) {
+  using Policy = rclcpp::QosPolicyKind;
+  rclcpp::SubscriptionOptions every;
+  every.qos_overriding_options = rclcpp::QosOverridingOptions({Policy::Reliability,
+      Policy::Durability, Policy::History, Policy::Depth, Policy::Deadline, Policy::Lifespan,
+      Policy::Liveliness, Policy::LivelinessLeaseDuration, Policy::AvoidRosNamespaceConventions});
+  const auto hear = [](Int32::ConstSharedPtr) {};
+  const auto first =
+      node.create_subscription<Int32>("~/quality", rclcpp::SensorDataQoS(), hear, every);
+  const auto list = [&] { return node.get_subscriptions_info_by_topic("/told/quality"); };
+  for (int i = 0; i < 300 && list().empty(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  for (const auto& endpoint : list()) {
+    const auto reliability = endpoint.qos_profile().reliability();
+    tell("overridden", text(reliability == rclcpp::ReliabilityPolicy::Reliable));
+  }
+  tell("declared", text(node.has_parameter("qos_overrides./told/quality.subscription.deadline")),
+      text(node.has_parameter("qos_overrides./told/quality.subscription.lifespan")));
+  rclcpp::PublisherOptions checked;
+  std::string seen;
+  checked.qos_overriding_options =
+      rclcpp::QosOverridingOptions::with_default_policies([&seen](const rclcpp::QoS& qos) {
+        seen = text(qos.depth()) + " " + text(qos.history() == rclcpp::HistoryPolicy::KeepAll);
+        rclcpp::QosCallbackResult result;
+        result.successful = qos.depth() >= 10;
+        result.reason = "too shallow";
+        return result;
+      });
+  const auto make = [&](const std::string& topic) {
+    return outcome([&] { node.create_publisher<Int32>(topic, rclcpp::QoS(10), checked); });
+  };
+  const std::string deep = make("~/deep");
+  tell("a callback sees", seen, deep);
+  tell("twice on a topic", make("~/deep"));
+  const std::string shallow = make("~/shallow");
+  tell("a callback refuses", seen, shallow);
+  tell("resolved", node.get_node_topics_interface()->resolve_topic_name("~/moved"));
+}
+
 // --- what happens -------------------------------------------------------------------------------
 
 // Asks its own executor for messages and timers, one after the other.
@@ -172,6 +215,7 @@ class Told : public rclcpp::Node {
     tell("name", get_name());
     tellParameters(*this);
     tellTopics(*this);
+    tellOverrides(*this);
     late_ = create_publisher<Int32>("~/late", rclcpp::QoS(2).transient_local());
     for (int32_t i = 1; i <= 3; ++i) publish(i);
     const auto lasting = rclcpp::QoS(10).transient_local();

@@ -237,8 +237,12 @@ class Middleware {
     alarms_.erase(std::remove_if(alarms_.begin(), alarms_.end(), gone), alarms_.end());
   }
 
+  static std::size_t kept(const QoS& qos) {
+    return qos.history() == HistoryPolicy::KeepAll ? SIZE_MAX : qos.depth();
+  }
+
   static void deliver(const std::shared_ptr<Reader>& reader, const Data& data) {
-    if (reader->waiting >= reader->qos.depth()) return;
+    if (reader->waiting >= kept(reader->qos)) return;
     ++reader->waiting;
     const std::weak_ptr<Reader> weak = reader;
     reader->executor->post([weak, data] {
@@ -332,7 +336,7 @@ inline void Middleware::write(Writer& writer, const Data& data, const std::strin
   written_[writer.topic_].insert(&writer);
   if (writer.qos_.durability() == DurabilityPolicy::TransientLocal) {
     writer.kept_.push_back(data);
-    if (writer.kept_.size() > writer.qos_.depth()) writer.kept_.pop_front();
+    if (writer.kept_.size() > kept(writer.qos_)) writer.kept_.pop_front();
   }
   for (const auto& weak : readers_[writer.topic_]) {
     const auto reader = weak.lock();

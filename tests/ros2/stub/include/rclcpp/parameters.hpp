@@ -19,6 +19,9 @@ struct ParameterAlreadyDeclaredException : std::runtime_error {
 struct InvalidParameterTypeException : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+struct InvalidQosOverridesException : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 struct RCLErrorBase {
   virtual ~RCLErrorBase() = default;
 };

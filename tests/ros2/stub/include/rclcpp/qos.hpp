@@ -6,7 +6,8 @@
 namespace rclcpp {
 
 enum class DurabilityPolicy { SystemDefault, TransientLocal, Volatile };
-enum class ReliabilityPolicy { BestEffort, Reliable };
+enum class ReliabilityPolicy { SystemDefault, BestEffort, Reliable };
+enum class HistoryPolicy { SystemDefault, KeepLast, KeepAll };
 
 struct KeepLast {
   explicit KeepLast(std::size_t count) : depth(count) {}
@@ -31,12 +32,31 @@ class QoS {
     return *this;
   }
 
+  QoS& depth(std::size_t depth) {
+    depth_ = depth;
+    return *this;
+  }
+  QoS& history(HistoryPolicy history) {
+    history_ = history;
+    return *this;
+  }
+  QoS& reliability(ReliabilityPolicy reliability) {
+    reliability_ = reliability;
+    return *this;
+  }
+  QoS& durability(DurabilityPolicy durability) {
+    durability_ = durability;
+    return *this;
+  }
+
   std::size_t depth() const { return depth_; }
+  HistoryPolicy history() const { return history_; }
   DurabilityPolicy durability() const { return durability_; }
   ReliabilityPolicy reliability() const { return reliability_; }
 
  private:
   std::size_t depth_;
+  HistoryPolicy history_ = HistoryPolicy::KeepLast;
   DurabilityPolicy durability_ = DurabilityPolicy::Volatile;
   ReliabilityPolicy reliability_ = ReliabilityPolicy::Reliable;
 };

@@ -11,6 +11,7 @@
 #include <rclcpp/middleware.hpp>
 #include <rclcpp/parameters.hpp>
 #include <rclcpp/qos.hpp>
+#include <rclcpp/qos_overrides.hpp>
 #include <rclcpp/time.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -158,21 +159,36 @@ class Node {
   Time now() const { return clock_->now(); }
   Clock::SharedPtr get_clock() { return clock_; }
   const Node* get_node_base_interface() const { return this; }
+  const Node* get_node_topics_interface() const { return this; }
+  std::string resolve_topic_name(const std::string& topic) const {
+    const auto remap = arguments_.remaps.find(topic);
+    const std::string& name = remap == arguments_.remaps.end() ? topic : remap->second;
+    if (name.rfind("~/", 0) == 0) return "/" + name_ + name.substr(1);
+    return name.front() == '/' ? name : "/" + name;
+  }
   Context::SharedPtr get_context() const { return std::make_shared<Context>(); }
   Logger get_logger() const { return Logger(name_); }
   const std::shared_ptr<fake::Executor>& fake_executor() const { return executor_; }
 
   template <class M>
-  std::shared_ptr<Publisher<M>> create_publisher(const std::string& topic, const QoS& qos) {
-    return std::make_shared<Publisher<M>>(fake::middleware().writer(resolve(topic), qos));
+  std::shared_ptr<Publisher<M>> create_publisher(const std::string& topic, const QoS& qos,
+      const PublisherOptions& options = PublisherOptions()) {
+    const std::string name = resolve_topic_name(topic);
+    const QoS asked =
+        overridden(name + ".publisher.", qos, options.qos_overriding_options, true);
+    return std::make_shared<Publisher<M>>(fake::middleware().writer(name, asked));
   }
 
   template <class M, class Callback>
   std::shared_ptr<Subscription<M>> create_subscription(
-      const std::string& topic, const QoS& qos, Callback callback) {
+      const std::string& topic, const QoS& qos, Callback callback,
+      const SubscriptionOptions& options = SubscriptionOptions()) {
     static_assert(std::is_invocable_v<Callback, std::shared_ptr<const M>>);
+    const std::string name = resolve_topic_name(topic);
+    const QoS asked =
+        overridden(name + ".subscription.", qos, options.qos_overriding_options, false);
     const auto reader = std::make_shared<fake::Reader>(
-        resolve(topic), name_, qos, executor_, [callback](const fake::Data& data) {
+        name, name_, asked, executor_, [callback](const fake::Data& data) {
           callback(std::static_pointer_cast<const M>(data));
         });
     fake::middleware().add(reader);
@@ -183,14 +199,7 @@ class Node {
   T declare_parameter(const std::string& name, const T& value,
       const rcl_interfaces::msg::ParameterDescriptor& /* descriptor */ =
           rcl_interfaces::msg::ParameterDescriptor()) {
-    const ParameterValue fallback(value);
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (declared_.count(name) > 0) throw exceptions::ParameterAlreadyDeclaredException(name);
-    const auto found = arguments_.overrides.find(name);
-    const ParameterValue chosen = found == arguments_.overrides.end() ? fallback : found->second;
-    if (!chosen.has_type_of(fallback)) throw exceptions::InvalidParameterTypeException(name);
-    declared_.emplace(name, chosen);
-    return chosen.get<T>();
+    return declared(name, ParameterValue(value)).template get<T>();
   }
   bool has_parameter(const std::string& name) const {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -210,11 +219,31 @@ class Node {
   }
 
  private:
-  std::string resolve(const std::string& topic) const {
-    const auto remap = arguments_.remaps.find(topic);
-    const std::string& name = remap == arguments_.remaps.end() ? topic : remap->second;
-    if (name.rfind("~/", 0) == 0) return "/" + name_ + name.substr(1);
-    return name.front() == '/' ? name : "/" + name;
+  QoS overridden(const std::string& entity, QoS qos, const QosOverridingOptions& options,
+      bool is_published) {
+    for (const QosPolicyKind kind : options.get_policy_kinds()) {
+      if (kind == QosPolicyKind::Lifespan && !is_published) continue;
+      const std::string name = "qos_overrides." + entity + fake::name_of(kind);
+      const ParameterValue value = has_parameter(name)
+          ? get_parameter(name).get_parameter_value()
+          : declared(name, fake::value_of(kind, qos));
+      fake::set(kind, value, qos);
+    }
+    const QosCallback& check = options.get_validation_callback();
+    if (!check) return qos;
+    const QosCallbackResult result = check(qos);
+    if (result.successful) return qos;
+    throw exceptions::InvalidQosOverridesException("validation callback failed: " + result.reason);
+  }
+
+  ParameterValue declared(const std::string& name, const ParameterValue& fallback) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (declared_.count(name) > 0) throw exceptions::ParameterAlreadyDeclaredException(name);
+    const auto found = arguments_.overrides.find(name);
+    const ParameterValue chosen = found == arguments_.overrides.end() ? fallback : found->second;
+    if (!chosen.has_type_of(fallback)) throw exceptions::InvalidParameterTypeException(name);
+    declared_.emplace(name, chosen);
+    return chosen;
   }
 
   const fake::Arguments arguments_;

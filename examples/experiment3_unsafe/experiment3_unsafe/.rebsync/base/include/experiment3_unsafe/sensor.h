@@ -9,6 +9,8 @@
 #include <string>
 #include <type_traits>
 
+#include "experiment3_unsafe/mailbox.h"
+
 namespace experiment3_unsafe {
 
 template <class M>
@@ -22,11 +24,21 @@ class Sensor {
   auto seen(Read read) const -> boost::optional<std::decay_t<decltype(read(M()))>> {
     const typename M::ConstPtr message = latest();
     if (message) return read(*message);
-    ROS_WARN_STREAM_THROTTLE(5.0, "sensor: nothing on " << subscription_.getTopic());
+    warn();
     return boost::none;
   }
 
  private:
+  static constexpr double kOneLook = 0.01;  // s, in which a body asks for all that it draws
+
+  // The first sample may take as long as from the model's first look to its second.
+  void warn() const {
+    const ros::Time now = ros::Time::now();
+    if (!first_) first_ = now;
+    if ((now - *first_).toSec() < kOneLook || !warned_.again()) return;
+    ROS_WARN_STREAM("sensor: nothing on " << subscription_.getTopic());
+  }
+
   void receive(const typename M::ConstPtr& message) {
     const std::lock_guard<std::mutex> lock(mutex_);
     latest_ = message;
@@ -39,6 +51,8 @@ class Sensor {
 
   mutable std::mutex mutex_;
   typename M::ConstPtr latest_;
+  mutable boost::optional<ros::Time> first_;  // look that met nothing
+  mutable detail::Rarely warned_;
   ros::Subscriber subscription_;
 };
 
