@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.ros1.probes import Player, Rebec
+from tests.ros1.probes import Player, Rebec, play
 from tests.ros1.run import Clock
-from tests.ros1.test_mailbox import notes, play
+from tests.ros1.test_mailbox import notes
 from tests.ros2py.quality import InvalidQosOverridesError
 
 _CLOCK = Clock(until=6)
