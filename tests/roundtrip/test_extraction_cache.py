@@ -65,3 +65,22 @@ def test_without_a_place_nothing_is_kept(monkeypatch: pytest.MonkeyPatch, tmp_pa
 def test_keys_tell_parts_apart() -> None:
     assert key_of("a", "bc") != key_of("ab", "c")
     assert key_of("a") == key_of("a")
+
+
+def test_a_verdict_of_somebody_else_is_not_taken(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Not one under another key, not one of ours under another name, not a part of one."""
+    keep("a", MODEL)
+    keep("b", Span(1, 2))
+    ours = {path.name: path.read_bytes() for path in folder.iterdir()}
+    monkeypatch.setenv("REBSYNC_CACHE_KEY", "of somebody else, who has thought about it")
+    keep("a", Span(3, 4))
+    assert kept("a", Span) == Span(3, 4)
+    monkeypatch.delenv("REBSYNC_CACHE_KEY")
+    assert kept("a", Span) is None
+    for damaged in (ours["b"], *(ours["a"][:n] for n in range(0, len(ours["a"]), 7))):
+        (folder / "a").write_bytes(damaged)
+        assert (kept("a", Span), kept("a", m.Model)) == (None, None)
+    (folder / "a").write_bytes(ours["a"])
+    assert kept("a", m.Model) == MODEL
