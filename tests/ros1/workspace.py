@@ -74,9 +74,12 @@ def missing_ros() -> str | None:
     return None
 
 
-def build(packages: Sequence[Path], root: Path) -> Workspace:
-    """Build package directories in the workspace at `root`; does nothing when nothing changed."""
-    build_once(packages, root, _make)
+def build(packages: Sequence[Path], root: Path, options: Sequence[str] = ()) -> Workspace:
+    """Build package directories in the workspace at `root`; does nothing when nothing changed.
+
+    CMake gets the options.
+    """
+    build_once(packages, root, lambda made: _make(made, options))
     return Workspace(root)
 
 
@@ -126,11 +129,12 @@ def _synchronise(files: Mapping[str, Path], source: Path) -> None:
             shutil.copy(original, path)
 
 
-def _make(root: Path) -> None:
+def _make(root: Path, options: Sequence[str]) -> None:
     command = [
         *("catkin_make", "-C", str(root), "-j2"),
         *(f"-DPYTHON_EXECUTABLE={SYSTEM_PYTHON}", "-DCATKIN_ENABLE_TESTING=OFF"),
         "-DCMAKE_CXX_FLAGS=-Werror",
+        *options,
     ]
     environment = {"PATH": SYSTEM_PATH, "HOME": os.environ.get("HOME", "/"), "LANG": "C.UTF-8"}
     done = subprocess.run(

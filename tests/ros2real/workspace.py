@@ -6,7 +6,7 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -80,22 +80,24 @@ def sourced() -> dict[str, str]:
     return {name: value for name, value in variables.items() if name not in dropped}
 
 
-def build(folder: Path, root: Path, below: Workspace | None = None) -> Workspace:
+def build(
+    folder: Path, root: Path, below: Workspace | None = None, options: Sequence[str] = ()
+) -> Workspace:
     """Build the package in a folder, or all those below it, without a warning of the compiler.
 
-    They may use the packages of the workspace `below`.
+    They may use the packages of the workspace `below`. CMake gets the options.
     """
     environment = sourced() if below is None else below.environment(root)
-    build_once([folder], root, lambda made: _make(made, environment))
+    build_once([folder], root, lambda made: _make(made, environment, options))
     return Workspace(root)
 
 
-def _make(root: Path, environment: Mapping[str, str]) -> None:
+def _make(root: Path, environment: Mapping[str, str], options: Sequence[str]) -> None:
     command = [
         *("colcon", "--log-base", str(root / "log"), "build", "--merge-install"),
         *("--base-paths", str(root / "src"), "--build-base", str(root / "build")),
         *("--install-base", str(root / "install"), "--parallel-workers", "2"),
-        *("--cmake-args", "-DBUILD_TESTING=OFF", "-DCMAKE_CXX_FLAGS=-Werror"),
+        *("--cmake-args", "-DBUILD_TESTING=OFF", "-DCMAKE_CXX_FLAGS=-Werror", *options),
     ]
     done = subprocess.run(
         command,
