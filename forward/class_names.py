@@ -25,7 +25,7 @@ class ClassNames:
     servers: dict[str, str] = field(default_factory=dict)
     shims: dict[str, str] = field(default_factory=dict)
     subscribers: dict[str, str] = field(default_factory=dict)
-    services: dict[str, str] = field(default_factory=dict)
+    offers: dict[str, str] = field(default_factory=dict)
     sensors: dict[str, str] = field(default_factory=dict)
     seen: dict[str, tuple[str, ...]] = field(default_factory=dict)
     used: set[str] = field(default_factory=set)
@@ -41,7 +41,7 @@ class ClassNames:
         self.self_sends.update(base.self_sends)
         self.shims.update(base.shims)
         self.subscribers.update(base.subscribers)
-        self.services.update(base.services)
+        self.offers.update(base.offers)
         self.sensors.update(base.sensors)
         self.used |= base.used
 

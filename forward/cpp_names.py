@@ -115,8 +115,9 @@ def _name_server(names: CppNames, subscription: Subscription) -> None:
         names.servers[key] = unique(f"k{camel}", names.used, "")
         names.shims[key] = unique(f"receive{camel}", names.used, "")
         names.subscribers[key] = unique(f"{key}_sub_", names.used)
-    if subscription.service is not None and key not in names.services:
-        names.services[key] = unique(f"{key}_service_", names.used)
+    if (offer := subscription.offer) is not None and key not in names.offers:
+        kind = "action" if offer.is_action else "service"
+        names.offers[key] = unique(f"{key}_{kind}_", names.used)
 
 
 def _name_publisher(names: CppNames, publisher: Publisher) -> None:

@@ -52,9 +52,9 @@ def ros_members(c: CppClass) -> list[str]:
         for s in own_subscriptions(c)
     ]
     lines += [
-        f"  {c.words.service_server(s.service.type)} {c.names.services[s.key]};"
+        f"  {c.words.offered(s.offer)} {c.names.offers[s.key]};"
         for s in own_subscriptions(c)
-        if s.service is not None
+        if s.offer is not None
     ]
     return lines
 
@@ -92,16 +92,20 @@ def _subscribed(c: CppClass) -> list[str]:
 
 
 def _offered(c: CppClass) -> list[str]:
-    """Offers servers as services."""
+    """Offers servers as services and actions."""
     lines = []
     for server in own_subscriptions(c):
-        if (service := server.service) is None:
+        if (offer := server.offer) is None:
             continue
-        types = f"{c.words.service(service.type)}, {c.words.message(service.reply.name)}"
-        function = f"offer{'OnBridge' if server.on_bridge else ''}<{types}>"
+        types = [c.words.offer(offer), c.words.message(offer.reply.name)]
         shim = f"&{c.type_name}::{c.names.shims[server.key]}"
-        arguments = [f'"{server.topic}"', f'"{service.server}"', shim, "this"]
-        lines += _set_up(c, f"{c.names.services[server.key]} = mailbox_.{function}", arguments)
+        arguments = [f'"{server.topic}"', f'"{offer.server}"', shim, "this"]
+        if offer.feedback is not None:
+            types.append(c.words.message(offer.feedback.name))
+            arguments.append(f'"{offer.feedback_server}"')
+        kind, bridge = "Action" * offer.is_action, "OnBridge" * server.on_bridge
+        function = f"offer{kind}{bridge}<{', '.join(types)}>"
+        lines += _set_up(c, f"{c.names.offers[server.key]} = mailbox_.{function}", arguments)
     return lines
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from rebsync.package import Offer
+
 
 class CppWords(Protocol):
     """The words of one generation of ROS; message names without a package are the package's own."""
@@ -37,14 +39,14 @@ class CppWords(Protocol):
     def message_header(self, package: str, type_: str) -> str:
         """The header of a message type."""
 
-    def service(self, type_: str) -> str:
-        """A service type, inside the package's namespace."""
+    def offer(self, offered: Offer) -> str:
+        """A service or action type, inside the package's namespace."""
 
-    def service_header(self, package: str, type_: str) -> str:
-        """The header of a service type."""
+    def offer_header(self, package: str, offered: Offer) -> str:
+        """The header of a service or action type."""
 
-    def service_server(self, type_: str) -> str:
-        """What offers a service of a type."""
+    def offered(self, offered: Offer) -> str:
+        """What offers a service or an action of a type."""
 
     def received(self, type_: str) -> str:
         """What points at a message that came in."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rebsync import package as p
-from rebsync.forward.services import replies, reply_name, service_annotation
+from rebsync.forward.offers import offer_annotation, replies, reply_names
 from rebsync.forward.topics import ServerTopic, Signature, Topics, declared_servers, signature
 from rebsync.model import Annotation, Interface, MessageServer, Method, ReactiveClass
 from rebsync.static import Analysis
@@ -48,18 +48,21 @@ class Incoming:
             priority_of(server.annotations),
             inherited=subscriber != class_name or self._declared_above(class_name, wanted),
             overridden=info.is_abstract or self._is_redeclared(class_name, wanted),
-            service=self._service(class_name, server, topic),
+            offer=self._offer(class_name, server, topic),
         )
 
-    def _service(
-        self, class_name: str, server: MessageServer, topic: ServerTopic
-    ) -> p.Service | None:
-        annotation = service_annotation(server)
-        reply = reply_name(annotation) if annotation is not None else None
-        if reply is None or topic.service is None:
+    def _offer(self, class_name: str, server: MessageServer, topic: ServerTopic) -> p.Offer | None:
+        annotation = offer_annotation(server)
+        if annotation is None or topic.offer is None:
             return None
-        (sent,) = replies(class_name, reply, self._analysis, self._topics)
-        return p.Service(topic.service, topic.message, reply, sent.message)
+        reply, *feedback = (
+            (name, sent.message)
+            for name in reply_names(annotation)
+            for sent in replies(class_name, name, self._analysis, self._topics)
+        )
+        is_action = annotation.name == "Action"
+        more = feedback[0] if feedback else (None, None)
+        return p.Offer(topic.offer, is_action, topic.message, *reply, *more)
 
     def _declared_above(self, class_name: str, wanted: Signature) -> bool:
         """Whether a reactive class above this one has made the subscription already."""

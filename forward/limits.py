@@ -5,9 +5,10 @@ from __future__ import annotations
 from rebsync.config import Config
 from rebsync.diagnostics import Diagnostic, Severity
 from rebsync.forward.generate import is_taken, package_name
-from rebsync.forward.services import replies, reply_name, service_annotation
+from rebsync.forward.offers import offer_annotation, replies, reply_names
 from rebsync.forward.topics import Topics, declared_servers, signature
 from rebsync.model import (
+    Annotation,
     Interface,
     KnownRebecs,
     MessageServer,
@@ -27,7 +28,7 @@ def limits(model: Model, analysis: Analysis, config: Config, stem: str) -> tuple
         if isinstance(c, ReactiveClass):
             found += _known_arrays(c)
             found += _global_priorities(c)
-        found += _services(c, analysis, topics)
+        found += _offers(c, analysis, topics)
     return tuple(sorted(found, key=lambda d: (d.span.start, d.code)))
 
 
@@ -148,33 +149,49 @@ def _global_priorities(declaration: ReactiveClass) -> list[Diagnostic]:
     ]
 
 
-def _services(
+def _offers(
     declaration: ReactiveClass | Interface, analysis: Analysis, topics: Topics
 ) -> list[Diagnostic]:
-    """Services that cannot be offered, or that the model has no one reply to."""
+    """Services and actions that cannot be offered, or that the model has no one reply to."""
     found = []
     for server in declared_servers(declaration):
-        annotation = service_annotation(server)
-        if annotation is None or (reply := reply_name(annotation)) is None:
+        annotation = offer_annotation(server)
+        if annotation is None:
             continue
-        odd = _odd_service(declaration.name, server, reply, analysis, topics)
+        odd = _odd_offer(declaration.name, server, annotation, analysis, topics)
         if odd is not None:
             found.append(Diagnostic("RS711", annotation.span, *odd))
     return found
 
 
-def _odd_service(
-    class_name: str, server: MessageServer, reply: str, analysis: Analysis, topics: Topics
+def _odd_offer(
+    class_name: str,
+    server: MessageServer,
+    annotation: Annotation,
+    analysis: Analysis,
+    topics: Topics,
 ) -> tuple[str, str] | None:
-    """What is wrong with a service, and what to do about it."""
+    """What is wrong with a service or action, and what to do about it."""
+    kind, names = annotation.name, reply_names(annotation)
     wanted = signature(server.name, server.parameters)
     first = topics.subscriber(class_name, wanted)
     if first != class_name or analysis.classes[class_name].is_interface:
-        message = f'"{server.name}" of "{class_name}" is not where its service is offered'
-        return message, f'write @Service where a reactive class first has "{server.name}"'
+        message = f'"{server.name}" of "{class_name}" is not where its {kind.lower()} is offered'
+        return message, f'write @{kind} where a reactive class first has "{server.name}"'
     if not topics.of(class_name, wanted).message.carries_sender:
         message = f'"{server.name}" does not ask who its sender is, so nobody can be answered'
-        return message, f"send {reply} to sender, or keep sender in a variable until it is answered"
+        hint = "or keep sender in a variable until it is answered"
+        return message, f"send {names[0]} to sender, {hint}"
+    if len(set(names)) < len(names):
+        return f'"{names[0]}" is the reply, and so no feedback', "name another server for it"
+    odd = (_odd_reply(class_name, kind, name, analysis, topics) for name in names)
+    return next((found for found in odd if found is not None), None)
+
+
+def _odd_reply(
+    class_name: str, kind: str, reply: str, analysis: Analysis, topics: Topics
+) -> tuple[str, str] | None:
+    """What is wrong with the messages that go to a client."""
     sent = replies(class_name, reply, analysis, topics)
     if not sent:
         message = f'"{class_name}" sends no "{reply}" to its sender, nor to whom a variable holds'
@@ -182,7 +199,7 @@ def _odd_service(
     if len(sent) > 1:
         roots = " and ".join(f'"{t.root}.{t.name}"' for t in sent)
         return f'"{reply}" is not one reply: {roots} have messages of their own', (
-            "a service has one type of response: call one of them otherwise"
+            "each of them has a type of its own: call one of them otherwise"
         )
     return None
 

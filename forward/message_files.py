@@ -46,8 +46,13 @@ def service_names(package: Package) -> list[str]:
     return sorted(s.type for s in package.services)
 
 
+def action_names(package: Package) -> list[str]:
+    """The action types of a package."""
+    return sorted(a.type for a in package.actions)
+
+
 def message_files(package: Package) -> dict[str, str]:
-    """`msg/*.msg` and `srv/*.srv` by their paths; both generations of ROS read them."""
+    """`msg/*.msg`, `srv/*.srv`, `action/*.action` by their paths; both generations read them."""
     files = {
         "msg/Announcement.msg": _message(ANNOUNCEMENT),
         "msg/Timing.msg": _message(TIMING),
@@ -68,6 +73,10 @@ def message_files(package: Package) -> dict[str, str]:
         lines = [*map(_field, service.request.fields), "---", f"bool {RESPONSE_FIELD}"]
         lines += map(_field, service.reply.fields)
         files[f"srv/{service.type}.srv"] = _message(lines)
+    for action in package.actions:
+        feedback = action.feedback.fields if action.feedback is not None else ()
+        lines = [*map(_field, action.request.fields), "---", *map(_field, action.reply.fields)]
+        files[f"action/{action.type}.action"] = _message([*lines, "---", *map(_field, feedback)])
     return files
 
 

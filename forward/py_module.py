@@ -80,11 +80,13 @@ def _own_modules(c: PyClass, words: PyWords) -> Mapping[str, Iterable[str]]:
         f"{package}.lifecycle": ("RebecNode",),
         f"{package}.mailbox": _MAILBOX,
         words.messages(package): messages,
-        words.services(package): [s.type for s in c.package.services],
+        words.offers(package, False): [words.offer(s) for s in c.package.services],
         f"{package}.sensor": ("Sensor",),
         f"{package}.startup": ("declared",),
         f"{package}.values": VALUES,
     }
+    place, actions = words.offers(package, True), c.package.actions
+    modules[place] = {*modules.get(place, ()), *map(words.offer, actions)}
     types = c.statements.expressions.class_types
     for base in c.node.bases:
         modules[f"{package}.{c.package.node_class(base).file}"] = (types[base],)

@@ -91,8 +91,9 @@ def _name_server(names: PyNames, subscription: Subscription) -> None:
     if key not in names.shims:
         names.shims[key] = unique(f"_receive_{key}", names.used)
         names.subscribers[key] = unique(f"_{key}_sub", names.used)
-    if subscription.service is not None and key not in names.services:
-        names.services[key] = unique(f"_{key}_service", names.used)
+    if (offer := subscription.offer) is not None and key not in names.offers:
+        kind = "action" if offer.is_action else "service"
+        names.offers[key] = unique(f"_{key}_{kind}", names.used)
 
 
 def server_constant(names: PyNames, key: str) -> str:

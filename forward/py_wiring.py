@@ -12,7 +12,7 @@ from rebsync.forward.py_messages import own_subscriptions, to_message
 from rebsync.forward.py_types import py_type, unset_value
 from rebsync.model import Type
 from rebsync.names import graph_name
-from rebsync.package import ConstructorOf, GlobalParameter
+from rebsync.package import ConstructorOf, GlobalParameter, Offer
 
 
 class PyWords(Protocol):
@@ -24,8 +24,11 @@ class PyWords(Protocol):
     def base(self) -> str:
         """The class that all nodes derive from; empty where there is none."""
 
-    def services(self, package: str) -> str:
-        """The module of the package's own service types."""
+    def offers(self, package: str, is_action: bool) -> str:
+        """The module of the package's own service or action types."""
+
+    def offer(self, offer: Offer) -> str:
+        """A service or action type."""
 
     def argument(self, key: str, type_: Type) -> tuple[str, list[str]] | None:
         """What a constructor calls, with which arguments, to read one of its own.
@@ -136,7 +139,7 @@ def _wired(c: PyClass, words: PyWords, queue: str, best: str) -> list[str]:
         *_members(c, words),
         *_publishers(c, words),
         *_subscriptions(c, words),
-        *_services(c, words),
+        *_offers(c, words),
     ]
 
 
@@ -186,21 +189,19 @@ def _subscriptions(c: PyClass, words: PyWords) -> list[str]:
     return lines
 
 
-def _services(c: PyClass, words: PyWords) -> list[str]:
+def _offers(c: PyClass, words: PyWords) -> list[str]:
     lines = []
     for server in own_subscriptions(c):
-        if (service := server.service) is None:
+        if (offer := server.offer) is None:
             continue
-        function = "offer_on_bridge" if server.on_bridge else "offer"
+        function = f"offer{'_action' * offer.is_action}{'_on_bridge' * server.on_bridge}"
         topic = server.topic if server.on_bridge else words.private(server.topic)
-        types = [service.type, server.message.name, service.reply.name]
-        arguments = [
-            f'"{topic}"',
-            f'"{service.server}"',
-            *types,
-            f"self.{c.names.shims[server.key]}",
-        ]
-        head = f"self.{c.names.services[server.key]} = self._mailbox.{function}("
+        types = [words.offer(offer), server.message.name, offer.reply.name]
+        shim = f"self.{c.names.shims[server.key]}"
+        arguments = [f'"{topic}"', f'"{offer.server}"', *types, shim]
+        if offer.feedback is not None:
+            arguments += [f'"{offer.feedback_server}"', offer.feedback.name]
+        head = f"self.{c.names.offers[server.key]} = self._mailbox.{function}("
         lines += call_lines(head, arguments)
     return lines
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Collection, Mapping
 
 from rebsync.forward import ros1_cpp, ros1_package, ros1_py
-from rebsync.forward.message_files import message_names, service_names
+from rebsync.forward.message_files import action_names, message_names, service_names
 from rebsync.forward.remarks import Remarks
 from rebsync.forward.templating import fill
 from rebsync.forward.topics import Topics
@@ -63,6 +63,7 @@ def _cmake_lists(
         run_depends=sorted([*depends, "message_runtime"]),
         messages=message_names(package),
         services=service_names(package),
+        actions=action_names(package),
         library=[s for s in ros1_package.library_of(package) if f"src/{s}.cpp" in files],
         executables=[e for e in built if f"src/{e.name}.cpp" in files],
         scripts=scripts,

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
-from rebsync.forward.message_files import FIELD_TYPES, message_names, service_names
-from rebsync.forward.runtime_part import message_packages, odometry_topic
+from rebsync.forward.message_files import (
+    FIELD_TYPES,
+    action_names,
+    message_names,
+    service_names,
+)
+from rebsync.forward.runtime_part import action_packages, message_packages, odometry_topic
 from rebsync.forward.templating import fill
 from rebsync.forward.yaml_values import yaml_name, yaml_value
 from rebsync.package import Instance, NodeParameter, Package, Remap
@@ -18,7 +23,7 @@ _PARAMETER_TYPES = {"byte": "int", "short": "int", "int": "int", "boolean": "boo
 
 def depends_of(package: Package) -> list[str]:
     """The packages that the nodes need."""
-    return sorted({"roscpp"} | message_packages(package))
+    return sorted({"roscpp"} | message_packages(package) | action_packages(package))
 
 
 def manifest(package: Package) -> str:
@@ -49,6 +54,7 @@ def cmake_lists(package: Package) -> str:
         run_depends=sorted([*depends, "message_runtime"]),
         messages=message_names(package),
         services=service_names(package),
+        actions=action_names(package),
         library=library_of(package),
         executables=executables_of(package),
     )

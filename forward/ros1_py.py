@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rebsync.forward.message_files import message_files, message_names, service_names
+from rebsync.forward.message_files import action_names, message_files, message_names, service_names
 from rebsync.forward.py_class import PyClass
 from rebsync.forward.py_classes import classes
 from rebsync.forward.py_imports import words_of
@@ -13,12 +13,12 @@ from rebsync.forward.py_wiring import constructor_of
 from rebsync.forward.readme import readme
 from rebsync.forward.remarks import Remarks
 from rebsync.forward.ros1_package import launch_file, parameters
-from rebsync.forward.runtime_part import message_packages, python_runtime
+from rebsync.forward.runtime_part import action_packages, message_packages, python_runtime
 from rebsync.forward.sensors import played_sensors
 from rebsync.forward.templating import fill
 from rebsync.forward.topics import Topics
 from rebsync.model import Type
-from rebsync.package import GlobalParameter, NodeClass, Package
+from rebsync.package import GlobalParameter, NodeClass, Offer, Package
 from rebsync.static import Analysis
 
 _SENSORS = "src/{package}/{file}_sensors.py"
@@ -62,8 +62,11 @@ class Rospy:
     def base(self) -> str:
         return ""
 
-    def services(self, package: str) -> str:
-        return f"{package}.srv"
+    def offers(self, package: str, is_action: bool) -> str:
+        return f"{package}.{'msg' if is_action else 'srv'}"
+
+    def offer(self, offer: Offer) -> str:
+        return f"{offer.type}{'Action' * offer.is_action}"
 
     def argument(self, key: str, type_: Type) -> None:
         return None
@@ -102,7 +105,7 @@ def render(
 
 def depends_of(package: Package) -> list[str]:
     """The packages that the nodes need."""
-    return sorted({"rosgraph_msgs", "rospy"} | message_packages(package))
+    return sorted({"rosgraph_msgs", "rospy"} | message_packages(package) | action_packages(package))
 
 
 def _cmake_lists(package: Package, scripts: list[str]) -> str:
@@ -114,6 +117,7 @@ def _cmake_lists(package: Package, scripts: list[str]) -> str:
         run_depends=sorted([*depends, "message_runtime"]),
         messages=message_names(package),
         services=service_names(package),
+        actions=action_names(package),
         scripts=scripts,
     )
 

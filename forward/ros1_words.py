@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from rebsync.package import Offer
+
 TEMPLATES = "ros1_cpp"
 HEADER = "h"
 BREAKS_LINES = False
@@ -21,16 +23,16 @@ def message_header(package: str, type_: str) -> str:
     return f"{type_}.h" if "/" in type_ else f"{package}/{type_}.h"
 
 
-def service(type_: str) -> str:
-    return type_
+def offer(offered: Offer) -> str:
+    return f"{offered.type}{'Action' * offered.is_action}"
 
 
-def service_header(package: str, type_: str) -> str:
-    return f"{package}/{type_}.h"
+def offer_header(package: str, offered: Offer) -> str:
+    return f"{package}/{offer(offered)}.h"
 
 
-def service_server(type_: str) -> str:
-    return "ros::ServiceServer"
+def offered(offered: Offer) -> str:
+    return f"ActionServer<{offer(offered)}>" if offered.is_action else "ros::ServiceServer"
 
 
 def received(type_: str) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rebsync.forward.cpp_class import CppClass
-from rebsync.forward.message_files import message_names, service_names
+from rebsync.forward.message_files import action_names, message_names, service_names
 from rebsync.forward.ros2_constructors import component
 from rebsync.forward.runtime_part import message_packages, odometry_topic
 from rebsync.forward.templating import fill
@@ -21,7 +21,9 @@ def _message_packages(package: Package) -> list[str]:
 
 def _depends(package: Package) -> list[str]:
     found = [*_message_packages(package), "rclcpp", "rclcpp_components"]
-    return sorted([*found, *(["rclcpp_lifecycle"] if package.settings.lifecycle else [])])
+    found += ["rclcpp_action"] if package.actions else []
+    found += ["rclcpp_lifecycle"] if package.settings.lifecycle else []
+    return sorted(found)
 
 
 def manifest(package: Package) -> str:
@@ -42,6 +44,7 @@ def cmake_lists(package: Package, classes: list[CppClass]) -> str:
         message_packages=_message_packages(package),
         messages=message_names(package),
         services=service_names(package),
+        actions=action_names(package),
         sources=sorted(c.node.file for c in classes if not c.node.interface),
         components=sorted(map(component, runs)),
         executables=sorted(executables),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from rebsync.forward.message_files import message_files, message_names, service_names
+from rebsync.forward.message_files import action_names, message_files, message_names, service_names
 from rebsync.forward.py_class import PyClass
 from rebsync.forward.py_classes import classes
 from rebsync.forward.py_imports import imports
@@ -18,7 +18,7 @@ from rebsync.forward.sensors import played_sensors
 from rebsync.forward.templating import fill
 from rebsync.forward.topics import Topics
 from rebsync.model import Type
-from rebsync.package import GlobalParameter, NodeClass, Package
+from rebsync.package import GlobalParameter, NodeClass, Offer, Package
 from rebsync.static import Analysis
 
 _SENSORS = "{package}/{package}/{file}_sensors.py"
@@ -44,8 +44,11 @@ class Rclpy:
     def base(self) -> str:
         return self._node
 
-    def services(self, package: str) -> str:
-        return f"{interfaces(package)}.srv"
+    def offers(self, package: str, is_action: bool) -> str:
+        return f"{interfaces(package)}.{'action' if is_action else 'srv'}"
+
+    def offer(self, offer: Offer) -> str:
+        return offer.type
 
     def argument(self, key: str, type_: Type) -> tuple[str, list[str]]:
         kind = plain_type(type_)
@@ -127,12 +130,13 @@ def _interfaces(package: Package) -> dict[str, str]:
     """The package of the messages, for ament_cmake: rosidl has no other way."""
     own = replace(package, name=interfaces(package.name))
     files = {
-        "package.xml": fill(f"{_FOLDER}/interfaces.xml.j2", package=own),
+        "package.xml": fill(f"{_FOLDER}/interfaces.xml.j2", package=own, actions=package.actions),
         "CMakeLists.txt": fill(
             f"{_FOLDER}/CMakeLists.txt.j2",
             package=own.name,
             messages=message_names(package),
             services=service_names(package),
+            actions=action_names(package),
         ),
         **message_files(own),
     }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from rebsync.names import header_stem
+from rebsync.package import Offer
 
 TEMPLATES = "ros2_cpp"
 HEADER = "hpp"
@@ -25,16 +26,21 @@ def message_header(package: str, type_: str) -> str:
     return f"{owner if slash else package}/msg/{header_stem(name)}.hpp"
 
 
-def service(type_: str) -> str:
-    return f"srv::{type_}"
+def offer(offered: Offer) -> str:
+    return f"{_folder(offered)}::{offered.type}"
 
 
-def service_header(package: str, type_: str) -> str:
-    return f"{package}/srv/{header_stem(type_)}.hpp"
+def offer_header(package: str, offered: Offer) -> str:
+    return f"{package}/{_folder(offered)}/{header_stem(offered.type)}.hpp"
 
 
-def service_server(type_: str) -> str:
-    return f"rclcpp::Service<{service(type_)}>::SharedPtr"
+def offered(offered: Offer) -> str:
+    kind = "rclcpp_action::Server" if offered.is_action else "rclcpp::Service"
+    return f"{kind}<{offer(offered)}>::SharedPtr"
+
+
+def _folder(offered: Offer) -> str:
+    return "action" if offered.is_action else "srv"
 
 
 def received(type_: str) -> str:

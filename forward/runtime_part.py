@@ -22,14 +22,23 @@ def message_packages(package: Package) -> set[str]:
     return found - {package.name}
 
 
+def action_packages(package: Package) -> set[str]:
+    """What ROS 1 has for actions, where there are any."""
+    return {"actionlib", "actionlib_msgs"} if package.actions else set()
+
+
 def _stems(package: Package, is_ros2: bool) -> list[str]:
     names = ["mailbox", "startup", "values", "watchdog"]
     if any(c.moves for c in package.classes):
         names.append("drive")
     if any(c.sensors for c in package.classes):
         names.append("sensor")
+    if package.offers:
+        names.append("clients")
     if package.services:
         names.append("services")
+    if package.actions:
+        names.append("actions")
     if is_ros2 and package.settings.lifecycle:
         names.append("lifecycle")
     return names
@@ -53,6 +62,7 @@ def python_runtime(package: Package, dialect: str, folder: str) -> dict[str, str
             f"{'py' if stem == 'values' else dialect}/{stem}.py.j2",
             package=package.name,
             services=package.services,
+            actions=package.actions,
             odometry=odometry_topic(package, dialect.startswith("ros2")),
             timed=_is_timed(package),
             lifecycle=package.settings.lifecycle,
@@ -64,19 +74,19 @@ def python_runtime(package: Package, dialect: str, folder: str) -> dict[str, str
 def cpp_runtime(package: Package, words: CppWords) -> dict[str, str]:
     """The headers of the run-time part by path."""
     is_ros2 = words.TEMPLATES.startswith("ros2")
-    names = (f"{stem}.{words.HEADER}" for stem in _stems(package, is_ros2))
     return {
-        f"include/{package.name}/{name}": fill(
-            f"{words.TEMPLATES}/{name}.j2",
+        f"include/{package.name}/{stem}.{words.HEADER}": fill(
+            f"{words.TEMPLATES}/{stem}.{words.HEADER}.j2",
             package=package.name,
             services=package.services,
+            actions=package.actions,
             odometry=odometry_topic(package, is_ros2),
-            includes=_served_headers(package, words),
+            includes=_served_headers(package, words, stem),
             timed=_is_timed(package),
             lifecycle=package.settings.lifecycle,
             node="lifecycle::RebecNode" if package.settings.lifecycle else "rclcpp::Node",
         )
-        for name in names
+        for stem in _stems(package, is_ros2)
     }
 
 
@@ -87,11 +97,11 @@ def odometry_topic(package: Package, is_ros2: bool) -> str:
     return topic.replace("~", "~/", 1) if private else topic
 
 
-def _served_headers(package: Package, words: CppWords) -> list[str]:
-    """The headers of the messages and types that services have."""
-    messages = {m.name for s in package.services for m in (s.request, s.reply)}
-    found = {words.message_header(package.name, m) for m in messages}
-    return sorted(found | {words.service_header(package.name, s.type) for s in package.services})
+def _served_headers(package: Package, words: CppWords, stem: str) -> list[str]:
+    """The headers of the messages and types that services, or actions, have."""
+    offers = package.actions if stem == "actions" else package.services
+    found = {words.message_header(package.name, m.name) for o in offers for m in o.messages}
+    return sorted(found | {words.offer_header(package.name, o) for o in offers})
 
 
 def cpp_stand_in(package: Package, node: NodeClass, words: CppWords) -> str:

@@ -48,7 +48,7 @@ Signature = tuple[str, tuple[str, ...]]
 class ServerTopic:
     """One family of servers: its key (last segment of the topic), type, and port annotation.
 
-    `service` is the type of the service that it is offered as, if it is.
+    `offer` is the type of the service or action that it is offered as, if it is.
     """
 
     root: str
@@ -57,7 +57,7 @@ class ServerTopic:
     parameters: tuple[Parameter, ...]
     message: MessageType
     port: bool
-    service: str | None
+    offer: str | None
 
 
 def signature(name: str, parameters: tuple[Parameter, ...]) -> Signature:
@@ -168,8 +168,21 @@ class Topics:
             f"{class_name}.{name}",
         )
         annotated = {a.name for s in family for a in s.annotations}
-        service = self._new_type(f"{message.name}Call") if "Service" in annotated else None
-        return ServerTopic(class_name, name, key, parameters, message, "Port" in annotated, service)
+        offer = self._offered_type(message, annotated)
+        return ServerTopic(class_name, name, key, parameters, message, "Port" in annotated, offer)
+
+    def _offered_type(self, message: MessageType, annotated: set[str]) -> str | None:
+        """The type of a service or an action; ROS 1 has messages of its own for an action."""
+        if "Service" in annotated:
+            return self._new_type(f"{message.name}Call")
+        if "Action" not in annotated:
+            return None
+        offer = self._new_type(f"{message.name}Task")
+        parts = ("Goal", "Result", "Feedback")
+        own = ("Action", *parts, *(f"Action{part}" for part in parts))
+        self._used_types |= {f"{offer}{part}" for part in own}
+        self._headers |= {header_stem(f"{offer}{part}") for part in own}
+        return offer
 
     def _new_type(self, name: str) -> str:
         """The name of a message type: no other has it, nor one whose header is called the same."""

@@ -146,7 +146,7 @@ GENERATION = {
     "RS708": "a package that was made from another model",
     "RS709": "a dialect that is not known, or that does not go with others",
     "RS710": "a package of which no licence or no maintainer is known",
-    "RS711": "a service that the model does not answer",
+    "RS711": "a service or an action that the model does not answer",
     "RS750": "a part of a model that the official compiler or RMC does not take",
     "RS751": "a part of a model that RMC runs differently",
     "RS752": "an option that RMC must be given for this model",

@@ -73,16 +73,26 @@ class Sensor:
 
 
 @dataclass(frozen=True, slots=True)
-class Service:
-    """A server offered as a service: a request is a message, the first reply to it the response.
+class Offer:
+    """A server offered to clients: a request is a message, the first reply to it the response.
 
-    `type` is that of the service, `server` the one that the reply is sent to.
+    `type` is that of the service or action, `server` the one that the reply is sent to; of an
+    action also the one that the feedback is sent to, where it has any.
     """
 
     type: str
+    is_action: bool
     request: MessageType
     server: str
     reply: MessageType
+    feedback_server: str | None = None
+    feedback: MessageType | None = None
+
+    @property
+    def messages(self) -> tuple[MessageType, ...]:
+        """The messages that it turns into what a client sends and gets."""
+        found = (self.request, self.reply, self.feedback)
+        return tuple(m for m in found if m is not None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +116,7 @@ class Subscription:
     priority: int | None = None
     inherited: bool = False
     overridden: bool = False
-    service: Service | None = None
+    offer: Offer | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -295,10 +305,20 @@ class Package:
     instances_of: tuple[tuple[str, tuple[str, ...]], ...]
 
     @property
-    def services(self) -> tuple[Service, ...]:
-        """What the classes offer as services, each once."""
-        found = (s.service for c in self.classes for s in c.subscriptions if not s.inherited)
+    def offers(self) -> tuple[Offer, ...]:
+        """What the classes offer to clients, each once."""
+        found = (s.offer for c in self.classes for s in c.subscriptions if not s.inherited)
         return tuple(dict.fromkeys(s for s in found if s is not None))
+
+    @property
+    def services(self) -> tuple[Offer, ...]:
+        """What is offered as a service."""
+        return tuple(o for o in self.offers if not o.is_action)
+
+    @property
+    def actions(self) -> tuple[Offer, ...]:
+        """What is offered as an action."""
+        return tuple(o for o in self.offers if o.is_action)
 
     def node_class(self, name: str) -> NodeClass:
         """The class of that name; KeyError when there is none."""

@@ -11,18 +11,9 @@ from rebsync.names import CPP_KEYWORDS, PYTHON_KEYWORDS, carry, uncarry
 
 RUNTIME_CLASSES = frozenset(
     {
-        *("Announcement", "Beginning", "Drive", "Inherited", "Mailbox", "Pose", "Publishers"),
-        *(
-            "Rebec",
-            "RebecNode",
-            "Recipient",
-            "Sensor",
-            "Served",
-            "Server",
-            "Services",
-            "Snapshot",
-            "Startup",
-        ),
+        *("Actions", "Announcement", "Beginning", "Clients", "Drive", "Inherited", "Mailbox"),
+        *("Pose", "Publishers", "Rebec", "RebecNode", "Recipient", "Sensor", "Served", "Server"),
+        *("Services", "Snapshot", "Startup"),
         *("Stopped", "Timing", "Violation", "Watchdog", "When"),
     }
 )
@@ -41,10 +32,13 @@ NO_CLASSES = (
     CPP_KEYWORDS
     | RUNTIME_TYPES
     | _FREE_FUNCTIONS
-    | {"kNull", "lifecycle", "msg", "nodes", "rcl_interfaces", "rclcpp", "reportLine"}
+    | {"ActionServer", "action", "actionlib", "kNull", "lifecycle", "msg", "nodes"}
+    | {"rcl_interfaces", "rclcpp", "rclcpp_action", "reportLine", "srv"}
 )
 RUNTIME_TOPICS = frozenset({"cmd_vel", "state"})
 RUNTIME_FIELDS = ("timing", "sender")
+# The annotations that offer a message server to clients from outside.
+OFFERS = frozenset({"Action", "Service"})
 # What the response of a service has beside the fields of the reply.
 RESPONSE_FIELD = "answered"
 STATE_FIELDS = ("server", "arguments", "arrival", "start", "now")
@@ -95,14 +89,8 @@ def uncarry_local(carried: str, reserved: Collection[str], functions: Collection
 
 # The headers of generated packages that are the same for every model.
 RUNTIME_HEADERS = (
-    "lifecycle",
-    "mailbox",
-    "services",
-    "startup",
-    "values",
-    "watchdog",
-    "drive",
-    "sensor",
+    *("actions", "clients", "drive", "lifecycle", "mailbox", "sensor", "services", "startup"),
+    *("values", "watchdog"),
 )
 
 # --- Python -------------------------------------------------------------------------------------

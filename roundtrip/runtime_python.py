@@ -7,12 +7,11 @@ import re
 from collections.abc import Iterator
 from itertools import zip_longest
 
+from rebsync.reserved import RUNTIME_HEADERS
 from rebsync.roundtrip.python_trees import bindings, said, span_of, tree_of, without_types
 from rebsync.source import Source, Span
 
-MODULE = re.compile(
-    r"(?:.*/)?(?:__init__|drive|lifecycle|mailbox|sensor|services|startup|values|watchdog)\.py\Z"
-)
+MODULE = re.compile(rf"(?:.*/)?(?:__init__|{'|'.join(RUNTIME_HEADERS)})\.py\Z")
 _OTHERS = re.compile(r"(?:.*/)?(?:setup|\w+_sensors|\w+\.launch)\.py\Z")
 PYTHON = re.compile(r"(?:.*\.py|(?:.*/)?scripts/\w+)\Z")
 _CLASS = re.compile(r"^# rebsync: (?:reactiveclass|interface) ", re.M)

@@ -44,7 +44,7 @@ from rebsync.roundtrip.wiring_ranges import RANGE, range_hint
 from rebsync.source import NOWHERE, Source
 
 _WIRED = (
-    *(".cpp", ".h", ".hpp", ".launch", ".py", ".msg", ".srv"),
+    *(".cpp", ".h", ".hpp", ".launch", ".py", ".msg", ".srv", ".action"),
     *("CMakeLists.txt", "config/params.yaml", "package.xml", "setup.cfg"),
 )
 _JOINING = frozenset(

@@ -129,7 +129,7 @@ def _text(data: bytes) -> str:
 
 
 def _of_file(name: str, source: Source, package: str) -> Iterable[Fact]:
-    if name.endswith((".msg", ".srv")):
+    if name.endswith((".msg", ".srv", ".action")):
         return _fields(source, package)
     if name.endswith(".yaml"):
         return _settings(source)

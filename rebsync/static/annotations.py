@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from rebsync.model import Annotation, Empty, Name, Statement
+from rebsync.reserved import OFFERS
 from rebsync.static.constants import constant
 from rebsync.static.expressions import type_of
 from rebsync.static.facts import Facts, Move
@@ -17,15 +18,17 @@ _PLACES = {
     "Sensor": "a message server",
     "Port": "a message server",
     "Service": "a message server",
+    "Action": "a message server",
     "Move": "an empty statement: @Move(X+1, Y);",
 }
 _LEGAL = {
     "a class": frozenset(("Robot", "Controller")),
-    "a message server": frozenset(("Sensor", "Port", "Service")) | _PRIORITIES,
+    "a message server": frozenset(("Sensor", "Port")) | OFFERS | _PRIORITIES,
     "an instance": _PRIORITIES,
 }
 _EXCLUSIVE = frozenset(("Robot", "Controller", "Sensor", "Port"))
-_SAMPLED = frozenset(("Sensor", "Service"))  # a sensor asks itself
+_ASKED = OFFERS | {"Sensor"}  # in one way; a sensor asks itself
+_WANTED = {"Service": (1, 1), "Action": (1, 2)}  # how many servers each names
 
 
 def check_annotations(facts: Facts, annotations: tuple[Annotation, ...], of: str) -> None:
@@ -50,26 +53,28 @@ def _check_place(
         message = f"@{name} does not belong to {of}"
         facts.error("RS427", span, message, f"it belongs to {_PLACES[name]}")
         return
-    if name == "Service":
-        _check_service(facts, annotation)
+    if name in OFFERS:
+        _check_offer(facts, annotation)
     elif annotation.arguments is not None:
         facts.error("RS427", span, f"@{name} takes no arguments")
     for other, first in seen.items():
-        if other == name or {other, name} <= _EXCLUSIVE or {other, name} == _SAMPLED:
+        if other == name or {other, name} <= _EXCLUSIVE or {other, name} <= _ASKED:
             twice = "stands here twice" if other == name else f"and @{other} exclude each other"
             place = ((first.span, f"@{other} stands here"),)
             facts.error("RS427", span, f"@{name} {twice}", related=place)
     seen.setdefault(name, annotation)
 
 
-def _check_service(facts: Facts, annotation: Annotation) -> None:
-    """`@Service(done)`: the argument names a server, which other classes may have."""
-    match annotation.arguments:
-        case (Name(),):
-            pass
-        case _:
-            hint = "name the message server that the reply is sent to, such as @Service(done)"
-            facts.error("RS427", annotation.span, "@Service takes the name of the reply", hint)
+def _check_offer(facts: Facts, annotation: Annotation) -> None:
+    """`@Service(done)`, `@Action(done, seen)`: servers, which other classes may have."""
+    name, given = annotation.name, annotation.arguments or ()
+    least, most = _WANTED[name]
+    if least <= len(given) <= most and all(isinstance(a, Name) for a in given):
+        return
+    hint = f"name the message server that the reply is sent to, such as @{name}(done)"
+    more = ", and of the feedback" if most > 1 else ""
+    message = f"@{name} takes the name of the reply{more}"
+    facts.error("RS427", annotation.span, message, hint)
 
 
 def _check_priority(facts: Facts, annotation: Annotation, of: str) -> None:

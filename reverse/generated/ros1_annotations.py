@@ -1,6 +1,7 @@
 """The annotations of classes and servers of generated code: from markers, and from the set-up.
 
-What a set-up does counts, whatever a marker says: the priority of a server, and its service.
+What a set-up does counts, whatever a marker says: the priority of a server, and as what it
+is offered.
 """
 
 from __future__ import annotations
@@ -8,12 +9,13 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping
 
 from rebsync import model as m
+from rebsync.reserved import OFFERS
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.generated.ros1_roles import Roles
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import text_of
 
-_SHOWN = frozenset({"priority", "globalPriority", "Service"})
+_SHOWN = frozenset({"priority", "globalPriority"}) | OFFERS
 
 
 def annotations_in(markers: Collection[str], owner: CppClass) -> tuple[m.Annotation, ...]:
@@ -68,6 +70,6 @@ def _shown(
             same = [f for f in same if len(f.parameters) == overload[1]]
             index = next((i for i, f in enumerate(same) if f.types == function.types), 0)
             found = shown[min(index, len(shown) - 1)]
-            # A service is said where it is offered, and nowhere below.
-            return found if above is owner else tuple(a for a in found if a.name != "Service")
+            # A service or action is said where it is offered, and nowhere below.
+            return found if above is owner else tuple(a for a in found if a.name not in OFFERS)
     return None

@@ -17,6 +17,7 @@ from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_names import declared_type
 from rebsync.reverse.generated.ros1_roles import (
+    OFFERING,
     Roles,
     Taken,
     best_priority,
@@ -155,7 +156,7 @@ def _sets_up(statement: Node, function: CppFunction, roles: Roles, timers: Conta
         case "construct":
             given = [*(p.name for p in function.parameters), *dict(arguments_in(function))]
             return _hands_on(call, "construct", given)
-        case "offer" | "offerOnBridge":
+        case name if name in OFFERING:
             return call.node.id in roles.wired
         case name if name in _SUBSCRIBES:
             callback = call.arguments[-1] if call.arguments else None

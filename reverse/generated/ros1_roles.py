@@ -32,6 +32,11 @@ from rebsync.static.constants import constant
 
 _SENSOR = "_sensor_"
 _DEEP = 100
+# The calls that offer a server, and how many arguments each takes.
+OFFERING = {
+    **dict.fromkeys(("offer", "offerOnBridge"), (4,)),
+    **dict.fromkeys(("offerAction", "offerActionOnBridge"), (4, 5)),
+}
 # Handles of the rebec's own topics.
 _OWN_HANDLES = ("node", "ros::NodeHandle(node)")
 Overload: TypeAlias = tuple[str, int]  # a server, and how many arguments it takes
@@ -80,7 +85,7 @@ class Roles:
     `handlers` and `messages` give the server's name in the model, `globals` the entry of the
     parameter server and the default, `annotations` those that the set-up of a server shows; of
     overloads that take equally many arguments the first one's first. `topics` are those of shims
-    by their names, `replies` the servers that answer the services of shims, `wired` the calls
+    by their names, `offers` as what those of shims are offered, `wired` the calls
     that make them and publishers of the rebec; `passing` are callbacks of timers that only post a
     message; `odd_sends` what functions that send do besides.
     """
@@ -98,7 +103,7 @@ class Roles:
     on_bridge: bool = False
     sensors: set[str] = field(default_factory=set)
     topics: dict[str, str] = field(default_factory=dict)
-    replies: dict[str, str] = field(default_factory=dict)
+    offers: dict[str, m.Annotation] = field(default_factory=dict)
     taken: list[Taken] = field(default_factory=list)
     wired: set[int] = field(default_factory=set)
     passing: set[str] = field(default_factory=set)
@@ -134,10 +139,11 @@ def _port(topic: str) -> Iterator[m.Annotation]:
         yield m.Annotation("Port")
 
 
-def _service(roles: Roles, shim: str) -> Iterator[m.Annotation]:
-    """`@Service(reply)` of a server whose shim a service calls."""
-    if reply := roles.replies.get(shim):
-        yield m.Annotation("Service", (m.Name(reply),))
+def _offered(call: CppCall) -> m.Annotation:
+    """`@Service(reply)` or `@Action(reply, feedback)` of what a call offers."""
+    name = "Action" if call.name.startswith("offerAction") else "Service"
+    replies = (string_of(call.arguments[i]) for i in (1, 4) if i < len(call.arguments))
+    return m.Annotation(name, tuple(m.Name(reply or "") for reply in replies))
 
 
 def _priority(code: Code, function: CppFunction, call: CppCall) -> Iterator[m.Annotation]:
@@ -253,10 +259,10 @@ def _member(roles: Roles, member: str, call: CppCall) -> None:
             roles.wired.add(call.node.id)
             roles.on_bridge = roles.on_bridge or call.name == "subscribeOnBridge"
             roles.topics[last_name(call.arguments[1])] = first
-        case "offer" | "offerOnBridge", "mailbox_" if len(call.arguments) == 4:
+        case name, "mailbox_" if name in OFFERING and len(call.arguments) in OFFERING[name]:
             roles.wired.add(call.node.id)
-            roles.on_bridge = roles.on_bridge or call.name == "offerOnBridge"
-            roles.replies[last_name(call.arguments[2])] = string_of(call.arguments[1]) or ""
+            roles.on_bridge = roles.on_bridge or name.endswith("OnBridge")
+            roles.offers[last_name(call.arguments[2])] = _offered(call)
         case "advertiseAll", "mailbox_" if call.types and len(call.arguments) == 2:
             roles.wired.add(call.node.id)
             key = string_of(call.arguments[1]) or ""
@@ -301,8 +307,8 @@ def _received(
     if handler is not None:
         roles.handlers[handler] = server
         arguments = len(called[1]) if called is not None else 0
-        service = _service(roles, function.name)
-        shown = *_port(topic), *service, *_priority(code, function, call)
+        offer = (o for shim, o in roles.offers.items() if shim == function.name)
+        shown = *_port(topic), *offer, *_priority(code, function, call)
         roles.annotations.setdefault((server, arguments), []).append(shown)
     roles.messages[taken.type] = server
     roles.constants.add(text_of(call.arguments[0]))

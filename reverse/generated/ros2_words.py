@@ -19,7 +19,7 @@ _POINTERS = ("::ConstSharedPtr", "::SharedPtr", "::ConstPtr", "ConstPtr", "::Ptr
 _ROS = frozenset(
     {
         *("NodeHandle", "Publisher", "Publishers", "Subscriber", "Subscription", "Timer"),
-        *("Service", "ServiceServer"),
+        *("ActionServer", "Service", "ServiceServer"),
         *("TimerBase", "WallTimer"),
     }
 )
@@ -40,6 +40,7 @@ def message_name(type_: str) -> str:
 def is_of_ros(type_: str) -> bool:
     """Whether it is the type of a publisher, a subscription or a timer."""
     plain = _PARTED.sub("::", type_).removesuffix("::SharedPtr").partition("<")[0]
+    plain = "ActionServer" if plain.endswith("rclcpp_action::Server") else plain
     return plain.rpartition("::")[2].strip() in _ROS
 
 

@@ -12,7 +12,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.names import carry, original
 from rebsync.records import dataclass
-from rebsync.reserved import NO_PYTHON_CLASSES
+from rebsync.reserved import NO_PYTHON_CLASSES, OFFERS
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
@@ -35,7 +35,9 @@ _RUNTIME = {
     "watchdog": ("\nclass Watchdog", "def add_check("),
     "drive": ("\nclass Drive", "def move("),
     "sensor": ("\nclass Sensor", "def seen("),
-    "services": ("\nclass Services", "def answer("),
+    "actions": ("\nclass Actions", "Clients"),
+    "clients": ("\nclass Clients", "def answer("),
+    "services": ("\nclass Services", "Clients"),
     "lifecycle": ("\nclass RebecNode", "\nclass Managed("),
 }
 
@@ -264,11 +266,11 @@ class Classes:
         yield from self._set_up(owner, function) or ()
 
     def _marked(self, owner: Scope, function: Scope) -> Iterator[m.Annotation]:
-        """The annotations of the markers; what services there are, the set-up says."""
+        """The annotations of the markers; what services and actions there are, the set-up says."""
         shown = self._set_up(owner, function)
-        offered = {a.name: a for a in shown or () if a.name == "Service"}
+        offered = {a.name: a for a in shown or () if a.name in OFFERS}
         for each in _annotations(function):
-            if each.name != "Service" or shown is None:
+            if each.name not in OFFERS or shown is None:
                 yield each
             elif (own := offered.pop(each.name, None)) is not None:
                 yield each if each.arguments == own.arguments else own
@@ -279,8 +281,8 @@ class Classes:
         for above in self.line(owner):
             shown = self._of(above).shown.get(function.name)
             if shown is not None:
-                # A service is said where it is offered, and nowhere below.
-                return tuple(a for a in shown if above is owner or a.name != "Service")
+                # A service or action is said where it is offered, and nowhere below.
+                return tuple(a for a in shown if above is owner or a.name not in OFFERS)
         return None
 
     def _method(self, owner: Scope, function: Scope) -> m.Method:

@@ -15,7 +15,7 @@ from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python.model_constants import is_quiet
 from rebsync.reverse.python.model_helpers import is_transparent
 from rebsync.reverse.python.model_logs import only_logs
-from rebsync.reverse.python.model_roles import Roles
+from rebsync.reverse.python.model_roles import OFFERING, Roles
 from rebsync.reverse.python.model_types import (
     call_parts,
     called_late,
@@ -33,7 +33,7 @@ _PUBLISHERS = frozenset({"rospy.Publisher", "self.create_publisher", "node.creat
 _CONNECTING = frozenset(
     {
         *("advertise", "advertise_all", "subscribe", "subscribe_on_bridge"),
-        *("offer", "offer_on_bridge"),
+        *OFFERING,
     }
 )
 _NAMED = frozenset({"Server", "logging.getLogger", "getLogger", "rclpy.logging.get_logger"})
@@ -149,8 +149,10 @@ class Plumbing:
 
     def _is_connected(self, member: str, arguments: list[Node]) -> bool:
         """Whether topics are called after the servers they lead to."""
-        shim = handed_over(arguments[-1]).removeprefix("self.")
-        if shim in self.roles.topics:
+        # The feedback of an action stands behind the shim.
+        shims = [handed_over(a).removeprefix("self.") for a in (*arguments[5:6], arguments[-1])]
+        shim = next((s for s in shims if s in self.roles.topics), None)
+        if shim is not None:
             key = self.roles.topics[shim].removeprefix("port/")
             server = self.roles.served_by(shim)
             return server is not None and key.startswith(graph_name(server))

@@ -35,6 +35,11 @@ from rebsync.reverse.python.py_index import FUNCTION, PyCode, Scope
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 _RUNTIME = {"_mailbox", "_drive", "_state_pub"}
+# What offers a server, and how many arguments that takes.
+OFFERING = {
+    **dict.fromkeys(("offer", "offer_on_bridge"), (6,)),
+    **dict.fromkeys(("offer_action", "offer_action_on_bridge"), (6, 8)),
+}
 _PLUMBING = {"__init__", "_wire", "_publish_state", "mailbox"}
 _SENSOR = "_sensor"
 # What reads a parameter in ROS 1, in ROS 2, and one that is an array.
@@ -87,7 +92,7 @@ class Roles:
     shims: set[str] = with_default(default_factory=set)
     arguments: dict[str, str] = with_default(default_factory=dict)
     topics: dict[str, str] = with_default(default_factory=dict)
-    replies: dict[str, str] = with_default(default_factory=dict)
+    offers: dict[str, m.Annotation] = with_default(default_factory=dict)
     sensors: set[str] = with_default(default_factory=set)
     has_mailbox: bool = False
     has_drive: bool = False
@@ -219,10 +224,12 @@ def _connected(roles: Roles, member: str, method: str, arguments: list[Node]) ->
     elif method in ("subscribe", "subscribe_on_bridge") and len(arguments) == 3:
         roles.on_bridge = roles.on_bridge or method == "subscribe_on_bridge"
         roles.topics[handed_over(arguments[2]).removeprefix("self.")] = topic
-    elif method in ("offer", "offer_on_bridge") and len(arguments) == 6:
-        roles.on_bridge = roles.on_bridge or method == "offer_on_bridge"
+    elif len(arguments) in OFFERING.get(method, ()):
+        roles.on_bridge = roles.on_bridge or method.endswith("_on_bridge")
         shim = handed_over(arguments[5]).removeprefix("self.")
-        roles.replies[shim] = string_value(arguments[1]) or ""
+        name = "Action" if method.startswith("offer_action") else "Service"
+        replies = (string_value(arguments[i]) for i in (1, 6) if i < len(arguments))
+        roles.offers[shim] = m.Annotation(name, tuple(m.Name(reply or "") for reply in replies))
 
 
 def _variable(
@@ -304,10 +311,10 @@ def _received(
     roles.handler_names[function.name] = handler
     roles.handlers[handler] = server
     port = roles.topics.get(function.name, "").startswith("port/")
-    reply = roles.replies.get(function.name)
+    offer = roles.offers.get(function.name)
     roles.shown[handler] = (
         *((m.Annotation("Port"),) if port else ()),
-        *((m.Annotation("Service", (m.Name(reply),)),) if reply else ()),
+        *((offer,) if offer is not None else ()),
         *annotations,
     )
     parameter = field(function.node, "parameters").named_children[-1]

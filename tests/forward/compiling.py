@@ -21,6 +21,7 @@ CASES = Path(__file__).parent / "cases"
 _WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Werror")
 _STANDARD = ("-std=gnu++14", "-fwrapv")
 _MESSAGES = """
+import subprocess
 import sys
 from pathlib import Path
 import genmsg.template_tools as tools
@@ -28,8 +29,12 @@ out = Path(sys.argv[1])
 for package in map(Path, sys.argv[2:]):
     headers = out / package.name
     headers.mkdir(parents=True, exist_ok=True)
-    search = [f"{package.name}:{package / 'msg'}", "std_msgs:/usr/share/std_msgs/msg"]
-    for message in sorted(package.glob("msg/*.msg")):
+    search = [f"{package.name}:{package / 'msg'}", f"{package.name}:{headers / 'msg'}"]
+    search += [f"{other}:/usr/share/{other}/msg" for other in ("actionlib_msgs", "std_msgs")]
+    for action in sorted(package.glob("action/*.action")):
+        genaction = "/usr/lib/actionlib_msgs/genaction.py"
+        subprocess.run([genaction, str(action), "-o", str(headers / "msg")], check=True)
+    for message in sorted([*package.glob("msg/*.msg"), *headers.glob("msg/*.msg")]):
         tools.generate_from_file(
             str(message), package.name, str(headers), "/usr/share/gencpp", search,
             {"msg.h.template": "@NAME@.h"}, {},

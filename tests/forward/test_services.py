@@ -1,4 +1,4 @@
-"""Services that no package can offer are refused, each with its reason and place."""
+"""Services and actions that no package can offer are refused, each with its reason and place."""
 
 from __future__ import annotations
 
@@ -76,6 +76,38 @@ def _found(**parts: str) -> list[str]:
             {"server": "@Sensor @Service(sold)"},
             "@Service(sold): RS427 @Service and @Sensor exclude each other",
         ),
+        ({"server": "@Action(sold) @Port"}, None),
+        (
+            {"server": "@Action(gone)"},
+            '@Action(gone): RS711 "Shop" sends no "gone" to its sender, nor to whom a variable '
+            "holds",
+        ),
+        (
+            {"server": "@Action(sold, gone)"},
+            '@Action(sold, gone): RS711 "Shop" sends no "gone" to its sender, nor to whom a '
+            "variable holds",
+        ),
+        (
+            {"server": "@Action(sold, sold)"},
+            '@Action(sold, sold): RS711 "sold" is the reply, and so no feedback',
+        ),
+        (
+            {"below": "@Action(sold)"},
+            '@Action(sold): RS711 "buy" of "Branch" is not where its action is offered',
+        ),
+        (
+            {"server": "@Action"},
+            "@Action: RS427 @Action takes the name of the reply, and of the feedback",
+        ),
+        (
+            {"server": "@Action(sold, gone, more)"},
+            "@Action(sold, gone, more): RS427 @Action takes the name of the reply, and of the "
+            "feedback",
+        ),
+        (
+            {"server": "@Service(sold) @Action(sold)"},
+            "@Action(sold): RS427 @Action and @Service exclude each other",
+        ),
         (
             {"server": "@Service(sold) @Service(sold)"},
             "@Service(sold): RS427 @Service stands here twice",
@@ -110,4 +142,19 @@ def test_fields_are_those_of_both_messages() -> None:
     files = generated(text, "m")
     assert files["srv/AAskCall.srv"] == (
         "int32 answered_2\nint8[2] of\n---\nbool answered\nbool answered_2\nint32 sender_2\n"
+    )
+
+
+def test_an_action_has_goals_results_and_feedback() -> None:
+    text = (
+        "reactiveclass A(3) { knownrebecs { B b; }\n"
+        "  @Action(told, seen) msgsrv ask(int timing, byte[2] of) {\n"
+        "    ((B)sender).seen(1.5); ((B)sender).told(true, timing); } }\n"
+        "reactiveclass B(3) { msgsrv told(boolean answered, int sender) { }\n"
+        "  msgsrv seen(double share) { } }\n"
+        "main { A a(b):(); B b():(); }\n"
+    )
+    files = generated(text, "m")
+    assert files["action/AAskTask.action"] == (
+        "int32 timing_2\nint8[2] of\n---\nbool answered_2\nint32 sender_2\n---\nfloat64 share\n"
     )

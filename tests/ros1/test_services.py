@@ -1,9 +1,12 @@
-"""Servers that are offered as services, asked by a client that is no rebec."""
+"""Servers that are offered as services and actions, asked by a client that is no rebec."""
 
 from __future__ import annotations
 
 import json
 import subprocess
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +20,9 @@ from tests.ros1.workspace import SYSTEM_PYTHON, Workspace
 
 _HERE = Path(__file__).parent
 _ASKER = _HERE / "nodes" / "asker.py"
+_ACTOR = _HERE / "nodes" / "actor.py"
+# States of goals, as actionlib_msgs/GoalStatus numbers them.
+SUCCEEDED, ABORTED, REJECTED = 3, 4, 5
 _MODEL = _HERE / "models" / "services.rebeca"
 
 
@@ -59,10 +65,36 @@ def test_replies_are_responses(offering: Workspace, tmp_path: Path) -> None:
     assert "null: " not in output and "deadline: " not in output
 
 
-def asked(
-    workspace: Workspace, directory: Path, calls: list[list[tuple[str, str, list[Any]]]]
-) -> tuple[list[dict[str, Any]], str]:
-    """What services respond to groups of calls, and what the nodes wrote."""
+def test_goals_are_messages(offering: Workspace, tmp_path: Path) -> None:
+    goals = [[5], [106], list(range(10, 20)), [-1]]
+    lines = []
+    with _running(offering, tmp_path) as (stop, environment):
+        command = [SYSTEM_PYTHON, str(_ACTOR), json.dumps(goals)]
+        actor = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)
+        assert actor.stdout is not None
+        for line in actor.stdout:
+            lines.append(json.loads(line))
+            if len(lines) == 7:  # the last goal, which the model never answers, is sent
+                time.sleep(2)
+                stop()
+    one, cancelled, many, left = (found for found in lines if found != "sent")
+    (first,) = one
+    assert (first["state"], first["place"]) == (SUCCEEDED, 5)
+    assert len(first["passed"]) == 1
+    assert cancelled == [{"state": SUCCEEDED, "place": 6, "passed": [5]}]
+    # One is served, five wait: there is no room for more.
+    states = [goal["state"] for goal in many]
+    assert sorted(states) == [SUCCEEDED] * 6 + [REJECTED] * 4
+    taken = [goal["place"] for goal in many if goal["state"] == SUCCEEDED]
+    assert all(place in range(10, 20) for place in taken)
+    assert [goal["state"] for goal in left] == [ABORTED]
+
+
+@contextmanager
+def _running(
+    workspace: Workspace, directory: Path
+) -> Iterator[tuple[Callable[[], None], dict[str, str]]]:
+    """The launch file; gives what stops it, and the variables of who is beside it."""
     port, environment = ros_environment(workspace, directory)
     launch = workspace.root / "src" / "services" / "launch" / "services.launch"
     wrapper = directory / "wrapper.launch"
@@ -72,7 +104,15 @@ def asked(
         '  <param name="mailbox/service_timeout" value="3.0"/>\n</launch>\n'
     )
     command = ["roslaunch", "--skip-log-check", "-p", str(port), str(wrapper)]
-    with launched(command, directory, environment):
+    with launched(command, directory, environment) as stop:
+        yield stop, environment
+
+
+def asked(
+    workspace: Workspace, directory: Path, calls: list[list[tuple[str, str, list[Any]]]]
+) -> tuple[list[dict[str, Any]], str]:
+    """What services respond to groups of calls, and what the nodes wrote."""
+    with _running(workspace, directory) as (_, environment):
         asker = [SYSTEM_PYTHON, str(_ASKER), json.dumps(calls)]
         done = subprocess.run(
             asker, env=environment, stdout=subprocess.PIPE, text=True, timeout=120, check=True

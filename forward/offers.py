@@ -1,7 +1,8 @@
-"""Servers that are offered as services, and what the model replies to their requests.
+"""Servers that are offered as services or actions, and what the model replies to their requests.
 
-`@Service(done)` offers a server. Who asks from outside has a name as rebecs have, which is the
-request's `sender`; the first message `done` that is sent to that name is the response.
+`@Service(done)` and `@Action(done)` offer a server. Who asks from outside has a name as rebecs
+have, which is the request's `sender`; the first message `done` that is sent to that name is the
+response, or the result. `@Action(done, seen)` names what goes there before it: the feedback.
 """
 
 from __future__ import annotations
@@ -11,21 +12,18 @@ from collections.abc import Iterator
 from rebsync.forward.sends import ToAny, sends
 from rebsync.forward.topics import ServerTopic, Topics, signature
 from rebsync.model import Annotation, MessageServer, Name, ReactiveClass
+from rebsync.reserved import OFFERS
 from rebsync.static import Analysis
 
 
-def service_annotation(server: MessageServer) -> Annotation | None:
-    """`@Service(reply)` of a server."""
-    return next((a for a in server.annotations if a.name == "Service"), None)
+def offer_annotation(server: MessageServer) -> Annotation | None:
+    """`@Service(reply)` or `@Action(reply)` of a server."""
+    return next((a for a in server.annotations if a.name in OFFERS), None)
 
 
-def reply_name(annotation: Annotation) -> str | None:
-    """The server that replies are sent to, as an annotation names it."""
-    match annotation.arguments:
-        case (Name(name),):
-            return name
-        case _:
-            return None
+def reply_names(annotation: Annotation) -> tuple[str, ...]:
+    """The servers that an annotation names: that of the reply, and that of the feedback."""
+    return tuple(a.name for a in annotation.arguments or () if isinstance(a, Name))
 
 
 def replies(
