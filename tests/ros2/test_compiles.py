@@ -16,7 +16,9 @@ _ODOMETRY = Path(__file__).parents[1] / "ros1" / "models" / "odometry.rebeca"
 
 def test_cases(headers: Path, tmp_path: Path) -> None:
     packages = []
-    for case in sorted(CASES.glob("*.rebeca"))[::2]:  # ROS 1 compiles all of them
+    # The stub has neither services nor actions; ROS 1 compiles all of them.
+    cases = sorted(c for c in CASES.glob("*.rebeca") if c.stem not in ("actions", "services"))
+    for case in cases[::2]:
         config = replace(case_config(case), target="ros2-cpp")
         files = generated(case.read_text(encoding="utf-8"), case.stem, config)
         packages.append(written(files, tmp_path, case.stem, config))
