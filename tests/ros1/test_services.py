@@ -70,13 +70,13 @@ def test_goals_are_messages(offering: Workspace, tmp_path: Path) -> None:
     lines = []
     with _running(offering, tmp_path) as (stop, environment):
         command = [SYSTEM_PYTHON, str(_ACTOR), json.dumps(goals)]
-        actor = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)
-        assert actor.stdout is not None
-        for line in actor.stdout:
-            lines.append(json.loads(line))
-            if len(lines) == 7:  # the last goal, which the model never answers, is sent
-                time.sleep(2)
-                stop()
+        with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True) as actor:
+            assert actor.stdout is not None
+            for line in actor.stdout:
+                lines.append(json.loads(line))
+                if len(lines) == 7:  # the last goal, which the model never answers, is sent
+                    time.sleep(2)
+                    stop()
     one, cancelled, many, left = (found for found in lines if found != "sent")
     (first,) = one
     assert (first["state"], first["place"]) == (SUCCEEDED, 5)

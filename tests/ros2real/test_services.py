@@ -123,7 +123,7 @@ def test_who_waits_when_the_node_ends_gets_a_response(offering: Offering, tmp_pa
         assert json.loads(asker.stdout.readline())[0]["said"]["place"] == 1
         time.sleep(0.5)  # the second call is under way
         stop()
-        (answer,) = _answers(asker)
+        (answer,) = _answers(asker)  # which reads to the end
     assert answer["said"] == {"answered": False, "place": 0, "fast": False}
     assert answer["after"] < 2.5
 
@@ -134,13 +134,13 @@ def test_goals_are_messages(offering: Offering, tmp_path: Path) -> None:
     lines: list[Any] = []
     with offering.running(tmp_path, environment) as stop:
         said = _send_goal(offering, environment)
-        actor = offering.client(_ACTOR, goals, environment)
-        assert actor.stdout is not None
-        for line in actor.stdout:
-            lines.append(json.loads(line))
-            if len(lines) == 7:  # the last goal, which the model never answers, is sent
-                time.sleep(2)
-                stop()
+        with offering.client(_ACTOR, goals, environment) as actor:
+            assert actor.stdout is not None
+            for line in actor.stdout:
+                lines.append(json.loads(line))
+                if len(lines) == 7:  # the last goal, which the model never answers, is sent
+                    time.sleep(2)
+                    stop()
     one, cancelled, many, left = (found for found in lines if found != "sent")
     (first,) = one
     assert (first["state"], first["place"]) == (_SUCCEEDED, 5)
