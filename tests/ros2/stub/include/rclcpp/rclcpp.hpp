@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdio>
 #include <functional>
 #include <map>
 #include <memory>
@@ -19,6 +20,8 @@
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+struct rmw_request_id_t {};
 
 namespace rclcpp {
 
@@ -141,9 +144,32 @@ class TopicEndpointInfo {
   QoS qos_;
 };
 
+class TimerBase;
+
+/// What offers a service; nobody calls it.
+template <class S>
+class Service {
+ public:
+  using SharedPtr = std::shared_ptr<Service<S>>;
+  void send_response(rmw_request_id_t&, typename S::Response&) {}
+};
+
 class Node {
  public:
   using SharedPtr = std::shared_ptr<Node>;
+
+  /// One that looks for requests without a reply, of which there are none.
+  template <class Period>
+  std::shared_ptr<TimerBase> create_wall_timer(Period, std::function<void()>) {
+    return nullptr;
+  }
+
+  template <class S, class Callback>
+  std::shared_ptr<Service<S>> create_service(const std::string&, Callback callback) {
+    std::function<void(std::shared_ptr<Service<S>>, std::shared_ptr<rmw_request_id_t>,
+        std::shared_ptr<typename S::Request>)> taken = callback;
+    return std::make_shared<Service<S>>();
+  }
 
   explicit Node(const std::string& name, const NodeOptions& /* options */ = NodeOptions())
       : arguments_(fake::arguments()), name_(arguments_.name.empty() ? name : arguments_.name) {
@@ -294,6 +320,7 @@ inline void spin_some(const std::shared_ptr<Node>& /* node */) {}
 
 }  // namespace rclcpp
 
+#define RCLCPP_ERROR(logger, ...) (static_cast<void>(logger), std::fprintf(stderr, __VA_ARGS__))
 #define RCLCPP_ERROR_STREAM(logger, stream) RCLCPP_FAKE_LOG("ERROR", logger, stream)
 #define RCLCPP_WARN_STREAM_THROTTLE(logger, clock, milliseconds, stream) \
   do {                                                                   \
