@@ -29,6 +29,7 @@ def limits(model: Model, analysis: Analysis, config: Config, stem: str) -> tuple
             found += _known_arrays(c)
             found += _global_priorities(c)
         found += _offers(c, analysis, topics)
+        found += _managed_actions(c, config)
     return tuple(sorted(found, key=lambda d: (d.span.start, d.code)))
 
 
@@ -162,6 +163,20 @@ def _offers(
         if odd is not None:
             found.append(Diagnostic("RS711", annotation.span, *odd))
     return found
+
+
+def _managed_actions(declaration: ReactiveClass | Interface, config: Config) -> list[Diagnostic]:
+    """Actions of nodes with a life cycle, which are made again at each configuring."""
+    if not (config.lifecycle and config.target_of(declaration.name).startswith("ros2")):
+        return []
+    annotations = (offer_annotation(server) for server in declared_servers(declaration))
+    message = "nodes with a life cycle offer no actions yet"
+    hint = "offer it as a @Service, or do without `lifecycle` in rebsync.toml"
+    return [
+        Diagnostic("RS711", a.span, message, hint)
+        for a in annotations
+        if a is not None and a.name == "Action"
+    ]
 
 
 def _odd_offer(
