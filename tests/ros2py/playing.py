@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from importlib import import_module, invalidate_caches
 from pathlib import Path
@@ -17,14 +17,30 @@ from tests.ros2py.messages import Message, modules
 from tests.ros2py.quality import modules as qualities
 from tests.ros2py.world import Launched, Node, World
 
+# From which state to which a change leads; empty: from any.
+_TRANSITIONS = {
+    "configure": ("unconfigured", "inactive"),
+    "activate": ("inactive", "active"),
+    "deactivate": ("active", "inactive"),
+    "cleanup": ("inactive", "unconfigured"),
+    "shutdown": ("", "finalized"),
+}
 _BODY = ("server", "arguments", "arrival", "start", "now")
 
 
-def play(folder: Path, until: float) -> Recording:
-    """Start what the launch file of a package says, and run it to a time of the model."""
+def play(
+    folder: Path,
+    until: float,
+    changes: Mapping[str, Sequence[tuple[float, str]]] | None = None,
+) -> Recording:
+    """Start what the launch file of a package says, and run it to a time of the model.
+
+    The `changes` of the life cycles of nodes come after so many seconds.
+    """
     world, name = World(), folder.name
     with installed(world, folder / name, folder / f"{name}_interfaces"):
-        mains = [_main(name, node) for node in described(folder / name)]
+        found = described(folder / name)
+        mains = [_main(name, node, (changes or {}).get(node.name, ())) for node in found]
         world.run(mains, until)
     return recorded(world)
 
@@ -47,8 +63,10 @@ def _served(message: Heard) -> Served:
     return Served(rebec, server, arguments, arrival, start, now, message.stamp, state)
 
 
-def _main(package: str, node: Described) -> tuple[Launched, Callable[[], None]]:
-    launched = Launched(node.name, node.parameters, dict(node.remappings))
+def _main(
+    package: str, node: Described, changes: Sequence[tuple[float, str]]
+) -> tuple[Launched, Callable[[], None]]:
+    launched = Launched(node.name, node.parameters, dict(node.remappings), changes)
     main = import_module(f"{package}.{node.executable}").main
     return launched, cast("Callable[[], None]", main)
 
@@ -101,6 +119,41 @@ def _rclpy(world: World) -> dict[str, ModuleType]:
             super().__init__(world, world.context.launched)
             world.add(self)
 
+    class LifecycleNode(NodeOfThread):
+        """The same with a life cycle, whose changes come when it was launched with them."""
+
+        def __init__(self, name: str) -> None:
+            super().__init__(name)
+            self.state = "unconfigured"
+            for seconds, change in self.launched.changes:
+                self._set(seconds, change)
+
+        def trigger_configure(self) -> None:
+            self._trigger("configure")
+
+        def trigger_activate(self) -> None:
+            self._trigger("activate")
+
+        def _set(self, seconds: float, change: str) -> None:
+            def act() -> None:
+                timer.cancel()
+                self._trigger(change)
+
+            timer = self.create_timer(seconds, act)
+
+        def _trigger(self, change: str) -> None:
+            before, after = _TRANSITIONS[change]
+            if before not in ("", self.state):
+                raise RuntimeError(f"no {change} of a node that is {self.state}")
+            if getattr(self, f"on_{change}")(self.state) == "success":
+                self.state = after
+
+    lifecycle = {
+        "LifecycleNode": LifecycleNode,
+        "LifecycleState": str,
+        "TransitionCallbackReturn": SimpleNamespace(SUCCESS="success", FAILURE="failure"),
+    }
+
     spin = {"init": lambda: None, "spin": world.spin, "try_shutdown": lambda: None}
     spin["ok"] = lambda: not world.stopping
     return dict(
@@ -108,6 +161,7 @@ def _rclpy(world: World) -> dict[str, ModuleType]:
             _module("rclpy", **spin),
             _module("rclpy.executors", ExternalShutdownException=ExternalShutdownException),
             _module("rclpy.node", Node=NodeOfThread),
+            _module("rclpy.lifecycle", **lifecycle),
             _module("rclpy.publisher", Publisher=object),
             _module("rclpy.subscription", Subscription=object),
             _module("rclpy.clock", JumpThreshold=_threshold),

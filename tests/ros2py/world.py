@@ -46,6 +46,7 @@ class Launched:
     name: str
     parameters: Mapping[str, object] = field(default_factory=dict)
     remaps: Mapping[str, str] = field(default_factory=dict)
+    changes: Sequence[tuple[float, str]] = ()  # of its life cycle, after seconds
 
     def resolved(self, topic: str) -> str:
         """The absolute name of a topic of the node."""
@@ -173,6 +174,15 @@ class Node:
         subscription = Subscription(self, name, callback, quality)
         self.world.subscribe(subscription)
         return subscription
+
+    def destroy_publisher(self, publisher: Publisher) -> None:
+        with self.world.lock:
+            self.world.publishers.remove(publisher)
+
+    def destroy_subscription(self, subscription: Subscription) -> None:
+        self._change("destroyed")
+        with self.world.lock:
+            self.world.subscriptions.remove(subscription)
 
     def create_timer(
         self, period: float, callback: Callable[[], None], clock: object = None
