@@ -29,17 +29,25 @@ def run(
     foreign: Sequence[str] = (),
     step: float | None = None,
     parameters: Mapping[str, object] | None = None,
+    changes: Mapping[str, Sequence[tuple[float, str]]] | None = None,
+    arguments: Mapping[str, str] | None = None,
 ) -> Recording:
     """Run the package's launch file for that many seconds of its clock.
 
     A tool has subscribed to the `foreign` topics and asks for what was sent before, which rebecs do
     not keep. With a `step` the clock is that of a simulation. Each node gets the `parameters` too.
+    The `changes` of the life cycles of nodes come after so many seconds; the `arguments` are those
+    of the launch file.
     """
     system = directory / "system.txt"
     own = parameters or {}
-    nodes = [replace(n, parameters={**n.parameters, **own}) for n in launched(package)]
+    started = launched(package, **(arguments or {}))
+    nodes = [replace(n, parameters={**n.parameters, **own}) for n in started]
     listened = [f"foreign\t{topic}" for topic in foreign]
-    lines = [*listened, *(line for node in nodes for line in _lines(node))]
+    lines = list(listened)
+    for node in nodes:
+        lines += _lines(node)
+        lines += [f"change\t{at}\t{name}" for at, name in (changes or {}).get(node.name, ())]
     system.write_text("".join(f"{line}\n" for line in lines))
     done = subprocess.run(
         [str(driver), str(system), str(until), *([] if step is None else [str(step)])],

@@ -2,7 +2,8 @@
 // all threads wait it jumps to the next moment for which a timer or a thread waits.
 //
 // Usage: driver SYSTEM UNTIL [STEP], where SYSTEM has lines of fields set apart by tabs: `node EXECUTABLE
-// NAME`, followed by the `param NAME TYPE VALUE...` and `remap FROM TO` of that node, and
+// NAME`, followed by the `param NAME TYPE VALUE...`, `remap FROM TO` and `change SECONDS TRANSITION`
+// of that node, and
 // `foreign TOPIC` for a subscription of a tool that asks for what was sent before it; and UNTIL is
 // the time of the end in seconds. With a STEP the clock of ROS is that of a simulation, which tells
 // of each of its steps. What happens goes to standard output, one line each.
@@ -82,9 +83,11 @@ std::vector<Process> read(const char* path) {
   for (std::string text; std::getline(in, text);) {
     const std::vector<std::string> line = fields(text);
     if (line[0] == "node") {
-      processes.push_back({mains().at(line[1]), {line[2], {}, {}}});
+      processes.push_back({mains().at(line[1]), {line[2], {}, {}, {}}});
     } else if (line[0] == "foreign") {
       listen(line[1]);
+    } else if (line[0] == "change") {
+      processes.back().arguments.changes.emplace_back(std::stod(line[1]), line[2]);
     } else if (line[0] == "param") {
       processes.back().arguments.overrides.emplace(line[1], value(line));
     } else {

@@ -90,6 +90,7 @@ struct Arguments {
   std::string name;
   std::map<std::string, std::string> remaps;
   std::map<std::string, ParameterValue> overrides;
+  std::vector<std::pair<double, std::string>> changes;  // of the life cycle, after seconds
 };
 
 inline Arguments& arguments() {
