@@ -96,6 +96,7 @@ def rendered(name: str, package: str) -> str:
     return environment.get_template(f"{name}.j2").render(
         package=package,
         services=(),
+        actions=(),
         timed=True,
         odometry="",
         lifecycle=False,
