@@ -193,6 +193,7 @@ EXTRACTION = {
 }
 
 STEP = {
+    "RS950": "records in `.rebsync/` that this rebsync would not have written",
     "RS951": "a change of the model that the code does not have",
     "RS952": "a change of the code that the model does not have",
     "RS953": "an element that model and code have changed differently",

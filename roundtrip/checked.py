@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
 from rebsync.records import dataclass
+from rebsync.roundtrip.attested import is_attested
 from rebsync.roundtrip.digests import Standing, is_base_whole, is_text_of, standing
 from rebsync.roundtrip.manifest import BASE_MODEL
 from rebsync.roundtrip.model_file import model_of
@@ -50,7 +51,7 @@ class Begun:
 def check(kept: Kept, depth: str = "equal") -> Checked:
     """How a package stands; a RebsyncError says why that cannot be told."""
     begun = begin(kept, depth)
-    return begun if isinstance(begun, Checked) else finish(begun, depth)
+    return begun if isinstance(begun, Checked) else finish_proved(begun, depth)
 
 
 def check_merged(kept: Kept) -> Checked:
@@ -72,7 +73,7 @@ def begin(
     model = model_of(kept, record)
     now = standing(kept, record)
     is_known = (now.is_as_generated and not record.is_merged) or _was_in_step(record, now, depth)
-    if not (is_known and _is_unchanged(model, record)):
+    if not (is_known and _is_unchanged(model, record) and is_attested(kept.root)):
         return Begun(kept, model, record, now)
     findings = (*changed_settings(model, record), *_about_base(kept, record))
     return Checked(kept, model, record, now, findings=findings)
@@ -122,6 +123,13 @@ def _refuse_dialect(kept: Kept, record: Record | None) -> None:
         message = f'code in "{target}" cannot be read'
         hint = f"this rebsync knows {', '.join(TARGETS)}"
         raise RebsyncError.of(kept.root, "RS709", message, hint)
+
+
+def finish_proved(begun: Begun, depth: str) -> Checked:
+    """The same as `finish`; undetermined where the records of the package cannot be believed."""
+    from rebsync.roundtrip.attested import as_far_as_proved
+
+    return as_far_as_proved(finish(begun, depth))
 
 
 def finish(begun: Begun, depth: str) -> Checked:

@@ -8,7 +8,7 @@ from functools import partial
 from typing import TypeAlias, cast
 
 from rebsync.diagnostics import Findings, RebsyncError
-from rebsync.roundtrip.checked import Begun, Checked, begin, finish
+from rebsync.roundtrip.checked import Begun, Checked, begin, finish_proved
 from rebsync.roundtrip.packages import Kept
 
 # Findings say why it cannot be told how a package stands.
@@ -39,7 +39,7 @@ def _too_deep(root: str) -> tuple[Findings, ...]:
 
 
 def _finished(begun: Begun, depth: str) -> Result:
-    return cast("Result", _tried(begun.kept.root, lambda: finish(begun, depth)))
+    return cast("Result", _tried(begun.kept.root, lambda: finish_proved(begun, depth)))
 
 
 def _in_turn(pending: list[Begun], depth: str) -> Iterator[Result]:

@@ -10,6 +10,7 @@ from pathlib import Path
 from rebsync.diagnostics import Findings, RebsyncError
 from rebsync.files import operating_on
 from rebsync.git import git, git_without_files
+from rebsync.roundtrip.attested import attest
 from rebsync.roundtrip.manifest import BASE_MODEL, FOLDER, MANIFEST
 from rebsync.roundtrip.merge_code import Stages
 from rebsync.roundtrip.sync import Sync, relative
@@ -45,6 +46,8 @@ def write(sync: Sync, before: Stamps) -> tuple[str, ...]:
         )
     except RebsyncError as error:
         raise RebsyncError([_as_shown(f, root, sync, beside) for f in error.findings]) from None
+    if (manifest := sync.records.get(MANIFEST)) is not None:
+        attest(manifest)
     _tell_git(sync)
     own = (path for path in written if not path.startswith(f"{FOLDER}/"))
     return tuple(

@@ -17,6 +17,8 @@ from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
 from rebsync.files import followed, operating_on, read_source
 from rebsync.locking import alone_in
 from rebsync.report import print_report
+from rebsync.roundtrip.attested import attest, is_attested
+from rebsync.roundtrip.manifest import MANIFEST
 from rebsync.roundtrip.plan import Action, Step, aside, name_to_keep, plan
 from rebsync.source import NOWHERE, Source
 from rebsync.stamps import Stamps, stamps
@@ -64,7 +66,10 @@ def command(
         if not force:
             _refuse_another_model(folder, f"{_stem(model)}.rebeca")
         before = stamps(str(folder))
-        return _merged(folder, plan(folder, files), source, force, before)
+        status = _merged(folder, plan(folder, files), source, force, before)
+    if status is Status.CLEAN:
+        attest(files[MANIFEST])
+    return status
 
 
 def _real(folder: Path) -> str:
@@ -96,13 +101,13 @@ def _merged(
 
 def _with_accepted(folder: Path, files: dict[str, str]) -> dict[str, str]:
     """The files with what the manifest that is there says of edits by hand."""
-    from rebsync.roundtrip.manifest import MANIFEST
     from rebsync.roundtrip.recorded import read_record, with_accepted
 
     with suppress(RebsyncError):
         record = read_record(str(folder))
-        if record.accepted or record.in_step:
-            manifest = with_accepted(files[MANIFEST], record.accepted, record.in_step)
+        in_step = record.in_step if is_attested(str(folder)) else ""
+        if record.accepted or in_step:
+            manifest = with_accepted(files[MANIFEST], record.accepted, in_step)
             return {**files, MANIFEST: manifest}
     return files
 
