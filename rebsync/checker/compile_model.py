@@ -17,6 +17,7 @@ class _RebecText:
     figures: str
     arguments: str
     blank: str
+    cells: int
 
 
 class ModelText:
@@ -88,7 +89,6 @@ def _figures(program: Program) -> tuple[int, ...]:
 
 
 def _rebec(rebec: RebecInfo) -> _RebecText:
-    blank = [NULL if s.kind == "rebec" else 0 for s in rebec.state for _ in range(s.size)]
     figures = (
         rebec.cells,
         min(rebec.capacity, _LARGEST),
@@ -96,7 +96,17 @@ def _rebec(rebec: RebecInfo) -> _RebecText:
         rebec.constructor,
         len(rebec.arguments),
     )
-    return _RebecText(_list(figures), _cells(rebec.arguments), _cells(blank))
+    return _RebecText(_list(figures), _cells(rebec.arguments), _blank(rebec), max(1, rebec.cells))
+
+
+def _blank(rebec: RebecInfo) -> str:
+    """The variables before the constructor; only what is not 0 is written, arrays as ranges."""
+    ranges = [
+        f"[{s.offset} ... {s.offset + s.size - 1}] = {number(NULL)}"
+        for s in rebec.state
+        if s.kind == "rebec"
+    ]
+    return ", ".join(ranges) or "0"
 
 
 def _server(program: Program, number: int) -> tuple[int, int, int]:

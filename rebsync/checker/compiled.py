@@ -6,9 +6,11 @@ It gives the same numbers as the interpreter; how it does so is said in template
 from __future__ import annotations
 
 import ctypes
+import sys
 import time
 from array import array
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial
 from typing import Any
 
@@ -31,9 +33,18 @@ from rebsync.checker.memory import used_memory
 from rebsync.checker.program import Program
 from rebsync.checker.search import NO_MEMORY, endless_reason
 from rebsync.checker.steps import Failure, Semantics
+from rebsync.records import dataclass
 
 _SLICE = 50_000_000  # nanoseconds between two looks at the bounds
 _ENDLESS = 2**63 - 1  # states, or time: more than any search has
+
+
+@dataclass(slots=True)
+class _Answer:
+    """What C was told when it asked: why to end, or what was raised."""
+
+    reason: str | None = None
+    error: BaseException | None = None
 
 
 class CompiledSearch:
@@ -116,9 +127,14 @@ class CompiledSearch:
     def _search(self, limits: Limits, report: Report | None, started: float) -> str | None:
         states = _ENDLESS if limits.states is None else min(limits.states, _ENDLESS)
         until = _ENDLESS if limits.until is None else min(limits.until, _ENDLESS)
+
+        def look() -> str | None:
+            return self._look(limits, report, time.perf_counter() - started)
+
         while True:
-            end = native.END[self._library.rebsync_search(self._engine, states, until, _SLICE)]
-            match end:
+            with self._asking(look) as answer:
+                ended = self._library.rebsync_search(self._engine, states, until, _SLICE)
+            match native.END[ended]:
                 case "finished":
                     return None
                 case "states":
@@ -127,9 +143,41 @@ class CompiledSearch:
                     return endless_reason(self.program, self._figures().stuck_pc)
                 case "memory":
                     return NO_MEMORY
+                case "stopped":
+                    return answer.reason or "it was stopped"
                 case _:
-                    if stop := self._look(limits, report, time.perf_counter() - started):
+                    if stop := look():
                         return stop
+
+    @contextmanager
+    def _asking(self, look: Callable[[], str | None] | Look) -> Iterator[_Answer]:
+        """Lets C ask `look` now and then what ends a step that takes long.
+
+        What is raised meanwhile, as by handlers of signals, is raised after C has returned.
+        """
+        answer = _Answer()
+
+        def ask(goes_on: Any) -> None:  # noqa: ANN401 - a pointer, which is 0 until it is known
+            answer.reason = look()
+            goes_on[0] = answer.reason is None
+
+        def note(raised: sys.UnraisableHookArgs) -> None:
+            if raised.object in (ask, None):
+                answer.error = raised.exc_value
+            else:
+                before(raised)
+
+        # A handler may raise before the first line of `ask`, where nothing can catch it.
+        before, sys.unraisablehook = sys.unraisablehook, note
+        question = native.Question(ask)
+        self._library.rebsync_watch(self._engine, question)
+        try:
+            yield answer
+        finally:
+            sys.unraisablehook = before
+            self._library.rebsync_watch(self._engine, native.Question())
+        if answer.error is not None:
+            raise answer.error
 
     def _look(self, limits: Limits, report: Report | None, seconds: float) -> str | None:
         memory = used_memory()
@@ -201,8 +249,9 @@ class CompiledSearch:
         ordinals = []
         ordinal = ctypes.c_int64()
         while state >= 0:
-            state = self._library.rebsync_before(self._engine, state, ctypes.byref(ordinal))
-            if state == native.NO_MEMORY:
+            with self._asking(unwatched):
+                state = self._library.rebsync_before(self._engine, state, ctypes.byref(ordinal))
+            if state == native.NOT_FOUND:
                 raise MemoryError
             ordinals.append(ordinal.value)
         return tuple(reversed(ordinals))
@@ -227,7 +276,8 @@ class CompiledSearch:
         for start in range(0, figures.states, native.STATES_AT_ONCE):
             look()
             end = min(start + native.STATES_AT_ONCE, figures.states)
-            edges = self._library.rebsync_graph(self._engine, arrays, start, end, edges)
+            with self._asking(look):
+                edges = self._library.rebsync_graph(self._engine, arrays, start, end, edges)
             if edges < 0:
                 raise MemoryError
         for each in (target, actor, times):

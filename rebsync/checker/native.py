@@ -19,8 +19,9 @@ PARTS = (
     "standstill.h",
 )
 SEMANTICS: tuple[Semantics, ...] = ("tts", "ftts", "core")
-END = ("finished", "slice", "states", "endless", "memory")
-NO_MEMORY = -2  # instead of a state
+END = ("finished", "slice", "states", "endless", "memory", "stopped")
+NOT_FOUND = -2  # instead of a state: there is no memory, or it was ended
+Question = ctypes.CFUNCTYPE(None, ctypes.POINTER(ctypes.c_int))
 STATES_AT_ONCE = 100_000  # between two chances to interrupt the making of a graph
 
 
@@ -107,6 +108,8 @@ def declare(library: ctypes.CDLL) -> None:
     library.rebsync_free.argtypes = [pointer]
     library.rebsync_search.restype = number
     library.rebsync_search.argtypes = [pointer, wide, signed, signed]
+    library.rebsync_watch.restype = None
+    library.rebsync_watch.argtypes = [pointer, Question]
     library.rebsync_figures.restype = None
     library.rebsync_figures.argtypes = [pointer, pointer]
     library.rebsync_events.restype = result

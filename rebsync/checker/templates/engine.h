@@ -5,11 +5,16 @@
 #include <setjmp.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <time.h>
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
 
 #include "machine.h"
+
+#define GLANCE 1000000 /* instructions between two looks at the clock */
+#define PAUSE INT64_C(100000000) /* nanoseconds between two questions: longer than a slice */
+#define STORING 500 /* the instructions that take as long as to deliver and store an outcome */
 
 /* How much tables and memories hold, at first or at most, and how often the search looks up. With
  * little of all that, small systems show whether what is full is handled rightly. */
@@ -160,12 +165,42 @@ struct engine {
     struct observed *observed;
     const cell **views;
     jmp_buf escape;
+
+    void (*look)(int *goes_on); /* asked now and then by what takes long */
+    int64_t looked, spent; /* when that was; what was done since the clock was read */
+    int stopped; /* a search that was ended in the middle of a step does not go on */
 };
+
+/* Why the engine leaves what it is at in the middle of it. */
+enum escape { NO_MEMORY = 1, STUCK_AT_START, ENDED };
+
+static int64_t clock_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+}
+
+/* Asks whether to go on, after so many more instructions or what takes as long as them. */
+static void glance(struct engine *e, int64_t instructions)
+{
+    if ((e->spent += instructions) < GLANCE)
+        return;
+    e->spent = 0;
+    int64_t now = clock_now();
+    if (!e->look || now < e->looked + PAUSE)
+        return;
+    e->looked = now;
+    int goes_on = 0;
+    e->look(&goes_on);
+    if (!goes_on)
+        longjmp(e->escape, ENDED);
+}
 
 /* Ends what the engine is at: there is no memory. */
 static void give_up(struct engine *e)
 {
-    longjmp(e->escape, 1);
+    longjmp(e->escape, NO_MEMORY);
 }
 
 static void *room_for(struct engine *e, struct vector *v, size_t count, size_t size)

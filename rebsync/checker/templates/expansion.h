@@ -109,6 +109,7 @@ static void follow_all(struct engine *e, const uint32_t *ids, uint32_t rebec, ui
     for (int last = 0; !last; at++) {
         struct outcome o = *outcome(e, at);
         last = (int)o.last;
+        glance(e, STORING);
         if (cut >= 0 && o.shared >= cut)
             continue;
         cut = -1;
@@ -135,7 +136,7 @@ static void construct_from(struct engine *e, const uint32_t *ids, uint32_t rebec
     }
     uint32_t first = construct(e, rebec, ids[rebec]);
     if (first == NONE)
-        longjmp(e->escape, 2);
+        longjmp(e->escape, STUCK_AT_START);
     follow_all(e, ids, rebec, first);
 }
 

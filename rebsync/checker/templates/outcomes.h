@@ -195,6 +195,7 @@ static int act(struct engine *e, uint32_t rebec, const struct local *l, int slot
     for (int32_t ways = 0; ways < WAYS; ways++) {
         if (!act_once(e, rebec, l, slot, shared))
             return 0;
+        glance(e, BUDGET - m->budget + STORING);
         size_t last = m->chosen;
         while (last && m->choices[last - 1] + 1 == m->options[last - 1])
             last--;

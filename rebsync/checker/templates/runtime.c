@@ -5,7 +5,7 @@
 #include "standstill.h"
 
 /* Why a slice of the search ends. */
-enum end { FINISHED, SLICE, STATES, UNENDING, MEMORY };
+enum end { FINISHED, SLICE, STATES, UNENDING, MEMORY, STOPPED };
 
 struct figures {
     uint64_t states, transitions, expanded, depth, level, dropped, events, stuck_pc, initials;
@@ -169,13 +169,6 @@ static void forget(struct engine *e)
     e->forgotten = e->expanded;
 }
 
-static int64_t clock_now(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
-}
-
 /* Enters the next level, when the last one is expanded; 0 when there is none. */
 static int go_deeper(struct engine *e)
 {
@@ -222,18 +215,39 @@ static void exhaust(struct engine *e)
         e->initials = e->count;
 }
 
+/* Leaves what was found so far; the state that was expanded is not. */
+static void stop(struct engine *e)
+{
+    e->stopped = 1;
+    flush(e);
+    if (e->purpose == START)
+        e->initials = e->count;
+}
+
+/* What is asked now and then, by searches and by what is done afterwards; NULL asks nobody. */
+void rebsync_watch(struct engine *e, void (*look)(int *goes_on))
+{
+    e->look = look;
+    e->looked = clock_now();
+}
+
 /* Searches for about so many nanoseconds, until `states` are found, up to the time `until`. */
 int rebsync_search(struct engine *e, uint64_t states, int64_t until, int64_t nanoseconds)
 {
-    int64_t due = clock_now() + nanoseconds;
+    e->looked = clock_now();
+    int64_t due = e->looked + nanoseconds;
     e->until = until;
     int escaped = setjmp(e->escape);
-    if (escaped == 2)
+    if (escaped == STUCK_AT_START)
         undo(e);
-    if (escaped == 1)
+    if (escaped == NO_MEMORY)
         exhaust(e);
+    if (escaped == ENDED)
+        stop(e);
     if (e->exhausted)
         return MEMORY;
+    if (e->stopped)
+        return STOPPED;
     if (escaped)
         return UNENDING;
     if (!e->initials)
