@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import field
 
 from tree_sitter import Node
@@ -22,9 +22,10 @@ from rebsync.reverse.graph import (
 )
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_units import Unit, bodies
+from rebsync.reverse.nodes.node_unmodelled import shared_state
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.nodes.node_wiring import Wiring, unfed, unheard
-from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, text_of
 from rebsync.reverse.unknowns import Open
 from rebsync.source import Span
 
@@ -42,6 +43,8 @@ _ENTRIES = frozenset(
         *("TimeSynchronizer", "Synchronizer", "MessageFilter"),
     }
 )
+_TEXTS = frozenset({"string_literal", "concatenated_string", "raw_string_literal"})
+_NO_NUMBER = re.compile(r"string|char|NodeHandle|NodeOptions|Node\b|Ptr|_ptr")
 _LISTED = frozenset(name.encode() for name in _THREADS | _ENTRIES)
 _SEVERAL = "its callbacks may run at the same time as others: the model has one at a time"
 
@@ -183,6 +186,7 @@ class Listing:
             self._common_variables(
                 list({i.start.unit.name: i.start.unit for i in together}.values())
             )
+            self._of_one_class(together)
             if len(together) > 1:
                 why = "objects of one program take turns; in the model they act by themselves"
                 self._made(together[1], why)
@@ -198,6 +202,26 @@ class Listing:
                 place = Place(variables[0].cpp.source, variables[0].cpp.span(variables[0].node))
                 why = f'several rebecs of one program share "{name}": in the model each has its own'
                 self._unread(place, why, units[0].name)
+
+    def _of_one_class(self, together: list[Instance]) -> None:
+        """What objects of one class share, and what each gets of its own, if it is a number."""
+        of_classes: dict[str, list[Instance]] = {}
+        for instance in together:
+            of_classes.setdefault(instance.start.unit.name, []).append(instance)
+        for objects in of_classes.values():
+            unit = objects[0].start.unit
+            if len(objects) < 2:
+                continue
+            for cpp, node in shared_state(unit):
+                why = "objects of one class share this: in the model each has its own"
+                self._unread(Place(cpp.source, cpp.span(node)), why, unit.name)
+            made = [i.start.made.arguments for i in objects if i.start.made is not None]
+            given = [_numbers(unit, arguments) for arguments in made]
+            if unit.program is None and any(g != given[0] for g in given[1:]):
+                owner = unit.lineage[0]
+                place = Place(owner.cpp.source, owner.cpp.span(owner.node))
+                why = "its objects are made with other values: the model's have those of the first"
+                self._unread(place, why, unit.name)
 
     def _made(self, instance: Instance, why: str) -> None:
         program, made = instance.start.program, instance.start.made
@@ -241,10 +265,37 @@ def _is_elsewhere(kept: str) -> bool:
     return "." in own or "->" in own
 
 
+def _numbers(unit: Unit, arguments: Sequence[Node]) -> list[str]:
+    """What an object is made with, without texts and handles of nodes."""
+    constructors = unit.constructors(unit.lineage[0])
+    types = {
+        at: text_of(p.type)
+        for c in constructors
+        if len(constructors) == 1
+        for at, p in enumerate(c.parameters)
+    }
+    return [
+        text_of(argument)
+        for at, argument in enumerate(arguments)
+        if not _NO_NUMBER.search(types.get(at, "")) and argument.type not in _TEXTS
+    ]
+
+
 def _is_lost(fact: SubscriptionFact | TimerFact) -> bool:
     above = fact.site.call.parent
-    single = isinstance(fact, SubscriptionFact) and fact.single
-    return not single and above is not None and above.type == "expression_statement"
+    if above is None or (isinstance(fact, SubscriptionFact) and fact.single):
+        return False
+    return above.type == "expression_statement" or _is_dropped(fact, above)
+
+
+def _is_dropped(fact: SubscriptionFact | TimerFact, above: Node) -> bool:
+    """Whether only a local of a function other than `main` has it, which nothing else names."""
+    function, name = fact.site.function, above.child_by_field_name("declarator")
+    if function is None or function.name == "main" or function.body is None:
+        return False
+    if above.type != "init_declarator" or name is None or name.type != "identifier":
+        return False
+    return sum(text_of(n) == text_of(name) for n in inside(function.body, "identifier")) == 1
 
 
 def _uses(unit: Unit, name: str) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_left
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
 from tree_sitter import Node
@@ -21,7 +21,12 @@ from rebsync.reverse.syntax.cpp_tree import named, text_of
 _LOOPS = frozenset({"while_statement", "do_statement", "for_statement"})
 _LOOP_WORDS = re.compile(rb"\b(?:while|for|do)\b")
 _SPINS = frozenset({"spinOnce", "callAvailable", "callOne", "spin_some", "spin_once", "spin_all"})
+_SERVES = _SPINS | {"spin_until_future_complete", "spin_node_once", "spin_node_some"}
 _WAITS = re.compile("|".join(sorted({"sleep", *_SPINS})).encode())  # what other loops do not name
+_EARLY = "messages are served here, before the program goes on: what they change is not read"
+_STATEMENTS = frozenset(
+    {"expression_statement", "declaration", "if_statement", "compound_statement"}
+)
 _BEHIND = "this follows a loop that may end while the node runs: it is not read"
 _ENDS = frozenset({"ros::shutdown", "rclcpp::shutdown", "ros::spin", "rclcpp::spin"})
 _APART = frozenset({"lambda_expression", "switch_statement", "for_range_loop"})
@@ -180,6 +185,47 @@ def later(node: Node) -> Iterator[Node]:
     while after is not None:
         yield after
         after = after.next_named_sibling
+
+
+def served_early(
+    function: CppFunction, loops: Collection[int], without: Collection[int]
+) -> Iterator[Unread]:
+    """Calls that serve messages while a function goes on to something else.
+
+    `loops` are the nodes of the loops that keep the node running, which do that; `without` are
+    statements that mean nothing.
+    """
+    body = function.body
+    if body is None:
+        return
+    for call in calls_in(body):
+        if call.name.rpartition("::")[2] not in _SERVES:
+            continue
+        around = _around(call.node, body)
+        if any(n.id in loops for n in around):
+            continue
+        looped = any(n.type in _LOOPS or n.type == "for_range_loop" for n in around)
+        after = (n for s in around if s.type in _STATEMENTS for n in later(s))
+        if looped or any(
+            n.id not in without and n.id not in loops and not spins(n) and not _is_over(n)
+            for n in after
+        ):
+            yield Unread(function.cpp.span(call.node), _EARLY)
+
+
+def _around(node: Node, body: Node) -> list[Node]:
+    """A node and what is around it in a body, from inside."""
+    found = []
+    at: Node | None = node
+    while at is not None and at.id != body.id:
+        found.append(at)
+        at = at.parent
+    return found
+
+
+def ended_early(statement: Node, without: Collection[int]) -> bool:
+    """Whether more than the end of the program follows a statement."""
+    return any(n.id not in without and not _is_over(n) for n in later(statement))
 
 
 def _may_end(loop: Loop) -> bool:

@@ -84,6 +84,8 @@ def _declared(fact: ParameterFact, facts: Sequence[Fact]) -> Resolved | None:
 def _target(call: CppCall) -> Node | None:
     """The variable that gets the value, if one is handed over."""
     count = len(call.arguments)
+    if call.name.rpartition("::")[2] == "get_parameter_or":
+        return call.arguments[1] if count == 3 else None
     if call.name.startswith("get") and count == 2:
         return call.arguments[1]
     if call.name.startswith("param") and count == 3:

@@ -26,7 +26,14 @@ from rebsync.reverse.graph import (
     SubscriptionFact,
     TimerFact,
 )
-from rebsync.reverse.nodes.node_loops import Loop, behind, later, loops_in
+from rebsync.reverse.nodes.node_loops import (
+    Loop,
+    behind,
+    ended_early,
+    later,
+    loops_in,
+    served_early,
+)
 from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_parameters import Given, asked
 from rebsync.reverse.nodes.node_reach import reached
@@ -51,6 +58,7 @@ _ENDS = frozenset({"spin", "waitForShutdown"})
 _PLAIN = (NodeFact, PublisherFact, SubscriptionFact, ServiceFact, ClientFact, RateFact)
 _AGAIN = "a timer that is made again stops the one before; in the model both go on"
 _ROUND = "messages wait for the next round of this loop; in the model they are served at once"
+_CANCELLED = "the executor may be cancelled: what then runs is not read"
 _SPINS = re.compile(rb"spinOnce|spin_some")
 _NESTING = frozenset(
     {"if_statement", "while_statement", "for_statement", "switch_statement", "else_clause"}
@@ -85,6 +93,7 @@ class Setup:
     switches: dict[str, Switch] = field(default_factory=dict)
     parameters: list[Given] = field(default_factory=list)
     loops: list[tuple[Loop, str]] = field(default_factory=list)
+    running: list[Node] = field(default_factory=list)
 
     def prepare(self) -> None:
         """Finds it all out."""
@@ -106,6 +115,10 @@ class Setup:
                     self._later(fact)
         for function in self.first:
             self._waits(function)
+        for function in self.first:
+            running = {loop.id for loop in self.running}
+            for unread in served_early(function, running, self.instead):
+                self.findings.unreadable(function.cpp.source, unread, self.within)
 
     def _captures(self) -> None:
         """What lambdas use of the function around them lives as long as they do."""
@@ -278,6 +291,7 @@ class Setup:
         rates = [f for f in self.facts if isinstance(f, RateFact)]
         for function in self.first:
             for loop in loops_in(function, rates):
+                self.running.append(loop.node)
                 self._loop(function, loop)
 
     def _loop(self, function: CppFunction, loop: Loop) -> None:
@@ -336,8 +350,21 @@ class Setup:
                 continue
             self.instead[statement.id] = ()
             if name in _ENDS:
+                if (
+                    call.target is not None
+                    and self._cancels(function)
+                    and ended_early(statement, self.instead)
+                ):
+                    unread = Unread(function.cpp.span(call.node), _CANCELLED)
+                    self.findings.unreadable(function.cpp.source, unread, self.within)
                 for after in later(statement):
                     self.instead[after.id] = ()
+
+    def _cancels(self, function: CppFunction) -> bool:
+        """Whether anything but a timer is cancelled: an executor, which then ends to serve."""
+        kept = {f.site.kept.removeprefix("this->") for f in self.facts if isinstance(f, TimerFact)}
+        calls = (c for f in (*self.state.unit.functions, function) for c in self.code.calls_of(f))
+        return any(c.name == "cancel" and c.on.removeprefix("this->") not in kept for c in calls)
 
 
 def around(node: Node, functions: Sequence[CppFunction]) -> CppFunction | None:

@@ -36,6 +36,7 @@ from rebsync.reverse.nodes.node_state import State
 from rebsync.reverse.nodes.node_taken import declares
 from rebsync.reverse.nodes.node_times import Times
 from rebsync.reverse.nodes.node_units import Facts, Start, Unit, Units
+from rebsync.reverse.nodes.node_unmodelled import note_unmodelled
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.nodes.node_views import all_units
 from rebsync.reverse.nodes.node_wiring import Wiring, idle, instances
@@ -236,6 +237,7 @@ class _Reader:
         note_life_cycle(unit, findings)
         note_bound(node.bodies)
         note_hidden(node.bodies)
+        note_unmodelled(node.bodies)
         note_helpers(node.bodies, self._helpers)
         return read
 

@@ -41,7 +41,8 @@ from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import LAMBDA, Scope
 from rebsync.reverse.python.py_tree import field, named
 
-_ASLEEP = "rospy runs other callbacks while this one sleeps: the model does not"
+_PARALLEL = (b"MultiThreadedExecutor", b"CallbackGroup")
+_ASLEEP = "other callbacks may run while this one sleeps: the model runs none"
 _BEAT = (
     "a timer that goes off while the node is busy keeps its beat;"
     " the model's goes on from when it is served"
@@ -232,9 +233,14 @@ class PyClass:
                 )
 
     def _note_threads(self) -> None:
-        """In rospy other callbacks run while one sleeps, and see the state in the middle of it."""
+        """Where other callbacks run while one sleeps, and see the state in the middle of it.
+
+        In rospy all of them do, in rclpy those that callback groups let several threads run.
+        """
         reading = self.reading
-        if reading.unit.is_rclpy or len(self.served) < 2:
+        texts = [scope.node.text or b"" for scope in reading.code.modules.values()]
+        parallel = all(any(word in text for text in texts) for word in _PARALLEL)
+        if not parallel if reading.unit.is_rclpy else len(self.served) < 2:
             return
         for served in self.served:
             if served.node is not None and takes_time(m.Block(served.statements)):

@@ -20,6 +20,11 @@ _ACTS = re.compile(
     r"|shut|run|exec|eval|unregister|register|setattr|delattr|connect|raise|create_(pub|sub|timer|serv|client|rate|node|guard)|input|acquire"
     r"|set_param|signal|send_goal|add_(node|call|on_|done|list|wait)|execute|getch|readline|read\b|recv|accept|join|get_key"
 )
+# Methods of objects of the client libraries that act, whoever gets them under another name.
+_BOUND = frozenset(
+    {"publish", "cancel", "shutdown", "sleep", "spin", "spin_once", "set_result", "call_async"}
+    | {"set_parameters", "send_goal", "send_goal_async", "destroy_subscription", "destroy_timer"}
+)
 _PLAIN = frozenset(
     {"print", "str", "repr", "len", "int", "float", "bool", "abs", "min", "max", "sum", "round"}
     | {"range", "list", "tuple", "dict", "set", "sorted", "reversed", "zip", "map", "filter"}
@@ -201,6 +206,8 @@ def _is_safe_name(reading: Reading, node: Node, frame: Frame) -> bool:
             return False
         if isinstance(meaning, Message):
             return _is_looked_at(node)
+    elif text_of(field(node, "attribute")) in _BOUND:
+        return False
     return reading.function(node, frame) is None
 
 

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.python.body_statements import PyStatements
 
 _RANGES = ("builtins.range", "builtins.xrange")
+_OVER = frozenset({"destroy_node", "shutdown", "try_shutdown", "remove_node"})
 _APART = frozenset({"while_statement", "for_statement", "function_definition", "lambda"})
 _ONLY_AWAKE = re.compile(r"\(?(not(?=[(\w])\(?rospy\.is_shutdown\(\)\)?|rclpy\.ok\(\)|True|1)\)?")
 _AWAKE = re.compile(r"is_shutdown\(\)|\bok\(\)|^\(?(True|1)\)?$")
@@ -96,6 +97,23 @@ def _may_end(node: Node) -> bool:
         if inner.type not in _APART:
             waiting += inner.named_children
     return _ONLY_AWAKE.fullmatch(condition) is None
+
+
+def goes_on(node: Node) -> bool:
+    """Whether more than the end of the program, or a log, follows a statement of its block."""
+    at: Node | None = node
+    while at is not None and not at.type.endswith("_statement"):
+        at = at.parent
+    behind = at.next_named_sibling if at is not None else None
+    while behind is not None:
+        inner = named(behind)
+        call = inner[0] if inner and inner[0].type == "call" else None
+        name = last_name(field(call, "function")) if call is not None else ""
+        over = name in _OVER or (call is not None and is_log(call))
+        if not over and behind.type not in ("comment", "pass_statement"):
+            return True
+        behind = behind.next_named_sibling
+    return False
 
 
 def _follows(node: Node) -> bool:

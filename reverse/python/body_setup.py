@@ -10,7 +10,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import ParameterFact, RateFact, SubscriptionFact, TimerFact
-from rebsync.reverse.python import body_calls, body_methods
+from rebsync.reverse.python import body_calls, body_loops, body_methods
 from rebsync.reverse.python.py_index import CLASS, arguments_of, last_name
 from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import Class
@@ -19,7 +19,8 @@ if TYPE_CHECKING:
     from rebsync.reverse.python.body_statements import PyStatements
 
 _SLEEPS = frozenset({"rospy.sleep", "time.sleep", "rospy.rostime.sleep"})
-_SPINS = frozenset({"rospy.spin", "rclpy.spin", "rclpy.spin_until_future_complete"})
+_UNTIL = "rclpy.spin_until_future_complete"
+_SPINS = frozenset({"rospy.spin", "rclpy.spin", _UNTIL})
 _STARTS = frozenset({"rclpy.init", "rclpy.shutdown", "rospy.on_shutdown", "rospy.signal_shutdown"})
 _EXITS = frozenset({"sys.exit", "builtins.exit", "builtins.quit"})
 _ENDS = frozenset({"destroy_node", "spin", "add_node", "shutdown"})
@@ -83,6 +84,8 @@ def _started(reader: PyStatements, call: Node, name: str) -> Iterator[m.Statemen
     function = field(call, "function")
     last = last_name(function)
     if name in _SPINS or (last == "spin" and not name):
+        if name == _UNTIL and body_loops.goes_on(call):
+            raise Unread(reader.frame.span(call), "what runs when this has come is not read")
         reader.is_over = True
         plain, _ = arguments_of(call)
         made = [a for a in plain if a.type == "call"]

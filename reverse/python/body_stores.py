@@ -61,6 +61,8 @@ def _assigned(reader: PyStatements, target: Node, value: Node, node: Node) -> It
     since = len(learnt.answers)
     meaning, path = reader.expressions.meaning(target)
     type_ = reader.reading.message_type(value, reader.frame)
+    if value.type in ("identifier", "attribute") and _is_changed(reader, target, value):
+        raise Unread(reader.frame.span(node), "another name for an object that is changed")
     match meaning:
         case Var(key) | Message(key, _, _, _, "") if not path and type_ is not None:
             learnt.join(key, type_)
@@ -81,6 +83,14 @@ def _assigned(reader: PyStatements, target: Node, value: Node, node: Node) -> It
             outside(reader, value, node)
         case _:
             outside(reader, value, node)
+
+
+def _is_changed(reader: PyStatements, *names: Node) -> bool:
+    """Whether code sets fields of what has one of some names, other than the object itself."""
+    holders = {text_of(name) for name in names} - {reader.frame.scope.self_name, "self"}
+    code = reader.reading.code
+    scopes = (*code.scopes.values(), *code.modules.values())
+    return any(holder.partition("[")[0] in holders for s in scopes for holder, _ in s.stores)
 
 
 def _change(reader: PyStatements, message: Message, path: str) -> None:

@@ -20,7 +20,7 @@ def main() -> None:
         with tempfile.TemporaryDirectory() as temporary:
             both = verdicts(case, Path(temporary))
         counted[both] += 1
-        line = f'verdict.{case.node.rpartition(".")[2]} = "{both[0]}"'
+        line = f'verdict.{case.language} = "{both[0]}"'
         found.setdefault(case.folder, []).append(line)
     for folder, lines in found.items():
         path = folder / "case.toml"

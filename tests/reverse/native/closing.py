@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,6 +18,8 @@ from rebsync.reverse.findings import Grade
 from rebsync.reverse.recovery import extract
 from rebsync.source import Source
 from rebsync.static import analyse
+from tests.reverse.native import ros1, ros2
+from tests.reverse.native.ros1 import Input
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -32,8 +33,9 @@ PROPERTY = """property {{
 }}
 """
 
+# The files of nodes, and how the lines of their verdicts are named.
+LIBRARIES = {"node.py": "py", "node.cpp": "cpp", "rclpy.py": "rclpy", "rclcpp.cpp": "rclcpp"}
 _NEVER = 77777
-Input = tuple[str, int]
 
 
 @dataclass(frozen=True)
@@ -52,7 +54,11 @@ class Case:
 
     @property
     def name(self) -> str:
-        return f"{self.folder.name}-{self.node.rpartition('.')[2]}"
+        return f"{self.folder.name}-{self.language}"
+
+    @property
+    def language(self) -> str:
+        return LIBRARIES[self.node]
 
 
 def cases() -> list[Case]:
@@ -60,7 +66,7 @@ def cases() -> list[Case]:
     return [
         _case(folder, node)
         for folder in sorted(CASES.iterdir())
-        for node in ("node.py", "node.cpp")
+        for node in LIBRARIES
         if (folder / node).exists()
     ]
 
@@ -68,81 +74,16 @@ def cases() -> list[Case]:
 def _case(folder: Path, node: str) -> Case:
     found = tomllib.loads((folder / "case.toml").read_text(encoding="utf-8"))
     inputs = tuple((str(topic), int(value)) for topic, value in found.get("inputs", ()))
-    verdict = found.get("verdict", {}).get(node.rpartition(".")[2], "")
+    verdict = found.get("verdict", {}).get(LIBRARIES[node], "")
     return Case(folder, node, inputs, found["shows"], found.get("never", _NEVER), verdict)
 
 
 def package(case: Case) -> dict[str, str]:
     """The files of a ROS package with the node and those around it."""
     node = (case.folder / case.node).read_text(encoding="utf-8")
-    python = {"sink": _SINK, "source": _source(case.inputs)}
-    started = "node" if case.node.endswith(".cpp") else "node.py"
-    nodes = {"n": started, **{name: f"{name}.py" for name in python}}
-    lines = (f'  <node pkg="closed" type="{t}" name="{n}"/>' for n, t in nodes.items())
-    files = {f"scripts/{name}.py": text for name, text in python.items()}
-    where = "src/node.cpp" if case.node.endswith(".cpp") else "scripts/node.py"
-    return {
-        "package.xml": "<package><name>closed</name></package>\n",
-        "CMakeLists.txt": "project(closed)\nadd_executable(node src/node.cpp)\n",
-        "launch/closed.launch": "\n".join(["<launch>", *lines, "</launch>", ""]),
-        where: node,
-        **files,
-    }
-
-
-_SINK = """#!/usr/bin/env python3
-import rospy
-from std_msgs.msg import Int32
-
-
-class Sink(object):
-    def __init__(self):
-        self.last = -1
-        rospy.Subscriber("out", Int32, self.on_out, queue_size=9)
-
-    def on_out(self, msg):
-        self.last = msg.data
-
-
-if __name__ == "__main__":
-    rospy.init_node("sink")
-    Sink()
-    rospy.spin()
-"""
-_SOURCE = """#!/usr/bin/env python3
-import rospy
-from std_msgs.msg import Int32
-
-
-class Source(object):
-    def __init__(self):
-        self.sent = 0
-{publishers}
-        rospy.Timer(rospy.Duration(1), self.on_second)
-
-    def on_second(self, event):
-{sends}
-        if self.sent < {count}:
-            self.sent += 1
-
-
-if __name__ == "__main__":
-    rospy.init_node("source")
-    Source()
-    rospy.spin()
-"""
-
-
-def _source(inputs: Sequence[Input]) -> str:
-    topics = dict.fromkeys(topic for topic, _ in inputs)
-    publishers = [f'        self.{t} = rospy.Publisher("{t}", Int32, queue_size=9)' for t in topics]
-    sends = [
-        f"        if self.sent == {n}:\n            self.{topic}.publish({value})"
-        for n, (topic, value) in enumerate(inputs)
-    ]
-    return _SOURCE.format(
-        publishers="\n".join(publishers), sends="\n".join(sends), count=len(inputs)
-    )
+    if case.node in ("rclpy.py", "rclcpp.cpp"):
+        return ros2.package(case.node, node, case.inputs)
+    return ros1.package(case.node, node, case.inputs)
 
 
 def verdicts(case: Case, folder: Path) -> tuple[str, str]:

@@ -6,7 +6,8 @@ import subprocess
 from collections.abc import Sequence
 from pathlib import Path
 
-from tests.reverse.native.closing import Case, Input
+from tests.reverse.native.closing import Case
+from tests.reverse.native.ros1 import Input
 
 _FAKE = Path(__file__).parents[1] / "fake_roscpp"
 _OPTIONS = ("-std=c++17", "-O0", "-fwrapv", "-w", "-pthread", f"-I{_FAKE}")

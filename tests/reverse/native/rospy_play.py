@@ -18,7 +18,7 @@ from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
-from tests.reverse.native.closing import Input
+from tests.reverse.native.ros1 import Input
 
 _PERIOD = 1.0  # s, between two inputs
 _END = 40.0  # s, when a run is over
@@ -168,13 +168,13 @@ def played(program: Path, inputs: Sequence[Input]) -> list[Input]:
     messages = ModuleType("std_msgs.msg")
     messages.__dict__["Int32"] = lambda data=0: SimpleNamespace(data=data)
     modules = {"rospy": play.module(), "std_msgs": ModuleType("std_msgs"), "std_msgs.msg": messages}
-    with _imported(modules):
+    with imported(modules):
         play.run(lambda: exec(text, {"__name__": "__main__"}))
     return play.sent
 
 
 @contextmanager
-def _imported(modules: dict[str, ModuleType]) -> Iterator[None]:
+def imported(modules: dict[str, ModuleType]) -> Iterator[None]:
     before = {name: sys.modules.get(name) for name in modules}
     sys.modules.update(modules)
     try:

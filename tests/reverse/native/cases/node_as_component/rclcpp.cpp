@@ -1,0 +1,28 @@
+#include <rclcpp/rclcpp.hpp>
+#include <rclcpp_components/register_node_macro.hpp>
+#include <std_msgs/msg/int32.hpp>
+
+using std_msgs::msg::Int32;
+
+class N : public rclcpp::Node {
+ public:
+  explicit N(const rclcpp::NodeOptions& options) : Node("n", options) {
+    pub_ = create_publisher<Int32>("out", 9);
+    sub_ = create_subscription<Int32>("inp", 9, [this](const Int32& m) { cb(m); });
+  }
+
+ private:
+  void cb(const Int32& m) { put(m.data + 4); }
+
+  void put(int value) {
+    Int32 msg;
+    msg.data = value;
+    pub_->publish(msg);
+  }
+
+  rclcpp::Publisher<Int32>::SharedPtr pub_;
+  rclcpp::Subscription<Int32>::SharedPtr sub_;
+  int x_ = 0;
+};
+
+RCLCPP_COMPONENTS_REGISTER_NODE(N)

@@ -1,0 +1,27 @@
+#!/usr/bin/env python3
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Int32
+
+
+class N(Node):
+    def __init__(self):
+        super().__init__("n")
+        self.x = 0
+        self.pub = self.create_publisher(Int32, "out", 9)
+        self.create_subscription(Int32, "inp", self.cb, 9)
+
+    def __setattr__(self, name, value):
+        object.__setattr__(self, name, value + 1 if name == "x" else value)
+
+    def cb(self, m):
+        self.x = 5
+        self.put(self.x)
+
+    def put(self, value):
+        self.pub.publish(Int32(data=value))
+
+
+if __name__ == "__main__":
+    rclpy.init()
+    rclpy.spin(N())

@@ -1,0 +1,19 @@
+#!/usr/bin/env python3
+import rospy
+from std_msgs.msg import Int32
+
+
+class N(object):
+    def __init__(self):
+        self.x = 0
+        self.pub = rospy.Publisher("out", Int32, queue_size=9)
+        rospy.Subscriber("inp", Int32, self.cb)
+        self.send = self.pub.publish
+
+    def cb(self, m):
+        self.send(Int32(data=2))
+
+if __name__ == "__main__":
+    rospy.init_node("n")
+    N()
+    rospy.spin()

@@ -1,0 +1,43 @@
+#include <rclcpp/rclcpp.hpp>
+#include <std_msgs/msg/int32.hpp>
+
+using std_msgs::msg::Int32;
+
+class N : public rclcpp::Node {
+ public:
+  N() : Node("n") {
+    pub_ = create_publisher<Int32>("out", 9);
+    group_ = create_callback_group(rclcpp::CallbackGroupType::Reentrant);
+    rclcpp::SubscriptionOptions options;
+    options.callback_group = group_;
+    sub_ = create_subscription<Int32>(
+        "inp", 9, [this](const Int32& m) { cb(m); }, options);
+  }
+
+ private:
+  void cb(const Int32& m) {
+    x_ = m.data;
+    rclcpp::sleep_for(std::chrono::seconds(3));
+    put(x_);
+  }
+
+  void put(int value) {
+    Int32 msg;
+    msg.data = value;
+    pub_->publish(msg);
+  }
+
+  rclcpp::Publisher<Int32>::SharedPtr pub_;
+  rclcpp::Subscription<Int32>::SharedPtr sub_;
+  rclcpp::CallbackGroup::SharedPtr group_;
+  int x_ = 0;
+};
+
+int main(int argc, char** argv) {
+  rclcpp::init(argc, argv);
+  auto node = std::make_shared<N>();
+  rclcpp::executors::MultiThreadedExecutor executor;
+  executor.add_node(node);
+  executor.spin();
+  rclcpp::shutdown();
+}

@@ -1,0 +1,33 @@
+#include <rclcpp/rclcpp.hpp>
+#include <std_msgs/msg/int32.hpp>
+
+using std_msgs::msg::Int32;
+
+class N : public rclcpp::Node {
+ public:
+  N() : Node("n") {
+    pub_ = create_publisher<Int32>("out", 9);
+    sub_ = create_subscription<Int32>("inp", 9, [this](const Int32& m) { x_ += m.data; });
+  }
+  void put(int value) {
+    Int32 msg;
+    msg.data = value;
+    pub_->publish(msg);
+  }
+  int x_ = 0;
+
+ private:
+  rclcpp::Publisher<Int32>::SharedPtr pub_;
+  rclcpp::Subscription<Int32>::SharedPtr sub_;
+};
+
+int main(int argc, char** argv) {
+  rclcpp::init(argc, argv);
+  auto node = std::make_shared<N>();
+  rclcpp::WallRate rate(4);
+  while (node->x_ < 2) {
+    rclcpp::spin_some(node);
+    rate.sleep();
+  }
+  node->put(node->x_ + 10);
+}

@@ -1,0 +1,37 @@
+#include <rclcpp/rclcpp.hpp>
+#include <std_msgs/msg/int32.hpp>
+
+using std_msgs::msg::Int32;
+using namespace std::chrono_literals;
+
+class N : public rclcpp::Node {
+ public:
+  N() : Node("n") {
+    pub_ = create_publisher<Int32>("out", 9);
+    timer_ = create_wall_timer(1s, [this] { tick(); });
+  }
+
+ private:
+  void tick() {
+    ++x_;
+    put(x_);
+    if (x_ == 2) timer_->cancel();
+  }
+
+  void put(int value) {
+    Int32 msg;
+    msg.data = value;
+    pub_->publish(msg);
+  }
+
+  rclcpp::Publisher<Int32>::SharedPtr pub_;
+  rclcpp::Subscription<Int32>::SharedPtr sub_;
+  rclcpp::TimerBase::SharedPtr timer_;
+  int x_ = 0;
+};
+
+int main(int argc, char** argv) {
+  rclcpp::init(argc, argv);
+  rclcpp::spin(std::make_shared<N>());
+  rclcpp::shutdown();
+}

@@ -1,0 +1,25 @@
+#!/usr/bin/env python3
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Int32
+
+
+class N(Node):
+    def __init__(self):
+        super().__init__("n")
+        self.x = 0
+        self.pub = self.create_publisher(Int32, "out", 9)
+        self.timer = self.create_timer(1.0, self.tick)
+
+    def tick(self):
+        self.x += 1
+        self.put(self.x)
+        self.destroy_timer(self.timer)
+
+    def put(self, value):
+        self.pub.publish(Int32(data=value))
+
+
+if __name__ == "__main__":
+    rclpy.init()
+    rclpy.spin(N())

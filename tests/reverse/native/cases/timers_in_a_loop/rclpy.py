@@ -1,0 +1,24 @@
+#!/usr/bin/env python3
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Int32
+
+
+class N(Node):
+    def __init__(self):
+        super().__init__("n")
+        self.x = 0
+        self.pub = self.create_publisher(Int32, "out", 9)
+        for k in range(3):
+            self.create_timer(1.0 + k, lambda: self.tick(k))
+
+    def tick(self, k):
+        self.put(20 + k)
+
+    def put(self, value):
+        self.pub.publish(Int32(data=value))
+
+
+if __name__ == "__main__":
+    rclpy.init()
+    rclpy.spin(N())

@@ -1,0 +1,38 @@
+#!/usr/bin/env python3
+import time
+
+import rclpy
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import Int32
+
+
+class N(Node):
+    def __init__(self):
+        super().__init__("n")
+        self.x = 0
+        self.pub = self.create_publisher(Int32, "out", 9)
+        group = MutuallyExclusiveCallbackGroup()
+        other = MutuallyExclusiveCallbackGroup()
+        self.create_subscription(Int32, "inp", self.cb, 9, callback_group=group)
+        self.create_timer(1.0, self.tick, callback_group=other)
+
+    def cb(self, m):
+        self.x = 1
+        time.sleep(3)
+        self.put(self.x)
+
+    def tick(self):
+        self.x = 9
+
+    def put(self, value):
+        self.pub.publish(Int32(data=value))
+
+
+if __name__ == "__main__":
+    rclpy.init()
+    node = N()
+    executor = MultiThreadedExecutor()
+    executor.add_node(node)
+    executor.spin()

@@ -1,0 +1,40 @@
+#include <rclcpp/rclcpp.hpp>
+#include <std_msgs/msg/int32.hpp>
+
+using std_msgs::msg::Int32;
+
+class Base : public rclcpp::Node {
+ public:
+  Base() : Node("n") { x_ = value(); }
+  virtual int value() const { return 1; }
+
+ protected:
+  int x_ = 0;
+};
+
+class N : public Base {
+ public:
+  N() : Base() {
+    pub_ = create_publisher<Int32>("out", 9);
+    sub_ = create_subscription<Int32>("inp", 9, [this](const Int32& m) { cb(m); });
+  }
+
+ private:
+  int value() const override { return 5; }
+  void cb(const Int32&) { put(x_); }
+
+  void put(int value) {
+    Int32 msg;
+    msg.data = value;
+    pub_->publish(msg);
+  }
+
+  rclcpp::Publisher<Int32>::SharedPtr pub_;
+  rclcpp::Subscription<Int32>::SharedPtr sub_;
+};
+
+int main(int argc, char** argv) {
+  rclcpp::init(argc, argv);
+  rclcpp::spin(std::make_shared<N>());
+  rclcpp::shutdown();
+}
