@@ -13,9 +13,9 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.known_functions import LOGGING
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.graph import RateFact
+from rebsync.reverse.graph import Fact, RateFact, TimerFact
 from rebsync.reverse.syntax.cpp_calls import calls_in
-from rebsync.reverse.syntax.cpp_index import CppFunction
+from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, text_of
 
 _LOOPS = frozenset({"while_statement", "do_statement", "for_statement"})
@@ -221,6 +221,33 @@ def _around(node: Node, body: Node) -> list[Node]:
         found.append(at)
         at = at.parent
     return found
+
+
+def loop_around(node: Node) -> Node | None:
+    """The loop that a node is in the condition of."""
+    below = node
+    while (at := below.parent) is not None and not at.type.endswith("_definition"):
+        if at.type in ("while_statement", "do_statement"):
+            return at if at.child_by_field_name("condition") == below else None
+        below = at
+    return None
+
+
+def identifiers(node: Node) -> Iterator[Node]:
+    """The identifiers in a node."""
+    waiting = [node]
+    while waiting:
+        current = waiting.pop()
+        if current.type == "identifier":
+            yield current
+        waiting += current.named_children
+
+
+def cancels(code: Code, functions: Sequence[CppFunction], facts: Sequence[Fact]) -> bool:
+    """Whether anything but a timer is cancelled: an executor, which then ends to serve."""
+    kept = {f.site.kept.removeprefix("this->") for f in facts if isinstance(f, TimerFact)}
+    calls = (c for f in functions for c in code.calls_of(f))
+    return any(c.name == "cancel" and c.on.removeprefix("this->") not in kept for c in calls)
 
 
 def ended_early(statement: Node, without: Collection[int]) -> bool:

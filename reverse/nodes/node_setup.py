@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import field
 
 from tree_sitter import Node
@@ -29,8 +29,11 @@ from rebsync.reverse.graph import (
 from rebsync.reverse.nodes.node_loops import (
     Loop,
     behind,
+    cancels,
     ended_early,
+    identifiers,
     later,
+    loop_around,
     loops_in,
     served_early,
 )
@@ -127,7 +130,7 @@ class Setup:
                 continue
             function = around(server.body, self.state.unit.functions)
             if function is not None:
-                mentioned = {text_of(n) for n in _names(server.body)}
+                mentioned = {text_of(n) for n in identifiers(server.body)}
                 self.instead |= self.state.outlive(function, mentioned, False)
 
     def _is_first(self, fact: Fact) -> bool:
@@ -301,7 +304,7 @@ class Setup:
             place = loop.rate.site.place
             self.findings.approximated(place.source, place.span, _ROUND, within=self.within)
         if parts:
-            mentioned = {text_of(n) for p in parts for n in _names(p)}
+            mentioned = {text_of(n) for p in parts for n in identifiers(p)}
             self.instead |= self.state.outlive(function, mentioned, False, loop.node)
             self.instead[loop.node.id] = ()
             name = self.names.give("loop" if function.name == "main" else function.name)
@@ -335,7 +338,7 @@ class Setup:
         waits = function.body is not None and _WAITING.search(function.body.text or b"")
         for call in self.code.calls_of(function) if waits else ():
             name = call.name.rpartition("::")[2]
-            if name in _AUDIENCE and (loop := _loop_around(call.node)) is not None:
+            if name in _AUDIENCE and (loop := loop_around(call.node)) is not None:
                 self.instead[loop.id] = ()
                 continue
             statement = statement_of(call.node) if name in _WAITS else None
@@ -352,19 +355,13 @@ class Setup:
             if name in _ENDS:
                 if (
                     call.target is not None
-                    and self._cancels(function)
+                    and cancels(self.code, (*self.state.unit.functions, function), self.facts)
                     and ended_early(statement, self.instead)
                 ):
                     unread = Unread(function.cpp.span(call.node), _CANCELLED)
                     self.findings.unreadable(function.cpp.source, unread, self.within)
                 for after in later(statement):
                     self.instead[after.id] = ()
-
-    def _cancels(self, function: CppFunction) -> bool:
-        """Whether anything but a timer is cancelled: an executor, which then ends to serve."""
-        kept = {f.site.kept.removeprefix("this->") for f in self.facts if isinstance(f, TimerFact)}
-        calls = (c for f in (*self.state.unit.functions, function) for c in self.code.calls_of(f))
-        return any(c.name == "cancel" and c.on.removeprefix("this->") not in kept for c in calls)
 
 
 def around(node: Node, functions: Sequence[CppFunction]) -> CppFunction | None:
@@ -396,26 +393,7 @@ def statement_of(node: Node) -> Node | None:
     return None
 
 
-def _loop_around(node: Node) -> Node | None:
-    """The loop that a node is in the condition of."""
-    below = node
-    while (at := below.parent) is not None and not at.type.endswith("_definition"):
-        if at.type in ("while_statement", "do_statement"):
-            return at if at.child_by_field_name("condition") == below else None
-        below = at
-    return None
-
-
 def _is_call(statement: Node, call: Node) -> bool:
     """Whether a statement is nothing but a call."""
     inner = named(statement)
     return len(inner) == 1 and inner[0].id == call.id
-
-
-def _names(node: Node) -> Iterable[Node]:
-    waiting = [node]
-    while waiting:
-        current = waiting.pop()
-        if current.type == "identifier":
-            yield current
-        waiting += current.named_children

@@ -13,6 +13,7 @@ from types import ModuleType, SimpleNamespace
 from typing import Any
 from unittest.mock import patch
 
+from tests.reverse.native.rclpy_messages import message_modules, module
 from tests.reverse.native.rclpy_world import END, NANOSECONDS, Ended, Future, Group, Reader, World
 from tests.reverse.native.ros1 import Input
 from tests.reverse.native.rospy_play import imported
@@ -32,62 +33,6 @@ def played(program: Path, inputs: Sequence[Input]) -> list[Input]:
     with imported(modules), patch("time.sleep", world.sleep), suppress(Ended):
         exec(text, {"__name__": "__main__"})
     return world.sent
-
-
-# --- messages -----------------------------------------------------------------------------------
-
-
-def _message(named: str, constants: dict[str, object] | None = None, /, **fields: object) -> type:
-    """A class of messages: only its fields may be given and set, as keywords."""
-
-    def start(self: object, **given: object) -> None:
-        for field, default in fields.items():
-            setattr(self, field, given.pop(field, copy.copy(default)))
-        assert not given, given
-
-    return type(named, (), {**(constants or {}), "__slots__": tuple(fields), "__init__": start})
-
-
-def _message_modules() -> dict[str, ModuleType]:
-    whole = ("Int8", "Int16", "Int32", "Int64", "UInt8", "UInt16", "UInt32")
-    plain = [_message(name, data=0) for name in whole]
-    plain += [_message("Bool", data=False), _message("Float64", data=0.0)]
-    plain += [_message("String", data=""), _message("Empty")]
-    levels = {"OK": b"\x00", "WARN": b"\x01", "ERROR": b"\x02", "STALE": b"\x03"}
-    status = _message("DiagnosticStatus", dict(levels), level=b"\x00", name="", message="")
-    result = _message("SetParametersResult", successful=False, reason="")
-    ranged = _message("IntegerRange", from_value=0, to_value=0, step=0)
-    descriptor = _message("ParameterDescriptor", description="", read_only=False, integer_range=[])
-    answer = _message("Response", success=False, message="")
-    services = [
-        _empty("SetBool", Request=_message("Request", data=False), Response=answer),
-        _empty("Trigger", Request=_message("Request"), Response=answer),
-    ]
-    return dict(
-        [
-            _module("std_msgs.msg", **{t.__name__: t for t in plain}),
-            _module("diagnostic_msgs.msg", DiagnosticStatus=status),
-            _module("std_srvs.srv", **{t.__name__: t for t in services}),
-            _module(
-                "rcl_interfaces.msg",
-                SetParametersResult=result,
-                ParameterDescriptor=descriptor,
-                IntegerRange=ranged,
-            ),
-            *(_module(n) for n in ("std_msgs", "diagnostic_msgs", "std_srvs", "rcl_interfaces")),
-        ]
-    )
-
-
-def _empty(name: str, /, **members: object) -> type:
-    return type(name, (), members)
-
-
-def _module(name: str, /, **content: object) -> tuple[str, ModuleType]:
-    module = ModuleType(name)
-    module.__dict__.update(content)
-    module.__path__ = []
-    return name, module
 
 
 # --- what nodes make ----------------------------------------------------------------------------
@@ -409,27 +354,27 @@ def _modules(world: World) -> dict[str, ModuleType]:
     ended = type("ExternalShutdownException", (Exception,), {})
     rclpy = dict(
         [
-            _module("rclpy", **library),
-            _module("rclpy.node", Node=node),
-            _module(
+            module("rclpy", **library),
+            module("rclpy.node", Node=node),
+            module(
                 "rclpy.executors",
                 SingleThreadedExecutor=single,
                 MultiThreadedExecutor=parallel,
                 ExternalShutdownException=ended,
             ),
-            _module(
+            module(
                 "rclpy.callback_groups",
                 ReentrantCallbackGroup=_group_class(True),
                 MutuallyExclusiveCallbackGroup=_group_class(False),
             ),
-            _module("rclpy.qos", QoSProfile=SimpleNamespace),
-            _module("rclpy.parameter", Parameter=parameter),
-            _module("rclpy.duration", Duration=Duration),
-            _module("rclpy.time", Time=Time),
-            _module("rclpy.task", Future=partial(Future, world)),
+            module("rclpy.qos", QoSProfile=SimpleNamespace),
+            module("rclpy.parameter", Parameter=parameter),
+            module("rclpy.duration", Duration=Duration),
+            module("rclpy.time", Time=Time),
+            module("rclpy.task", Future=partial(Future, world)),
         ]
     )
-    for name, module in rclpy.items():
+    for name, made in rclpy.items():
         if name != "rclpy":
-            setattr(rclpy["rclpy"], name.rpartition(".")[2], module)
-    return {**rclpy, **_message_modules()}
+            setattr(rclpy["rclpy"], name.rpartition(".")[2], made)
+    return {**rclpy, **message_modules()}
