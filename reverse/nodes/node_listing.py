@@ -44,7 +44,7 @@ _ENTRIES = frozenset(
     }
 )
 _TEXTS = frozenset({"string_literal", "concatenated_string", "raw_string_literal"})
-_NO_NUMBER = re.compile(r"string|char|NodeHandle|NodeOptions|Node\b|Ptr|_ptr")
+_NO_NUMBER = re.compile(r"string|char\b|chrono|Duration|NodeHandle|NodeOptions|Node\b|Ptr|_ptr")
 _LISTED = frozenset(name.encode() for name in _THREADS | _ENTRIES)
 _SEVERAL = "its callbacks may run at the same time as others: the model has one at a time"
 
