@@ -18,7 +18,7 @@ from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.files import read_bytes, read_source
 from rebsync.roundtrip.digests import digest_of, is_text_of
 from rebsync.roundtrip.manifest import BASE, BASE_MODEL, MANIFEST
-from rebsync.roundtrip.recorded import Record, told_in_step
+from rebsync.roundtrip.recorded import Record, recorded_base, told_in_step
 from rebsync.source import NOWHERE, Source
 from rebsync.terminal import encoded
 
@@ -59,7 +59,6 @@ def as_far_as_proved(checked: Checked) -> Checked:
 
     Records that are proved, and say nothing of code that is not there, are attested.
     """
-    from rebsync.roundtrip.merge_code import recorded_base
     from rebsync.roundtrip.verdict import undetermined
 
     record, root = checked.record, checked.kept.root

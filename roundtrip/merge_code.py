@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from rebsync.diagnostics import Diagnostic, Findings
-from rebsync.files import names_below, source_below
+from rebsync.files import source_below
 from rebsync.records import dataclass
 from rebsync.roundtrip.markers import user_blocks, with_user_blocks
 from rebsync.roundtrip.merge_files import renamed_files
@@ -159,10 +159,3 @@ def _ancestors(
         else:
             merged = merged_text(old, before.get(path, ""), new, LABELS)
             yield path, new if merged.conflicts else merged.text
-
-
-def recorded_base(root: str, folder: str) -> dict[str, str]:
-    """The texts that were generated last time, as far as they are kept."""
-    names = names_below(root, folder.rstrip("/"))
-    found = ((name, source_below(root, folder + name)) for name in names)
-    return {name: source.text for name, source in found if source is not None}

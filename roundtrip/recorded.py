@@ -11,7 +11,7 @@ from typing import Any
 
 from rebsync import __version__
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
-from rebsync.files import read_source
+from rebsync.files import names_below, read_source, source_below
 from rebsync.records import dataclass
 from rebsync.roundtrip.manifest import FORMAT, MANIFEST
 from rebsync.source import NOWHERE, Source, Span
@@ -108,6 +108,13 @@ def record_in(source: Source, data: object) -> Record:
             return Record(name, path, digest, options, files, _accepted(data), known)
         case _:
             raise _damaged(source, NOWHERE, "a part of it is missing or of the wrong kind")
+
+
+def recorded_base(root: str, folder: str) -> dict[str, str]:
+    """The texts that were generated last time, as far as they are kept."""
+    names = names_below(root, folder.rstrip("/"))
+    found = ((name, source_below(root, folder + name)) for name in names)
+    return {name: source.text for name, source in found if source is not None}
 
 
 def _are_settings(options: dict[str, Any]) -> bool:

@@ -26,11 +26,17 @@ from rebsync.roundtrip.digests import is_base_whole, is_text_of
 from rebsync.roundtrip.gone import Gone, is_of_file
 from rebsync.roundtrip.manifest import BASE, BASE_MODEL, FOLDER, MANIFEST, with_manifest
 from rebsync.roundtrip.merge_check import finding, read_with, wrongly_merged
-from rebsync.roundtrip.merge_code import Stages, ancestors, merged_code, recorded_base
+from rebsync.roundtrip.merge_code import Stages, ancestors, merged_code
 from rebsync.roundtrip.merge_files import moved_files
 from rebsync.roundtrip.merge_models import Compared, Favour, as_code_says, merged_model
 from rebsync.roundtrip.models import code_given, model_given, parsed
-from rebsync.roundtrip.recorded import Record, conflict_in, read_record, with_accepted
+from rebsync.roundtrip.recorded import (
+    Record,
+    conflict_in,
+    read_record,
+    recorded_base,
+    with_accepted,
+)
 from rebsync.roundtrip.sides import Given
 from rebsync.roundtrip.sync_records import with_what_holds
 from rebsync.roundtrip.verdict import Mover

@@ -132,7 +132,11 @@ def probe_packages(folder: Path) -> Path:
     (package / "probe" / "probe" / "script_node.py").write_text(_MAIN)
     messages = sorted(f.stem for f in (package / "probe_interfaces" / "msg").glob("*.msg"))
     build_file = fill(
-        "ros2_py/CMakeLists.txt.j2", package="probe_interfaces", messages=messages, services=()
+        "ros2_py/CMakeLists.txt.j2",
+        package="probe_interfaces",
+        messages=messages,
+        services=(),
+        actions=(),
     )
     (package / "probe_interfaces" / "CMakeLists.txt").write_text(build_file)
     return package

@@ -94,7 +94,9 @@ def test_a_package_behind_a_link_is_found(tmp_path: Path) -> None:
     assert main(["check", str(workspace)]) == CLEAN
     replace(root / "warehouse.rebeca", "cell < 4", "cell < 5")
     assert main(["check", str(workspace)]) == int(Status.FINDINGS)
-    assert main(["sync", str(workspace)]) == CLEAN
+    assert main(["sync", str(workspace)]) == int(Status.UNUSABLE), "nothing is written behind it"
+    assert main(["sync", str(root / "warehouse")]) == CLEAN
+    assert main(["check", str(workspace)]) == CLEAN
     assert "if cell < 5:" in file_of(root, "/dispatcher.py").read_text(encoding="utf-8")
 
 
