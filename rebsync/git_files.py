@@ -39,7 +39,7 @@ def _own(here: str) -> str | None:
     for folder in (here, *map(str, Path(here).parents)):
         path = f"{folder.rstrip(os.sep)}/{GIT}"
         if (found := _regular(path)) is not None:
-            return path if stat.S_ISDIR(found.st_mode) else _named(path, b"gitdir:")
+            return path if stat.S_ISDIR(found.st_mode) else named_in(path, b"gitdir:")
         for name in _OF_BARE if os.path.lexists(f"{folder}/{_OF_BARE[0]}") else ():
             _regular(f"{folder}/{name}")
     return None
@@ -56,7 +56,7 @@ def _regular(path: str) -> os.stat_result | None:
     return found
 
 
-def _named(path: str, before: bytes = b"") -> str | None:
+def named_in(path: str, before: bytes = b"") -> str | None:
     """The directory that a file of git names, as that is seen from where the file is."""
     try:
         handle = open_regular(path, path, os.stat(path))  # noqa: PTH116
@@ -92,7 +92,7 @@ def _entries(own: str) -> Iterator[str]:
 
 def _further(entry: os.DirEntry[str]) -> Iterator[tuple[str, bool]]:
     """The directories that a file of git names: what work trees share, objects of others."""
-    if entry.name == "commondir" and (shared := _named(entry.path)) is not None:
+    if entry.name == "commondir" and (shared := named_in(entry.path)) is not None:
         yield shared, True
     if entry.name == "alternates":
         objects = Path(entry.path).parent.parent

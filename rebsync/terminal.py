@@ -14,11 +14,13 @@ import sys
 from collections.abc import Iterable
 from typing import TextIO
 
-# Controls and formats (categories Cc, Cf, Cs, Zl, Zp, noncharacters), the same in every Python.
+# Controls and formats (categories Cc, Cf, Cs, Zl, Zp, noncharacters) and other characters that
+# nobody sees, the same in every Python.
 _UNSAFE = (
-    r"\x00-\x08\x0b-\x1f\x7f-\x9f\xad\u0600-\u0605\u061c\u06dd\u070f\u08e2\u180e\u200b-\u200f"
-    r"\u2028-\u202e\u2060-\u206f\ud800-\udfff\ufeff\ufff9-\ufffb\ufffe\uffff"
-    r"\U0001bca0-\U0001bca3\U0001d173-\U0001d17a\U000e0000-\U000e007f"
+    r"\x00-\x08\x0b-\x1f\x7f-\x9f\xad\u034f\u0600-\u0605\u061c\u06dd\u070f\u0890\u0891\u08e2"
+    r"\u115f\u1160\u17b4\u17b5\u180b-\u180f\u200b-\u200f\u2028-\u202e\u2060-\u206f\u3164"
+    r"\ud800-\udfff\ufe00-\ufe0f\ufeff\uffa0\ufff0-\ufffb\ufffe\uffff\U000110bd\U000110cd"
+    r"\U00013430-\U0001343f\U0001bca0-\U0001bca3\U0001d173-\U0001d17a\U000e0000-\U000e0fff"
 )
 _CONTROL = re.compile(f"[{_UNSAFE}]")
 _CONTROL_OR_END = re.compile(rf"[{_UNSAFE}\n]")

@@ -10,6 +10,7 @@ from pathlib import Path
 from rebsync.diagnostics import Findings, RebsyncError
 from rebsync.files import operating_on
 from rebsync.git import git, git_without_files
+from rebsync.git_own import is_own_repository
 from rebsync.roundtrip.attested import attest
 from rebsync.roundtrip.manifest import BASE_MODEL, FOLDER, MANIFEST
 from rebsync.roundtrip.merge_code import Stages
@@ -81,13 +82,14 @@ def _tell_git(sync: Sync) -> None:
     """Puts conflicts into the index of a repository, as a merge of its own does.
 
     So `git status` shows them and `git mergetool` opens them. Files that git does not know are
-    left alone.
+    left alone, and so is the index of a repository that is not that of the files.
     """
     root = sync.checked.kept.root
     for path, stages in sync.conflicts.items():
         file = Path(root, path) if path else Path(sync.checked.model)
         with suppress(OSError, RebsyncError):  # without git, or with one that does not answer
-            _stage(file, stages)
+            if is_own_repository(file.parent):
+                _stage(file, stages)
 
 
 def _stage(file: Path, stages: Stages) -> None:

@@ -59,6 +59,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         status = _os_error(error)
     except MemoryError:
         status = _say("there is not enough memory for this", Status.UNUSABLE)
+    except RecursionError:
+        status = _report(
+            RebsyncError.of(".", "RS111", "something here nests deeper than rebsync reads")
+        )
     except RuntimeError as error:  # what a signal raises within __set_name__, before Python 3.12
         match error.__cause__:
             case SystemExit(code=int(code)):

@@ -111,6 +111,22 @@ def test_a_manifest_that_nests_deep(opening: str, tmp_path: Path) -> None:
         assert done.status in (0, 1, 2), done.err
 
 
+def test_directories_that_nest_deep(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As deep as a repository can bring them; nothing else of the machine can walk them either."""
+    shutil.copy(ROOT / "examples/hello/hello.rebeca", tmp_path / "m.rebeca")
+    rebsync("generate", "m.rebeca", cwd=tmp_path)
+    monkeypatch.chdir(tmp_path / "m/src")
+    for _ in range(1_900):
+        os.mkdir("d")  # noqa: PTH102
+        os.chdir("d")
+    for command in ("lint .", "fmt --check .", "extract m", "generate m.rebeca", "check", "sync"):
+        done = rebsync(*command.split(), cwd=tmp_path)
+        assert done.status in (0, 2), (command, done)
+        assert (done.status == 2) == ("RS111" in done.err + done.out), (command, done)
+    monkeypatch.undo()
+    subprocess.run(["rm", "-r", str(tmp_path / "m")], check=True)
+
+
 def test_names_of_files_that_are_not_utf_8(tmp_path: Path) -> None:
     folder = os.fsencode(tmp_path) + b"/d\xff"
     os.mkdir(folder)  # noqa: PTH102

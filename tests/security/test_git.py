@@ -451,6 +451,60 @@ def test_conflicts_are_told_of_in_a_directory_below_the_top(
     assert len(git("ls-files", "-u").splitlines()) == 3
 
 
+def _both_moved() -> None:
+    """Model and code change the same, each in its own way."""
+    replace(SOURCE, "n > 3", "n > 5")
+    replace("patrol.rebeca", "n > 3", "n >= 4")
+
+
+@pytest.mark.parametrize("how", ["file", "directory", "index", "objects", "commondir"])
+def test_conflicts_are_not_told_to_another_repository(run: Run, tmp_path: Path, how: str) -> None:
+    """An archive brings a `.git` that leads to a repository of the user with such a file."""
+    victim = tmp_path / "victim"
+    shutil.copytree(".", victim, symlinks=True)  # the repository of `run` itself
+    own = Path(".git")
+    match how:
+        case "file":
+            shutil.rmtree(own)
+            own.write_text(f"gitdir: {victim}/.git\n")
+        case "directory":
+            shutil.rmtree(own)
+            own.symlink_to(victim / ".git")
+        case "index":
+            Path(".git/index").unlink()
+            Path(".git/index").symlink_to(victim / ".git/index")
+        case "objects":
+            shutil.rmtree(".git/objects")
+            Path(".git/objects").symlink_to(victim / ".git/objects")
+        case _:
+            Path(".git/commondir").write_text(f"{victim}/.git\n")
+    before = everything(victim)
+    _both_moved()
+    assert run("sync")[0] == 1
+    assert "<<<<<<<" in Path("patrol.rebeca").read_text()
+    assert everything(victim) == before
+
+
+@pytest.mark.parametrize("kind", ["work tree", "submodule"])
+def test_conflicts_are_told_in_work_trees_and_submodules(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str
+) -> None:
+    """There `.git` is a file that names a directory elsewhere, which names it in turn."""
+    other = tmp_path / "other"
+    if kind == "work tree":
+        git("worktree", "add", "-q", str(other))
+    else:
+        git("init", "-q", str(tmp_path / "whole"))
+        add = ("-c", "protocol.file.allow=always", "submodule", "add", "-q", str(Path.cwd()))
+        git(*add, "part", cwd=tmp_path / "whole")
+        other = tmp_path / "whole/part"
+    assert (other / ".git").is_file()
+    monkeypatch.chdir(other)
+    _both_moved()
+    assert run("sync")[0] == 1
+    assert len(git("ls-files", "-u").splitlines()) == 3
+
+
 # --- the house ----------------------------------------------------------------------------------
 
 
