@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import ast
-import os
-import shutil
 import stat
 import subprocess
 from contextlib import suppress
@@ -12,10 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from rebsync.cli import main
-from tests.cli.test_check import MODEL, SOURCE, made, package, replace
+from tests.cli.test_check import SOURCE, made, package, replace
 from tests.consoles import ROOT
-from tests.security.hostile import NAMES, Run, everything, git, runner, unchecked
+from tests.security.hostile import NAMES, Run, everything, git, runner
 
 __all__ = ["made", "package"]  # fixtures
 
@@ -319,111 +316,6 @@ def test_a_repository_of_somebody_else(
     assert (status, "git does not trust this repository" in shown) == (2, True), shown
 
 
-PIPES = (
-    ".git",
-    ".git/HEAD",
-    ".git/config",
-    ".git/index",
-    ".git/packed-refs",
-    ".git/commondir",
-    ".git/refs/heads/other",
-    ".git/objects/info/alternates",
-    ".git/objects/pack/pack-1.idx",
-    "HEAD",
-    "apart/refs/heads/other",
-    "apart/objects/12/3456",
-)
-
-
-@pytest.mark.timeout(60)
-@pytest.mark.parametrize("kind", ["pipe", "link to a pipe"])
-@pytest.mark.parametrize("place", PIPES)
-def test_a_pipe_that_git_would_read(
-    run: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, place: str, kind: str
-) -> None:
-    """git would wait for it, until it is given up."""
-    monkeypatch.setattr("subprocess.Popen", None)
-    apart = Path("apart")
-    shutil.copytree(".git", apart)
-    if place.startswith("apart/refs"):
-        shutil.rmtree(".git")
-        Path(".git").write_text("gitdir: apart\n")
-    elif place.startswith("apart"):
-        Path(".git/objects/info/alternates").write_text("../../apart/objects\n")
-    pipe = Path(place)
-    if pipe.is_dir():
-        shutil.rmtree(pipe)
-    pipe.unlink(missing_ok=True)
-    pipe.parent.mkdir(exist_ok=True)
-    os.mkfifo(pipe if kind == "pipe" else tmp_path / "pipe")
-    if kind != "pipe":
-        pipe.symlink_to(tmp_path / "pipe")
-    unchecked()
-    if place == "HEAD":
-        shutil.rmtree(".git")
-    status, shown = run("diff", "HEAD^:patrol.rebeca", "HEAD^:patrol")
-    assert (status, "RS814 this is a pipe" in shown) == (2, True), shown
-
-
-@pytest.mark.timeout(60)
-def test_git_that_does_not_end(run: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """A configuration may include another: no one but git knows which."""
-    os.mkfifo(tmp_path / "pipe")
-    with Path(".git/config").open("a") as file:
-        file.write(f"[include]\n\tpath = {tmp_path}/pipe\n")
-    monkeypatch.setattr("rebsync.git._PATIENCE", 1.0)
-    status, shown = run("diff", "HEAD:patrol.rebeca", "HEAD:patrol")
-    assert (status, "has not ended within" in shown) == (2, True)
-    replace(SOURCE, "n > 3", "n > 5")
-    replace("patrol.rebeca", "n > 3", "n >= 4")
-    assert run("sync")[0] == 1
-
-
-@pytest.mark.timeout(60)
-def test_objects_that_do_not_come(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Somebody puts a pipe in their place once all was looked at."""
-    monkeypatch.setattr("rebsync.git._MOST_OF_ALL", 1.0)
-    monkeypatch.setattr("rebsync.git.refuse_special_files", lambda *_: None)
-    blob = git("rev-parse", "HEAD:patrol.rebeca")
-    path = Path(".git/objects", blob[:2], blob[2:])
-    path.unlink()
-    os.mkfifo(path)
-    status, shown = run("diff", "HEAD:patrol.rebeca", "HEAD:patrol")
-    assert (status, "RS806" in shown) == (2, True), shown
-
-
-def test_repositories_without_pipes(
-    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    git("worktree", "add", "-q", str(tmp_path / "more"))
-    git("clone", "-q", "--shared", ".", str(tmp_path / "shared"))
-    for each in ("more", "shared"):
-        monkeypatch.chdir(tmp_path / each)
-        assert run("diff", "HEAD:patrol.rebeca", "HEAD:patrol")[0] == 0
-
-
-def test_a_repository_with_longer_ids(
-    package: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Objects are known by SHA-256 there, when they are read and when conflicts are told of."""
-    for name, value in NAMES.items():
-        monkeypatch.setenv(name, value)
-    git("init", "-q", "--object-format=sha256")
-    git("add", "-A")
-    git("commit", "-q", "-m", "all")
-    run = runner(capsys, monkeypatch)
-    replace(SOURCE, "n > 3", "n > 5")
-    status, shown = run("diff", "HEAD:patrol", "patrol")
-    assert (status, "n > 3" in shown, "n > 5" in shown) == (1, True, True), shown
-    replace("patrol.rebeca", "n > 3", "n >= 4")
-    assert run("sync")[0] == 1
-    listed = [line.split() for line in git("ls-files", "-u").splitlines()]
-    assert [(len(id_), stage) for _, id_, stage, _ in listed] == [(64, n) for n in "123"]
-    texts = [git("cat-file", "blob", id_) for _, id_, _, _ in listed]
-    assert ["n > 3" in texts[0], "n >= 4" in texts[1], "n > 5" in texts[2]] == [True] * 3
-    assert "UU patrol.rebeca" in git("status", "--short")
-
-
 def test_merging_texts_does_not_depend_on_settings(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -434,75 +326,6 @@ def test_merging_texts_does_not_depend_on_settings(
     monkeypatch.setenv("GIT_CONFIG_GLOBAL", str(settings))
     merged = merged_text("a\n", "b\n", "c\n", ("x", "y"))
     assert merged.text == "<<<<<<< x\na\n=======\nc\n>>>>>>> y\n"
-
-
-def test_conflicts_are_told_of_in_a_directory_below_the_top(
-    run: Run, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    Path("deep/down").mkdir(parents=True)
-    Path("deep/down/guard.rebeca").write_text(MODEL)
-    monkeypatch.chdir("deep/down")
-    assert main(["generate", "guard.rebeca"]) == 0
-    git("add", "-A")
-    git("commit", "-q", "-m", "deep")
-    replace("guard/src/robot.cpp", "n > 3", "n > 5")
-    replace("guard.rebeca", "n > 3", "n >= 4")
-    assert run("sync")[0] == 1
-    assert len(git("ls-files", "-u").splitlines()) == 3
-
-
-def _both_moved() -> None:
-    """Model and code change the same, each in its own way."""
-    replace(SOURCE, "n > 3", "n > 5")
-    replace("patrol.rebeca", "n > 3", "n >= 4")
-
-
-@pytest.mark.parametrize("how", ["file", "directory", "index", "objects", "commondir"])
-def test_conflicts_are_not_told_to_another_repository(run: Run, tmp_path: Path, how: str) -> None:
-    """An archive brings a `.git` that leads to a repository of the user with such a file."""
-    victim = tmp_path / "victim"
-    shutil.copytree(".", victim, symlinks=True)  # the repository of `run` itself
-    own = Path(".git")
-    match how:
-        case "file":
-            shutil.rmtree(own)
-            own.write_text(f"gitdir: {victim}/.git\n")
-        case "directory":
-            shutil.rmtree(own)
-            own.symlink_to(victim / ".git")
-        case "index":
-            Path(".git/index").unlink()
-            Path(".git/index").symlink_to(victim / ".git/index")
-        case "objects":
-            shutil.rmtree(".git/objects")
-            Path(".git/objects").symlink_to(victim / ".git/objects")
-        case _:
-            Path(".git/commondir").write_text(f"{victim}/.git\n")
-    before = everything(victim)
-    _both_moved()
-    assert run("sync")[0] == 1
-    assert "<<<<<<<" in Path("patrol.rebeca").read_text()
-    assert everything(victim) == before
-
-
-@pytest.mark.parametrize("kind", ["work tree", "submodule"])
-def test_conflicts_are_told_in_work_trees_and_submodules(
-    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str
-) -> None:
-    """There `.git` is a file that names a directory elsewhere, which names it in turn."""
-    other = tmp_path / "other"
-    if kind == "work tree":
-        git("worktree", "add", "-q", str(other))
-    else:
-        git("init", "-q", str(tmp_path / "whole"))
-        add = ("-c", "protocol.file.allow=always", "submodule", "add", "-q", str(Path.cwd()))
-        git(*add, "part", cwd=tmp_path / "whole")
-        other = tmp_path / "whole/part"
-    assert (other / ".git").is_file()
-    monkeypatch.chdir(other)
-    _both_moved()
-    assert run("sync")[0] == 1
-    assert len(git("ls-files", "-u").splitlines()) == 3
 
 
 # --- the house ----------------------------------------------------------------------------------
