@@ -23,6 +23,15 @@ void heard(const std_msgs::Int32& m) { ROS_ASSERT_MSG(m.data < 3, "a\x1b[2Jb"); 
 """
 
 
+# Formats of writing systems, and what looks like nothing: each could hide a part of a line.
+_UNSEEN = "\u0890\U000110bd\U000110cd\U00013430\u034f\u115f\u1160\u17b4\u3164\uffa0\ufe0f\U000e0100"
+
+
+@pytest.mark.parametrize("character", _UNSEEN)
+def test_what_nobody_sees_is_an_escape(character: str) -> None:
+    assert one_line(f"a{character}b").isascii()
+
+
 def test_lines() -> None:
     assert (
         one_line("a\x1b\n\u202e\udcff\U000e0001é\u00a0")
