@@ -17,6 +17,7 @@ from rebsync.config import Config, config_of_record
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.files import read_bytes, read_source
 from rebsync.roundtrip.digests import digest_of, is_text_of
+from rebsync.roundtrip.generated import generated
 from rebsync.roundtrip.manifest import BASE, BASE_MODEL, MANIFEST
 from rebsync.roundtrip.recorded import Record, recorded_base, told_in_step
 from rebsync.source import NOWHERE, Source
@@ -88,18 +89,9 @@ def _is_in_step(checked: Checked, record: Record) -> bool:
 
 def _is_genuine(checked: Checked, record: Record) -> bool:
     """Whether a manifest names the very files that its model and settings generate."""
-    from rebsync.forward.generate import generate
-    from rebsync.grammars.parser import parse_model
-    from rebsync.static import analyse
-
+    config = config_of_record(record.options) or Config()
     try:
-        parsed = parse_model(_base(checked, record))
-        analysis = analyse(parsed.model)
-        if analysis.errors:
-            return False
-        config = config_of_record(record.options) or Config()
-        stem = Path(record.model).stem
-        files = generate(parsed.model, parsed.comments, analysis, config, stem)
+        files = generated(_base(checked, record), config, Path(record.model).stem)
     except RebsyncError:
         return False
     return {path: digest_of(encoded(text)) for path, text in files.items()} == record.files

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from rebsync import model as m
 from rebsync.config import Config, config_of_record, settings_beside
-from rebsync.diagnostics import Findings, RebsyncError, Severity
+from rebsync.diagnostics import Findings, RebsyncError
 from rebsync.files import source_below
 from rebsync.records import dataclass
 from rebsync.roundtrip.checked import Checked
@@ -23,6 +23,7 @@ from rebsync.roundtrip.difference import (
 )
 from rebsync.roundtrip.differences import compare
 from rebsync.roundtrip.digests import is_base_whole, is_text_of
+from rebsync.roundtrip.generated import generated
 from rebsync.roundtrip.gone import Gone, is_of_file
 from rebsync.roundtrip.manifest import BASE, BASE_MODEL, FOLDER, MANIFEST, with_manifest
 from rebsync.roundtrip.merge_check import finding, read_with, wrongly_merged
@@ -257,18 +258,7 @@ class _Syncing:
         return Path(self.record.model).stem
 
     def _generated(self, given: Given, config: Config) -> dict[str, str]:
-        """The files that are generated for a model. RebsyncError: it has no package."""
-        from rebsync.forward.generate import generate
-        from rebsync.forward.limits import limits
-        from rebsync.grammars.parser import parse_model
-        from rebsync.static import analyse
-
-        parsed_ = parse_model(given.source)
-        analysis = analyse(parsed_.model)
-        found = tuple(limits(parsed_.model, analysis, config, self._stem))
-        if analysis.errors or any(d.severity is Severity.ERROR for d in found):
-            raise RebsyncError([Findings(given.source, (*analysis.errors, *found))])
-        return generate(parsed_.model, parsed_.comments, analysis, config, self._stem)
+        return generated(given.source, config, self._stem)
 
     def _records(self, given: Given, files: Mapping[str, str]) -> dict[str, str | None]:
         """All of `.rebsync/` for a model and what was generated for it."""
