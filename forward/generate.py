@@ -9,6 +9,7 @@ from importlib.resources import files
 from typing import TypeAlias
 
 from rebsync.config import Config
+from rebsync.forward.headers import headed
 from rebsync.forward.remarks import Comment, Remarks
 from rebsync.forward.topics import Topics
 from rebsync.forward.view import view
@@ -70,9 +71,11 @@ def generate(
         from rebsync.forward.ros1_mixed import render_mixed
 
         name = f"{stem}.rebeca"
-        return render_mixed(package, analysis, topics, Remarks(comments), name, targets)
+        files = render_mixed(package, analysis, topics, Remarks(comments), name, targets)
+        return headed(files, config)
     render = _renderer(next(iter(of_nodes), config.target))
-    return render(package, analysis, topics, Remarks(comments), f"{stem}.rebeca")
+    files = render(package, analysis, topics, Remarks(comments), f"{stem}.rebeca")
+    return headed(files, config)
 
 
 def _renderer(target: str) -> Renderer:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from rebsync.config import Config
-from rebsync.diagnostics import Diagnostic, Severity
+from rebsync.diagnostics import Diagnostic, Severity, did_you_mean
 from rebsync.forward.generate import is_taken, package_name
+from rebsync.forward.headers import LICENSES
 from rebsync.forward.offers import offer_annotation, replies, reply_names
 from rebsync.forward.topics import Topics, declared_servers, signature
 from rebsync.model import (
@@ -22,7 +23,7 @@ from rebsync.static import Analysis
 def limits(model: Model, analysis: Analysis, config: Config, stem: str) -> tuple[Diagnostic, ...]:
     """Errors where generation must stop, warnings where ROS does less than the model says."""
     found = [*_package(config, stem), *_sensors(model, config), *_instances(model, analysis)]
-    found += [*_targets(analysis, config), *_owners(config)]
+    found += [*_targets(analysis, config), *_owners(config), *_licences(config)]
     topics = Topics(model, analysis)
     for c in model.classes:
         if isinstance(c, ReactiveClass):
@@ -49,12 +50,14 @@ def _package(config: Config, stem: str) -> list[Diagnostic]:
 
 def _owners(config: Config) -> list[Diagnostic]:
     """What REP 149 wants of every package and only its owner knows."""
+    year_and_holder = 'copyright = "2026 ACME Robotics"'
     missing = {
         'no `license`: package.xml says "TODO"': (config.license, 'license = "Apache-2.0"'),
         'no `maintainers`: package.xml says "TODO"': (
             config.maintainers,
             'maintainers = [{ name = "Ada", email = "ada@example.org" }]',
         ),
+        "no `copyright`: sources have no header": (config.copyright, year_and_holder),
     }
     return [
         Diagnostic(
@@ -67,6 +70,16 @@ def _owners(config: Config) -> list[Diagnostic]:
         for what, (given, hint) in missing.items()
         if not given
     ]
+
+
+def _licences(config: Config) -> list[Diagnostic]:
+    """A licence that ament_copyright would know by another name."""
+    if config.copyright is None or config.license is None or config.license in LICENSES:
+        return []
+    hint = did_you_mean(config.license, LICENSES)
+    message = f'ament_copyright has no header for the licence "{config.license}"'
+    warning = Diagnostic("RS710", NOWHERE, message, hint, severity=Severity.WARNING)
+    return [warning] if hint else []
 
 
 def _targets(analysis: Analysis, config: Config) -> list[Diagnostic]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from rebsync.forward.cpp_class import CppClass
+from rebsync.forward.headers import unchecked
 from rebsync.forward.message_files import action_names, message_names, service_names
 from rebsync.forward.ros2_constructors import component
 from rebsync.forward.runtime_part import message_packages, odometry_topic
@@ -49,6 +50,7 @@ def cmake_lists(package: Package, classes: list[CppClass]) -> str:
         components=sorted(map(component, runs)),
         executables=sorted(executables),
         lifecycle=package.settings.lifecycle,
+        unchecked=unchecked(package),
     )
 
 

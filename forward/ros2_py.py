@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from rebsync.forward.headers import unchecked
 from rebsync.forward.message_files import action_names, message_files, message_names, service_names
 from rebsync.forward.py_class import PyClass
 from rebsync.forward.py_classes import classes
@@ -104,7 +105,9 @@ def render(
         ),
         f"{name}/setup.cfg": fill(f"{_FOLDER}/setup.cfg.j2", package=name),
         f"{name}/.flake8": fill("py/flake8.j2"),
-        f"{name}/test/test_style.py": fill(f"{_FOLDER}/test_style.py.j2"),
+        f"{name}/test/test_style.py": fill(
+            f"{_FOLDER}/test_style.py.j2", unchecked=unchecked(package)
+        ),
         f"{name}/ruff.toml": fill("py/ruff.toml.j2", packages=[name, interfaces(name)]),
         f"{name}/resource/{name}": "\n",
         f"{name}/launch/{name}.launch.py": launch_file(package),

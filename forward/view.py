@@ -70,6 +70,7 @@ class _View:
             config.version,
             config.description or f"Generated from the Timed Rebeca model {name}.",
             config.license or _NO_LICENSE,
+            config.copyright,
             tuple(p.Maintainer(m.name, m.email) for m in config.maintainers) or (_NOBODY,),
             p.Settings(
                 config.time_unit,

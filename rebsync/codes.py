@@ -145,7 +145,7 @@ GENERATION = {
     "RS707": "a sensor binding without its sensor",
     "RS708": "a package that was made from another model",
     "RS709": "a dialect that is not known, or that does not go with others",
-    "RS710": "a package of which no licence or no maintainer is known",
+    "RS710": "a package of which no licence, maintainer or holder of the copyright is known",
     "RS711": "a service or an action that the model does not answer",
     "RS750": "a part of a model that the official compiler or RMC does not take",
     "RS751": "a part of a model that RMC runs differently",

@@ -26,6 +26,13 @@ _VERSION = re.compile(r"\d+\.\d+\.\d+\Z")
 _EMAIL = re.compile(r"[^@\s<>&\"\x00-\x1f\x7f-\x9f]+@[^@\s<>&\"\x00-\x1f\x7f-\x9f]+\Z")
 _SERVER = re.compile(r"[^\W\d][\w$]*\.[^\W\d][\w$]*\Z")
 _TOPIC = re.compile(r"[~/]?[A-Za-z][\w/]*\Z")
+_YEARS = r"\d{4}(?:-\d{4})?"
+# The years and the holder, as ament_copyright reads them. A line of C++ that ends in a backslash
+# goes on in the next one, and `coding:` at the beginning of a Python file is its encoding.
+COPYRIGHT = re.compile(
+    rf"{_YEARS}(?:, ?{_YEARS})*,? "
+    r"(?P<holder>(?!.*coding[:=])[^\s\\,](?:[^\\]*[^\s\\])?)\Z"
+)
 _MESSAGE_TYPE = re.compile(r"[a-z]\w*/(?:msg/)?[A-Z]\w*\Z")
 
 
@@ -71,6 +78,7 @@ class Config:
     lifecycle: bool = False
     maintainers: tuple[Maintainer, ...] = ()
     license: str | None = None
+    copyright: str | None = None
     version: str = "0.1.0"
     description: str | None = None
     sensors: tuple[SensorBinding, ...] = ()
@@ -150,6 +158,7 @@ def _config(table: Table) -> Config:
         lifecycle=_lifecycle(table),
         maintainers=_maintainers(table),
         license=_one_line(table, "license"),
+        copyright=_copyright(table),
         version=_matching(table, "version", default.version, _VERSION, "like 1.2.3")
         or default.version,
         description=_without_controls(table, "description"),
@@ -190,6 +199,16 @@ def _maintainers(table: Table) -> tuple[Maintainer, ...]:
         entry.finish()
         people.append(Maintainer(name, email))
     return tuple(people)
+
+
+def _copyright(table: Table) -> str | None:
+    """The years and the holder of the copyright."""
+    value = _one_line(table, "copyright")
+    if value is None or COPYRIGHT.match(value):
+        return value
+    hint = 'it must be the years and the holder, such as "2026 ACME Robotics"'
+    table.wrong("copyright", f'`copyright` cannot be "{value}"', hint)
+    return None
 
 
 def _sensors(table: Table) -> tuple[SensorBinding, ...]:

@@ -295,6 +295,7 @@ class Package:
     version: str
     description: str
     license: str
+    copyright: str | None
     maintainers: tuple[Maintainer, ...]
     settings: Settings
     messages: tuple[MessageType, ...]

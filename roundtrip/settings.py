@@ -13,7 +13,7 @@ from rebsync.roundtrip.recorded import Record
 from rebsync.source import NOWHERE, Source, Span
 
 _HINT = "`rebsync generate` takes the setting into the code"
-_OFF = {"lifecycle": False}  # what is recorded only where it is on
+_OFF = {"lifecycle": False, "copyright": None}  # what is recorded only where it is on
 _APART = frozenset({"target"})  # what the command line may say otherwise
 
 

@@ -46,6 +46,7 @@ cell_size = 2
 drive = "differential"
 heading = 1.57
 license = "MIT"
+copyright = "2024-2026, 2028 ACME Robotics"
 version = "2.0.1"
 description = "Two robots."
 maintainers = [{ name = "Ada", email = "ada@example.org" }]
@@ -65,6 +66,7 @@ seen = "near"
         heading=1.57,
         maintainers=(Maintainer("Ada", "ada@example.org"),),
         license="MIT",
+        copyright="2024-2026, 2028 ACME Robotics",
         version="2.0.1",
         description="Two robots.",
         sensors=(SensorBinding("Robot.lidar", "/scan", "sensor_msgs/LaserScan", "near"),),
@@ -130,6 +132,14 @@ def test_all_mistakes_in_one_run_each_with_its_line(newline: str) -> None:
         ("target = 'ros3'", '`target` cannot be "ros3"'),
         ("maintainers = 'Ada'", "`maintainers` must be an array of tables"),
         ("sensors = 1", "`sensors` must be a table"),
+        *(
+            (f"copyright = '{text}'", f'`copyright` cannot be "{text}"')
+            for text in ("ACME", "2026", "2026 ", "(c) 2026 ACME", "Copyright 2026 ACME", "26 ACME")
+        ),
+        *(
+            (f"copyright = '{text}'", f'`copyright` cannot be "{text}"')
+            for text in ("2026 ACME\\", "2026 A coding: latin-1", "2026 encoding=x", "2026 A ")
+        ),
         ("[sensors.lidar]\ntopic = 'a'", '"lidar" does not name a server'),
     ],
 )

@@ -74,6 +74,7 @@ def test_controls_in_code_are_listed_and_carried_as_escapes(tmp_path: Path) -> N
     [
         *('description = "a\\u0007"', 'license = "a\\u001b"', 'license = "a\\nb"'),
         *('description = "a\\uFFFE"', 'maintainers = [{ name = "a\\u0000", email = "a@b.c" }]'),
+        *('copyright = "2026 a\\u001b"', 'copyright = "2026 a\\nb"'),
         *('maintainers = [{ name = "a", email = "<a>@b.c" }]', 'description = "\\u202e"'),
     ],
 )

@@ -291,14 +291,15 @@ def test_the_licence_and_the_maintainer_are_asked_for_not_invented(
 ) -> None:
     assert generate("--target", target) == 0
     shown = capsys.readouterr().err
-    assert shown.count("RS710") == 2, shown
-    assert "license" in shown and "maintainers" in shown
+    assert shown.count("RS710") == 3, shown
+    assert "license" in shown and "maintainers" in shown and "copyright" in shown
     for manifest in Path("patrol").glob("**/package.xml"):
         text = manifest.read_text()
         assert "<license>TODO: License declaration</license>" in text
         assert '<maintainer email="user@todo.todo">TODO: maintainer</maintainer>' in text
     Path("rebsync.toml").write_text(
         'license = "MIT"\nmaintainers = [{ name = "Ada", email = "ada@example.org" }]\n'
+        'copyright = "2026 ACME Robotics"\n'
     )
     assert generate("--target", target) == 0
     assert "RS710" not in capsys.readouterr().err
