@@ -29,7 +29,7 @@ from tests.ros1.conftest import tool
 from tests.ros2.launching import launched
 
 _MODELS = {
-    **{name: CASES / f"{name}.rebeca" for name in ("inheritance", "rebecs", "services")},
+    **{name: CASES / f"{name}.rebeca" for name in ("actions", "inheritance", "rebecs", "services")},
     "odometry": Path(__file__).parents[1] / "ros1" / "models" / "odometry.rebeca",
 }
 _TARGETS = ("ros2-cpp", "ros2-py")

@@ -158,12 +158,3 @@ def test_an_action_has_goals_results_and_feedback() -> None:
     assert files["action/AAskTask.action"] == (
         "int32 timing_2\nint8[2] of\n---\nbool answered_2\nint32 sender_2\n---\nfloat64 share\n"
     )
-
-
-def test_nodes_with_a_life_cycle_offer_no_actions() -> None:
-    text = _MODEL.format(interface="", server="@Action(sold)", below="", body=_REPLY)
-    text = text.replace("reactiveclass Base(3) implements Asked { }\n", "")
-    model = parse_model(Source("m.rebeca", text)).model
-    config = Config(target="ros2-py", lifecycle=True)
-    found = [d.message for d in limits(model, analyse(model), config, "m") if d.code == "RS711"]
-    assert found == ["nodes with a life cycle offer no actions yet"]

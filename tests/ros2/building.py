@@ -15,6 +15,7 @@ INTERFACES = HERE / "interfaces"
 _PATH = "/usr/bin:/bin"
 _WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Werror")
 _STANDARD = ("-std=c++17", "-fwrapv")
+_KINDS = ("msg", "srv", "action")
 _RUNTIME = ("rosidl_runtime_cpp", "rosidl_runtime_c", "rosidl_typesupport_interface")
 
 
@@ -44,10 +45,10 @@ def _tool(command: Sequence[str], directory: Path | None = None) -> str:
 
 
 def make_messages(packages: Iterable[Path], out: Path) -> None:
-    """The C++ headers of the .msg files of packages, each in a folder of its own below `out`."""
+    """The C++ headers of what packages say, each in a folder of its own below `out`."""
     for package in packages:
-        files = [str(p.relative_to(package)) for p in sorted(package.glob("msg/*.msg"))]
-        name = package.name
+        found = [p for kind in _KINDS for p in sorted(package.glob(f"{kind}/*.{kind}"))]
+        files, name = [str(p.relative_to(package)) for p in found], package.name
         _tool(["rosidl", "generate", "-o", str(out / name), "-t", "cpp", name, *files], package)
 
 
@@ -98,6 +99,7 @@ def build_driver(package: Path, headers: Path, out: Path, options: Sequence[str]
     sources = [*sorted(package.glob("src/*.cpp")), table, STUB / "driver.cpp"]
     # What every source includes is compiled once, for the usual options.
     common = [] if options else _common(headers)
+    common += _reading(package, headers, out)
 
     def compile_(source: Path) -> str:
         renamed = [f"-Dmain=main_of_{source.stem}"] if source.stem in mains else []
@@ -111,6 +113,28 @@ def build_driver(package: Path, headers: Path, out: Path, options: Sequence[str]
     program = out / "driver"
     _tool(["g++", *objects, *options, "-pthread", "-o", str(program)])
     return program
+
+
+def _reading(package: Path, headers: Path, out: Path) -> list[str]:
+    """Options that have each source know how to read what clients ask, as far as it is no array."""
+    kinds = {"srv": "Request", "action": "Goal"}
+    asked = [(k, p) for k in kinds for p in sorted(package.glob(f"{k}/*.{k}"))]
+    if not asked:
+        return []
+    own = headers / package.name
+    includes = [p.relative_to(headers) for k in kinds for p in sorted(own.glob(f"{k}/*.hpp"))]
+    lines = ["#include <rclcpp/asking.hpp>", *(f'#include "{path}"' for path in includes)]
+    for kind, path in asked:
+        lines += [f"namespace {package.name}::{kind} {{", f"inline void fake_read({path.stem}::"]
+        lines[-1] += f"{kinds[kind]}& to, const rclcpp::fake::Fields& from) {{"
+        for line in path.read_text().split("---")[0].splitlines():
+            type_, name = line.split()
+            read = f'to.{name} = rclcpp::fake::value<decltype(to.{name})>(from.at("{name}"));'
+            lines += [] if "[" in type_ else [f'  if (from.count("{name}") > 0) {read}']
+        lines += ["  static_cast<void>(to);", "  static_cast<void>(from);", "}", "}"]
+    reading = out / "reading.hpp"
+    reading.write_text("\n".join(lines) + "\n")
+    return ["-include", str(reading)]
 
 
 def _table(mains: Sequence[str]) -> str:

@@ -11,6 +11,7 @@ from typing import Any
 import yaml
 
 from tests.ros1.recording import ERROR, WARNING, Heard, Logged, Recording, Served
+from tests.ros2.asking import Answer, Ask
 from tests.ros2.launching import Launched, launched
 
 _LEVELS = {"INFO": 2, "WARN": WARNING, "ERROR": ERROR}
@@ -32,6 +33,24 @@ def run(
     changes: Mapping[str, Sequence[tuple[float, str]]] | None = None,
     arguments: Mapping[str, str] | None = None,
 ) -> Recording:
+    """What happens in a run without clients of services and actions."""
+    return run_asked(
+        package, driver, directory, until, (), foreign, step, parameters, changes, arguments
+    )[0]
+
+
+def run_asked(
+    package: Path,
+    driver: Path,
+    directory: Path,
+    until: float,
+    asks: Sequence[Ask],
+    foreign: Sequence[str] = (),
+    step: float | None = None,
+    parameters: Mapping[str, object] | None = None,
+    changes: Mapping[str, Sequence[tuple[float, str]]] | None = None,
+    arguments: Mapping[str, str] | None = None,
+) -> tuple[Recording, tuple[Answer, ...]]:
     """Run the package's launch file for that many seconds of its clock.
 
     A tool has subscribed to the `foreign` topics and asks for what was sent before, which rebecs do
@@ -44,7 +63,7 @@ def run(
     started = launched(package, **(arguments or {}))
     nodes = [replace(n, parameters={**n.parameters, **own}) for n in started]
     listened = [f"foreign\t{topic}" for topic in foreign]
-    lines = list(listened)
+    lines = [*listened, *(_asked(number, ask) for number, ask in enumerate(asks))]
     for node in nodes:
         lines += _lines(node)
         lines += [f"change\t{at}\t{name}" for at, name in (changes or {}).get(node.name, ())]
@@ -57,7 +76,32 @@ def run(
     )
     if done.returncode != 0:
         raise RunError(f"{done.returncode}: {done.stderr}\n{done.stdout[-2000:]}")
-    return _recording(done.stdout)
+    return _recording(done.stdout), _answers(done.stdout, asks)
+
+
+def _asked(number: int, ask: Ask) -> str:
+    values = [f"{name}={_text(value)}" for name, value in ask.values.items()]
+    kind = "cancel" if ask.cancels else "ask"
+    return "\t".join([kind, str(ask.at), str(number), ask.name, *values])
+
+
+def _answers(output: str, asks: Sequence[Ask]) -> tuple[Answer, ...]:
+    lines = [line.split("\t") for line in output.splitlines()]
+    zero = _zero(lines)
+    return tuple(
+        Answer(asks[int(n)].name, asks[int(n)].values, _seconds(int(t), zero), state, _fields(text))
+        for _, t, n, state, text in _of(lines, "answer")
+    )
+
+
+def _zero(lines: list[list[str]]) -> int:
+    """Time 0 of the model, which nodes tell as they start."""
+    told = (_fields(text) for _, _, topic, text in _of(lines, "message") if _is_start(topic))
+    return max((int(fields["zero"]) for fields in told), default=0)
+
+
+def _is_start(topic: str) -> bool:
+    return topic.endswith("/startup")
 
 
 def _lines(node: Launched) -> Iterator[str]:
@@ -82,7 +126,7 @@ def _recording(output: str) -> Recording:
     lines = [line.split("\t") for line in output.splitlines()]
     messages = [(int(t), topic, text) for kind, t, topic, text in _of(lines, "message")]
     fields = [(t, topic, _fields(text)) for t, topic, text in messages]
-    zero = max((f["zero"] for _, topic, f in fields if topic.endswith("/startup")), default=0)
+    zero = max((f["zero"] for _, topic, f in fields if _is_start(topic)), default=0)
     heard = tuple(Heard(topic, _seconds(t, zero), found) for t, topic, found in fields)
     log = tuple(
         Logged(node, _LEVELS[level], _seconds(int(t), zero), text)

@@ -15,6 +15,7 @@ _CONSTANTS = {
         name: bytes([value]) for value, name in enumerate(("OK", "WARN", "ERROR", "STALE"))
     }
 }
+_PARTS = {"srv": ("Request", "Response"), "action": ("Goal", "Result", "Feedback")}
 _RANGES = {"int8": 8, "int16": 16, "int32": 32, "int64": 64, "uint32": 33}
 _STANDARD = {
     "builtin_interfaces/Time": "int32 sec\nuint32 nanosec",
@@ -51,6 +52,11 @@ class Message:
             object.__setattr__(self, name, every)
         for name, value in values.items():
             setattr(self, name, value)
+
+    @classmethod
+    def get_fields_and_field_types(cls) -> dict[str, str]:
+        """The names and types of the fields."""
+        return {name: type_ for name, (type_, _) in cls._fields.items()}
 
     def _default(self, type_: str) -> object:
         if type_ in self._known:
@@ -98,22 +104,34 @@ def _plain(value: object) -> object:
 
 
 def modules(folders: Iterable[Path]) -> dict[str, ModuleType]:
-    """`<package>.msg` of the standard messages, and of the packages in some folders."""
+    """`<package>.msg` of the standard messages, and `msg`, `srv` and `action` of some packages."""
     known: dict[str, type[Message]] = {}
     texts = dict(_STANDARD)
     for folder in folders:
         for file in sorted(folder.glob("msg/*.msg")):
             texts[f"{folder.name}/{file.stem}"] = file.read_text()
-    waiting = list(texts.items())
-    for name, text in waiting:
-        fields = {}
-        for line in text.strip().splitlines():
-            match = _FIELD.match(line)
-            assert match is not None, line
-            fields[match[3]] = (match[1], int(match[2] or _ANY) if match[2] is not None else None)
-        members = {"_fields": fields, "_known": known, **_CONSTANTS.get(name, {})}
-        known[name] = type(name.rpartition("/")[2], (Message,), members)
-    return _as_modules(known)
+    for name, text in texts.items():
+        known[name] = _message(name, text, known)
+    found = _as_modules(known)
+    for folder in folders:
+        for kind, parts in _PARTS.items():
+            module = ModuleType(f"{folder.name}.{kind}")
+            for file in sorted(folder.glob(f"{kind}/*.{kind}")):
+                every = zip(parts, file.read_text().split("---\n"), strict=True)
+                members = {p: _message(f"{file.stem}_{p}", text, known) for p, text in every}
+                setattr(module, file.stem, type(file.stem, (), members))
+            found[module.__name__] = module
+    return found
+
+
+def _message(name: str, text: str, known: Mapping[str, type[Message]]) -> type[Message]:
+    fields = {}
+    for line in text.strip().splitlines():
+        match = _FIELD.match(line)
+        assert match is not None, line
+        fields[match[3]] = (match[1], int(match[2] or _ANY) if match[2] is not None else None)
+    members = {"_fields": fields, "_known": known, **_CONSTANTS.get(name, {})}
+    return type(name.rpartition("/")[2], (Message,), members)
 
 
 def _as_modules(known: Mapping[str, Callable[..., Message]]) -> dict[str, ModuleType]:

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import sys
+import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from importlib import import_module, invalidate_caches
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import cast
+from unittest.mock import patch
 
 from tests.ros1.recording import Heard, Logged, Recording, Served
+from tests.ros2.asking import Answer, Ask
 from tests.ros2.launching import Launched as Described
 from tests.ros2.launching import launched as described
+from tests.ros2py.asking import client
+from tests.ros2py.asking import modules as asking
 from tests.ros2py.messages import Message, modules
 from tests.ros2py.quality import modules as qualities
 from tests.ros2py.world import Launched, Node, World
@@ -25,6 +30,7 @@ _TRANSITIONS = {
     "cleanup": ("inactive", "unconfigured"),
     "shutdown": ("", "finalized"),
 }
+_CLOCKS = SimpleNamespace(STEADY_TIME="steady")
 _BODY = ("server", "arguments", "arrival", "start", "now")
 
 
@@ -37,12 +43,50 @@ def play(
 
     The `changes` of the life cycles of nodes come after so many seconds.
     """
+    return play_asked(folder, until, (), changes)[0]
+
+
+def play_asked(
+    folder: Path,
+    until: float,
+    asks: Sequence[Ask],
+    changes: Mapping[str, Sequence[tuple[float, str]]] | None = None,
+    ends: Mapping[str, float] | None = None,
+) -> tuple[Recording, tuple[Answer, ...]]:
+    """The same, with clients of services and actions; nodes that are interrupted have `ends`."""
     world, name = World(), folder.name
+    answers: list[Answer] = []
+    for ask in asks:
+        world.act_at(ask.at, client(world, ask, answers))
     with installed(world, folder / name, folder / f"{name}_interfaces"):
         found = described(folder / name)
         mains = [_main(name, node, (changes or {}).get(node.name, ())) for node in found]
-        world.run(mains, until)
-    return recorded(world)
+        with _interrupting(world, name, ends or {}):
+            world.run(mains, until)
+    return recorded(world), tuple(answers)
+
+
+@contextmanager
+def _interrupting(world: World, package: str, ends: Mapping[str, float]) -> Iterator[None]:
+    """What programs do at SIGINT, they do at the time at which they end."""
+
+    def interrupts(act: Callable[[], None]) -> None:
+        launched = world.context.launched
+        if launched.name not in ends:
+            return
+
+        def run() -> None:
+            world.context.launched = launched
+            act()
+
+        thread = threading.Thread(target=run, daemon=True)
+        world.act_at(ends[launched.name], thread.start)
+
+    names = [n for n in ("mailbox", "lifecycle") if f"{package}.{n}" in sys.modules]
+    with ExitStack() as stack:
+        for module in names:
+            stack.enter_context(patch(f"{package}.{module}.Interrupts", interrupts))
+        yield
 
 
 def recorded(world: World) -> Recording:
@@ -154,8 +198,8 @@ def _rclpy(world: World) -> dict[str, ModuleType]:
         "TransitionCallbackReturn": SimpleNamespace(SUCCESS="success", FAILURE="failure"),
     }
 
-    spin = {"init": lambda: None, "spin": world.spin, "try_shutdown": lambda: None}
-    spin["ok"] = lambda: not world.stopping
+    spin = {"init": lambda: None, "spin": world.spin, "try_shutdown": world.shut_down}
+    spin["ok"] = world.is_ok
     return dict(
         [
             _module("rclpy", **spin),
@@ -164,10 +208,13 @@ def _rclpy(world: World) -> dict[str, ModuleType]:
             _module("rclpy.lifecycle", **lifecycle),
             _module("rclpy.publisher", Publisher=object),
             _module("rclpy.subscription", Subscription=object),
-            _module("rclpy.clock", JumpThreshold=_threshold),
+            _module(
+                "rclpy.clock", JumpThreshold=_threshold, Clock=SimpleNamespace, ClockType=_CLOCKS
+            ),
             _module("rclpy.duration", Duration=SimpleNamespace),
             _module("rclpy.signals", uninstall_signal_handlers=lambda: None),
             *qualities(),
+            *asking(),
             _module("rcl_interfaces"),
             _module(
                 "rcl_interfaces.msg", ParameterDescriptor=descriptor, SetParametersResult=result

@@ -17,6 +17,7 @@ from dataclasses import dataclass, field
 from types import FrameType, SimpleNamespace
 from unittest.mock import patch
 
+from tests.ros2py.asking import Executor, Offer, Service
 from tests.ros2py.messages import Message, plain
 from tests.ros2py.quality import QoSOverridingOptions, QoSProfile, override
 
@@ -207,6 +208,21 @@ class Node:
         if self.spinning not in (None, threading.get_ident()):
             self.world.failures.append(RuntimeError(f"a timer is {what} by another thread"))
 
+    def create_service(
+        self, type_: object, name: str, callback: Callable[..., object], *, callback_group: object
+    ) -> Service:
+        service = Service(self, type_, self.launched.resolved(name), callback)
+        self.world.offers.append(service)
+        return service
+
+    def destroy_service(self, service: Service) -> None:
+        self._change("destroyed")
+        service.destroy()
+
+    @property
+    def executor(self) -> Executor | None:
+        return Executor(self) if self.spinning is not None else None
+
     def has_parameter(self, name: str) -> bool:
         return name in self.parameters
 
@@ -278,11 +294,35 @@ class World:
         self.nodes: dict[int, Node] = {}
         self.publishers: list[Publisher] = []
         self.subscriptions: list[Subscription] = []
+        self.offers: list[Offer] = []
+        self.asks: list[tuple[int, Callable[[], None]]] = []
+        self.shut: set[str] = set()  # nodes whose ROS has shut down
         self.messages: list[tuple[str, float, dict[str, object]]] = []
         self.log: list[tuple[str, int, float, str]] = []
         self.failures: list[BaseException] = []
         self.stopping = False
         self.context = threading.local()
+
+    def seconds(self) -> float:
+        """The time since the first moment."""
+        return (self.time - _FIRST) / NANOSECONDS
+
+    def act_at(self, seconds: float, act: Callable[[], None]) -> None:
+        """Has something happen that no node does."""
+        self.asks.append((_FIRST + round(seconds * NANOSECONDS), act))
+
+    def is_ok(self) -> bool:
+        """Whether ROS has not shut down in the node of the thread that asks."""
+        launched = getattr(self.context, "launched", None)
+        return not (self.stopping or (launched is not None and launched.name in self.shut))
+
+    def shut_down(self) -> None:
+        """Ends the node of the thread that asks."""
+        launched = self.context.launched
+        self.shut.add(launched.name)
+        for node in self.nodes.values():
+            if node.launched.name == launched.name:
+                node.queue.put(None)
 
     # --- what nodes do --------------------------------------------------------------------------
 
@@ -436,6 +476,7 @@ class World:
         with self.lock:
             timers = [t for n in self.nodes.values() for t in n.timers if t.alive]
             moments = [t.due for t in timers] + [s.due for s in self.sleepers]
+            moments += [due for due, _ in self.asks]
             due = min(moments, default=end)
             if self.step is not None:
                 due = min(due, self.time + self.step)
@@ -445,6 +486,10 @@ class World:
                 if timer.due <= self.time:
                     timer.due += timer.period
                     timer.node.queue.put(lambda t=timer: t.callback() if t.alive else None)  # type: ignore[misc]
+            ready = [act for due_, act in self.asks if due_ <= self.time]
+            self.asks = [(due_, act) for due_, act in self.asks if due_ > self.time]
+        for act in ready:
+            act()
         for sleeper in sleepers:
             with sleeper.condition:
                 sleeper.condition.notify_all()

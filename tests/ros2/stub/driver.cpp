@@ -3,7 +3,8 @@
 //
 // Usage: driver SYSTEM UNTIL [STEP], where SYSTEM has lines of fields set apart by tabs: `node EXECUTABLE
 // NAME`, followed by the `param NAME TYPE VALUE...`, `remap FROM TO` and `change SECONDS TRANSITION`
-// of that node, and
+// of that node,
+// `ask SECONDS ID NAME FIELD=VALUE...` or `cancel SECONDS ID NAME` for clients of services and actions, and
 // `foreign TOPIC` for a subscription of a tool that asks for what was sent before it; and UNTIL is
 // the time of the end in seconds. With a STEP the clock of ROS is that of a simulation, which tells
 // of each of its steps. What happens goes to standard output, one line each.
@@ -77,6 +78,18 @@ void listen(const std::string& topic) {
   rclcpp::fake::middleware().add(readers.back());
 }
 
+// A client that asks at a time after the beginning.
+void ask(const std::vector<std::string>& line) {
+  rclcpp::fake::Ask ask{line[2], line[3], line[0] == "cancel", {}};
+  for (std::size_t i = 4; i < line.size(); ++i) {
+    const std::size_t end = line[i].find('=');
+    ask.fields[line[i].substr(0, end)] = line[i].substr(end + 1);
+  }
+  auto& middleware = rclcpp::fake::middleware();
+  const auto due = middleware.now() + static_cast<int64_t>(std::stod(line[1]) * 1e9);
+  middleware.act_at(due, [ask] { rclcpp::fake::offers().ask(ask); });
+}
+
 std::vector<Process> read(const char* path) {
   std::vector<Process> processes;
   std::ifstream in(path);
@@ -86,6 +99,8 @@ std::vector<Process> read(const char* path) {
       processes.push_back({mains().at(line[1]), {line[2], {}, {}, {}}});
     } else if (line[0] == "foreign") {
       listen(line[1]);
+    } else if (line[0] == "ask" || line[0] == "cancel") {
+      ask(line);
     } else if (line[0] == "change") {
       processes.back().arguments.changes.emplace_back(std::stod(line[1]), line[2]);
     } else if (line[0] == "param") {

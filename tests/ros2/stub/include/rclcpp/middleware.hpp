@@ -154,6 +154,12 @@ class Middleware {
     alarms_.push_back(alarm);
   }
 
+  /// Has something happen at a time that no node does.
+  void act_at(int64_t due, std::function<void()> act) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    acts_.emplace(due, std::move(act));
+  }
+
   /// When the next timer is due or thread to be woken; -1 when there is none.
   int64_t next() {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -165,6 +171,9 @@ class Middleware {
     }
     for (const auto& entry : sleepers_) {
       if (first < 0 || entry.second.due < first) first = entry.second.due;
+    }
+    if (!acts_.empty() && (first < 0 || acts_.begin()->first < first)) {
+      first = acts_.begin()->first;
     }
     return is_simulated() ? std::min(first, now_ + step_) : std::max(first, first < 0 ? first : now_.load());
   }
@@ -178,6 +187,7 @@ class Middleware {
         if (is_simulated()) entry.second();
       }
     }
+    for (const auto& act : due_acts(time)) act();
     const std::lock_guard<std::mutex> lock(mutex_);
     for (const auto& entry : sleepers_) {
       if (entry.second.due <= time) entry.second.wake();
@@ -229,6 +239,15 @@ class Middleware {
   }
 
  private:
+  std::vector<std::function<void()>> due_acts(int64_t time) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    std::vector<std::function<void()>> found;
+    const auto end = acts_.upper_bound(time);
+    for (auto it = acts_.begin(); it != end; ++it) found.push_back(it->second);
+    acts_.erase(acts_.begin(), end);
+    return found;
+  }
+
   void forget() {
     const auto gone = [](const std::weak_ptr<Alarm>& weak) {
       const auto alarm = weak.lock();
@@ -266,6 +285,7 @@ class Middleware {
   int64_t step_ = 0;
   std::map<std::size_t, Sleeper> sleepers_;
   std::size_t sleeper_ = 0;
+  std::multimap<int64_t, std::function<void()>> acts_;
   std::recursive_mutex context_mutex_;
   std::map<std::size_t, std::function<void()>> last_calls_;
   std::size_t last_call_ = 0;

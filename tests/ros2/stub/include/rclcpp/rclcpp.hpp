@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <rcl_interfaces/msg/parameter_descriptor.hpp>
+#include <rclcpp/asking.hpp>
 #include <rclcpp/middleware.hpp>
 #include <rclcpp/parameters.hpp>
 #include <rclcpp/qos.hpp>
@@ -21,7 +22,11 @@
 #include <utility>
 #include <vector>
 
-struct rmw_request_id_t {};
+/// Which request a response is for.
+struct rmw_request_id_t {
+  rclcpp::fake::Ask ask;
+  bool is_answered = false;
+};
 
 namespace rclcpp {
 
@@ -147,29 +152,50 @@ class TopicEndpointInfo {
 
 class TimerBase;
 
-/// What offers a service; nobody calls it.
+/// What offers a service; the driver calls it.
 template <class S>
 class Service {
  public:
   using SharedPtr = std::shared_ptr<Service<S>>;
-  void send_response(rmw_request_id_t&, typename S::Response&) {}
+  explicit Service(std::shared_ptr<fake::Executor> executor) : executor_(std::move(executor)) {}
+  ~Service() { executor_->changes("a service is destroyed"); }
+  Service(const Service&) = delete;
+  Service& operator=(const Service&) = delete;
+
+  void send_response(rmw_request_id_t& id, typename S::Response& response) {
+    if (id.is_answered) fake::fail("a request is answered twice");
+    id.is_answered = true;
+    fake::tell(id.ask, "response", fake::yaml(response));
+  }
+
+ private:
+  const std::shared_ptr<fake::Executor> executor_;
 };
 
 class Node {
  public:
   using SharedPtr = std::shared_ptr<Node>;
 
-  /// One that looks for requests without a reply, of which there are none.
   template <class Period>
-  std::shared_ptr<TimerBase> create_wall_timer(Period, std::function<void()>) {
-    return nullptr;
-  }
+  std::shared_ptr<TimerBase> create_wall_timer(Period period, std::function<void()> callback);
 
   template <class S, class Callback>
-  std::shared_ptr<Service<S>> create_service(const std::string&, Callback callback) {
-    std::function<void(std::shared_ptr<Service<S>>, std::shared_ptr<rmw_request_id_t>,
-        std::shared_ptr<typename S::Request>)> taken = callback;
-    return std::make_shared<Service<S>>();
+  std::shared_ptr<Service<S>> create_service(const std::string& name, Callback callback) {
+    const std::function<void(std::shared_ptr<Service<S>>, std::shared_ptr<rmw_request_id_t>,
+        std::shared_ptr<typename S::Request>)>
+        taken = callback;
+    executor_->changes("a service is made");
+    const auto service = std::make_shared<Service<S>>(executor_);
+    const std::weak_ptr<Service<S>> weak = service;
+    const auto take = [weak, taken, executor = executor_](const fake::Ask& ask) {
+      executor->post([weak, taken, ask] {
+        const auto id = std::make_shared<rmw_request_id_t>(rmw_request_id_t{ask, false});
+        const auto held = weak.lock();
+        if (held) taken(held, id, fake::read<typename S::Request>(ask.fields));
+      });
+    };
+    fake::offers().add(resolve_topic_name(name), weak, take);
+    return service;
   }
 
   explicit Node(const std::string& name, const NodeOptions& /* options */ = NodeOptions())
@@ -310,6 +336,12 @@ TimerBase::SharedPtr create_timer(
   });
   fake::middleware().set(timer->alarm_, period.nanoseconds());
   return timer;
+}
+
+template <class Period>
+TimerBase::SharedPtr Node::create_wall_timer(Period period, std::function<void()> callback) {
+  const std::chrono::duration<double> seconds = period;
+  return create_timer(this, clock_, Duration::from_seconds(seconds.count()), std::move(callback));
 }
 
 inline void spin(const std::shared_ptr<Node>& node) {

@@ -10,12 +10,7 @@
 #include <utility>
 #include <vector>
 
-struct rmw_request_id_t;
-
 namespace rclcpp {
-
-template <class S>
-class Service;
 
 template <class M, class NodeT>
 typename Publisher<M>::SharedPtr create_publisher(
@@ -71,7 +66,9 @@ class LifecycleNode : public node_interfaces::LifecycleNodeInterface, private rc
     }
   }
 
+  using rclcpp::Node::create_service;
   using rclcpp::Node::create_subscription;
+  using rclcpp::Node::create_wall_timer;
   using rclcpp::Node::declare_parameter;
   using rclcpp::Node::get_clock;
   using rclcpp::Node::get_logger;
@@ -88,10 +85,6 @@ class LifecycleNode : public node_interfaces::LifecycleNodeInterface, private rc
       const std::string& topic, const rclcpp::QoS& qos, const rclcpp::PublisherOptions& options) {
     return create_publisher<M>(topic, qos, options);
   }
-  template <class S, class Callback>
-  std::shared_ptr<rclcpp::Service<S>> create_service(const std::string&, Callback);
-  template <class Period, class Callback>
-  rclcpp::TimerBase::SharedPtr create_wall_timer(Period, Callback);
 
   const State& configure() { return trigger("configure"); }
   const State& activate() { return trigger("activate"); }
