@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from rebsync.config import Config
 from rebsync.diagnostics import Diagnostic, Severity, did_you_mean
+from rebsync.forward.clashes import clashes
 from rebsync.forward.generate import is_taken, package_name
 from rebsync.forward.headers import LICENSES
 from rebsync.forward.offers import offer_annotation, replies, reply_names
@@ -30,7 +31,8 @@ def limits(model: Model, analysis: Analysis, config: Config, stem: str) -> tuple
             found += _known_arrays(c)
             found += _global_priorities(c)
         found += _offers(c, analysis, topics)
-        found += _managed_actions(c, config)
+    if not analysis.errors and not any(d.severity is Severity.ERROR for d in found):
+        found += clashes(model, analysis, config, package_name(stem, config))
     return tuple(sorted(found, key=lambda d: (d.span.start, d.code)))
 
 
@@ -176,20 +178,6 @@ def _offers(
         if odd is not None:
             found.append(Diagnostic("RS711", annotation.span, *odd))
     return found
-
-
-def _managed_actions(declaration: ReactiveClass | Interface, config: Config) -> list[Diagnostic]:
-    """Actions of nodes with a life cycle, which are made again at each configuring."""
-    if not (config.lifecycle and config.target_of(declaration.name).startswith("ros2")):
-        return []
-    annotations = (offer_annotation(server) for server in declared_servers(declaration))
-    message = "nodes with a life cycle offer no actions yet"
-    hint = "offer it as a @Service, or do without `lifecycle` in rebsync.toml"
-    return [
-        Diagnostic("RS711", a.span, message, hint)
-        for a in annotations
-        if a is not None and a.name == "Action"
-    ]
 
 
 def _odd_offer(

@@ -147,6 +147,7 @@ GENERATION = {
     "RS709": "a dialect that is not known, or that does not go with others",
     "RS710": "a package of which no licence, maintainer or holder of the copyright is known",
     "RS711": "a service or an action that the model does not answer",
+    "RS712": "topics or services that would have one name",
     "RS750": "a part of a model that the official compiler or RMC does not take",
     "RS751": "a part of a model that RMC runs differently",
     "RS752": "an option that RMC must be given for this model",
