@@ -113,7 +113,9 @@ def test_dialects_that_do_not_go_together(targets: dict[str, str], message: str)
     )
     model = parse_model(Source("mixed.rebeca", text)).model
     chosen = tuple(ClassTarget(*item) for item in targets.items())
-    config = Config(targets=chosen, license="MIT", maintainers=(Maintainer("A", "a@b.org"),))
+    config = Config(
+        targets=chosen, license="MIT", copyright="2026 A", maintainers=(Maintainer("A", "a@b.org"),)
+    )
     found = limits(model, analyse(model), config, "mixed")
     assert [(d.code, d.message) for d in found] == [("RS709", message)]
 
