@@ -7,11 +7,12 @@ timer when all of them wait.
 from __future__ import annotations
 
 import copy
+import gc
 import queue
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence, Set
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from types import FrameType, SimpleNamespace
@@ -24,7 +25,6 @@ from tests.ros2py.quality import QoSOverridingOptions, QoSProfile, override
 NANOSECONDS = 10**9
 _FIRST = 100 * NANOSECONDS
 _START = NANOSECONDS // 10  # in which nodes agree on time 0
-_STILL = 0.004  # s without anything that happens, at the start
 _MOMENT = 0.0002  # s between looks at what threads do
 _ENDED = 20.0  # s for all nodes to stop
 
@@ -38,6 +38,43 @@ def _waits(frame: FrameType) -> bool:
     if frame.f_code is not _WAIT.__code__:
         return False
     return frame.f_locals.get("waiter") in frame.f_locals["self"]._waiters
+
+
+def _frames() -> dict[int, FrameType]:
+    """What each thread does. CPython holds a lock meanwhile that threads take which start.
+
+    A collection of garbage lets them run, and they wait for ever.
+    """
+    collects = gc.isenabled()
+    gc.disable()
+    try:
+        return sys._current_frames()
+    finally:
+        if collects:
+            gc.enable()
+
+
+@dataclass(frozen=True)
+class Others:
+    """Threads that belong to no node: their numbers, and those that `threading` knows."""
+
+    numbers: frozenset[int]
+    threads: frozenset[threading.Thread]
+
+    def started(self) -> list[threading.Thread]:
+        """All threads that were started since."""
+        return [t for t in threading.enumerate() if t not in self.threads]
+
+    def all_else_wait(self) -> bool:
+        """Whether all other threads wait, and none is about to start.
+
+        Who starts a thread waits for it, and it has no frame before it runs: nobody would be seen
+        to do anything.
+        """
+        frames = _frames()  # of one moment, before all that follows
+        started = [thread.ident for thread in self.started()]
+        own = [frame for number, frame in frames.items() if number not in self.numbers]
+        return all(number in frames for number in started) and all(map(_waits, own))
 
 
 @dataclass
@@ -275,6 +312,13 @@ class Time:
         return Time(sec * NANOSECONDS + nanosec)
 
 
+def _join(threads: Sequence[threading.Thread]) -> None:
+    for thread in threads:
+        thread.join(_ENDED)
+        if thread.is_alive():
+            raise RuntimeError("a node does not stop")
+
+
 class World:
     """All nodes, topics and timers, and what was published and logged, each with its time.
 
@@ -386,16 +430,16 @@ class World:
         quiet: float = 1e6,
     ) -> None:
         """Start nodes, run the clock for some seconds or until all is quiet, and stop them."""
-        others = set(sys._current_frames())  # those that threading does not know, too
+        others = Others(frozenset(_frames()), frozenset(threading.enumerate()))
         with self._timed(others):
             self._run(mains, until, quiet, others)
 
     @contextmanager
-    def _timed(self, others: Set[int]) -> Iterator[None]:
+    def _timed(self, others: Others) -> Iterator[None]:
         """The time of this world in place of the machine's, for threads of nodes."""
 
         def wait(condition: threading.Condition, timeout: float | None = None) -> bool:
-            if timeout is None or threading.get_ident() in others:
+            if timeout is None or threading.get_ident() in others.numbers:
                 return _WAIT(condition, timeout)
             with self.lock:
                 due = self.time + max(round(timeout * NANOSECONDS), 0)
@@ -409,7 +453,9 @@ class World:
                 return self.time < due
 
         def monotonic() -> float:
-            return _MONOTONIC() if threading.get_ident() in others else self.time / NANOSECONDS
+            return (
+                _MONOTONIC() if threading.get_ident() in others.numbers else self.time / NANOSECONDS
+            )
 
         waits = patch.object(threading.Condition, "wait", wait)
         with waits, patch.object(time, "monotonic", monotonic):
@@ -420,13 +466,13 @@ class World:
         mains: Sequence[tuple[Launched, Callable[[], None]]],
         until: float,
         quiet: float,
-        others: Set[int],
+        others: Others,
     ) -> None:
         threads = [threading.Thread(target=self._main, args=main, daemon=True) for main in mains]
         for thread in threads:
             thread.start()
         end = _FIRST + _START + round(until * NANOSECONDS)
-        self._rest(50)
+        self._settle(others)
         while not self.failures and self._advance(end) and not self._is_quiet(quiet):
             self._settle(others)
         with self.lock:
@@ -434,12 +480,11 @@ class World:
             nodes = list(self.nodes.values())
         for node in nodes:
             node.queue.put(None)
-        for thread in threads:
-            thread.join(_ENDED)
-            if thread.is_alive():
-                raise RuntimeError("a node does not stop")
+        _join(threads)
         if self.failures:
             raise self.failures[0]
+        # Those that are left over would have their numbers taken by threads of the next world.
+        _join(others.started())
 
     def _is_quiet(self, quiet: float) -> bool:
         """Whether nothing was served for some seconds."""
@@ -454,22 +499,12 @@ class World:
         except BaseException as error:
             self.failures.append(error)
 
-    def _settle(self, others: Set[int]) -> None:
+    def _settle(self, others: Others) -> None:
         """Wait until all threads of nodes do."""
         while not self.failures:
-            frames = sys._current_frames()  # of one moment
-            if all(ident in others or _waits(frame) for ident, frame in frames.items()):
+            if others.all_else_wait():
                 return
             time.sleep(_MOMENT)
-
-    def _rest(self, times: int) -> None:
-        """Wait until nothing has happened for a while."""
-        calm, before = 0, -1
-        while calm < times and not self.failures:
-            before, calm = self.happened, calm + 1
-            time.sleep(_STILL)
-            if self.happened != before or any(not n.queue.empty() for n in self.nodes.values()):
-                calm = 0
 
     def _advance(self, end: int) -> bool:
         """Move the clock to the next timer; whether there is one before the end."""
