@@ -191,6 +191,7 @@ EXTRACTION = {
     "RS941": "a place of the code that the model lacks",
     "RS942": "a place of the code of which the model allows more than it does",
     "RS943": "code in which no class of a model was found",
+    "RS944": "a file of code that no program of the package is made of: it is not read",
 }
 
 STEP = {

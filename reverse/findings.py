@@ -11,10 +11,11 @@ from rebsync.source import Source, Span
 
 
 class Grade(Enum):
-    """How much of a place of the code is in the model."""
+    """How much of a place of the code is in the model; what is not built need not be in it."""
 
     APPROXIMATED = "over-approximated"
     UNREADABLE = "unreadable"
+    UNBUILT = "not built"
 
 
 @dataclass(frozen=True, slots=True)

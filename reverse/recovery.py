@@ -17,11 +17,12 @@ from rebsync.reserved import RESERVED_GLOBALS
 from rebsync.reverse.bodies.cpp_types import class_name, type_of
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.bodies.written import annotation
+from rebsync.reverse.build.built import unbuilt
 from rebsync.reverse.build.manifests import name_in
 from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.files.python_files import SETUP, is_python
-from rebsync.reverse.findings import Finding, Findings
+from rebsync.reverse.findings import Finding, Findings, Grade
 from rebsync.reverse.generated.env_values import (
     as_type,
     constant,
@@ -56,6 +57,7 @@ if TYPE_CHECKING:
 _MANIFEST = "package.xml"
 _TIME_UNIT = "/mailbox/time_unit"
 _CODE = tuple(sorted(CODE))
+_UNBUILT = "no program of the package is made of this file"
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +89,10 @@ def extract(
     or, if it is a launch file, the system that this one starts. `memory` knows what generated
     classes said before: of these only what an edit can have to do with is read again.
     """
+    left = unbuilt(files) - {only}
     findings = Findings()
+    findings.all += [Finding(Grade.UNBUILT, files[p], NOWHERE, _UNBUILT) for p in sorted(left)]
+    files = {path: source for path, source in files.items() if path not in left}
     trees = []
     for path, source in sorted(files.items()):
         if path.endswith(_CODE):

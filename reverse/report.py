@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 
-from rebsync.diagnostics import Diagnostic, Findings
+from rebsync.diagnostics import Diagnostic, Findings, Severity
 from rebsync.reverse.findings import Finding, Grade
 from rebsync.reverse.graph_json import Data, Item
 from rebsync.reverse.recovery import Extracted
 from rebsync.source import Source
 from rebsync.terminal import json_text, lines_text
 
-_CODES = {Grade.UNREADABLE: "RS941", Grade.APPROXIMATED: "RS942"}
+_CODES = {Grade.UNREADABLE: "RS941", Grade.APPROXIMATED: "RS942", Grade.UNBUILT: "RS944"}
 
 
 def diagnostics(found: Iterable[Finding]) -> tuple[Findings, ...]:
@@ -35,7 +35,9 @@ def different(found: Iterable[Finding]) -> Iterable[Finding]:
 def _diagnostic(finding: Finding) -> Diagnostic:
     within = f" (in {finding.within})" if finding.within else ""
     message = f"{finding.grade.value}: {finding.why}{within}"
-    return Diagnostic(_CODES[finding.grade], finding.span, message, finding.hint or None)
+    severity = Severity.NOTE if finding.grade is Grade.UNBUILT else Severity.ERROR
+    code, hint = _CODES[finding.grade], finding.hint or None
+    return Diagnostic(code, finding.span, message, hint, severity=severity)
 
 
 def shares(extracted: Extracted) -> list[tuple[str, int, int, int]]:

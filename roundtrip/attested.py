@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from rebsync.cache import open_cache
 from rebsync.config import Config, config_of_record
-from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
+from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
 from rebsync.files import read_bytes, read_source
 from rebsync.roundtrip.digests import digest_of, is_text_of
 from rebsync.roundtrip.generated import generated
@@ -55,6 +55,12 @@ def is_attested(root: str) -> bool:
     return cache.load(name) is not None
 
 
+def are_base_texts_whole(root: str, record: Record) -> bool:
+    """Whether the texts of the last time in step, as far as they are there, are as recorded."""
+    base = recorded_base(root, BASE)
+    return all(is_text_of(encoded(t), record.files.get(n, "")) for n, t in base.items())
+
+
 def as_far_as_proved(checked: Checked) -> Checked:
     """The same, undetermined where a package's records cannot be believed.
 
@@ -65,8 +71,7 @@ def as_far_as_proved(checked: Checked) -> Checked:
     record, root = checked.record, checked.kept.root
     if record is None or checked.drift is None:
         return checked
-    base = recorded_base(root, BASE)
-    is_whole = all(is_text_of(encoded(t), record.files.get(n, "")) for n, t in base.items())
+    is_whole = are_base_texts_whole(root, record)
     if is_whole and is_attested(root):
         return checked
     if is_whole and _is_genuine(checked, record):
@@ -83,7 +88,9 @@ def _is_in_step(checked: Checked, record: Record) -> bool:
     from rebsync.roundtrip.verdict import Verdict
 
     drift = checked.drift
-    agrees = drift is not None and drift.verdict is Verdict.IN_STEP and not checked.findings
+    told = (d for f in checked.findings for d in f.diagnostics)
+    agrees = drift is not None and drift.verdict is Verdict.IN_STEP
+    agrees = agrees and all(d.severity is Severity.NOTE for d in told)
     return agrees and record.in_step == told_in_step(record, checked.standing.told)
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
 from rebsync.records import dataclass
-from rebsync.roundtrip.attested import is_attested
+from rebsync.roundtrip.attested import are_base_texts_whole, is_attested
 from rebsync.roundtrip.digests import Standing, is_base_whole, is_text_of, standing
 from rebsync.roundtrip.manifest import BASE_MODEL
 from rebsync.roundtrip.model_file import model_of
@@ -73,7 +73,8 @@ def begin(
     model = model_of(kept, record)
     now = standing(kept, record)
     is_known = (now.is_as_generated and not record.is_merged) or _was_in_step(record, now, depth)
-    if not (is_known and _is_unchanged(model, record) and is_attested(kept.root)):
+    is_known = is_known and _is_unchanged(model, record) and is_attested(kept.root)
+    if not (is_known and are_base_texts_whole(kept.root, record)):
         return Begun(kept, model, record, now)
     findings = (*changed_settings(model, record), *_about_base(kept, record))
     return Checked(kept, model, record, now, findings=findings)
@@ -135,6 +136,7 @@ def finish_proved(begun: Begun, depth: str) -> Checked:
 def finish(begun: Begun, depth: str) -> Checked:
     """How a package stands, from its models. RebsyncError: one of these cannot be read."""
     from rebsync.roundtrip.judged import judged
+    from rebsync.roundtrip.lacking import lacking
     from rebsync.roundtrip.runtime import edited
     from rebsync.roundtrip.verdict import undetermined
 
@@ -144,7 +146,7 @@ def finish(begun: Begun, depth: str) -> Checked:
     found = judged(kept, model, record.digest if record and has_base else None, now, depth)
     drift, findings = found.drift, found.findings
     if record is not None:
-        unknown = edited(kept, record, now)
+        unknown = (*edited(kept, record, now), *lacking(kept, record, now))
         if found.of_code is not None:
             odd, changes = _odd(begun, record, found.of_code)
             unknown += odd

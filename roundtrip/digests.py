@@ -10,7 +10,7 @@ from rebsync.files import BOM, operating_on, read_bytes
 from rebsync.records import dataclass
 from rebsync.reverse.files.packages import Listing, is_read
 from rebsync.reverse.files.python_files import may_be_script
-from rebsync.reverse.files.stores import contents
+from rebsync.reverse.files.stores import Disk, contents, join
 from rebsync.roundtrip.manifest import BASE_MODEL
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
@@ -60,7 +60,8 @@ def standing(kept: Kept, record: Record | None) -> Standing:
         known = wanted.get(name, "")
         if digest != known and not is_text_of(data, known):
             changed.append(name)
-    missing = [name for name in wanted if name not in digests and _counts(name)]
+    lost = (name for name in wanted if name not in digests)
+    missing = [name for name in lost if _counts(name) or _is_lost_marker(listing, name)]
     return Standing(listing, digests, tuple(changed), tuple(missing))
 
 
@@ -84,6 +85,13 @@ def _counts(name: str) -> bool:
         return False
     inside = "".join(f"{part}/" for part in parts[:-1])
     return is_read(parts[-1], inside) or (inside.endswith("scripts/") and may_be_script(parts[-1]))
+
+
+def _is_lost_marker(listing: Listing, name: str) -> bool:
+    """Whether it is the empty file by which ROS finds a package of Python, and it is gone."""
+    if name.rpartition("/")[0].rpartition("/")[2] != "resource":
+        return False
+    return not (listing.store or Disk()).exists(join(listing.root, name))
 
 
 def is_base_whole(kept: Kept, record: Record) -> bool:

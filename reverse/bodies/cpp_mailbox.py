@@ -14,7 +14,7 @@ from rebsync import precedence
 from rebsync.names import original
 from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.overloads import HINT, WHY, telling
-from rebsync.reverse.bodies.scope import Runtime, Sends
+from rebsync.reverse.bodies.scope import Runtime, Scope, Sends
 from rebsync.reverse.syntax.cpp_calls import string_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
@@ -38,6 +38,11 @@ def is_runtime(reader: CppExpressions, node: Node) -> bool:
     own = name.removeprefix("this->")
     hidden = name == own and name in reader.scope.locals
     return not hidden and isinstance(reader.scope.members.get(own), Runtime)
+
+
+def has_mailbox(scope: Scope) -> bool:
+    """Whether the class of a body serves its messages through the mailbox of generated code."""
+    return any(isinstance(m, Runtime) and m.kind == "mailbox" for m in scope.members.values())
 
 
 def built_in(

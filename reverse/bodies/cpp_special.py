@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies import cpp_messages, cpp_plain_locals, cpp_timers
+from rebsync.reverse.bodies import cpp_mailbox, cpp_messages, cpp_plain_locals, cpp_timers
 from rebsync.reverse.bodies.building import bare, negated
 from rebsync.reverse.bodies.cpp_conversions import as_boolean, as_number, converted_to
 from rebsync.reverse.bodies.cpp_effects import Effects, Touches, touching
@@ -30,7 +30,7 @@ from rebsync.reverse.bodies.scope import (
     meant_by,
 )
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.syntax.cpp_calls import call_of
+from rebsync.reverse.syntax.cpp_calls import call_of, calls_in
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.constants import constant
 
@@ -139,6 +139,9 @@ def _called(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
     if (sends := cpp_messages.published(reader, node)) is not None:
         return sends
     if (length := pause(reader.expressions, node)) is not None:
+        if cpp_mailbox.has_mailbox(reader.scope):
+            why = "the mailbox knows nothing of this sleep: to it the body takes no time"
+            raise reader.unread(node, why, "call `delay` of the mailbox, in units of time")
         return _statement(reader, node, m.Call(None, "delay", (length,)))
     if name == "ROS_BREAK":
         return _statement(reader, node, m.Call(None, "assertion", (m.BoolLiteral(False),)))
@@ -261,6 +264,9 @@ def tried(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
     if not all(risky[: last + 1]):
         why = "an exception may leave this half done"
         raise reader.unread(node, why, "do what may throw first, in a try of its own")
+    if handlers and any(c.name == "at" and not _is_literal(c.arguments) for c in calls_in(body)):
+        why = "this catches an index that is out of range, with which the model ends"
+        raise reader.unread(node, why, "test the index before")
     inside = reader.branch(body)
     if last < 0:
         yield m.Block(inside.statements, (), span)
@@ -276,6 +282,10 @@ def tried(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
     for way in reversed(ways[:-1]):
         chosen = m.If(_TRUTH, way, chosen)
     yield m.If(_TRUTH, inside, chosen, (), span)
+
+
+def _is_literal(indices: Sequence[Node]) -> bool:
+    return all(i.type == "number_literal" for i in indices)
 
 
 def _unknown(node: Node) -> bool:

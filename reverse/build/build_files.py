@@ -38,7 +38,7 @@ class BuildFiles:
     """What the CMake files of a package say.
 
     `messages`, `services` and `actions` are paths relative to the package, as are `programs`:
-    scripts that are installed.
+    scripts that are installed. `foreign` are commands that may make targets of their own.
     """
 
     project: str | None
@@ -49,6 +49,13 @@ class BuildFiles:
     programs: tuple[str, ...]
     unknowns: tuple[Unknown, ...]
     sources: tuple[Source, ...]
+    foreign: frozenset[str] = frozenset()
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether it is known of every source whether a target compiles it."""
+        is_open = any(t.missing for t in self.targets)
+        return bool(self.targets) and not (is_open or self.unknowns or self.foreign)
 
     def executable(self, file: str) -> Target | None:
         """The target that makes the program of this name."""

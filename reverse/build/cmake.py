@@ -8,7 +8,14 @@ from dataclasses import field
 
 from rebsync.records import dataclass
 from rebsync.reverse.build.build_files import BuildFiles
-from rebsync.reverse.build.cmake_targets import EXECUTABLE, LIBRARY, Call, Folder, Maker
+from rebsync.reverse.build.cmake_targets import (
+    EXECUTABLE,
+    LIBRARY,
+    TARGETLESS,
+    Call,
+    Folder,
+    Maker,
+)
 from rebsync.reverse.build.cmake_text import Block, Command, Item, Quote, read_cmake
 from rebsync.reverse.build.cmake_values import Variables, known, sections
 from rebsync.reverse.unknowns import Open, Text
@@ -45,6 +52,7 @@ def read_build(source: Source, folder: Folder | None = None) -> BuildFiles:
         tuple(dict.fromkeys(maker.programs)),
         tuple(maker.unknowns),
         tuple(runner.sources),
+        frozenset(maker.foreign),
     )
 
 
@@ -195,10 +203,14 @@ class _Runner:
                 self.maker.rename(call, parts["TARGET"], parts.get("PROPERTY", [])[:2])
             case "add_message_files" | "add_service_files" | "add_action_files":
                 self.maker.interface(call)
+            case "rosidl_generate_interfaces":
+                self.maker.rosidl(call)
             case "install" | "catkin_install_python":
                 self.maker.install(call)
             case name:
                 call.variables.blur(known(call.words), f"`{name}(...)` may have set it")
+                if name not in TARGETLESS:
+                    self.maker.foreign.add(name)
 
     def _project(self, words: list[Text], variables: Variables) -> None:
         name = words[0] if words else Open("`project()` has no name")

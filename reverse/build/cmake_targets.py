@@ -22,6 +22,10 @@ _INTERFACES = {
     "add_action_files": "action",
 }
 _OF_INTERFACES = ("FILES", "DIRECTORY", "PACKAGE", "NOINSTALL", "BASE_DIR")
+_OF_ROSIDL = (
+    *("DEPENDENCIES", "LIBRARY_NAME", "SKIP_INSTALL", "SKIP_GROUP_MEMBERSHIP_CHECK"),
+    "ADD_LINTER_TESTS",
+)
 _LIKE_LIBRARY = frozenset({"IMPORTED", "ALIAS"})
 _KINDS = frozenset(
     {
@@ -40,6 +44,50 @@ _INSTALL = frozenset(
         *("TARGETS", "FILES", "PROGRAMS", "DIRECTORY", "DESTINATION", "TYPE", "PERMISSIONS"),
         *("COMPONENT", "RENAME", "OPTIONAL", "CONFIGURATIONS", "PATTERN", "SCRIPT", "CODE"),
         *("EXPORT", "EXCLUDE_FROM_ALL"),
+    }
+)
+# Commands that make no program of a package and name no source of one.
+TARGETLESS = frozenset(
+    {
+        *(
+            "cmake_minimum_required",
+            "cmake_policy",
+            "enable_language",
+            "enable_testing",
+            "find_file",
+        ),
+        *("find_library", "find_package", "find_path", "find_program", "include_directories"),
+        *("add_compile_definitions", "add_compile_options", "add_definitions", "add_dependencies"),
+        *("add_link_options", "add_test", "link_directories", "link_libraries", "message"),
+        *("option", "math", "string", "separate_arguments", "mark_as_advanced", "return"),
+        *("set_property", "set_source_files_properties", "set_directory_properties"),
+        *("set_target_properties", "set_tests_properties", "get_property", "get_target_property"),
+        *("target_compile_definitions", "target_compile_features", "target_compile_options"),
+        *("target_include_directories", "target_link_directories", "target_link_options"),
+        *("target_precompile_headers", "configure_file", "export", "pkg_check_modules"),
+        *("execute_process", "include_guard", "site_name", "variable_watch", "break", "continue"),
+        *("catkin_package", "catkin_metapackage", "catkin_python_setup", "catkin_install_python"),
+        *("catkin_add_env_hooks", "catkin_add_gtest", "catkin_add_gmock", "catkin_add_nosetests"),
+        *("catkin_add_executable_with_gtest", "catkin_add_executable_with_gmock"),
+        *("add_rostest", "add_rostest_gtest", "add_rostest_gmock", "roslaunch_add_file_check"),
+        *("roslint_cpp", "roslint_python", "roslint_add_test", "roslint_custom"),
+        *("generate_messages", "generate_dynamic_reconfigure_options"),
+        *("ament_package", "ament_target_dependencies", "ament_environment_hooks"),
+        *(
+            "ament_export_dependencies",
+            "ament_export_include_directories",
+            "ament_export_libraries",
+        ),
+        *("ament_export_targets", "ament_export_interfaces", "ament_export_definitions"),
+        *("ament_export_link_flags", "ament_python_install_package", "ament_python_install_module"),
+        *("ament_lint_auto_find_test_dependencies", "ament_copyright", "ament_cpplint"),
+        *("ament_clang_format", "ament_cppcheck", "ament_flake8", "ament_lint_cmake"),
+        *("ament_pep257", "ament_uncrustify", "ament_xmllint", "ament_find_gtest"),
+        *("ament_add_gtest", "ament_add_gtest_test", "ament_add_gmock", "ament_add_pytest_test"),
+        *("ament_add_test", "ament_index_register_resource", "ament_register_extension"),
+        *("rosidl_target_interfaces", "rosidl_get_typesupport_target"),
+        *("pluginlib_export_plugin_description_file",),
+        *("rclcpp_components_register_node", "rclcpp_components_register_nodes"),
     }
 )
 
@@ -83,6 +131,7 @@ class Maker:
         default_factory=lambda: {"msg": [], "srv": [], "action": []}
     )
     unknowns: list[Unknown] = field(default_factory=list)
+    foreign: set[str] = field(default_factory=set)
     only_if: tuple[str, ...] = ()
 
     def unknown(self, what: str, why: str, call: Call) -> None:
@@ -161,6 +210,15 @@ class Maker:
             if isinstance(path, Open):
                 self.unknown(f"a .{kind} file of the package", path.why, call)
             else:
+                self.interfaces[kind].append(path)
+
+    def rosidl(self, call: Call) -> None:
+        """Takes the files of `rosidl_generate_interfaces` in."""
+        for word in sections(call.words[1:], _OF_ROSIDL).get("", []):
+            path = word if isinstance(word, Open) else call.variables.path(word)
+            if isinstance(path, Open):
+                self.unknown("an interface of the package", path.why, call)
+            elif (kind := path.rpartition(".")[2]) in self.interfaces:
                 self.interfaces[kind].append(path)
 
     def _interface_paths(

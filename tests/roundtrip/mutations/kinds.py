@@ -8,6 +8,7 @@ from functools import cache
 from tests.roundtrip.mutations import (
     bodies,
     building,
+    built,
     interplay,
     interplay_launch,
     joints,
@@ -29,11 +30,12 @@ from tests.roundtrip.mutations import (
 )
 from tests.roundtrip.mutations.package import Kind
 
-_CPP = (*bodies.KINDS, *sending.KINDS, *joints.KINDS, *building.KINDS, *interplay.CPP)
+_CPP = (*bodies.KINDS, *sending.KINDS, *joints.KINDS, *building.KINDS, *interplay.CPP, *built.CPP)
 _CPP_NEUTRAL = (
     *neutral.KINDS,
     *spelling.KINDS,
     *surroundings.NEUTRAL,
+    *built.NEUTRAL,
     *building.NEUTRAL,
     *interplay.CPP_NEUTRAL,
     *interplay.ALL_NEUTRAL,
@@ -54,9 +56,10 @@ _PY_NEUTRAL = (
     *interplay.PYTHON_NEUTRAL,
     *interplay.ALL_NEUTRAL,
     *surroundings.NEUTRAL,
+    *built.NEUTRAL,
     *layout.KINDS,
 )
-_ALL = (*surroundings.KINDS, *slips.ANY, *interplay.ALL)
+_ALL = (*surroundings.KINDS, *slips.ANY, *interplay.ALL, *built.ALL)
 _XML = (*launch_xml.KINDS, *slips.LAUNCH_XML, *interplay_launch.XML, *interplay.ROS1)
 _LAUNCH_PY = (*launch_py.KINDS, *slips.LAUNCH_PY, *interplay_launch.PY, *interplay.ROS2)
 _XML_NEUTRAL = (*launch_xml.NEUTRAL, *interplay_launch.XML_NEUTRAL)
@@ -71,7 +74,7 @@ BEHAVIOUR: Mapping[str, tuple[Kind, ...]] = {
     "ros1-cpp": (*_CPP, *_ALL, *roscpp.KINDS, *_XML),
     "ros2-cpp": (*_CPP, *_ALL, *rclcpp.KINDS, *slips.RCLCPP, *_LAUNCH_PY),
     "ros1-py": (*_PY, *_ALL, *py_surroundings.ROSPY, *_XML),
-    "ros2-py": (*_PY, *_ALL, *py_surroundings.RCLPY, *slips.RCLPY, *_LAUNCH_PY),
+    "ros2-py": (*_PY, *_ALL, *py_surroundings.RCLPY, *slips.RCLPY, *built.RCLPY, *_LAUNCH_PY),
 }
 NEUTRAL: Mapping[str, tuple[Kind, ...]] = {
     "ros1-cpp": (*_CPP_NEUTRAL, *roscpp.NEUTRAL, *_XML_NEUTRAL),
