@@ -22,6 +22,9 @@ from rebsync.terminal import encoded
 if TYPE_CHECKING:
     from rebsync.roundtrip.sync import Sync
 
+# The kinds of facts that a launch file says of nodes of the model.
+_GIVEN = frozenset({"node", "parameter", "remap", "setting"})
+
 
 def with_what_holds(sync: Sync) -> Sync:
     """The same with what holds of the package when all is written.
@@ -103,15 +106,21 @@ def _odd(
 ) -> tuple[list[str], list[Findings]]:
     """How nodes are joined that is to be accepted, and what is left to tell of edits.
 
-    `told` is what was told of before; to go on from there is not to accept it.
+    `told` is what was told of before; to go on from there is not to accept it. What a launch file
+    gives nodes must be what the model of now gives them: lists of rebecs, remaps.
     """
     from rebsync.roundtrip.difference import Comparison
+    from rebsync.roundtrip.lacking import lacking
     from rebsync.roundtrip.runtime import edited
-    from rebsync.roundtrip.wiring import odd_wiring
+    from rebsync.roundtrip.wiring import odd_facts
 
-    odd = odd_wiring(kept, record, now, Comparison(()))
-    left = [*edited(kept, record, now), *(f for f in odd if _subject(f) in told)]
-    accepted = {f.diagnostics[0].message for f in odd if _subject(f) not in told}
+    accepted, left = set[str](), [*edited(kept, record, now), *lacking(kept, record, now)]
+    for odd in odd_facts(kept, record, now, Comparison(())):
+        kinds = {fact.kind for fact in (*odd.before, *odd.now)}
+        if _subject(odd.finding) in told or not kinds.isdisjoint(_GIVEN):
+            left.append(odd.finding)
+        else:
+            accepted.add(odd.finding.diagnostics[0].message)
     return sorted(accepted), left
 
 

@@ -67,6 +67,7 @@ _UNWANTED = frozenset(
 _SAYING = frozenset({"receiving", "sending", "set-up"})
 _HELPING = frozenset({PROGRAM, PLAYED, TYPE, SPACE})
 _HINT = "take the edit back: no model tells this"
+_LISTS = ("mailbox/rebecs", "mailbox/instances")
 # Run-time parameters that are settings of the model.
 _SETTINGS = {
     parameter: f"set `{name}` in rebsync.toml instead; then `rebsync sync` says it here"
@@ -146,7 +147,7 @@ def _odd(kept: Kept, before: list[Fact], now: list[Fact]) -> Odd | None:
     place = next((f for f in now if f.value not in old), now[0] if now else None)
     source = place.source if place else Source(f"{kept.root}/{_inside(kept, first)}", "")
     span = place.span if place else NOWHERE
-    hint = _SETTINGS.get(first.name, _HINT) if first.kind == "parameter" else _hint(first)
+    hint = _hint(first)
     finding = Findings(source, (Diagnostic("RS956", span, message, hint),))
     return Odd(tuple(before), tuple(now), finding)
 
@@ -183,7 +184,11 @@ def _hint(fact: Fact) -> str:
             return "let the other end have the same name, or take the edit back"
         case "priority" | "best priority":
             return "give the priority in the model, then `rebsync sync`; or take the edit back"
-        case "field" | "parameter" | "sending":
+        case "parameter" if fact.name.startswith(_LISTS):
+            return "let this list name all rebecs of the model, each once"
+        case "parameter":
+            return _SETTINGS.get(fact.name, _HINT)
+        case "field" | "sending":
             return "take the edit back, or tell of it in the model"
         case _:
             return _HINT
