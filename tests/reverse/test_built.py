@@ -6,9 +6,12 @@ from collections.abc import Mapping
 
 import pytest
 
+from rebsync.config import Config
 from rebsync.reverse.build.built import unbuilt
+from rebsync.reverse.build.cmake import read_build
 from rebsync.reverse.build.named import named
 from rebsync.source import Source
+from tests.forward.compiling import generated
 
 _SETUP = 'setup(entry_points={"console_scripts": ["robot = p.robot:main"]})\n'
 _ROBOT = "class Robot {\n};\n"
@@ -107,7 +110,8 @@ def test_a_script_is_a_program_where_nothing_is_installed() -> None:
 def test_the_files_that_a_build_names() -> None:
     text = (
         "project(p)\nadd_executable(robot src/robot.cpp)\n"
-        'add_message_files(FILES Go.msg)\nrosidl_generate_interfaces(p "srv/Ask.srv" DEPENDENCIES x)\n'
+        "add_message_files(FILES Go.msg)\n"
+        'rosidl_generate_interfaces(p "srv/Ask.srv" DEPENDENCIES x)\n'
         "catkin_install_python(PROGRAMS scripts/run DESTINATION bin)\n"
     )
     manifest = "<package><name>p</name></package>"
@@ -124,3 +128,22 @@ def test_the_files_that_a_build_names() -> None:
         ("scripts/run", 5),
         ("resource/p", 1),
     ]
+
+
+_SERVED = """
+@Robot reactiveclass Robot(5) {
+  @Sensor msgsrv scan(int range) { }
+  msgsrv go() { @Move(X+1, Y); self.go() after(1); }
+}
+main { Robot r():(); }
+"""
+
+
+@pytest.mark.parametrize(
+    ("target", "lifecycle"), [("ros1-cpp", False), ("ros2-cpp", False), ("ros2-cpp", True)]
+)
+def test_the_builds_of_generated_packages_are_wholly_known(target: str, lifecycle: bool) -> None:
+    config = Config(target=target, lifecycle=lifecycle, copyright="2026 Ada")
+    text = generated(_SERVED, "p", config)["CMakeLists.txt"]
+    found = read_build(Source("CMakeLists.txt", text))
+    assert found.foreign == frozenset() and found.unknowns == () and found.is_closed
