@@ -8,6 +8,17 @@ from collections.abc import Sequence
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.intervals import (
+    INT32,
+    INTEGERS,
+    TRUTH,
+    Interval,
+    exactly,
+    of_binary,
+    of_unary,
+    signed,
+    unsigned,
+)
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_conversions import variable_of
 from rebsync.reverse.bodies.cpp_places import resolve
@@ -19,9 +30,8 @@ from rebsync.static.types import is_boolean
 
 COMPARES = frozenset({"<", ">", "<=", ">=", "==", "!="})
 LOGICAL = frozenset({"&&", "||", "and", "or", "not", "!"})
-INT = 31  # bits without the sign
+INT_BITS = 31  # without the sign
 _UNSIGNED = frozenset({32, 64})
-_NARROW = {"byte": 7, "short": 15, "int": 31}
 _DIGITS = re.compile(r"(0[xX][0-9a-fA-F]+|0[bB][01]+|[0-9]+)([uUlLzZ]*)\Z")
 _SIZES = frozenset({"size", "length", "max_size", "capacity", "count", "strlen", "distance"})
 NAMES_WIDE = re.compile(r"unsigned|long|size|uint|int64|32_t|64_t")
@@ -33,31 +43,36 @@ class Ranged:
     """What the integer that an expression gives can be, of a type with so many bits."""
 
     bits: int
-    low: int
-    high: int
+    values: Interval
 
     @property
     def fits(self) -> bool:
         """Whether the model's `int` is the same number."""
-        return self.low >= -(1 << 31) and self.high < 1 << 31
+        return INT32.includes(self.values)
+
+
+def values_of(bits: int) -> Interval:
+    """The values of a type: unsigned ones of 32 and 64 bits, others with a sign."""
+    return unsigned(bits) if bits in _UNSIGNED else signed(bits)
 
 
 def all_of(bits: int) -> Ranged:
-    """All values of a type: unsigned ones of 32 and 64 bits, others with a sign."""
-    return Ranged(bits, 0 if bits in _UNSIGNED else -(1 << bits), (1 << bits) - 1)
+    """Any value of a type."""
+    return Ranged(bits, values_of(bits))
 
 
-def fitting(bits: int) -> Ranged:
+def fitting(bits: int) -> Interval:
     """The values of a type that an `int` holds."""
-    whole = all_of(bits)
-    return Ranged(bits, max(whole.low, -(1 << 31)), min(whole.high, (1 << 31) - 1))
+    return INT32.meet(values_of(bits)) or INT32
 
 
 def as_type(found: Ranged, bits: int) -> Ranged:
     """What becomes of a number in a type."""
-    whole = all_of(bits)
-    inside = whole.low <= found.low and found.high <= whole.high
-    return Ranged(bits, found.low, found.high) if inside else whole
+    return Ranged(bits, found.values.in_type(values_of(bits)))
+
+
+def _int(values: Interval) -> Ranged:
+    return Ranged(INT_BITS, values)
 
 
 def range_of(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
@@ -65,8 +80,10 @@ def range_of(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
     match node.type:
         case "number_literal":
             return _literal(text_of(node).replace("'", ""))
-        case "char_literal" | "true" | "false" | "sizeof_expression":
-            return Ranged(64 if node.type == "sizeof_expression" else INT, 0, 255)
+        case "char_literal" | "true" | "false":
+            return _int(unsigned(8))
+        case "sizeof_expression":
+            return Ranged(64, unsigned(8))
         case "identifier" | "qualified_identifier" | "field_expression" | "subscript_expression":
             return _named(cpp, scope, node)
         case "pointer_expression":
@@ -102,31 +119,29 @@ def _literal(text: str) -> Ranged | None:
     digits, suffix = found[1], found[2].lower()
     octal = len(digits) > 1 and digits.isdecimal() and digits.startswith("0")
     value = int(digits, 8 if octal else 0)
-    bits = (64 if "l" in suffix else 32) if "u" in suffix else (63 if "l" in suffix else INT)
+    bits = (64 if "l" in suffix else 32) if "u" in suffix else (63 if "l" in suffix else INT_BITS)
     steps = (bits, *(b for b in (32, 63, 64) if b > bits and (b == 63 or not digits.isdecimal())))
     bits = next((b for b in steps if value < 1 << b), 64)
-    return Ranged(bits, -value, -value) if text.startswith("-") else Ranged(bits, value, value)
+    return Ranged(bits, exactly(-value if text.startswith("-") else value))
 
 
 def _of_type(kept: Carried) -> Ranged | None:
     if kept.wide:
         return all_of(kept.wide)
     if kept.bits:
-        return Ranged(INT, 0, (1 << kept.bits) - 1)
+        return _int(unsigned(kept.bits))
     return _of_model(kept.type)
 
 
 def _of_model(type_: m.Type) -> Ranged | None:
-    if is_boolean(type_):
-        return Ranged(INT, 0, 1)
-    bits = _NARROW.get(type_.name)
-    return Ranged(INT, -(1 << bits), (1 << bits) - 1) if bits is not None else None
+    values = TRUTH if is_boolean(type_) else INTEGERS.get(type_.name)
+    return _int(values) if values is not None else None
 
 
 def _variable(scope: Scope, variable: Variable) -> Ranged | None:
     if variable.wide:
-        wide = all_of if variable.name in scope.overflowing else fitting
-        return wide(variable.wide)
+        whole = values_of if variable.name in scope.overflowing else fitting
+        return Ranged(variable.wide, whole(variable.wide))
     if variable.type is None:
         return None
     return _of_type(Carried(m.Type(variable.type.name), variable.bits))
@@ -142,24 +157,24 @@ def _named(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
         case m.IntLiteral() | m.Unary() | m.Binary() | m.Paren() as value:
             known = constant(value)
             if isinstance(known, int):
-                return Ranged(INT, int(known), int(known))
-            return all_of(INT) if known is None else None
+                return _int(exactly(int(known)))
+            return _int(INT32) if known is None else None
         case m.Index(m.Name(name)):
             array = variable_of(scope, name)
-            return _variable(scope, array) if array is not None else all_of(INT)
+            return _variable(scope, array) if array is not None else _int(INT32)
         case None:
             return _constant(scope, text_of(node))
         case m.FloatLiteral() | m.BoolLiteral():
             return None
         case _:
-            return all_of(INT)
+            return _int(INT32)
 
 
 def _constant(scope: Scope, name: str) -> Ranged | None:
     for spelled in (name, name.rpartition("::")[2]):
         if spelled in scope.enumerators:
-            value = scope.enumerators[spelled]
-            return Ranged(INT, value, value) if Ranged(INT, value, value).fits else all_of(63)
+            number = _int(exactly(scope.enumerators[spelled]))
+            return number if number.fits else all_of(63)
         if spelled in scope.constants:
             cpp, node = scope.constants[spelled]
             found = range_of(cpp, scope.without_constant(spelled), node)
@@ -177,66 +192,43 @@ def _changed(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
     argument = part(node, "argument")
     found = range_of(cpp, scope, argument)
     if operator in LOGICAL:
-        return Ranged(INT, 0, 1)
+        return _int(TRUTH)
     if found is None:
         return None
     match operator:
-        case "-":
-            return as_type(Ranged(found.bits, -found.high, -found.low), found.bits)
-        case "~":
-            return as_type(Ranged(found.bits, ~found.high, ~found.low), found.bits)
+        case "-" | "~":
+            values = of_unary(operator, found.values)
         case "++" | "--" if argument.start_byte != node.start_byte:
-            step = 1 if operator == "++" else -1
-            return as_type(Ranged(found.bits, found.low + step, found.high + step), found.bits)
+            values = of_binary(operator[0], found.values, exactly(1))
         case _:
             return found
+    return as_type(Ranged(found.bits, values), found.bits)
 
 
 def _computed(operator: str, left: Ranged | None, right: Ranged | None) -> Ranged | None:
     if operator in COMPARES or operator in LOGICAL:
-        return Ranged(INT, 0, 1)
+        return _int(TRUTH)
     if left is None or right is None:
         return None
-    bits = left.bits if operator in ("<<", ">>") else max(left.bits, right.bits)
-    left, right = as_type(left, bits), right if operator in ("<<", ">>") else as_type(right, bits)
-    low, high = combined(operator, (left.low, left.high), (right.low, right.high))
-    return as_type(Ranged(bits, low, high), bits)
+    if operator in ("<<", ">>"):
+        bits = left.bits
+    else:
+        left, right = _of_one_type(left, right)
+        bits = left.bits
+    return as_type(Ranged(bits, of_binary(operator, left.values, right.values)), bits)
 
 
-def combined(operator: str, left: tuple[int, int], right: tuple[int, int]) -> tuple[int, int]:
-    """The least and the greatest that an operator gives, if nothing wraps."""
-    most = max(map(abs, (*left, *right)))
-    match operator:
-        case "+":
-            return left[0] + right[0], left[1] + right[1]
-        case "-":
-            return left[0] - right[1], left[1] - right[0]
-        case "*":
-            products = [a * b for a in left for b in right]
-            return min(products), max(products)
-        case "/":
-            return -max(map(abs, left)) if left[0] < 0 or right[0] < 0 else 0, max(map(abs, left))
-        case "%":
-            most = min(max(map(abs, left)), max(0, max(map(abs, right)) - 1))
-            return -most if left[0] < 0 else 0, most if left[1] > 0 else 0
-        case ">>" if right[0] >= 0:
-            return min(left[0], 0), max(left[1], 0)
-        case "<<" if 0 <= right[0] <= right[1] < 64:
-            return min(left[0] << right[1], left[0]), max(left[1] << right[1], left[1])
-        case "&" if left[0] >= 0 or right[0] >= 0:
-            return 0, min(side[1] for side in (left, right) if side[0] >= 0)
-        case _:
-            whole = 1 << most.bit_length()
-            unsigned = left[0] >= 0 and right[0] >= 0
-            return (0, whole - 1) if unsigned and operator != "<<" else (-(1 << 64), 1 << 64)
+def _of_one_type(one: Ranged, other: Ranged) -> tuple[Ranged, Ranged]:
+    """Two operands after the conversion to the wider type."""
+    bits = max(one.bits, other.bits)
+    return as_type(one, bits), as_type(other, bits)
 
 
 def _either(then: Ranged | None, otherwise: Ranged | None) -> Ranged | None:
     if then is None or otherwise is None:
         return None
-    bits = max(then.bits, otherwise.bits)
-    then, otherwise = as_type(then, bits), as_type(otherwise, bits)
-    return Ranged(bits, min(then.low, otherwise.low), max(then.high, otherwise.high))
+    then, otherwise = _of_one_type(then, otherwise)
+    return Ranged(then.bits, then.values.join(otherwise.values))
 
 
 def _cast(cpp: Cpp, scope: Scope, to: Node, values: Sequence[Node]) -> Ranged | None:
@@ -245,8 +237,7 @@ def _cast(cpp: Cpp, scope: Scope, to: Node, values: Sequence[Node]) -> Ranged | 
     found = range_of(cpp, scope, values[0]) if len(values) == 1 else None
     if whole is None or found is None:
         return whole
-    inside = whole.low <= found.low and found.high <= whole.high
-    return Ranged(whole.bits, found.low, found.high) if inside else whole
+    return Ranged(whole.bits, found.values.in_type(whole.values))
 
 
 # --- calls --------------------------------------------------------------------------------------
@@ -259,7 +250,7 @@ def _called(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
         if name in ("load", "get"):
             return _named(cpp, scope, part(function, "argument"))
         if name in _SIZES:
-            return Ranged(64, 0, (1 << 31) - 1)
+            return Ranged(64, unsigned(31))
         return None if name == "toSec" else _result(scope, name)
     if function.type == "lambda_expression":
         return _of_lambda(text_of(function))
@@ -272,7 +263,7 @@ def _called(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
     if kept is not None:
         return _cast(cpp, scope, function, arguments)
     if plain.rpartition("::")[2] in _SIZES:
-        return Ranged(64, 0, (1 << 31) - 1)
+        return Ranged(64, unsigned(31))
     if plain in _SAME and len(arguments) == 1:
         found = range_of(cpp, scope, arguments[0])
         return all_of(found.bits) if found is not None else None

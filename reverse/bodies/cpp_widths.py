@@ -14,9 +14,17 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.intervals import Interval, exactly
 from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_misread import Operand
-from rebsync.reverse.bodies.cpp_ranges import COMPARES, INT, LOGICAL, NAMES_WIDE, as_type, range_of
+from rebsync.reverse.bodies.cpp_ranges import (
+    COMPARES,
+    INT_BITS,
+    LOGICAL,
+    NAMES_WIDE,
+    as_type,
+    range_of,
+)
 from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -40,13 +48,13 @@ def place_of(name: str, kept: Carried) -> Variable:
 def wide_of(reader: CppExpressions, node: Node) -> int:
     """The `wide` of a variable that `auto` makes for a value."""
     found = range_of(reader.cpp, reader.scope, node)
-    return found.bits if found is not None and found.bits > INT else 0
+    return found.bits if found is not None and found.bits > INT_BITS else 0
 
 
 def is_wide(reader: CppExpressions, operand: Operand) -> bool:
     """Whether an operand is of a type that is wider than an int, or has no sign."""
     found = range_of(operand.cpp, reader.scope, operand.node) if reader.scope.open else None
-    return found is not None and found.bits > INT
+    return found is not None and found.bits > INT_BITS
 
 
 # --- what looks at whole numbers ----------------------------------------------------------------
@@ -59,7 +67,7 @@ def exact(reader: CppExpressions, operator: str, sides: Sequence[Node]) -> str:
     left, right = (range_of(reader.cpp, reader.scope, side) for side in sides)
     if left is None or right is None or left.bits != 32 or left.fits:
         return operator
-    return "!=" if (right.low, right.high) == (0, 0) and right.bits <= 32 else operator
+    return "!=" if right.values == exactly(0) and right.bits <= 32 else operator
 
 
 def check(reader: CppExpressions, node: Node, operator: str, sides: Sequence[Node]) -> None:
@@ -76,12 +84,12 @@ def check(reader: CppExpressions, node: Node, operator: str, sides: Sequence[Nod
         return
     if operator in ("<<", ">>"):
         looks = operator == ">>" and not left.fits
-        known = 0 <= right.low <= right.high < 32
-        if (looks or not known) and max(left.bits, right.bits) > INT:
+        known = Interval(0, 31).includes(right.values)
+        if (looks or not known) and max(left.bits, right.bits) > INT_BITS:
             _raise(reader, node)
         return
     bits = max(left.bits, right.bits)
-    if bits == INT or (operator in ("==", "!=") and bits == 32):
+    if bits == INT_BITS or (operator in ("==", "!=") and bits == 32):
         return
     for side, found in zip(sides, (left, right), strict=True):
         if not as_type(found, bits).fits:
@@ -121,7 +129,7 @@ def check_wide_call(reader: CppExpressions, node: Node) -> None:
         return
     for argument in arguments:
         found = range_of(reader.cpp, reader.scope, argument)
-        if found is None or found.low < 0:
+        if found is None or found.values.low < 0:
             _raise(reader, argument)
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
 from rebsync import model as m
-from rebsync.reverse.bodies.proving import ANY, Interval, Proof
+from rebsync.intervals import ANY, Interval, unsigned
+from rebsync.reverse.analysis.interval_analysis import IntervalAnalysis
 from rebsync.reverse.bodies.scope import Meaning, Record, Scope, Variable
 
 
@@ -27,7 +28,7 @@ def widths_of(variables: Iterable[Variable], others: Collection[str]) -> dict[st
 
 def ranges_of(variables: Iterable[Variable]) -> dict[str, Interval]:
     """What small unsigned variables hold."""
-    return {v.name: (0, (1 << v.bits) - 1) for v in variables if v.bits}
+    return {v.name: unsigned(v.bits) for v in variables if v.bits}
 
 
 def broken_locals(
@@ -37,14 +38,14 @@ def broken_locals(
     if not wide:
         return set()
     variables = [v for x in scope.members.values() for v in variables_in(x)]
-    proof = Proof(
+    analysis = IntervalAnalysis(
         {
             **widths_of(variables, scope.overflowing),
             **{n: b for n, b in wide.items() if n not in scope.overflowing},
         },
         {v.name: v.type for v in variables if v.type is not None},
-        {v.name for v in variables},
-        {**ranges_of(variables), **dict.fromkeys(scope.overflowing, ANY)},
+        always={**ranges_of(variables), **dict.fromkeys(scope.overflowing, ANY)},
+        called={v.name for v in variables},
     )
-    proof.body(statements)
-    return proof.broken & wide.keys()
+    analysis.body(statements)
+    return analysis.broken & wide.keys()

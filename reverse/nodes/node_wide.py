@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rebsync import model as m
+from rebsync.intervals import ANY, Interval, around, unsigned
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.proving import ANY, Interval, Proof
+from rebsync.reverse.analysis.interval_analysis import IntervalAnalysis
 from rebsync.reverse.bodies.scope import WIDE
 from rebsync.reverse.bodies.wide_locals import ranges_of, variables_in
 from rebsync.reverse.nodes.node_bodies import Bodies
@@ -35,24 +36,27 @@ def overflowing(
     wide = {n: w.bits for n, w in state.wide.items() if n not in bodies.overflowing}
     received = _received(bodies)
     locals_ = {n: b for n, b in bodies.wide.items() if n not in state.variables}
-    known = {**_known(bodies), **dict.fromkeys(bodies.overflowing, ANY)}
+    always = {**_small(bodies), **dict.fromkeys(bodies.overflowing, ANY)}
     members: list[m.Method | m.MessageServer] = [*methods, *servers]
     while True:
-        proof = Proof({**locals_, **wide}, state.variables, state.variables, known)
-        proof.body(constructor.statements)
+        analysis = IntervalAnalysis(
+            {**locals_, **wide}, state.variables, _given(bodies), always, called=state.variables
+        )
+        analysis.body(constructor.statements)
+        analysis.known = {}
         for member in members:
             taken = received.get(member.name, {})
-            proof.wide = {**locals_, **{n: b for n, b in taken.items() if b >= WIDE}, **wide}
-            small = {n: (0, (1 << b) - 1) for n, b in taken.items() if 0 < b < WIDE}
-            proof.known = {**known, **small}
+            analysis.widths = {**locals_, **{n: b for n, b in taken.items() if b >= WIDE}, **wide}
+            small = {n: unsigned(b) for n, b in taken.items() if 0 < b < WIDE}
+            analysis.always = {**always, **small}
             if member.body is not None:
-                proof.body(member.body.statements)
+                analysis.body(member.body.statements)
         # A local that has a wide one's name in another body.
-        others = proof.broken & locals_.keys()
+        others = analysis.broken & locals_.keys()
         if not others:
-            counted = proof.counted & wide.keys()
-            return Overflowing(frozenset(proof.broken & wide.keys()), frozenset(counted))
-        known |= dict.fromkeys(others, ANY)
+            counted = analysis.counted & wide.keys()
+            return Overflowing(frozenset(analysis.broken & wide.keys()), frozenset(counted))
+        always |= dict.fromkeys(others, ANY)
         locals_ = {n: b for n, b in locals_.items() if n not in others}
 
 
@@ -65,11 +69,16 @@ def _received(bodies: Bodies) -> dict[str, dict[str, int]]:
     return found
 
 
-def _known(bodies: Bodies) -> dict[str, Interval]:
-    """What is known of variables without a sign, and of the parameters of the constructor."""
-    found = ranges_of(v for x in bodies.state.members.values() for v in variables_in(x))
+def _small(bodies: Bodies) -> dict[str, Interval]:
+    """What variables without a sign hold that are no wider than an `int`."""
+    return ranges_of(v for x in bodies.state.members.values() for v in variables_in(x))
+
+
+def _given(bodies: Bodies) -> dict[str, Interval]:
+    """What the parameters of the constructor are given."""
+    found = {}
     for given in bodies.setup.parameters:
-        values = [v for v in given.values if isinstance(v, int)]
+        values = [int(v) for v in given.values if isinstance(v, int)]
         if values and len(values) == len(given.values):
-            found[given.name] = int(min(values)), int(max(values))
+            found[given.name] = around(values)
     return found

@@ -9,6 +9,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync import precedence
+from rebsync.intervals import unsigned
 from rebsync.reverse.bodies.building import bare, binary, chosen, is_calm, tight
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python.body_scope import REAL, TRUTH, WHOLE, Value, literal, unknown
@@ -166,7 +167,7 @@ def units(reader: PyExpressions, node: Node) -> m.Expression:
     if isinstance(value, Open):
         read = reader.read(node)
         if read.kind == WHOLE and reading.second == 1:
-            return reader.need(read, node, "time", 0, (1 << 31) - 1)
+            return reader.need(read, node, "time", unsigned(31))
         raise Unread(reader.frame.span(node), f"how long it takes is not known: {value.why}")
     found = value / Fraction(reading.second)
     if found.denominator != 1:

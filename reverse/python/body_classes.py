@@ -9,9 +9,9 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.intervals import Interval
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.made_locals import tidied
-from rebsync.reverse.bodies.proving import Interval
 from rebsync.reverse.bodies.rewriting import rewritten
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import SubscriptionFact, TimerFact

@@ -10,7 +10,9 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync import precedence
+from rebsync.intervals import INT32, Interval, unsigned
 from rebsync.records import dataclass
+from rebsync.reverse.analysis.needs import Need
 from rebsync.reverse.bodies.building import bare, binary, cast, chosen, is_calm, negated, tight
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
@@ -25,7 +27,6 @@ from rebsync.reverse.python.body_scope import (
     Frame,
     Meaning,
     Message,
-    Need,
     Nobody,
     Own,
     Pending,
@@ -36,8 +37,9 @@ from rebsync.reverse.python.body_scope import (
 )
 from rebsync.reverse.python.py_tree import field, named, number_of, text_of
 from rebsync.source import Span
-from rebsync.static.types import DOUBLE, INT_MAX, INT_MIN
+from rebsync.static.types import DOUBLE
 
+_POSITIVE = Interval(1, INT32.high)
 _COMPARES = frozenset({"<", ">", "<=", ">=", "==", "!=", "<>"})
 _DIVISOR = "a divisor that may be 0 or negative"
 _RING = frozenset({"+", "-", "*"})
@@ -155,7 +157,7 @@ class PyExpressions:
 
     def _number(self, node: Node) -> Value:
         number = number_of(node)
-        if isinstance(number, int) and number > INT_MAX:
+        if isinstance(number, int) and number > INT32.high:
             raise unknown(self.frame, node, "a number beyond its int")
         if number is None or abs(number) > _HUGE:
             raise Unread(self._span(node), "this number is none of the model")
@@ -202,7 +204,7 @@ class PyExpressions:
             return self._divided("%" if operator == "%" else "/", left, right, node)
         if operator in _BITS or operator == ">>":
             self.need(left, node, "left")
-            self.need(right, node, "right", *((0, 31) if operator == ">>" else ()))
+            self.need(right, node, "right", Interval(0, 31) if operator == ">>" else INT32)
             found = binary(operator, left.expression, right.expression, self._span(node))
             return Value(found, WHOLE)
         match right.expression:
@@ -214,10 +216,10 @@ class PyExpressions:
     def _divided(self, operator: str, left: Value, right: Value, node: Node) -> Value:
         """Python rounds down, the model towards 0: the same where nothing is negative."""
         by = bare(right.expression)
-        self.need(right, node, "by", 1, INT_MAX, strict=_DIVISOR)
+        self.need(right, node, "by", _POSITIVE, strict=_DIVISOR)
         span = self._span(node)
         if not self._is_refused(node, "dividend"):
-            self._noted(left.expression, node, "dividend", 0, INT_MAX)
+            self._noted(left.expression, node, "dividend", unsigned(31))
             return Value(binary(operator, left.expression, right.expression, span), WHOLE)
         if not isinstance(by, m.IntLiteral) or not 0 < by.value < 1 << 30:
             raise Unread(span, "it rounds down where the model's rounds towards 0")
@@ -241,7 +243,7 @@ class PyExpressions:
                 ):
                     return
         if value.kind == WHOLE:
-            self.need(value, node, "by", 1, INT_MAX, strict=_DIVISOR)
+            self.need(value, node, "by", _POSITIVE, strict=_DIVISOR)
             return
         raise Unread(self._span(node), "it may divide by 0, which ends the callback in Python")
 
@@ -327,8 +329,7 @@ class PyExpressions:
         value: Value,
         node: Node,
         what: str = "",
-        low: int = INT_MIN,
-        high: int = INT_MAX,
+        within: Interval = INT32,
         strict: str = "",
     ) -> m.Expression:
         """The value, of which the model must have the same number."""
@@ -336,13 +337,13 @@ class PyExpressions:
             if strict:
                 raise Unread(self._span(node), strict)
             raise unknown(self.frame, node, "a number that may be beyond its int")
-        self._noted(value.expression, node, what, low, high)
+        self._noted(value.expression, node, what, within)
         return value.expression
 
-    def _noted(self, expression: m.Expression, node: Node, what: str, low: int, high: int) -> None:
+    def _noted(self, expression: m.Expression, node: Node, what: str, within: Interval) -> None:
         mark = (self.frame.py.source.path, node.start_byte, node.end_byte, what)
         plain = bare(expression)
-        self.reading.needs.setdefault(id(plain), []).append(Need(plain, low, high, mark))
+        self.reading.needs.setdefault(id(plain), []).append(Need(plain, within, mark))
 
     def _is_refused(self, node: Node, what: str) -> bool:
         mark = (self.frame.py.source.path, node.start_byte, node.end_byte, what)

@@ -7,7 +7,8 @@ from dataclasses import field as with_default
 from typing import TypeAlias, TypeVar
 
 from rebsync.records import dataclass
-from rebsync.reverse.python.body_scope import OTHER, REAL, WHOLE, Key, Kind, Mark
+from rebsync.reverse.analysis.needs import Mark
+from rebsync.reverse.python.body_scope import OTHER, REAL, WHOLE, Key, Kind
 
 _T = TypeVar("_T")
 # A question about what is known, with what it is about.

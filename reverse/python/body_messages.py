@@ -213,8 +213,8 @@ def as_field(
         if reader.reading.unit.is_rclpy and value.kind == WHOLE:
             raise Unread(span, f'rclpy takes no whole number for "{path}" of {type_}')
     if wanted == WHOLE:
-        low, high = bounds(fields, reader.reading.types.widths.get(type_, {}), path)
-        found = reader.need(value, node, f"field {path}", low, high, strict=_BEYOND)
+        within = bounds(fields, reader.reading.types.widths.get(type_, {}), path)
+        found = reader.need(value, node, f"field {path}", within, strict=_BEYOND)
         return cast(m.Type(kind.name), found) if kind.name != "int" else found
     if wanted == REAL:
         if kind.name == "float" and not (value.single and not _is_now(value)):

@@ -7,100 +7,17 @@ with it each expression that must be within bounds is looked at.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import field
 
 from rebsync import model as m
+from rebsync.intervals import INT32, Interval, exactly
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.building import bare
-from rebsync.reverse.bodies.proving import Interval, Proof
-from rebsync.reverse.python.body_scope import Mark, Need
-from rebsync.static.types import INT_MAX, INT_MIN
+from rebsync.reverse.analysis.interval_analysis import IntervalAnalysis
+from rebsync.reverse.analysis.needs import Mark, Need
+from rebsync.reverse.analysis.writes import written
 
 _BITS = 63
 _PLAIN_ROUNDS = 3
-_UNROLLED = 32
 _MOST_ROUNDS = 40
-
-
-@dataclass(slots=True)
-class PyProof(Proof):
-    """Follows bodies; `failed` are needs that may not hold, `stored` what variables get.
-
-    `left` is what bodies leave in state variables.
-    """
-
-    needs: Mapping[int, list[Need]] = field(default_factory=dict)
-    failed: set[Mark] = field(default_factory=set)
-    stored: dict[str, Interval] = field(default_factory=dict)
-    left: dict[str, Interval] = field(default_factory=dict)
-
-    def body(self, statements: Sequence[m.Statement]) -> None:
-        """Looks at a body, and at what it leaves in the state variables."""
-        self._now = {}
-        self._now = {n: self._of(n) for n in self.state if n in self.wide}
-        self._real = set()
-        if self._each(statements):
-            self._leave()
-
-    def _leave(self) -> None:
-        for name in self.state:
-            if name in self.wide:
-                self.left[name] = _widest(self.left.get(name), self._of(name))
-
-    def _statement(self, statement: m.Statement) -> bool:
-        if isinstance(statement, m.Return):
-            self._leave()
-        if isinstance(statement, m.For) and (rounds := _rounds(statement)) is not None:
-            return self._unrolled(statement, rounds)
-        return Proof._statement(self, statement)
-
-    def _unrolled(self, statement: m.For, rounds: tuple[str, range]) -> bool:
-        """A loop of few rounds, one round after the other."""
-        name, numbers = rounds
-        for number in numbers:
-            self._now[name] = number, number
-            self._statement(statement.body)
-        return True
-
-    def _forget_state(self) -> None:
-        """No function of the class is called: each stands in the place of its call."""
-
-    def _compared(self, left: m.Expression, sign: str, right: m.Expression) -> None:
-        """`x + 1 < 5` says of `x` what `x < 4` does."""
-        match bare(left), bare(right):
-            case m.Binary("+" | "-" as operator, place, m.IntLiteral(by)), m.IntLiteral(number):
-                less = number - by if operator == "+" else number + by
-                Proof._compared(self, place, sign, m.IntLiteral(less))
-            case _:
-                Proof._compared(self, left, sign, right)
-
-    def _alternatives(self, expression: m.Conditional | m.Choice) -> Interval:
-        """Of two values the lesser or greater is within the bounds of both."""
-        found = Proof._alternatives(self, expression)
-        match expression:
-            case m.Conditional(m.Binary("<" | ">" as sign, one, other), then, otherwise) if bare(
-                one
-            ) is bare(then) and bare(other) is bare(otherwise):
-                first, second = Proof._value(self, one), Proof._value(self, other)
-                best = min if sign == "<" else max
-                return best(first[0], second[0]), best(first[1], second[1])
-            case _:
-                return found
-
-    def _value(self, expression: m.Expression) -> Interval:
-        found = Proof._value(self, expression)
-        for need in self.needs.get(id(bare(expression)), ()):
-            if found[0] < need.low or found[1] > need.high:
-                self.failed.add(need.mark)
-        return found
-
-    def _store(
-        self, name: str, given: Interval, type_: m.Type | None, counts: bool = False
-    ) -> Interval:
-        found = Proof._store(self, name, given, type_, counts)
-        if name in self.wide:
-            self.stored[name] = _widest(self.stored.get(name), found)
-        return found
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,34 +46,45 @@ class Bodies:
 
 def proved(bodies: Bodies) -> Proved:
     """Looks at all bodies until it is known what their state variables can hold."""
-    steps = sorted({*_steps(bodies), INT_MIN, INT_MAX, 0, -1, 1})
+    thresholds = sorted({*_literals(bodies), INT32.low, INT32.high, 0, -1, 1})
     ranges = _first(bodies)
-    looped = _looped(bodies)
+    repeated = _repeated(bodies)
     for number in range(_MOST_ROUNDS):
-        proof = _followed(bodies, ranges)
-        wider = {n: _joined(ranges.get(n), proof.left.get(n)) for n in bodies.state & bodies.wide}
-        for name in looped & set(wider):
-            wider[name] = _joined(wider[name], proof.stored.get(name))
+        analysis = _followed(bodies, ranges, repeated)
+        wider = _wider(bodies, ranges, analysis, repeated)
         if number >= _PLAIN_ROUNDS:
-            wider = {n: _stepped(steps, ranges.get(n), r) for n, r in wider.items()}
-        found = {n: r for n, r in wider.items() if r is not None}
-        if found == ranges:
+            wider = {n: ranges[n].widen(r, thresholds) for n, r in wider.items()}
+        if wider == ranges:
             break
-        ranges = found
+        ranges = wider
     else:
-        proof = _followed(bodies, {})
-    return Proved(frozenset(proof.failed), frozenset(proof.broken), frozenset(proof.counted))
+        analysis = _followed(bodies, {}, frozenset())
+    failed, broken, counted = analysis.failed, analysis.broken, analysis.counted
+    return Proved(frozenset(failed), frozenset(broken), frozenset(counted))
+
+
+def _wider(
+    bodies: Bodies,
+    ranges: Mapping[str, Interval],
+    analysis: IntervalAnalysis,
+    repeated: frozenset[str],
+) -> dict[str, Interval]:
+    """What state variables hold between bodies; of `repeated` each value counts."""
+    found = {n: r.join(analysis.left.get(n, r)) for n, r in ranges.items()}
+    for name in repeated & found.keys():
+        found[name] = found[name].join(analysis.stored.get(name, found[name]))
+    return found
 
 
 def _first(bodies: Bodies) -> dict[str, Interval]:
     """What state variables hold before anything is served: 0 where nothing has set them."""
-    proof = _proof(bodies, {})
-    proof.body(bodies.constructor)
+    analysis = _analysis(bodies, {}, frozenset())
+    analysis.body(bodies.constructor)
     sure = set(_surely(bodies.constructor))
     found = {}
     for name in bodies.state & bodies.wide:
-        stored = proof.stored.get(name, (0, 0))
-        found[name] = stored if name in sure else _joined(stored, (0, 0)) or (0, 0)
+        stored = analysis.stored.get(name, exactly(0))
+        found[name] = stored if name in sure else stored.join(exactly(0))
     return found
 
 
@@ -174,78 +102,49 @@ def _surely(statements: Sequence[m.Statement]) -> Iterator[str]:
                 yield name
 
 
-def _followed(bodies: Bodies, ranges: Mapping[str, Interval]) -> PyProof:
+def _followed(
+    bodies: Bodies, ranges: Mapping[str, Interval], repeated: frozenset[str]
+) -> IntervalAnalysis:
     """All bodies; of the constructor each value counts, as others may run in the middle of it."""
-    proof = _proof(bodies, ranges)
-    proof.body(bodies.constructor)
-    proof.left |= {n: _widest(proof.left.get(n), r) for n, r in proof.stored.items()}
+    analysis = _analysis(bodies, ranges, repeated)
+    analysis.body(bodies.constructor)
+    for name, values in analysis.stored.items():
+        analysis.left[name] = values.join(analysis.left.get(name, values))
     for statements, known in bodies.servers:
-        proof.known = {**ranges, **known}
-        proof.body(statements)
-    return proof
+        analysis.known = {**ranges, **known}
+        analysis.body(statements)
+    return analysis
 
 
-def _proof(bodies: Bodies, ranges: Mapping[str, Interval]) -> PyProof:
-    wide = dict.fromkeys(bodies.wide, _BITS)
-    return PyProof(wide, bodies.types, bodies.state, ranges, needs=bodies.needs)
+def _analysis(
+    bodies: Bodies, ranges: Mapping[str, Interval], repeated: frozenset[str]
+) -> IntervalAnalysis:
+    return IntervalAnalysis(
+        dict.fromkeys(bodies.wide, _BITS),
+        bodies.types,
+        ranges,
+        {n: r for n, r in ranges.items() if n in repeated},
+        bodies.state,
+        needs=bodies.needs,
+        wraps=False,
+    )
 
 
-def _steps(bodies: Bodies) -> Iterator[int]:
+def _literals(bodies: Bodies) -> Iterator[int]:
     """The numbers that bounds are likely to stop at: those of the code, and their neighbours."""
+    for node in _nodes(bodies):
+        if isinstance(node, m.IntLiteral):
+            for sign in (1, -1):
+                yield from (sign * node.value - 1, sign * node.value, sign * node.value + 1)
+
+
+def _repeated(bodies: Bodies) -> frozenset[str]:
+    """The variables that loops and the cases of switches write: each value counts there."""
+    several = (n for n in _nodes(bodies) if isinstance(n, m.While | m.For | m.Switch))
+    return frozenset(name for node in several for name in written(node))
+
+
+def _nodes(bodies: Bodies) -> Iterator[m.Node]:
     for statements in (bodies.constructor, *(s for s, _ in bodies.servers)):
         for statement in statements:
-            for node in m.walk(statement):
-                if isinstance(node, m.IntLiteral):
-                    for sign in (1, -1):
-                        yield from (sign * node.value - 1, sign * node.value, sign * node.value + 1)
-
-
-def _looped(bodies: Bodies) -> set[str]:
-    """The variables that loops write: each value that they get there counts."""
-    found: set[str] = set()
-    for statements in (bodies.constructor, *(s for s, _ in bodies.servers)):
-        for loop in (n for s in statements for n in m.walk(s)):
-            if isinstance(loop, m.While | m.For):
-                for node in m.walk(loop):
-                    match node:
-                        case m.Assign(_, m.Name(name)) | m.Postfix(_, m.Name(name)):
-                            found.add(name)
-    return found
-
-
-def _rounds(loop: m.For) -> tuple[str, range] | None:
-    """The variable of a loop and its numbers, if these are few and all of them come."""
-    match loop:
-        case m.For(
-            m.Declaration(_, (m.Declarator(name, m.IntLiteral(low)),)),
-            m.Binary("<", m.Name(other), m.IntLiteral(high)),
-            (m.Postfix("++", _),),
-        ) if name == other and high - low <= _UNROLLED:
-            leaves = m.Break | m.Continue | m.Return
-            if not any(isinstance(n, leaves) for n in m.walk(loop.body)):
-                return name, range(low, high)
-    return None
-
-
-def _widest(one: Interval | None, other: Interval) -> Interval:
-    return other if one is None else (min(one[0], other[0]), max(one[1], other[1]))
-
-
-def _joined(one: Interval | None, other: Interval | None) -> Interval | None:
-    if one is None or other is None:
-        return one or other
-    return min(one[0], other[0]), max(one[1], other[1])
-
-
-def _stepped(
-    steps: Sequence[int], before: Interval | None, after: Interval | None
-) -> Interval | None:
-    """A range that grew, up to the next numbers of the code."""
-    if after is None or after == before or before is None:
-        return after
-    low, high = after
-    if low < before[0]:
-        low = max((s for s in steps if s <= low), default=low)
-    if high > before[1]:
-        high = min((s for s in steps if s >= high), default=high)
-    return low, high
+            yield from m.walk(statement)

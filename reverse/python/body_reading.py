@@ -10,6 +10,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
+from rebsync.reverse.analysis.needs import Need
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.graph import Fact
@@ -26,7 +27,6 @@ from rebsync.reverse.python.body_scope import (
     Key,
     Meaning,
     Message,
-    Need,
     Nobody,
     Own,
     PyTarget,

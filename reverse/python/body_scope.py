@@ -9,6 +9,7 @@ from typing import TypeAlias
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.intervals import INT32, INTEGERS, Interval, unsigned
 from rebsync.literals import literal_of
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
@@ -27,8 +28,6 @@ TRUTH, WHOLE, REAL, OTHER = "boolean", "int", "double", "other"
 TYPES = {TRUTH: BOOLEAN, WHOLE: INT, REAL: DOUBLE}
 # A variable: the class, module or function that it is in, and its name, with that of a field.
 Key: TypeAlias = tuple[str, int, str]
-# An expression whose value must be such that the model has the same.
-Mark: TypeAlias = tuple[str, int, int, str]
 
 
 class Pending(Unread):
@@ -46,16 +45,6 @@ class Value:
     kind: Kind
     single: bool = False
     mixed: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Need:
-    """An expression that must be within bounds; `mark` is where and what for."""
-
-    expression: m.Expression
-    low: int
-    high: int
-    mark: Mark
 
 
 # --- meanings -----------------------------------------------------------------------------------
@@ -178,16 +167,13 @@ def field_kind(type_: m.Type) -> Kind:
     return REAL if type_.name in ("float", "double") else WHOLE
 
 
-_WIDTHS = {"byte": 7, "short": 15, "int": 31}
+_UNSIGNED = (8, 16, 32, 64)
 
 
-def bounds(fields: Fields, widths: Mapping[str, int], path: str) -> tuple[int, int]:
+def bounds(fields: Fields, widths: Mapping[str, int], path: str) -> Interval:
     """What a whole number in a field of a message can be, as far as an `int` holds it."""
-    type_ = fields.get(path)
     bits = widths.get(path)
-    if bits in (8, 16):
-        return 0, (1 << bits) - 1
-    if bits in (32, 64):
-        return 0, (1 << 31) - 1
-    own = _WIDTHS.get(type_.name if type_ is not None else "int", 31)
-    return -(1 << own), (1 << own) - 1
+    if bits in _UNSIGNED:
+        return unsigned(min(bits, 31))
+    type_ = fields.get(path)
+    return INTEGERS.get(type_.name, INT32) if type_ is not None else INT32

@@ -1,53 +1,82 @@
-"""Which wide numbers of bodies always are such that the model's `int` holds them.
+"""Which values the variables of bodies can have: interval analysis over statements of the model.
 
-Each is taken to hold such a number before a body starts; whatever a body gives it must be one
-again. That is seen from intervals: what conditions say of a variable counts until it is written.
+The abstract interpretation of Cousot and Cousot (1977): each variable has an interval, what
+conditions say of one counts until it is written, and a loop is entered with nothing known of what
+it writes. Numbers that hold more than the model's `int` in the code (`widths`) are taken to hold
+one of it before a body starts; whatever a body gives them must be one again, or they are `broken`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import field
-from typing import TypeAlias
+from functools import reduce
 
 from rebsync import model as m
+from rebsync.intervals import (
+    ANY,
+    INT32,
+    INTEGERS,
+    TRUTH,
+    Interval,
+    compared,
+    exactly,
+    of_binary,
+    of_unary,
+)
 from rebsync.records import dataclass
+from rebsync.reverse.analysis import writes
+from rebsync.reverse.analysis.needs import Mark, Need
+from rebsync.reverse.analysis.writes import variable_of, written
 from rebsync.reverse.bodies.building import bare, is_calm
-from rebsync.reverse.bodies.cpp_ranges import combined, fitting
+from rebsync.reverse.bodies.cpp_ranges import fitting
 
-Interval: TypeAlias = tuple[int, int]
-ANY: Interval = (-(1 << 65), 1 << 65)
-_TRUTH: Interval = (0, 1)
-_BITS = {"byte": 7, "short": 15, "int": 31}
-_STEP = 1 << 16  # what a counter may count by: it takes long to get out of an `int`
 _OPPOSITE = {"<": ">=", ">=": "<", ">": "<=", "<=": ">", "==": "!=", "!=": "=="}
 _TURNED = {"<": ">", ">": "<", "<=": ">=", ">=": "<=", "==": "==", "!=": "!="}
 _COMPARES = frozenset(_TURNED)
 _LOOKS = frozenset({"/", "%", ">>", "&", "|", "^"})
-_INT = m.Type("int")
 
 
 @dataclass(slots=True)
-class Proof:
-    """Follows bodies. `wide` are bits of the numbers to be looked at, by name; `types` those of
-    other variables; `state` what methods may change; `known` what some names always are.
+class IntervalAnalysis:
+    """Follows bodies, one after the other.
 
-    `broken` are those that may get another number, `counted` those that only count up to one.
+    `widths` are the bits of the numbers to be looked at, by name; `types` the types of other
+    variables; `known` what some names hold when a body starts, `always` what some hold at any time.
+    `state` are the state variables, `called` those that functions of the class may change. `needs`
+    has what must hold of expressions, by their ids. `wraps` says whether sums of the code wrap.
+
+    `broken` are variables that may get another number than an `int` holds, `counted` those that
+    only count up to one, `failed` the needs that may not hold. `stored` has all that variables of
+    `widths` get, `left` what bodies leave in those of `state`.
     """
 
-    wide: Mapping[str, int]
+    widths: Mapping[str, int]
     types: Mapping[str, m.Type] = field(default_factory=dict)
-    state: Collection[str] = ()
     known: Mapping[str, Interval] = field(default_factory=dict)
+    always: Mapping[str, Interval] = field(default_factory=dict)
+    state: Collection[str] = ()
+    called: Collection[str] = ()
+    needs: Mapping[int, Sequence[Need]] = field(default_factory=dict)
+    wraps: bool = True
     broken: set[str] = field(default_factory=set)
     counted: set[str] = field(default_factory=set)
+    failed: set[Mark] = field(default_factory=set)
+    stored: dict[str, Interval] = field(default_factory=dict)
+    left: dict[str, Interval] = field(default_factory=dict)
     _now: dict[str, Interval] = field(default_factory=dict)
     _real: set[str] = field(default_factory=set)
 
     def body(self, statements: Sequence[m.Statement]) -> None:
-        """Looks at what a body gives the numbers."""
+        """Looks at what a body gives the numbers, and at what it leaves in state variables."""
         self._now, self._real = {}, set()
-        self._each(statements)
+        if self._each(statements):
+            self._leave()
+
+    def _leave(self) -> None:
+        for name in self.state:
+            if name in self.widths:
+                _note(self.left, name, self._of(name))
 
     # --- statements -----------------------------------------------------------------------------
 
@@ -67,23 +96,14 @@ class Proof:
                 return self._branches(condition, then, otherwise)
             case m.While(condition, body):
                 self._loop(condition, body, ())
-            case m.For(initial, condition, updates, body):
-                if isinstance(initial, m.Declaration):
-                    self._declared(initial)
-                else:
-                    self._all(initial)
-                self._loop(condition, body, updates)
-            case m.Switch(subject, cases):
-                self._value(subject)
-                self._forget(statement)
-                before = dict(self._now)
-                for case in cases:
-                    self._now = dict(before)
-                    self._each(case.statements)
-                self._now = before
+            case m.For():
+                self._for(statement)
+            case m.Switch():
+                self._switch(statement)
             case m.Return(value):
                 if value is not None:
                     self._value(value)
+                self._leave()
                 return False
             case m.Break() | m.Continue():
                 return False
@@ -94,7 +114,7 @@ class Proof:
     def _declared(self, declaration: m.Declaration) -> None:
         for declarator in declaration.declarators:
             initial = declarator.initial
-            self._now.pop(declarator.name, None)
+            self._forget_name(declarator.name)
             if _of_type(declaration.type) == ANY:
                 self._real.add(declarator.name)
             waiting = [initial] if initial is not None else []
@@ -105,7 +125,7 @@ class Proof:
                 else:
                     self._store(declarator.name, self._value(value), declaration.type)
             if declaration.type.dimensions:
-                self._now.pop(declarator.name, None)
+                self._forget_name(declarator.name)
 
     def _branches(
         self, condition: m.Expression, then: m.Statement, otherwise: m.Statement | None
@@ -118,10 +138,36 @@ class Proof:
         self._assume(condition, False)
         others = self._statement(otherwise) if otherwise is not None else True
         if goes_on and others:
-            self._now = {n: _joined(self._of(n), after[n]) for n in after if n in self._now}
+            self._now = {n: self._joined(n, after) for n in after.keys() | self._now.keys()}
         elif goes_on:
             self._now = after
         return goes_on or others
+
+    def _joined(self, name: str, other: Mapping[str, Interval]) -> Interval:
+        """What a variable can hold here, or where `other` has come from the same start."""
+        return self._of(name).join(other[name] if name in other else self._at_start(name))
+
+    def _switch(self, switch: m.Switch) -> None:
+        self._value(switch.subject)
+        self._forget(switch)
+        before = dict(self._now)
+        for case in switch.cases:
+            self._now = dict(before)
+            self._each(case.statements)
+        self._now = before
+
+    def _for(self, loop: m.For) -> None:
+        if (rounds := writes.rounds_of(loop)) is not None:
+            name, numbers = rounds
+            for number in numbers:
+                self._now[name] = exactly(number)
+                self._statement(loop.body)
+            return
+        if isinstance(loop.initial, m.Declaration):
+            self._declared(loop.initial)
+        else:
+            self._all(loop.initial)
+        self._loop(loop.condition, loop.body, loop.updates)
 
     def _loop(
         self, condition: m.Expression | None, body: m.Statement, updates: Sequence[m.Expression]
@@ -150,18 +196,21 @@ class Proof:
     def _is_steady(self, condition: m.Expression, body: m.Statement) -> bool:
         """Whether a body changes nothing of what a condition names."""
         names = {n.name for n in m.walk(condition) if isinstance(n, m.Name | m.Member)}
-        calls = any(isinstance(n, m.Call) and n.target is None for n in m.walk(body))
-        return not names & _written(body) and not (calls and names & set(self.state))
+        changed = written(body) | (set(self.called) if writes.calls_own(body) else set())
+        return not names & changed
 
     def _forget(self, node: m.Node) -> None:
-        for name in _written(node):
-            self._now.pop(name, None)
-        if any(isinstance(n, m.Call) and n.target is None for n in m.walk(node)):
-            self._forget_state()
+        for name in written(node):
+            self._forget_name(name)
+        if writes.calls_own(node):
+            self._forget_called()
 
-    def _forget_state(self) -> None:
-        for name in self.state:
-            self._now.pop(name, None)
+    def _forget_called(self) -> None:
+        for name in self.called:
+            self._forget_name(name)
+
+    def _forget_name(self, name: str) -> None:
+        self._now[name] = self._any(name)
 
     # --- what conditions say --------------------------------------------------------------------
 
@@ -185,37 +234,29 @@ class Proof:
                 pass
 
     def _compared(self, left: m.Expression, sign: str, right: m.Expression) -> None:
-        if (name := _name(left)) is None or name in self._real:
+        if not self.wraps:
+            left, right = writes.moved(left, right)
+        if (name := variable_of(left)) is None or name in self._real:
             return
         if name in self.types and _of_type(self.types[name]) == ANY:
             return
-        (low, high), (least, most) = self._of(name), _clipped(self._value(right), _INT)
-        match sign:
-            case "<":
-                high = min(high, most - 1)
-            case "<=":
-                high = min(high, most)
-            case ">":
-                low = max(low, least + 1)
-            case ">=":
-                low = max(low, least)
-            case "==":
-                low, high = max(low, least), min(high, most)
-            case "!=" if least == most:
-                low, high = low + (low == least), high - (high == least)
-        if low <= high:
-            self._now[name] = low, high
+        values = compared(self._of(name), sign, self._value(right).in_type(INT32))
+        if values is not None:
+            self._now[name] = values
 
     # --- values ---------------------------------------------------------------------------------
 
     def _of(self, name: str) -> Interval:
-        if name in self._now:
-            return self._now[name]
-        if name in self.known:
-            return self.known[name]
-        if name in self.wide:
-            whole = fitting(self.wide[name])
-            return whole.low, whole.high
+        return self._now[name] if name in self._now else self._at_start(name)
+
+    def _at_start(self, name: str) -> Interval:
+        return self.known[name] if name in self.known else self._any(name)
+
+    def _any(self, name: str) -> Interval:
+        if name in self.always:
+            return self.always[name]
+        if name in self.widths:
+            return fitting(self.widths[name])
         return _of_type(self.types.get(name))
 
     def _all(self, expressions: Sequence[m.Expression]) -> None:
@@ -224,11 +265,18 @@ class Proof:
 
     def _value(self, expression: m.Expression) -> Interval:
         """What an expression can give; what it writes is written."""
+        found = self._evaluated(expression)
+        for need in self.needs.get(id(bare(expression)), ()):
+            if not need.bounds.includes(found):
+                self.failed.add(need.mark)
+        return found
+
+    def _evaluated(self, expression: m.Expression) -> Interval:
         match expression:
             case m.IntLiteral(value):
-                return value, value
+                return exactly(value)
             case m.BoolLiteral() | m.InstanceOf():
-                return _TRUTH
+                return TRUTH
             case m.Name(name) | m.Member(m.Self(), name):
                 return self._of(name)
             case m.Paren(inner):
@@ -240,40 +288,48 @@ class Proof:
                 changed = self._assigned(f"{operator[0]}=", target, m.IntLiteral(1))
                 return changed if isinstance(expression, m.Unary) else before
             case m.Unary(operator, operand):
-                low, high = self._value(operand)
-                signs = {"-": (-high, -low), "~": (~high, ~low), "!": _TRUTH, "+": (low, high)}
-                return signs.get(operator, ANY)
+                return of_unary(operator, self._value(operand))
             case m.Cast(type_, operand):
-                return _clipped(self._value(operand), type_)
-            case m.Conditional() | m.Choice():
-                return self._alternatives(expression)
+                return self._value(operand).in_type(_of_type(type_))
+            case m.Choice(options):
+                return _join([self._value(option) for option in options])
+            case m.Conditional():
+                return self._conditional(expression)
             case m.Binary(operator, left, right):
                 return self._combined(operator, left, right)
             case m.Index(array, index):
                 self._value(index)
-                name = _name(array) or ""
-                return self._of(name)
+                return self._of(variable_of(array) or "")
             case m.Call(target, _, arguments, after, deadline):
                 self._all([e for e in (*arguments, after, deadline) if e is not None])
                 if target is None:
-                    self._forget_state()
-                return _of_type(m.Type("int"))
+                    self._forget_called()
+                return INT32
             case _:
-                return _of_type(m.Type("int"))
+                return INT32
 
-    def _alternatives(self, expression: m.Conditional | m.Choice) -> Interval:
-        if isinstance(expression, m.Choice):
-            found = [self._value(option) for option in expression.options]
-        else:
-            self._value(expression.condition)
-            before, found = dict(self._now), []
-            for way, holds in ((expression.then, True), (expression.otherwise, False)):
-                self._now = dict(before)
-                self._assume(expression.condition, holds)
-                found.append(self._value(way))
-            self._now = before
-            self._forget(expression)
-        return min(f[0] for f in found), max(f[1] for f in found)
+    def _conditional(self, expression: m.Conditional) -> Interval:
+        self._value(expression.condition)
+        before, found = dict(self._now), []
+        for way, holds in ((expression.then, True), (expression.otherwise, False)):
+            self._now = dict(before)
+            self._assume(expression.condition, holds)
+            found.append(self._value(way))
+        self._now = before
+        self._forget(expression)
+        return self._extreme(expression) or _join(found)
+
+    def _extreme(self, expression: m.Conditional) -> Interval | None:
+        """The lesser or the greater of two values, as of `a < b ? a : b`; None for others."""
+        match expression.condition:
+            case m.Binary("<" | ">" as sign, one, other) if bare(one) is bare(
+                expression.then
+            ) and bare(other) is bare(expression.otherwise):
+                first, second = self._evaluated(one), self._evaluated(other)
+                best = min if sign == "<" else max
+                return Interval(best(first.low, second.low), best(first.high, second.high))
+            case _:
+                return None
 
     def _combined(self, operator: str, left: m.Expression, right: m.Expression) -> Interval:
         first = self._value(left)
@@ -283,97 +339,62 @@ class Proof:
             self._value(right)
             self._now = before
             self._forget(right)
-            return _TRUTH
+            return TRUTH
         second = self._value(right)
         if operator in _COMPARES:
-            return _TRUTH
+            return TRUTH
         if operator in _LOOKS:  # of what has wrapped
-            first, second = _clipped(first, _INT), _clipped(second, _INT)
-        return combined(operator, first, second)
+            first, second = first.in_type(INT32), second.in_type(INT32)
+        return of_binary(operator, first, second)
 
     # --- writing --------------------------------------------------------------------------------
 
     def _assigned(self, operator: str, target: m.Expression, value: m.Expression) -> Interval:
         place = bare(target)
-        name = _name(place)
+        name = variable_of(place)
         if isinstance(place, m.Index):
             self._value(place.index)
-            name = _name(place.target)
+            name = variable_of(place.target)
         given = self._value(value)
         if operator != "=":
-            given = combined(operator[:-1], self._of(name or ""), given)
+            given = of_binary(operator[:-1], self._of(name or ""), given)
         if name is None:
             return given
-        counts = _counts(operator, name, value)
-        known = self._store(name, given, self.types.get(name), counts)
-        if isinstance(place, m.Index):
-            self._now.pop(name, None)
+        before = self._of(name)
+        known = self._store(
+            name, given, self.types.get(name), writes.counts_up(operator, name, value)
+        )
+        if isinstance(place, m.Index):  # other elements keep what they have
+            self._now[name] = before.join(known)
         return known
 
     def _store(
         self, name: str, given: Interval, type_: m.Type | None, counts: bool = False
     ) -> Interval:
-        if name not in self.wide:
-            self._now[name] = _clipped(given, type_)
+        if name not in self.widths:
+            self._now[name] = given.in_type(_of_type(type_))
             return self._now[name]
-        whole = fitting(self.wide[name])
-        low, high = given
-        if counts and whole.low <= low <= whole.high < high:
+        whole = fitting(self.widths[name])
+        if counts and whole.low <= given.low <= whole.high < given.high:
             self.counted.add(name)
-            high = whole.high
-        if low < whole.low or high > whole.high:
+            given = Interval(given.low, whole.high)
+        if not whole.includes(given):
             self.broken.add(name)
-            low, high = whole.low, whole.high
-        self._now[name] = low, high
-        return low, high
-
-
-def _counts(operator: str, name: str, value: m.Expression) -> bool:
-    """Whether a variable gets little more than it has."""
-    match operator, bare(value):
-        case "+=", m.IntLiteral(step):
-            return 0 < step <= _STEP
-        case "=", m.Binary("+", left, m.IntLiteral(step)):
-            return _name(left) == name and 0 < step <= _STEP
-        case _:
-            return False
-
-
-def _name(expression: m.Expression) -> str | None:
-    match bare(expression):
-        case m.Name(name) | m.Member(m.Self(), name):
-            return name
-        case _:
-            return None
-
-
-def _written(node: m.Node) -> set[str]:
-    found = set()
-    for inner in m.walk(node):
-        match inner:
-            case m.Assign(_, target) | m.Postfix(_, target) | m.Unary("++" | "--", target):
-                place = bare(target)
-                whole = place.target if isinstance(place, m.Index) else place
-                found.add(_name(whole) or "")
-            case m.Declarator(name):
-                found.add(name)
-            case _:
-                pass
-    return found
+            given = whole
+        self._now[name] = given
+        _note(self.stored, name, given)
+        return given
 
 
 def _of_type(type_: m.Type | None) -> Interval:
-    if type_ is not None and type_.name == "boolean":
-        return _TRUTH
-    bits = _BITS.get(type_.name if type_ is not None else "int")
-    return (-(1 << bits), (1 << bits) - 1) if bits is not None else ANY
+    if type_ is None:
+        return INT32
+    return TRUTH if type_.name == "boolean" else INTEGERS.get(type_.name, ANY)
 
 
-def _clipped(found: Interval, type_: m.Type | None) -> Interval:
-    """What a type has of some values: all of its own where they do not fit."""
-    whole = _of_type(type_)
-    return found if whole[0] <= found[0] and found[1] <= whole[1] else whole
+def _join(intervals: Sequence[Interval]) -> Interval:
+    return reduce(Interval.join, intervals)
 
 
-def _joined(first: Interval, second: Interval) -> Interval:
-    return min(first[0], second[0]), max(first[1], second[1])
+def _note(noted: dict[str, Interval], name: str, values: Interval) -> None:
+    noted[name] = noted[name].join(values) if name in noted else values

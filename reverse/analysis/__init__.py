@@ -1,0 +1,1 @@
+"""What bodies can do, found without running them."""
