@@ -6,7 +6,7 @@ from rebsync import model as m
 from rebsync.reverse.bodies.building import bare
 
 _STEP = 1 << 16  # what a counter may count by: it takes long to get out of an `int`
-_UNROLLED = 32
+_UNROLLED = 32  # rounds, of a loop with no more than one in it
 
 
 def variable_of(expression: m.Expression) -> str | None:
@@ -18,15 +18,21 @@ def variable_of(expression: m.Expression) -> str | None:
             return None
 
 
+def array_of(place: m.Expression) -> str | None:
+    """The name of the variable that a place is, or is an element of."""
+    whole = bare(place)
+    while isinstance(whole, m.Index):
+        whole = bare(whole.target)
+    return variable_of(whole)
+
+
 def written(node: m.Node) -> set[str]:
     """The names of what is written in a statement or expression; "" for what has no name."""
     found = set()
     for inner in m.walk(node):
         match inner:
             case m.Assign(_, target) | m.Postfix(_, target) | m.Unary("++" | "--", target):
-                place = bare(target)
-                whole = place.target if isinstance(place, m.Index) else place
-                found.add(variable_of(whole) or "")
+                found.add(array_of(target) or "")
             case m.Declarator(name):
                 found.add(name)
             case _:
@@ -35,8 +41,12 @@ def written(node: m.Node) -> set[str]:
 
 
 def calls_own(node: m.Node) -> bool:
-    """Whether a function of the class is called."""
-    return any(isinstance(n, m.Call) and n.target is None for n in m.walk(node))
+    """Whether a function of the class is called, or of one that it extends."""
+    return any(isinstance(n, m.Call) and _is_own(n.target) for n in m.walk(node))
+
+
+def _is_own(target: m.Expression | None) -> bool:
+    return target is None or isinstance(bare(target), m.Super)
 
 
 def counts_up(operator: str, name: str, value: m.Expression) -> bool:
@@ -69,6 +79,7 @@ def rounds_of(loop: m.For) -> tuple[str, range] | None:
         ) if name == other == third and high - low <= _UNROLLED:
             leaves = m.Break | m.Continue | m.Return
             kept = name not in written(loop.body)
-            if kept and not any(isinstance(n, leaves) for n in m.walk(loop.body)):
+            inner = sum(isinstance(n, m.For) for n in m.walk(loop.body))
+            if kept and inner <= 1 and not any(isinstance(n, leaves) for n in m.walk(loop.body)):
                 return name, range(low, high)
     return None

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 
 from tree_sitter import Node
 
+from rebsync.intervals import TRUTH, Interval, signed, unsigned
 from rebsync.reverse.bodies.cpp_ranges import range_of
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.nodes.node_bodies import Bodies
@@ -19,11 +20,11 @@ from rebsync.reverse.syntax.cpp_index import CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
 
 _NARROW = {
-    **dict.fromkeys(("uint8_t", "unsigned char"), (0, 255)),
-    **dict.fromkeys(("int8_t", "signed char", "char"), (-128, 127)),
-    **dict.fromkeys(("uint16_t", "unsigned short"), (0, 65535)),
-    **dict.fromkeys(("int16_t", "short"), (-32768, 32767)),
-    "bool": (0, 1),
+    **dict.fromkeys(("uint8_t", "unsigned char"), unsigned(8)),
+    **dict.fromkeys(("int8_t", "signed char", "char"), signed(7)),
+    **dict.fromkeys(("uint16_t", "unsigned short"), unsigned(16)),
+    **dict.fromkeys(("int16_t", "short"), signed(15)),
+    "bool": TRUTH,
 }
 _CHANGES = ("assignment_expression", "update_expression")
 
@@ -46,10 +47,9 @@ def note_unmodelled(bodies: Bodies) -> None:
         if function.body is None:
             continue
         for node, name in _casts(function.body, narrow):
-            low, high = narrow[name]
             scope = bodies.scope(function.cpp, function)
             found = range_of(function.cpp, scope, node)
-            if found is None or found.low < low or found.high > high:
+            if found is None or not narrow[name].includes(found.values):
                 _list(bodies, function, node, f'"{name}" holds less than this may be')
         for node in _aliases(function.body):
             _list(bodies, function, node, "another name for an object through which it is changed")
@@ -117,7 +117,7 @@ def _depends(entry: Node, members: set[str], functions: set[str]) -> bool:
 # --- narrow enumerations ------------------------------------------------------------------------
 
 
-def _narrow_enums(bodies: Bodies) -> dict[str, tuple[int, int]]:
+def _narrow_enums(bodies: Bodies) -> dict[str, Interval]:
     """The least and greatest values of enumerations that hold less than an int."""
     found = {}
     for enumerators in bodies.code.enumerators.values():
@@ -130,7 +130,7 @@ def _narrow_enums(bodies: Bodies) -> dict[str, tuple[int, int]]:
     return found
 
 
-def _casts(body: Node, narrow: dict[str, tuple[int, int]]) -> Iterator[tuple[Node, str]]:
+def _casts(body: Node, narrow: dict[str, Interval]) -> Iterator[tuple[Node, str]]:
     """What is cast to one of some enumerations, and to which."""
     if not narrow:
         return
