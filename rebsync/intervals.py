@@ -131,7 +131,7 @@ def _shifted(operator: str, left: Interval, right: Interval) -> Interval:
 def _of_bits(left: Interval, right: Interval) -> Interval:
     """No more bits than the longer operand has."""
     ends = (left.low, left.high, right.low, right.high)
-    length = max(max(abs(end), abs(~end)).bit_length() for end in ends)
+    length = max(max(end, ~end).bit_length() for end in ends)
     return unsigned(length) if min(ends) >= 0 else signed(length)
 
 

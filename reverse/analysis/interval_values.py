@@ -33,7 +33,8 @@ from rebsync.reverse.bodies.cpp_ranges import fitting
 _OPPOSITE = {"<": ">=", ">=": "<", ">": "<=", "<=": ">", "==": "!=", "!=": "=="}
 _TURNED = {"<": ">", ">": "<", "<=": ">=", ">=": "<=", "==": "==", "!=": "!="}
 _COMPARES = frozenset(_TURNED)
-_LOOKS = frozenset({"/", "%", ">>", "&", "|", "^"})
+_LOOKS = frozenset({"/", "%", ">>"})
+_BITS = frozenset({"&", "|", "^"})
 _Operand: TypeAlias = tuple[m.Expression, Interval]
 
 
@@ -247,8 +248,10 @@ class IntervalValues:
         if operator == "/" and writes.calls_own(right[0]):
             return INT32  # the result may be one with a point, and less than 1
         one, other = left[1], right[1]
-        if operator in _LOOKS:  # of what has wrapped
+        if operator in _LOOKS:  # they must be an `int`, or what they look at has wrapped
             one, other = one.in_type(INT32), other.in_type(INT32)
+        elif operator in _BITS:  # has wrapped, or not
+            one, other = (x if INT32.includes(x) else x.join(INT32) for x in (one, other))
         return of_binary(operator, one, other)
 
     def _is_real(self, expression: m.Expression) -> bool:
@@ -297,7 +300,7 @@ class IntervalValues:
 
     def _store(self, name: str, given: Interval, counts: bool = False) -> Interval:
         if name not in self.widths:
-            whole = self._of_type(name)
+            whole = ANY if self.always.get(name) == ANY else self._of_type(name)
             self._now[name] = given.in_type(whole) if whole != ANY else ANY
             return self._now[name]
         whole = fitting(self.widths[name])

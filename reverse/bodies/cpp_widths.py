@@ -22,8 +22,10 @@ from rebsync.reverse.bodies.cpp_ranges import (
     INT_BITS,
     LOGICAL,
     NAMES_WIDE,
+    Ranged,
     as_type,
     range_of,
+    values_of,
 )
 from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.scope import Variable
@@ -81,6 +83,9 @@ def check(reader: CppExpressions, node: Node, operator: str, sides: Sequence[Nod
                 _raise(reader, side)
         return
     if operator not in _OBSERVES:
+        for side, found in zip(sides, (left, right), strict=True):
+            if _wraps_first(found, max(left.bits, right.bits)):
+                _raise(reader, side)
         return
     if operator in ("<<", ">>"):
         looks = operator == ">>" and not left.fits
@@ -111,14 +116,16 @@ def check_truth(reader: CppExpressions, node: Node) -> None:
 
 
 def check_stored(reader: CppExpressions, node: Node, value: m.Expression, place: Variable) -> None:
-    """Raises where a floating variable gets an integer that an `int` need not hold, or one of
-    these a floating number.
+    """Raises where a floating variable gets an integer that an `int` need not hold, one of these
+    a floating number, or one of 64 bits what may have wrapped at 32.
     """
     if place.type is not None and is_floating(place.type):
         check_whole(reader, node)
     elif place.wide and reader.scope.open and constant(value) is None:
         of = type_in(reader.scope, value)
-        if of is not None and is_floating(of):
+        found = range_of(reader.cpp, reader.scope, node)
+        floats = of is not None and is_floating(of)
+        if floats or (found is not None and _wraps_first(found, place.wide)):
             _raise(reader, node)
 
 
@@ -129,8 +136,16 @@ def check_wide_call(reader: CppExpressions, node: Node) -> None:
         return
     for argument in arguments:
         found = range_of(reader.cpp, reader.scope, argument)
-        if found is None or found.values.low < 0:
+        if found is None or found.values.low < 0 or _wraps_first(found, 64):
             _raise(reader, argument)
+
+
+def _wraps_first(found: Ranged, bits: int) -> bool:
+    """Whether a number may have wrapped at 32 bits before it becomes one of so many bits.
+
+    The model's wraps where it is stored: that is another one.
+    """
+    return found.bits == 32 < bits and found.values == values_of(32)
 
 
 def _is_asked(reader: CppExpressions, *nodes: Node) -> bool:
