@@ -129,9 +129,14 @@ class IntervalAnalysis(IntervalValues):
         around = dict(self._locals)
         if (rounds := writes.rounds_of(loop)) is not None:
             name, numbers = rounds
+            turns = [loop.condition] if loop.condition is not None else []
             for number in numbers:
                 self._now[name] = exactly(number)
+                self._all(turns)
                 self._statement(loop.body)
+                self._all(loop.updates)
+            self._now[name] = exactly(max(numbers.start, numbers.stop))
+            self._all(turns)
         else:
             if isinstance(loop.initial, m.Declaration):
                 self._declared(loop.initial)

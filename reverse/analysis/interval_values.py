@@ -148,11 +148,14 @@ class IntervalValues:
 
     def _value(self, expression: m.Expression) -> Interval:
         """What an expression can give; what it writes is written."""
-        found = self._evaluated(expression)
+        return self._checked(expression, self._evaluated(expression))
+
+    def _checked(self, expression: m.Expression, values: Interval) -> Interval:
+        """What an expression can give, after a look at what it must be."""
         for need in self.needs.get(id(bare(expression)), ()):
-            if not need.bounds.includes(found):
+            if not need.bounds.includes(values):
                 self.failed.add(need.mark)
-        return found
+        return values
 
     def _evaluated(self, expression: m.Expression) -> Interval:
         match expression:
@@ -203,6 +206,8 @@ class IntervalValues:
         return reduce(Interval.join, found)
 
     def _conditional(self, expression: m.Conditional) -> Interval:
+        if (extreme := self._extreme(expression)) is not None:
+            return extreme
         self._value(expression.condition)
         before, found = dict(self._now), []
         for way, holds in ((expression.then, True), (expression.otherwise, False)):
@@ -211,17 +216,18 @@ class IntervalValues:
             found.append(self._value(way))
         self._now = before
         self._forget(expression)
-        return self._extreme(expression) or found[0].join(found[1])
+        return found[0].join(found[1])
 
     def _extreme(self, expression: m.Conditional) -> Interval | None:
         """The lesser or the greater of two values, as of `a < b ? a : b`; None for others."""
-        match expression.condition:
+        match bare(expression.condition):
             case m.Binary("<" | ">" as sign, one, other) if (
                 bare(one) is bare(expression.then)
                 and bare(other) is bare(expression.otherwise)
-                and is_calm(expression)
+                and is_calm(expression.condition)
             ):
-                first, second = (self._seen(self._evaluated(side)) for side in (one, other))
+                self._checked(expression.condition, TRUTH)
+                first, second = (self._seen(self._value(side)) for side in (one, other))
                 best = min if sign == "<" else max
                 return Interval(best(first.low, second.low), best(first.high, second.high))
             case _:

@@ -1,0 +1,1 @@
+"""What the analyses say of bodies, against runs of these."""
