@@ -6,7 +6,8 @@ from rebsync import model as m
 from rebsync.reverse.bodies.building import bare
 
 _STEP = 1 << 16  # what a counter may count by: it takes long to get out of an `int`
-_UNROLLED = 32  # rounds, of a loop with no more than one in it
+_UNROLLED = 32  # rounds of a loop that are followed one by one
+_NESTED = 4  # the same of one with loops in it
 
 
 def variable_of(expression: m.Expression) -> str | None:
@@ -76,10 +77,12 @@ def rounds_of(loop: m.For) -> tuple[str, range] | None:
             m.Declaration(_, (m.Declarator(name, m.IntLiteral(low)),)),
             m.Binary("<", m.Name(other), m.IntLiteral(high)),
             (m.Postfix("++", m.Name(third)),),
+            body,
         ) if name == other == third and high - low <= _UNROLLED:
-            leaves = m.Break | m.Continue | m.Return
-            kept = name not in written(loop.body)
-            inner = sum(isinstance(n, m.For) for n in m.walk(loop.body))
-            if kept and inner <= 1 and not any(isinstance(n, leaves) for n in m.walk(loop.body)):
+            inside = list(m.walk(body))
+            if any(isinstance(n, m.Break | m.Continue | m.Return) for n in inside):
+                return None
+            loops = any(isinstance(n, m.While | m.For) for n in inside)
+            if name not in written(body) and (not loops or high - low <= _NESTED):
                 return name, range(low, high)
     return None

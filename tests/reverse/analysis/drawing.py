@@ -21,6 +21,7 @@ _MODEL = {"s": "short", "b": "byte"}
 LENGTH = 3
 STATE = ("w0", "v0", "u0", "i0", "s0", "b0", "a0", "z0")
 _NUMBERS = (0, 1, 2, 3, 5, 7, 31, 100, 127, 128, 255, 40_000, 65_536, 2**30, 2**31 - 1)
+_STEPS = ("++", "--")
 _COMPARES = ("<", "<=", ">", ">=", "==", "!=")
 _CHANGES = ("+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=")
 _ARITHMETIC = ("+", "+", "-", "-", "*", "/", "%", "&", "|", "^", "<<", ">>")
@@ -78,12 +79,13 @@ class _Body:
             case 7:
                 type_ = m.Type(self.one(("byte", "short", "int")))
                 return m.Cast(type_, m.Paren(self.number(depth - 1)))
+            case 8 if self.calls and self.draw(st.booleans()):
+                return m.Choice((self.number(0), self.number(0)))
             case 8 if self.calls:
-                return self.one((m.Choice((self.number(0), self.number(0))), m.Call(None, "f")))
+                return m.Call(None, "f")
             case 8:
                 one, other = self.number(0), self.number(0)
-                condition = m.Binary(self.one("<>"), one, other)
-                return m.Paren(m.Conditional(m.Paren(condition), one, other))
+                return _extreme(self.one("<>"), one, other)
             case _:
                 return self.operation(depth)
 
@@ -101,8 +103,8 @@ class _Body:
             case 4:
                 return m.Unary("!", m.Paren(self.condition(depth - 1)))
             case 5 | 6:
-                sides = (m.Paren(self.condition(depth - 1)) for _ in "12")
-                return m.Binary(self.one(("&&", "||")), *sides)
+                one, other = (m.Paren(self.condition(depth - 1)) for _ in "12")
+                return m.Binary(self.one(("&&", "||")), one, other)
             case 0:
                 moved = m.Binary(self.one("+-"), self.place(), m.IntLiteral(self.one(_NUMBERS)))
                 return m.Binary(self.one(_COMPARES), moved, m.IntLiteral(self.one(_NUMBERS)))
@@ -127,7 +129,9 @@ class _Body:
                 given = m.Assign(operator, self.place(True), self.number(1))
                 return m.ExpressionStatement(given)
             case 4:
-                return m.ExpressionStatement(m.Postfix(self.one(("++", "--")), self.place(True)))
+                return m.ExpressionStatement(
+                    m.Postfix(self.one(_STEPS if self.wide else ("++",)), self.place(True))
+                )
             case 5:
                 return self.local()
             case 6 if self.loops and self.draw(st.booleans()):
@@ -150,13 +154,11 @@ class _Body:
 
     def given(self) -> m.Expression:
         """What a variable gets; where nothing wraps, mostly a number between two others."""
-        if self.wide or self.draw(st.integers(0, 5)) == 5:
-            return self.number()
         found = self.number()
+        if self.wide or self.draw(st.integers(0, 15)) == 15:
+            return found
         for sign in "<>":
-            bound = m.IntLiteral(self.one(_NUMBERS))
-            condition = m.Paren(m.Binary(sign, m.Paren(found), bound))
-            found = m.Paren(m.Conditional(condition, m.Paren(found), bound))
+            found = _extreme(sign, m.Paren(found), m.IntLiteral(self.one(_NUMBERS)))
         return found
 
     def local(self) -> m.Statement:
@@ -206,6 +208,11 @@ class _Body:
         self.loops -= 1
         self.repeats -= 1
         return found
+
+
+def _extreme(sign: str, one: m.Expression, other: m.Expression) -> m.Expression:
+    """The lesser or the greater of two numbers."""
+    return m.Paren(m.Conditional(m.Paren(m.Binary(sign, one, other)), one, other))
 
 
 @st.composite

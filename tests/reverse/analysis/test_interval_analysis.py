@@ -165,9 +165,9 @@ def _run(folder: Path, functions: Sequence[str]) -> list[str]:
     head = "#include <cstdint>\n#include <cstdio>\n"
     code = folder / "runs.cpp"
     code.write_text(f"{head}{''.join(functions)}int main() {{\n{calls}}}\n")
-    command = ["g++", "-std=c++17", "-O0", "-fwrapv", "-w", "-o", folder / "runs", code]
-    subprocess.run(command, check=True)
-    done = subprocess.run([folder / "runs"], check=True, capture_output=True, text=True)
+    command = ["g++", "-std=c++17", "-O0", "-fwrapv", "-w", "-o"]
+    subprocess.run([*command, str(folder / "runs"), str(code)], check=True)
+    done = subprocess.run([str(folder / "runs")], check=True, capture_output=True, text=True)
     return done.stdout.splitlines()
 
 
