@@ -28,6 +28,7 @@ from rebsync.forward.py_places import assigned, stepped
 from rebsync.forward.py_ranges import fits, is_distance, value_range
 from rebsync.forward.py_types import py_format
 from rebsync.forward.topics import Topics
+from rebsync.intervals import Interval
 from rebsync.names import graph_name
 from rebsync.records import dataclass
 from rebsync.static import Analysis
@@ -107,7 +108,7 @@ class PyExpressions:
         found = self._exact(expression) if exact else self.raw(expression)
         return found.at(least)
 
-    def _range(self, expression: m.Expression) -> tuple[int, int]:
+    def _range(self, expression: m.Expression) -> Interval:
         return value_range(expression, self.type_of)
 
     def _exact(self, expression: m.Expression) -> Text:
@@ -275,8 +276,7 @@ class PyExpressions:
     def _real_operand(self, expression: m.Expression, type_: m.Type) -> Text:
         if not self.is_whole(expression):
             return self._exact(expression)
-        low, high = self._range(expression)
-        if type_ == FLOAT and max(abs(low), abs(high)) > _EXACT:
+        if type_ == FLOAT and self._range(expression).magnitude > _EXACT:
             return atom(f"float32({self.text(expression)})")
         return self._exact(expression)
 

@@ -10,26 +10,30 @@ from __future__ import annotations
 import ast
 import re
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from functools import reduce
 from itertools import chain
 from typing import TypeAlias
 
+from rebsync.intervals import INT32, INTEGERS, Interval, exactly, of_binary, of_unary
 from rebsync.roundtrip.python_trees import is_log
 
 RANGE = "range"
-Bounds: TypeAlias = "tuple[int, int]"
 Types: TypeAlias = Mapping[str, str]
 
-_INT = (-(2**31), 2**31 - 1)
-_NAMED: Mapping[str, Bounds] = {
-    "int": _INT,
-    "Byte": (-(2**7), 2**7 - 1),
-    "Short": (-(2**15), 2**15 - 1),
-}
+_NAMED = {"int": INT32, "Byte": INTEGERS["byte"], "Short": INTEGERS["short"]}
 _CUTS = {"int8": "Byte", "int16": "Short", "int32": "int"}
 _CASTS = {"to_byte": "Byte", "to_short": "Short", "to_int": "int"}
-_SUMS = (ast.Add, ast.Sub, ast.Mult, ast.BitAnd, ast.BitOr, ast.BitXor)
-_FURTHEST = 31  # the largest distance of a shift
+_SUMS: Mapping[type[ast.operator], str] = {
+    ast.Add: "+",
+    ast.Sub: "-",
+    ast.Mult: "*",
+    ast.BitAnd: "&",
+    ast.BitOr: "|",
+    ast.BitXor: "^",
+}
+_SIGNS: Mapping[type[ast.unaryop], str] = {ast.USub: "-", ast.UAdd: "+", ast.Invert: "~"}
+_DISTANCES = Interval(0, 31)  # of shifts
 _CUT = re.compile(r"not cut to (8|16|32) bits")
 _MANY = 2**16  # more values than an array has
 _WITH_A_POINT = frozenset(
@@ -122,10 +126,10 @@ class _Ranges:
 
     def odd(self, value: ast.expr, type_: str) -> str | None:
         """Why a value is not that of the model where one of a type is wanted."""
-        bounds, wanted = self.of(value), _NAMED.get(type_, _INT)
-        if bounds is None or (wanted[0] <= bounds[0] and bounds[1] <= wanted[1]):
+        values, wanted = self.of(value), _NAMED.get(type_, INT32)
+        if values is None or wanted.includes(values):
             return None
-        return f"not cut to {(wanted[1] + 1).bit_length()} bits"
+        return f"not cut to {(wanted.high + 1).bit_length()} bits"
 
     def other(self, node: ast.BinOp) -> str | None:
         """Why an operator is another than that of the model."""
@@ -135,9 +139,9 @@ class _Ranges:
         match node.op:
             case ast.Div():
                 return "a number with a point"
-            case ast.Mod() if left[0] < 0 or right[0] < 0:
+            case ast.Mod() if left.low < 0 or right.low < 0:
                 return "never below zero"
-            case ast.LShift() | ast.RShift() if right[0] < 0 or right[1] > _FURTHEST:
+            case ast.LShift() | ast.RShift() if not _DISTANCES.includes(right):
                 return "shifted by any distance"
             case _:
                 return None
@@ -175,33 +179,40 @@ class _Ranges:
             case _:
                 return "int"
 
-    def of(self, node: ast.expr) -> Bounds | None:
+    def of(self, node: ast.expr) -> Interval | None:
         match node:
             case ast.Constant(bool()) | ast.Constant(float()) | ast.Constant(str()):
                 return None
             case ast.Constant(int(number)):
-                return number, number
-            case ast.UnaryOp(operator, operand):
-                return _signed(operator, self.of(operand))
+                return exactly(number)
+            case ast.UnaryOp(operator, operand) if sign := _SIGNS.get(type(operator)):
+                of = self.of(operand)
+                return of_unary(sign, of) if of is not None else None
             case ast.IfExp(_, one, other):
-                ends = self.of(one), self.of(other)
-                return None if None in ends else _around(*(e for e in ends if e is not None))
-            case ast.BinOp(left, operator, right):
-                ends = self.of(left), self.of(right)
-                if ends[0] is None or ends[1] is None or isinstance(operator, ast.Div):
+                return self._any_of([one, other])
+            case ast.BinOp(left, operator, right) if not isinstance(operator, ast.Div):
+                first, second = self.of(left), self.of(right)
+                if first is None or second is None:
                     return None
-                return _of_operator(operator, ends[0], ends[1])
+                return _of_operator(operator, first, second)
+            case ast.UnaryOp() | ast.BinOp():
+                return None
             case ast.NamedExpr(_, value):
                 return self.of(value)
             case ast.Call(ast.Name("min" | "max"), [_, _, *_] as given):
-                each = [self.of(value) for value in given]
-                return None if None in each else _around(*(e for e in each if e is not None))
+                return self._any_of(given)
             case ast.Call(ast.Name("abs"), [value]) if (inner := self.of(value)) is not None:
-                return 0, max(abs(end) for end in inner)
+                return Interval(0, inner.magnitude)
             case ast.Call(ast.Name("sum"), _):
-                return _MANY * _INT[0], _MANY * _INT[1]
+                return of_binary("*", INT32, exactly(_MANY))
             case _:
                 return _NAMED.get(self._type(node))
+
+    def _any_of(self, values: Sequence[ast.expr]) -> Interval | None:
+        """What one of some expressions gives; None if one of them is no whole number."""
+        found = [self.of(value) for value in values]
+        known = [f for f in found if f is not None]
+        return reduce(Interval.join, known) if len(known) == len(found) else None
 
     def _type(self, node: ast.expr) -> str:
         """The type of a name, an element or what is called, as it is written; empty if unknown."""
@@ -239,7 +250,7 @@ def _stored(
             yield value, types.get(ast.unparse(target), "")
         case ast.AnnAssign(_, annotation, value) if value is not None:
             yield value, ast.unparse(annotation)
-        case ast.AugAssign(target, operator, value) if isinstance(operator, (*_SUMS, ast.LShift)):
+        case ast.AugAssign(target, operator, value) if type(operator) in (*_SUMS, ast.LShift):
             place = ast.parse(ast.unparse(target), mode="eval").body
             whole = ast.copy_location(ast.BinOp(place, operator, value), node)
             yield whole, types.get(ast.unparse(target), "")
@@ -274,7 +285,7 @@ def _used(node: ast.AST, inner: set[int]) -> Iterator[tuple[ast.expr, str]]:
     if id(node) not in inner:
         yield node, "int"
     match node:
-        case ast.BinOp(left, operator, right) if isinstance(operator, _SUMS):
+        case ast.BinOp(left, operator, right) if type(operator) in _SUMS:
             inner |= {id(left), id(right)}
         case ast.BinOp(left, ast.LShift(), _):
             inner.add(id(left))
@@ -297,39 +308,9 @@ def _operators(node: ast.AST) -> Iterator[ast.BinOp]:
             pass
 
 
-# --- bounds -------------------------------------------------------------------------------------
-
-
-def _signed(operator: ast.unaryop, bounds: Bounds | None) -> Bounds | None:
-    if bounds is None or isinstance(operator, ast.Not):
-        return None
-    low, high = bounds
-    match operator:
-        case ast.USub():
-            return -high, -low
-        case ast.Invert():
-            return ~high, ~low
-        case _:
-            return bounds
-
-
-def _of_operator(operator: ast.operator, one: Bounds, other: Bounds) -> Bounds:
-    match operator:
-        case ast.Add():
-            return one[0] + other[0], one[1] + other[1]
-        case ast.Sub():
-            return one[0] - other[1], one[1] - other[0]
-        case ast.Mult():
-            ends = [a * b for a in one for b in other]
-            return min(ends), max(ends)
-        case ast.LShift() if other[0] == other[1] and 0 <= other[0] <= _FURTHEST:
-            return one[0] << other[0], one[1] << other[0]
-        case ast.BitAnd() | ast.BitOr() | ast.BitXor():
-            length = max(max(abs(end), abs(~end)).bit_length() for end in (*one, *other))
-            return -(1 << length), (1 << length) - 1
-        case _:
-            return _INT
-
-
-def _around(*bounds: Bounds) -> Bounds:
-    return min(b[0] for b in bounds), max(b[1] for b in bounds)
+def _of_operator(operator: ast.operator, left: Interval, right: Interval) -> Interval:
+    """What Python makes of two whole numbers, or what the model has there."""
+    if isinstance(operator, ast.LShift) and right.low == right.high and _DISTANCES.includes(right):
+        return of_binary("<<", left, right)
+    sign = _SUMS.get(type(operator))
+    return of_binary(sign, left, right) if sign is not None else INT32
