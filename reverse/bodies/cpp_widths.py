@@ -39,6 +39,9 @@ if TYPE_CHECKING:
 _MAY_BE_WIDE = re.compile(
     r"size\(\)|sizeof|size_t|\blong\b|unsigned|uint|int64|\b(?:0x[\da-f]+|\d+)[ul]", re.IGNORECASE
 )
+_PLACES = frozenset(
+    {"identifier", "qualified_identifier", "field_expression", "subscript_expression"}
+)
 _OBSERVES = COMPARES | {"/", "%", ">>", "<<"}
 
 
@@ -84,7 +87,7 @@ def check(reader: CppExpressions, node: Node, operator: str, sides: Sequence[Nod
         return
     if operator not in _OBSERVES:
         for side, found in zip(sides, (left, right), strict=True):
-            if _wraps_first(found, max(left.bits, right.bits)):
+            if _wraps_first(side, found, max(left.bits, right.bits)):
                 _raise(reader, side)
         return
     if operator in ("<<", ">>"):
@@ -125,7 +128,7 @@ def check_stored(reader: CppExpressions, node: Node, value: m.Expression, place:
         of = type_in(reader.scope, value)
         found = range_of(reader.cpp, reader.scope, node)
         floats = of is not None and is_floating(of)
-        if floats or (found is not None and _wraps_first(found, place.wide)):
+        if floats or (found is not None and _wraps_first(node, found, place.wide)):
             _raise(reader, node)
 
 
@@ -136,16 +139,19 @@ def check_wide_call(reader: CppExpressions, node: Node) -> None:
         return
     for argument in arguments:
         found = range_of(reader.cpp, reader.scope, argument)
-        if found is None or found.values.low < 0 or _wraps_first(found, 64):
+        if found is None or found.values.low < 0 or _wraps_first(argument, found, 64):
             _raise(reader, argument)
 
 
-def _wraps_first(found: Ranged, bits: int) -> bool:
+def _wraps_first(node: Node, found: Ranged, bits: int) -> bool:
     """Whether a number may have wrapped at 32 bits before it becomes one of so many bits.
 
-    The model's wraps where it is stored: that is another one.
+    The model's wraps where it is stored: that is another one. Variables have what was stored.
     """
-    return found.bits == 32 < bits and found.values == values_of(32)
+    while node.type == "parenthesized_expression" and len(named(node)) == 1:
+        node = named(node)[0]
+    whole = found.bits == 32 < bits and found.values == values_of(32)
+    return whole and node.type not in _PLACES
 
 
 def _is_asked(reader: CppExpressions, *nodes: Node) -> bool:
