@@ -96,6 +96,7 @@ def _lie_in(values: _Values, intervals: Mapping[str, Interval], others: set[str]
                 assert intervals[name].includes(Interval(value, value)), name
 
 
+@settings(max_examples=settings().max_examples // 3)
 @given(
     st.lists(bodies(_PYTHON, wide=False, calls=False), min_size=2, max_size=3),
     st.integers(0, 2**32),
