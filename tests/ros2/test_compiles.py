@@ -5,24 +5,36 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import pytest
+
 from rebsync.config import Config
 from tests.forward.compiling import CASES, case_config, generated, written
 from tests.forward.test_compiles import _drawn
 from tests.ros2.building import complaints, make_messages
 
+_OFFERING = ("actions", "services")
 _DRAWN = 4
 _ODOMETRY = Path(__file__).parents[1] / "ros1" / "models" / "odometry.rebeca"
 
 
 def test_cases(headers: Path, tmp_path: Path) -> None:
+    # ROS 1 compiles all of them.
+    cases = sorted(c for c in CASES.glob("*.rebeca") if c.stem not in _OFFERING)
+    assert _complaints_of(cases[::2], headers, tmp_path) == []
+
+
+@pytest.mark.parametrize("name", _OFFERING)
+def test_services_and_actions(name: str, headers: Path, tmp_path: Path) -> None:
+    assert _complaints_of([CASES / f"{name}.rebeca"], headers, tmp_path) == []
+
+
+def _complaints_of(cases: list[Path], headers: Path, directory: Path) -> list[str]:
     packages = []
-    cases = sorted(CASES.glob("*.rebeca"))
-    offering = [c for c in cases if c.stem in ("actions", "services")]
-    for case in dict.fromkeys([*cases[::2], *offering]):  # ROS 1 compiles all of them
+    for case in cases:
         config = replace(case_config(case), target="ros2-cpp")
         files = generated(case.read_text(encoding="utf-8"), case.stem, config)
-        packages.append(written(files, tmp_path, case.stem, config))
-    assert _complaints(packages, headers) == []
+        packages.append(written(files, directory, case.stem, config))
+    return _complaints(packages, headers)
 
 
 def test_drawn_models(headers: Path, tmp_path: Path) -> None:
