@@ -41,11 +41,13 @@ _MAIN = "from probe.script import main\n\n__all__ = ['main']\n"
 class _InProcess:
     """Plays with the package in a folder; `foreign` are topics to which no rebec subscribes.
 
-    That subscription asks for what was sent before it, which rebecs do not keep.
+    That subscription asks for what was sent before it, which rebecs do not keep. The `deaf` hear
+    what others announce some seconds late.
     """
 
     folder: Path
     foreign: tuple[str, ...] = ()
+    deaf: tuple[tuple[str, float], ...] = ()
 
     def play(
         self,
@@ -56,6 +58,7 @@ class _InProcess:
     ) -> Recording:
         """Run rebecs of which each knows all the names, until the clock's end."""
         world = World()
+        world.deaf |= dict(self.deaf)
         nodes = probe_nodes(rebecs, parameters, names)
         with installed(world, self.folder, self.folder / "probe_interfaces"):
             main = import_module("probe.script").main

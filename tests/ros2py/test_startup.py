@@ -25,6 +25,7 @@ from tests.ros2py.world import World
 __all__ = [
     "test_a_foreign_subscription_that_never_matches_is_not_waited_for",
     "test_a_rebec_without_a_list_runs_alone",
+    "test_nobody_begins_before_all_know_of_one_another",
     "test_nothing_is_lost_however_late_nodes_start",
     "test_stopping_in_a_long_delay_is_quick_and_sends_nothing",
     "test_time_0_is_when_the_last_is_ready",
@@ -57,3 +58,20 @@ def test_a_foreign_subscription_that_never_matches_is_not_waited_for(
     recording = play(listened, tmp_path, rebecs, Clock(until=9, quiet=2))
     assert recording.order("b") == ["plain(1)@0"]
     assert recording.reports() == ()
+
+
+def test_nobody_begins_before_all_know_of_one_another(probe: Player, tmp_path: Path) -> None:
+    """Who knows of all the others waits for one that does not yet: it could not serve."""
+    slow = replace(cast(Any, probe), deaf=(("c", 1.0),))
+    tick = Rebec(constructor=START, plain=("send c low 0", "send self plain 0 after 1"))
+    rebecs = {"a": tick, "b": tick, "c": Rebec(capacity=4)}
+    options = {"mailbox/time_unit": 0.1}
+    recording = play(slow, tmp_path, rebecs, Clock(until=3, quiet=2), options)
+    announced = [m for m in recording.heard("/startup") if m.fields["zero"]]
+    first = {name: min(m.stamp for m in announced if m.fields["rebec"] == name) for name in rebecs}
+    assert first["c"] - first["a"] == pytest.approx(1, abs=0.1)
+    assert min(b.stamp for b in recording.served) >= first["c"]
+    # Time 0 is not long ago then: nobody has to catch up.
+    assert recording.reports() == ()
+    assert recording.order("a")[:2] == ["plain(0)@0", "plain(0)@1"]
+    assert all(b.stamp - b.now * 0.1 < 0.09 for b in recording.bodies("a"))

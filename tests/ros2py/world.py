@@ -233,6 +233,17 @@ class Node:
             self.world.happened += 1
         return timer
 
+    def once(self, seconds: float, act: Callable[[], None]) -> None:
+        """Has the thread of the node do something in some seconds."""
+
+        def ring() -> None:
+            timer.cancel()
+            act()
+
+        due = self.world.time + round(seconds * NANOSECONDS)
+        timer = Timer(self, NANOSECONDS, due, ring)
+        self.timers.append(timer)
+
     def destroy_timer(self, timer: Timer) -> None:
         self._change("destroyed")
         with self.world.lock:
@@ -344,6 +355,7 @@ class World:
         self.messages: list[tuple[str, float, dict[str, object]]] = []
         self.log: list[tuple[str, int, float, str]] = []
         self.failures: list[BaseException] = []
+        self.deaf: dict[str, float] = {}  # nodes that hear announcements some seconds late
         self.stopping = False
         self.context = threading.local()
 
@@ -361,8 +373,10 @@ class World:
         return not (self.stopping or (launched is not None and launched.name in self.shut))
 
     def shut_down(self) -> None:
-        """Ends the node of the thread that asks."""
-        launched = self.context.launched
+        """Ends the node of the thread that asks, if it has one."""
+        launched = getattr(self.context, "launched", None)
+        if launched is None:
+            return
         self.shut.add(launched.name)
         for node in self.nodes.values():
             if node.launched.name == launched.name:
@@ -408,8 +422,16 @@ class World:
                     self._send(subscription, message)
 
     def _send(self, subscription: Subscription, message: Message) -> None:
-        received = copy.deepcopy(message)
-        subscription.node.queue.put(lambda: subscription.callback(received))
+        node, received = subscription.node, copy.deepcopy(message)
+
+        def take() -> None:
+            subscription.callback(received)
+
+        late = self.deaf.get(node.get_name(), 0.0)
+        if late and subscription.topic_name == "/startup":
+            node.once(late, take)
+        else:
+            node.queue.put(take)
 
     def write(self, node: str, level: int, text: str) -> None:
         with self.lock:
