@@ -119,6 +119,8 @@ def test_what_is_open_when_a_node_ends_is_answered(serve: Serve) -> None:
     (never,) = (a for a in answers if a.name == _NEVER)
     assert dict(never.fields) == _NOTHING
     assert all(a.at < 8.1 for a in answers)
+    (told,) = (line.text for line in recording.log if line.text.startswith("service: "))
+    assert told.endswith(" before the end of the node)")
     _clean(recording)
 
 
