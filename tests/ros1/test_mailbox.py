@@ -129,6 +129,38 @@ def test_a_rebec_that_sends_to_itself_still_holds_its_place(
     assert [r.kind for r in recording.reports()] == ["overflow"]
 
 
+def test_a_robot_stands_that_no_longer_sends_to_itself(probe: Workspace, tmp_path: Path) -> None:
+    """What was dropped would have sent the next one: nobody else begins that again."""
+    rebecs = {
+        "a": Rebec(
+            constructor=START,
+            plain=("move 1 0", "delay 2", "send self plain 0 after 1"),
+            low=("move 1 0", "delay 1"),
+            capacity=3,
+        ),
+        "b": Rebec(
+            constructor=("send self plain 0 after 4", "send self low 0 after 13"),
+            plain=("send a low 1", "send a low 2", "send a low 3"),
+            low=("send a low 4",),
+        ),
+    }
+    clock = Clock(until=30, quiet=12, rate=10)
+    recording = play(probe, tmp_path, rebecs, clock, {"mailbox/heartbeat": 0.25})
+    served = ["plain(0)@0", "plain(0)@3", "low(1)@5", "low(2)@6", "low(4)@13"]
+    assert recording.order("a") == served
+    assert [r.facts for r in recording.reports("overflow")] == [
+        "capacity 3, arrival 4",
+        "capacity 3, arrival 6, sent to itself, which ends here",
+    ]
+    velocities = recording.velocities("a")
+    assert any(v.x != 0 for v in velocities)
+    assert {v.x for v in velocities if v.stamp > 4.9} == {0}
+    told = [s for m in recording.heard("/diagnostics") for s in m.fields["status"]]
+    *_, last = [s for s in told if s["hardware_id"] == "a"]
+    assert last["level"] in (2, b"\x02")  # rclpy has bytes of one
+    assert last["message"] == "ended plain"
+
+
 def test_the_sender_is_known_and_answered(probe: Workspace, tmp_path: Path) -> None:
     ask = Rebec(constructor=START, plain=("send b low 1",))
     rebecs = {"a": ask, "b": Rebec(low=("is_script", "send sender high 7")), "c": ask}

@@ -26,6 +26,15 @@ reactiveclass Ticker(5) {
 main { Robot r(t):(); Ticker t(r):(); }
 """
 
+# The robot is inactive when time 0 comes, in the first second, and until after 2.
+BY_HAND = {"autostart": "false"}
+BEFORE_TIME_0 = {
+    "r": list(
+        zip((0.1, 0.2, 0.3, 3.3), ("configure", "activate", "deactivate", "activate"), strict=True)
+    ),
+    "t": [(0.1, "configure"), (1.0, "activate")],
+}
+
 
 def test_an_inactive_robot_stands_and_then_drives_what_is_left(paused: Recording) -> None:
     velocities = paused.velocities("r")
@@ -60,3 +69,11 @@ def test_the_other_one_goes_on(paused: Recording) -> None:
     ticks = [b.start for b in paused.bodies("t") if b.server == "tick"]
     assert ticks == list(range(2, 2 * len(ticks) + 1, 2))
     assert len(ticks) > 8
+
+
+def check_what_waits_since_before_time_0(recording: Recording) -> None:
+    """A rebec that was inactive when time 0 came has lost nothing: its messages wait."""
+    assert not recording.reports("restarted")
+    assert [r.facts for r in recording.reports("inactive")] == ["from 0 to 3, waiting 2"]
+    served = [(b.server, b.arrival, b.start) for b in recording.bodies("r")]
+    assert served[:2] == [("hint", 2, 3), ("go", 4, 4)]

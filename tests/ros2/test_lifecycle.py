@@ -11,7 +11,10 @@ from tests.forward.compiling import CASES, generated, written
 from tests.ros1.recording import Recording
 from tests.ros2.building import build_driver, complaints, make_messages
 from tests.ros2.pausing import (
+    BEFORE_TIME_0,
+    BY_HAND,
     MODEL,
+    check_what_waits_since_before_time_0,
     test_an_inactive_robot_stands_and_then_drives_what_is_left,
     test_messages_wait_and_what_is_too_late_is_told,
     test_the_body_goes_on_as_much_later,
@@ -38,6 +41,7 @@ def package(headers: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def driver(package: Path, headers: Path) -> Path:
+    """With the thread sanitizer: what it finds ends the run."""
     return build_driver(package, headers, package.parent / "build")
 
 
@@ -65,12 +69,16 @@ def test_time_0_is_when_the_last_one_is_active(package: Path, driver: Path) -> N
         "r": [(0.1, "configure"), (0.2, "activate")],
         "t": [(0.1, "configure"), (5.0, "activate")],
     }
-    by_hand = {"autostart": "false"}
-    recording = run(package, driver, package.parent, 8, changes=changes, arguments=by_hand)
+    recording = run(package, driver, package.parent, 8, changes=changes, arguments=BY_HAND)
     first = next(b for b in recording.bodies("r") if b.server == "go")
     assert first.start == 1
     assert first.stamp == pytest.approx(5, abs=0.2)  # when it ends
     assert not recording.reports("restarted")
+
+
+def test_who_is_inactive_at_time_0_loses_nothing(package: Path, driver: Path) -> None:
+    recording = run(package, driver, package.parent, 9, changes=BEFORE_TIME_0, arguments=BY_HAND)
+    check_what_waits_since_before_time_0(recording)
 
 
 def test_a_node_that_is_shut_down_stands(package: Path, driver: Path) -> None:

@@ -38,12 +38,14 @@ def play(
     folder: Path,
     until: float,
     changes: Mapping[str, Sequence[tuple[float, str]]] | None = None,
+    arguments: Mapping[str, str] | None = None,
 ) -> Recording:
     """Start what the launch file of a package says, and run it to a time of the model.
 
-    The `changes` of the life cycles of nodes come after so many seconds.
+    The `changes` of the life cycles of nodes come after so many seconds; the `arguments` are those
+    of the launch file.
     """
-    return play_asked(folder, until, (), changes)[0]
+    return play_asked(folder, until, (), changes, arguments=arguments)[0]
 
 
 def play_asked(
@@ -52,6 +54,7 @@ def play_asked(
     asks: Sequence[Ask],
     changes: Mapping[str, Sequence[tuple[float, str]]] | None = None,
     ends: Mapping[str, float] | None = None,
+    arguments: Mapping[str, str] | None = None,
 ) -> tuple[Recording, tuple[Answer, ...]]:
     """The same, with clients of services and actions; nodes that are interrupted have `ends`."""
     world, name = World(), folder.name
@@ -59,7 +62,7 @@ def play_asked(
     for ask in asks:
         world.act_at(ask.at, client(world, ask, answers))
     with installed(world, folder / name, folder / f"{name}_interfaces"):
-        found = described(folder / name)
+        found = described(folder / name, **(arguments or {}))
         mains = [_main(name, node, (changes or {}).get(node.name, ())) for node in found]
         with _interrupting(world, name, ends or {}):
             world.run(mains, until)

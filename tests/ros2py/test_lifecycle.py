@@ -10,7 +10,10 @@ from rebsync.config import Config
 from tests.forward.compiling import generated, written
 from tests.ros1.recording import Recording
 from tests.ros2.pausing import (
+    BEFORE_TIME_0,
+    BY_HAND,
     MODEL,
+    check_what_waits_since_before_time_0,
     test_an_inactive_robot_stands_and_then_drives_what_is_left,
     test_messages_wait_and_what_is_too_late_is_told,
     test_the_body_goes_on_as_much_later,
@@ -48,6 +51,10 @@ def test_a_rebec_is_made_again_after_cleanup(package: Path) -> None:
     served = [b for b in recording.served if b.rebec == "r" and b.start >= 8]
     assert (served[0].server, served[0].state["n"]) == ("constructor", 0)
     assert next(b.start for b in served if b.server == "go") == 9
+
+
+def test_who_is_inactive_at_time_0_loses_nothing(package: Path) -> None:
+    check_what_waits_since_before_time_0(play(package, 9, BEFORE_TIME_0, BY_HAND))
 
 
 def test_a_node_that_is_shut_down_stands(package: Path) -> None:

@@ -85,6 +85,10 @@ class Startup {
     awaitClock();
     announce();
     awaitAll([this] { return missing(); }, "waits for");
+    if (!propose().joins) {
+      beat();
+      awaitAll([this] { return undecided(); }, "waits for");
+    }
     const Beginning beginning = settle();
     beat();
     return beginning;
@@ -169,10 +173,23 @@ class Startup {
     beat();
   }
 
-  // A time 0 before the own stamp was agreed on without this rebec.
+  // Time 0 is when the last one has heard of all the others; who comes later takes it over.
+  Beginning propose() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (heard_ != 0 && stamp_ > heard_) return beginning(heard_);
+    return beginning(std::max({now(), heard_, latest()}));
+  }
+
+  // Of what all have proposed the last moment holds.
   Beginning settle() {
     const std::lock_guard<std::mutex> lock(mutex_);
-    zero_ = heard_ != 0 ? heard_ : latest();
+    settled_ = true;
+    return beginning(std::max(zero_, heard_));
+  }
+
+  // A time 0 before the own stamp was agreed on without this rebec.
+  Beginning beginning(int64_t zero) {
+    zero_ = zero;
     return {ros::Time().fromNSec(static_cast<uint64_t>(zero_)), stamp_ > zero_};
   }
 
@@ -193,9 +210,9 @@ class Startup {
     const bool late = zero_ != 0 && announcement.stamp > zero_;
     if (again && late) report("restarted", {announcement.rebec});
     const int64_t zero = announcement.zero;
-    const bool other = zero != 0 && zero_ != 0 && zero != zero_;
+    const bool other = zero != 0 && settled_ && zero != zero_;
     if (other && zero != peer.zero) report("another time 0 than", {announcement.rebec});
-    if (zero != 0 && (heard_ == 0 || zero < heard_)) heard_ = zero;
+    heard_ = std::max(heard_, zero);
     peer = {announcement.stamp, zero, announcement.clock - now(), 0, false};
   }
 
@@ -222,6 +239,16 @@ class Startup {
     return names;
   }
 
+  // Who does not know time 0 yet cannot serve: what is sent to it would only fill its mailbox.
+  Names undecided() const {
+    Names names(rebecs_.begin(), rebecs_.end());
+    names.erase(self_);
+    for (const auto& peer : peers_) {
+      if (peer.second.zero != 0) names.erase(peer.first);
+    }
+    return names;
+  }
+
   int64_t latest() const {
     int64_t time = stamp_;
     for (const auto& peer : peers_) time = std::max(time, peer.second.stamp);
@@ -242,8 +269,9 @@ class Startup {
   Names unmatched_;
   std::map<std::string, Peer> peers_;
   int64_t stamp_ = 0;  // times in nanoseconds of the ROS clock; 0: not yet
-  int64_t heard_ = 0;  // the least time 0 of others
+  int64_t heard_ = 0;  // the last time 0 that others have proposed
   int64_t zero_ = 0;
+  bool settled_ = false;
   bool stopping_ = false;
   ros::Publisher announcement_;
   ros::Subscriber announcements_;

@@ -50,7 +50,9 @@ struct Snapshot {
   uint64_t served;
   std::size_t waiting;
   int64_t now;
-  double lateness;  // of what was taken last, in seconds
+  double lateness;         // of what was taken last, in seconds
+  std::string overflowed;  // servers of which what a rebec sent was dropped
+  std::string ended;       // those that the rebec sent to itself: nothing of them is due any more
 };
 
 /// Announces the rebec while it lives, and reports what should happen and does not.
@@ -132,12 +134,15 @@ class Watchdog {
     tell(!seen.started, Status::WARN, "waits for the start");
     tell(seen.lateness > slack_, Status::WARN, "late");
     tell(offset > std::max(slack_, heartbeat_.count()), Status::WARN, "clocks differ");
+    tell(!seen.overflowed.empty(), Status::ERROR, "overflow of " + seen.overflowed);
     tell(!lost.empty(), Status::ERROR, "lost " + lost);
+    tell(!seen.ended.empty(), Status::ERROR, "ended " + seen.ended);
     tell(looks_ >= kPatience, Status::ERROR, "stall in " + seen.server);
     add(status, "model time", std::to_string(seen.now));
     add(status, "waiting", std::to_string(seen.waiting));
     add(status, "served", std::to_string(seen.served));
     add(status, "lateness", std::to_string(seen.lateness));
+    add(status, "ended", seen.ended);
     add(status, "lost rebecs", lost);
     add(status, "clock offset", std::to_string(offset));
     diagnostic_msgs::DiagnosticArray diagnostics;

@@ -113,6 +113,7 @@ class Drive {
 
   void plan(ros::Time start, double duration) {
     const auto lock = waits_.lock();
+    if (mailbox_.stands()) pending_.clear();
     if (pending_.empty() || waits_.isStopping()) return;
     const ros::Duration share(duration / static_cast<double>(pending_.size()));
     for (const auto& cells : pending_) {

@@ -35,6 +35,7 @@
 #include <map>
 #include <mutex>
 #include <random>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -356,6 +357,9 @@ class Mailbox {
   }
   double timeUnit() const { return time_unit_; }
 
+  /// Whether a robot must not move: what the rebec did again and again has ended.
+  bool stands() const { return stands_; }
+
   /// Has a thread of its own look at something a few times a second; call it before start().
   void watch(Body check) { watchdog_.addCheck(std::move(check)); }
 
@@ -455,12 +459,18 @@ class Mailbox {
     busy_ = false;
   }
 
+  // Nothing is sent before time 0, so nothing is lost then.
   int64_t join() const {
-    const auto time = static_cast<int64_t>(std::ceil(std::max(elapsed() - kRounded, 0.0)));
-    const std::string facts =
-        "serves from " + std::to_string(time) + " on, what came before is lost";
+    const int64_t time = wholeTime();
+    const std::string facts = "serves from " + std::to_string(time) + " on" +
+                              (time > 0 ? ", what came before is lost" : "");
     ROS_WARN_STREAM(reportLine("restarted", self_, "startup", facts));
     return time;
+  }
+
+  // The next one of the model.
+  int64_t wholeTime() const {
+    return static_cast<int64_t>(std::ceil(std::max(elapsed() - kRounded, 0.0)));
   }
 
   // The time of the model that the clock shows.
@@ -486,7 +496,7 @@ class Mailbox {
     const bool due = started_ && !busy_ && !waiting_.empty() && ros::Time::now() >= dueTime(*first());
     const std::string server = due ? first()->server.name : serving_name_;
     return {started_, serving_, delaying_, due, server, steps_, served_count_, waiting_.size(),
-        seen_now_, lateness_};
+        seen_now_, lateness_, listed(overflowed_), listed(ended_)};
   }
 
   void atStart(Body action) {
@@ -502,8 +512,9 @@ class Mailbox {
     auto lock = waits_.lock();
     stamp(message);
     if (waiting_.size() + (serving_ ? 1 : 0) >= capacity_) {
-      report("overflow", message.server,
-          "capacity " + std::to_string(capacity_) + ", " + times(message.timing));
+      std::string facts = "capacity " + std::to_string(capacity_) + ", " + times(message.timing);
+      if (message.timing.stamped) facts += lose(message);
+      report("overflow", message.server, facts);
       return;
     }
     message.receipt = ++received_;
@@ -511,6 +522,21 @@ class Mailbox {
     if (!started_ || busy_) return;  // who serves or begins finds it
     if (!detail::delays()) ending([this, &lock] { drain(lock); });
     rouse();
+  }
+
+  // What a rebec sends to itself again and again ends with the first such message that is lost.
+  std::string lose(const Message& message) {
+    overflowed_.insert(message.server.name);
+    if (message.sender != self_) return "";
+    ended_.insert(message.server.name);
+    stands_ = true;
+    return ", sent to itself, which ends here";
+  }
+
+  static std::string listed(const std::set<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : " ") + name;
+    return text;
   }
 
   // Has the serving thread look again if something is due before it would.
@@ -674,6 +700,9 @@ class Mailbox {
   std::string serving_name_;
   int64_t seen_now_ = 0;
   double lateness_ = 0;
+  std::set<std::string> overflowed_;  // servers of which what a rebec sent was dropped
+  std::set<std::string> ended_;       // those among them that the rebec sent to itself
+  std::atomic<bool> stands_{false};
 
   std::thread thread_;
   Startup startup_;
