@@ -35,11 +35,11 @@ _HINT = "put it back, or take out by hand all that belongs to it"
 
 
 def lacking(kept: Kept, record: Record, now: Standing) -> tuple[Findings, ...]:
-    """The files that the build names and that are gone, and fields of messages that code sets."""
-    return (*_files(now), *_fields(kept, record, now), *_packages(kept, record, now))
+    """What was generated and is gone while the build names it, or code uses it."""
+    return (*_files(record, now), *_fields(kept, record, now), *_packages(kept, record, now))
 
 
-def _files(now: Standing) -> Iterator[Findings]:
+def _files(record: Record, now: Standing) -> Iterator[Findings]:
     listing = now.listing
     store = listing.store or Disk()
     for folder in folders_of(listing.files) or ("",):
@@ -48,8 +48,9 @@ def _files(now: Standing) -> Iterator[Findings]:
         inside = {name.removeprefix(prefix): listing.files[name] for name in own}
         files = {name: _read(path, name) for name, path in inside.items()}
         for each in named(files):
-            path = join(listing.root, f"{prefix}{each.path}")
-            if each.path not in files and not store.exists(path):
+            name = f"{prefix}{each.path}"
+            path = join(listing.root, name)
+            if each.path not in files and name in record.files and not store.exists(path):
                 yield _gone(path, each)
 
 

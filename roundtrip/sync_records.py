@@ -9,7 +9,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-from rebsync.diagnostics import Findings
+from rebsync.diagnostics import Findings, RebsyncError
 from rebsync.files import BOM, read_bytes
 from rebsync.folder import Folder
 from rebsync.roundtrip.digests import Standing, digest_of, standing
@@ -87,6 +87,10 @@ def _as_will_be(sync: Sync) -> Iterator[Kept]:
     odd = sync.checked.standing.listing.odd
     listed = sync.checked.standing.listing.files.items()
     files = {name: read_bytes(path) for name, path in listed if name not in odd}
+    generated = sync.checked.record.files if sync.checked.record is not None else {}
+    for name in generated.keys() - files.keys():
+        with suppress(RebsyncError):  # what nothing is read from may be gone
+            files[name] = read_bytes(str(own / name))
     for changes in (sync.texts, sync.records):
         for name, text in changes.items():
             files.pop(name, None)
