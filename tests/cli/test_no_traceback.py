@@ -119,12 +119,14 @@ def test_directories_that_nest_deep(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     for _ in range(1_900):
         os.mkdir("d")  # noqa: PTH102
         os.chdir("d")
-    for command in ("lint .", "fmt --check .", "extract m", "generate m.rebeca", "check", "sync"):
-        done = rebsync(*command.split(), cwd=tmp_path)
-        assert done.status in (0, 2), (command, done)
-        assert (done.status == 2) == ("RS111" in done.err + done.out), (command, done)
-    monkeypatch.undo()
-    subprocess.run(["rm", "-r", str(tmp_path / "m")], check=True)
+    try:
+        for command in ("lint .", "fmt --check .", "extract m", "generate m.rebeca", "check", "sync"):
+            done = rebsync(*command.split(), cwd=tmp_path)
+            assert done.status in (0, 2), (command, done)
+            assert (done.status == 2) == ("RS111" in done.err + done.out), (command, done)
+    finally:  # pytest cannot take them away
+        monkeypatch.undo()
+        subprocess.run(["rm", "-r", str(tmp_path / "m")], check=True)
 
 
 def test_names_of_files_that_are_not_utf_8(tmp_path: Path) -> None:
