@@ -120,7 +120,8 @@ def test_directories_that_nest_deep(tmp_path: Path, monkeypatch: pytest.MonkeyPa
         os.mkdir("d")  # noqa: PTH102
         os.chdir("d")
     try:
-        for command in ("lint .", "fmt --check .", "extract m", "generate m.rebeca", "check", "sync"):
+        commands = ("lint .", "fmt --check .", "extract m", "generate m.rebeca", "check", "sync")
+        for command in commands:
             done = rebsync(*command.split(), cwd=tmp_path)
             assert done.status in (0, 2), (command, done)
             assert (done.status == 2) == ("RS111" in done.err + done.out), (command, done)
