@@ -58,6 +58,7 @@ _MANIFEST = "package.xml"
 _TIME_UNIT = "/mailbox/time_unit"
 _CODE = tuple(sorted(CODE))
 _UNBUILT = "no program of the package is made of this file"
+_NEEDED = "no target of the build compiles this file, and the package needs what it defines"
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,10 +90,8 @@ def extract(
     or, if it is a launch file, the system that this one starts. `memory` knows what generated
     classes said before: of these only what an edit can have to do with is read again.
     """
-    left = unbuilt(files) - {only}
     findings = Findings()
-    findings.all += [Finding(Grade.UNBUILT, files[p], NOWHERE, _UNBUILT) for p in sorted(left)]
-    files = {path: source for path, source in files.items() if path not in left}
+    files = _built(files, only, findings)
     trees = []
     for path, source in sorted(files.items()):
         if path.endswith(_CODE):
@@ -144,6 +143,18 @@ def extract(
     statements = tuple(findings.statements.items())
     asked_for = python.graph if python is not None else Graph()
     return Extracted(model, tuple(findings.all), statements, asking, asked_for)
+
+
+def _built(files: Mapping[str, Source], only: str | None, findings: Findings) -> dict[str, Source]:
+    """The files but for those that no program is made of, which are listed."""
+    found = unbuilt(files)
+    for path in sorted(found.left - {only}):
+        grade, why = Grade.UNBUILT, _UNBUILT
+        if path in found.needed:
+            grade, why = Grade.UNREADABLE, _NEEDED
+        findings.all.append(Finding(grade, files[path], NOWHERE, why))
+    left = found.left - found.needed - {only}
+    return {path: source for path, source in files.items() if path not in left}
 
 
 def _in_python(

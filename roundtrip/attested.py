@@ -55,12 +55,6 @@ def is_attested(root: str) -> bool:
     return cache.load(name) is not None
 
 
-def are_base_texts_whole(root: str, record: Record) -> bool:
-    """Whether the texts of the last time in step, as far as they are there, are as recorded."""
-    base = recorded_base(root, BASE)
-    return all(is_text_of(encoded(t), record.files.get(n, "")) for n, t in base.items())
-
-
 def as_far_as_proved(checked: Checked) -> Checked:
     """The same, undetermined where a package's records cannot be believed.
 
@@ -71,7 +65,8 @@ def as_far_as_proved(checked: Checked) -> Checked:
     record, root = checked.record, checked.kept.root
     if record is None or checked.drift is None:
         return checked
-    is_whole = are_base_texts_whole(root, record)
+    base = recorded_base(root, BASE)
+    is_whole = all(is_text_of(encoded(t), record.files.get(n, "")) for n, t in base.items())
     if is_whole and is_attested(root):
         return checked
     if is_whole and _is_genuine(checked, record):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
 from rebsync.records import dataclass
-from rebsync.roundtrip.attested import are_base_texts_whole, is_attested
+from rebsync.roundtrip.attested import is_attested
 from rebsync.roundtrip.digests import Standing, is_base_whole, is_text_of, standing
 from rebsync.roundtrip.manifest import BASE_MODEL
 from rebsync.roundtrip.model_file import model_of
@@ -73,8 +73,7 @@ def begin(
     model = model_of(kept, record)
     now = standing(kept, record)
     is_known = (now.is_as_generated and not record.is_merged) or _was_in_step(record, now, depth)
-    is_known = is_known and _is_unchanged(model, record) and is_attested(kept.root)
-    if not (is_known and are_base_texts_whole(kept.root, record)):
+    if not (is_known and _is_unchanged(model, record) and is_attested(kept.root)):
         return Begun(kept, model, record, now)
     findings = (*changed_settings(model, record), *_about_base(kept, record))
     return Checked(kept, model, record, now, findings=findings)

@@ -5,12 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from contextlib import suppress
+from typing import TYPE_CHECKING
 
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.files import read_source
-from rebsync.reverse.build.built import BUILD
-from rebsync.reverse.build.manifests import read_manifest
-from rebsync.reverse.build.named import Named, named
 from rebsync.reverse.files.packages import CODE, MANIFEST
 from rebsync.reverse.files.python_files import SETUP, SUFFIX
 from rebsync.reverse.files.stores import Disk, join
@@ -21,6 +19,10 @@ from rebsync.roundtrip.recorded import Record
 from rebsync.roundtrip.units import folders_of
 from rebsync.source import NOWHERE, Source, Span
 
+if TYPE_CHECKING:
+    from rebsync.reverse.build.named import Named
+
+BUILD = "CMakeLists.txt"
 _READ = frozenset({BUILD, MANIFEST, SETUP})
 _STATE = "State.msg"
 _FIELD = re.compile(r"^[ \t]*[\w/\[\]]+[ \t]+(\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
@@ -40,6 +42,10 @@ def lacking(kept: Kept, record: Record, now: Standing) -> tuple[Findings, ...]:
 
 
 def _files(record: Record, now: Standing) -> Iterator[Findings]:
+    if not now.missing:
+        return
+    from rebsync.reverse.build.named import named
+
     listing = now.listing
     store = listing.store or Disk()
     for folder in folders_of(listing.files) or ("",):
@@ -118,6 +124,8 @@ def _asked_by_cmake(source: Source) -> set[str]:
 
 
 def _asked_by_manifest(source: Source) -> set[str]:
+    from rebsync.reverse.build.manifests import read_manifest
+
     return set(read_manifest(source).depends)
 
 

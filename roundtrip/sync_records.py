@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
@@ -21,9 +22,10 @@ from rebsync.terminal import encoded
 
 if TYPE_CHECKING:
     from rebsync.roundtrip.sync import Sync
+    from rebsync.roundtrip.wiring import Odd
 
-# The kinds of facts that a launch file says of nodes of the model.
-_GIVEN = frozenset({"node", "parameter", "remap", "setting"})
+_NAME = re.compile(r"\w+")
+_LISTS = ("mailbox/rebecs", "mailbox/instances")
 
 
 def with_what_holds(sync: Sync) -> Sync:
@@ -110,8 +112,8 @@ def _odd(
 ) -> tuple[list[str], list[Findings]]:
     """How nodes are joined that is to be accepted, and what is left to tell of edits.
 
-    `told` is what was told of before; to go on from there is not to accept it. What a launch file
-    gives nodes must be what the model of now gives them: lists of rebecs, remaps.
+    `told` is what was told of before; to go on from there is not to accept it. A list of rebecs
+    must name those of a class of which it names others, and a remap must not be missing.
     """
     from rebsync.roundtrip.difference import Comparison
     from rebsync.roundtrip.lacking import lacking
@@ -120,12 +122,29 @@ def _odd(
 
     accepted, left = set[str](), [*edited(kept, record, now), *lacking(kept, record, now)]
     for odd in odd_facts(kept, record, now, Comparison(())):
-        kinds = {fact.kind for fact in (*odd.before, *odd.now)}
-        if _subject(odd.finding) in told or not kinds.isdisjoint(_GIVEN):
+        if _subject(odd.finding) in told or _is_needed(odd, kept, now):
             left.append(odd.finding)
         else:
             accepted.add(odd.finding.diagnostics[0].message)
     return sorted(accepted), left
+
+
+def _is_needed(odd: Odd, kept: Kept, now: Standing) -> bool:
+    """Whether nodes do not find each other with what a launch file does not say."""
+    first = (odd.before or odd.now)[0]
+    if first.kind == "remap":
+        return not odd.now
+    if not first.name.startswith(_LISTS):
+        return False
+    from rebsync.roundtrip.models import code_given
+
+    main = code_given(kept, now).given.model.main
+    classes = {r.name: r.type.name for r in main.rebecs} if main is not None else {}
+    wanted, listed = (
+        {n for f in facts for n in _NAME.findall(f.value)} for facts in (odd.before, odd.now)
+    )
+    of_listed = {classes.get(name) for name in listed}
+    return any(classes.get(name) in of_listed for name in wanted - listed)
 
 
 def _subject(found: Findings) -> str:

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import posixpath
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from fnmatch import fnmatchcase
 
+from rebsync.records import dataclass
 from rebsync.reverse.build.built_python import unbuilt_python
 from rebsync.reverse.build.cmake import read_build
 from rebsync.reverse.build.cmake_targets import Folder
@@ -21,41 +22,71 @@ BUILD = "CMakeLists.txt"
 _HEADERS = tuple(sorted(HEADERS))
 _SOURCES = tuple(sorted(CODE - HEADERS))
 _INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:<([^>\n]*)>|"([^"\n]*)"|(\w+))', re.M)
+_DEFINED = re.compile(r"\b(\w+)\s*::\s*(~?\w+)\s*\(")
+_LAUNCHES = (".launch", ".launch.py", ".launch.xml", ".launch.yaml")
 _CLASS = re.compile(r"\b(?:class|struct)\s+(?:[A-Z_]+\s+)?(\w+)[^;{()]*\{")
 
 
-def unbuilt(files: Mapping[str, Source]) -> frozenset[str]:
-    """The paths of the files of code that the build of a package is known to leave out.
+@dataclass(frozen=True, slots=True)
+class Unbuilt:
+    """The files of code that the build of a package is known to leave out, by their paths in it.
 
-    `files` are those of the package that were read, by their paths in it.
+    Of these `needed` define what classes of the package lack otherwise, or are programs that a
+    launch file starts: what they say is meant, and nobody knows what the robot does.
     """
-    return _unbuilt_cpp(files) | unbuilt_python(files)
+
+    left: frozenset[str]
+    needed: frozenset[str] = frozenset()
+
+
+def unbuilt(files: Mapping[str, Source]) -> Unbuilt:
+    """What the build leaves out; `files` are those of a package that were read, by their paths."""
+    of_cpp = _unbuilt_cpp(files)
+    return Unbuilt(of_cpp.left | unbuilt_python(files), of_cpp.needed)
 
 
 # --- C++ ----------------------------------------------------------------------------------------
 
 
-def _unbuilt_cpp(files: Mapping[str, Source]) -> frozenset[str]:
+def _unbuilt_cpp(files: Mapping[str, Source]) -> Unbuilt:
     """Sources of no target, and headers that say anew what one says that a target includes."""
     compiled = _compiled(files)
-    if not compiled:
-        return frozenset()
     reached, waiting = set(compiled), list(compiled)
     while waiting:
         included = _included(waiting.pop(), files)
         if included is None:
-            return frozenset()
+            return Unbuilt(frozenset())
         fresh = included - reached
         reached |= fresh
         waiting += fresh
+    if not compiled:
+        return Unbuilt(frozenset())
     declared = {name for p in reached for name in _CLASS.findall(files[p].text)}
-    left = (p for p in files if p not in reached)
-    return frozenset(
-        path
-        for path in left
-        if path.endswith(_SOURCES)
-        or (path.endswith(_HEADERS) and not declared.isdisjoint(_CLASS.findall(files[path].text)))
-    )
+    others = [p for p in files if p not in reached]
+    headers = (p for p in others if p.endswith(_HEADERS))
+    again = (p for p in headers if not declared.isdisjoint(_CLASS.findall(files[p].text)))
+    sources = frozenset(p for p in others if p.endswith(_SOURCES))
+    needed = frozenset(p for p in sources if _is_needed(p, files, reached, declared))
+    return Unbuilt(sources.union(again), needed)
+
+
+def _is_needed(
+    path: str, files: Mapping[str, Source], reached: Collection[str], declared: Collection[str]
+) -> bool:
+    """Whether a source that is not built defines what is nowhere else, or a launch file runs it."""
+    has = {found for p in reached for found in _DEFINED.findall(files[p].text)}
+    own = {d for d in _DEFINED.findall(files[path].text) if d[0] in declared}
+    if not own <= has:
+        return True
+    stem = _stem(path)
+    if stem in map(_stem, reached):
+        return False
+    launches = (s.text for p, s in files.items() if p.endswith(_LAUNCHES))
+    return any(re.search(rf"\b{re.escape(stem)}\b", text) for text in launches)
+
+
+def _stem(path: str) -> str:
+    return posixpath.splitext(posixpath.basename(path))[0]
 
 
 def _compiled(files: Mapping[str, Source]) -> frozenset[str]:

@@ -51,19 +51,29 @@ _LEFT = {"src/old/robot.cpp", "include/p/robot_old.h"}
     ],
 )
 def test_sources_that_no_target_compiles(text: str, left: set[str]) -> None:
-    assert unbuilt(cmake(text)) == left
+    assert unbuilt(cmake(text)).left == left
+
+
+def test_a_source_that_is_needed_and_not_built() -> None:
+    files = cmake("add_executable(robot src/robot.cpp)")
+    files["src/more.cpp"] = Source("src/more.cpp", "void Robot::go() {\n}\n")
+    files["src/own.cpp"] = Source("src/own.cpp", "int main() {\n}\n")
+    files["src/idle.cpp"] = Source("src/idle.cpp", "int main() {\n}\n")
+    files["p.launch"] = Source("p.launch", '<node type="own"/>')
+    assert unbuilt(files).left >= {"src/more.cpp", "src/own.cpp", "src/idle.cpp"}
+    assert unbuilt(files).needed == {"src/more.cpp", "src/own.cpp"}
 
 
 def test_an_include_that_a_macro_names_may_be_any() -> None:
     files = cmake("add_executable(robot src/robot.cpp)")
     files["src/robot.cpp"] = Source("src/robot.cpp", "#include HEADER\n")
-    assert unbuilt(files) == frozenset()
+    assert unbuilt(files).left == frozenset()
 
 
 def test_a_source_that_is_included_counts() -> None:
     files = cmake("add_executable(robot src/robot.cpp)")
     files["src/robot.cpp"] = Source("src/robot.cpp", '#include "old/robot.cpp"\n')
-    assert "src/old/robot.cpp" not in unbuilt(files)
+    assert "src/old/robot.cpp" not in unbuilt(files).left
 
 
 def python(robot: str = "", **others: str) -> dict[str, Source]:
@@ -93,7 +103,7 @@ def python(robot: str = "", **others: str) -> dict[str, Source]:
     ],
 )
 def test_modules_that_no_program_imports(files: Mapping[str, Source], left: set[str]) -> None:
-    assert unbuilt(files) == left
+    assert unbuilt(files).left == left
 
 
 def test_a_script_is_a_program_where_nothing_is_installed() -> None:
@@ -104,7 +114,7 @@ def test_a_script_is_a_program_where_nothing_is_installed() -> None:
         src__p__robot_old_dot_py="class Robot:\n    pass\n",
         src__p__robot_run_dot_py=f"class Robot:\n    pass\n{guard}",
     )
-    assert unbuilt(files) == {"src/p/robot_old.py"}
+    assert unbuilt(files).left == {"src/p/robot_old.py"}
 
 
 def test_the_files_that_a_build_names() -> None:
