@@ -113,7 +113,7 @@ def _odd(
     """How nodes are joined that is to be accepted, and what is left to tell of edits.
 
     `told` is what was told of before; to go on from there is not to accept it. A list of rebecs
-    must name those of a class of which it names others, and a remap must not be missing.
+    must name those of a class of which it names others.
     """
     from rebsync.roundtrip.difference import Comparison
     from rebsync.roundtrip.lacking import lacking
@@ -130,11 +130,8 @@ def _odd(
 
 
 def _is_needed(odd: Odd, kept: Kept, now: Standing) -> bool:
-    """Whether nodes do not find each other with what a launch file does not say."""
-    first = (odd.before or odd.now)[0]
-    if first.kind == "remap":
-        return not odd.now
-    if not first.name.startswith(_LISTS):
+    """Whether nodes wait for others, or choose among them, by a list that lacks one."""
+    if not (odd.before or odd.now)[0].name.startswith(_LISTS):
         return False
     from rebsync.roundtrip.models import code_given
 
@@ -143,8 +140,8 @@ def _is_needed(odd: Odd, kept: Kept, now: Standing) -> bool:
     wanted, listed = (
         {n for f in facts for n in _NAME.findall(f.value)} for facts in (odd.before, odd.now)
     )
-    of_listed = {classes.get(name) for name in listed}
-    return any(classes.get(name) in of_listed for name in wanted - listed)
+    of_listed = {classes[name] for name in listed & classes.keys()}
+    return any(classes[name] in of_listed for name in (wanted - listed) & classes.keys())
 
 
 def _subject(found: Findings) -> str:
