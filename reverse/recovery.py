@@ -21,7 +21,7 @@ from rebsync.reverse.build.built import unbuilt
 from rebsync.reverse.build.manifests import name_in
 from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.files.packages import CODE
-from rebsync.reverse.files.python_files import SETUP, is_python
+from rebsync.reverse.files.python_files import SETUP, is_launch, is_python
 from rebsync.reverse.findings import Finding, Findings, Grade
 from rebsync.reverse.generated.env_values import (
     as_type,
@@ -31,6 +31,7 @@ from rebsync.reverse.generated.env_values import (
     shaped,
     type_of_value,
 )
+from rebsync.reverse.generated.one_definition import defined_again
 from rebsync.reverse.generated.ros1_classes import Classes
 from rebsync.reverse.generated.ros1_kept import Memory, read_with
 from rebsync.reverse.generated.ros1_messages import own_messages
@@ -41,7 +42,7 @@ from rebsync.reverse.launch.launched import Launch, LaunchedNode
 from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_joined import Joined, Part
 from rebsync.reverse.nodes.node_lacking import marked_lacking
-from rebsync.reverse.nodes.node_launch import is_launch, system_of
+from rebsync.reverse.nodes.node_launch import system_of
 from rebsync.reverse.nodes.node_presence import is_generated, may_have_nodes
 from rebsync.reverse.nodes.node_programs import Program, programs, with_nodes
 from rebsync.reverse.nodes.node_system import Nodes, NodeSystem
@@ -92,12 +93,7 @@ def extract(
     """
     findings = Findings()
     files = _built(files, only, findings)
-    trees = []
-    for path, source in sorted(files.items()):
-        if path.endswith(_CODE):
-            trees.append(parse(source))
-            findings.all += unparsed(trees[-1])
-    code = Code.of(trees)
+    code = _in_cpp(files, findings)
     asking = Asking(code)
     package = _package(files)
     asked = only if only is not None and is_launch(only) else None
@@ -112,6 +108,8 @@ def extract(
     classes = Classes(code, findings, messages, _unit_of_time(launch), served)
     wanted = _classes_in(code, files[only].path) if only is not None else None
     read = classes.read(wanted) if memory is None else read_with(memory, classes, wanted)
+    for owner in classes.chosen(wanted):
+        findings.all += defined_again(code, owner)
     generated = is_generated(code)
     of_cpp = None
     if not generated or may_have_nodes(code, asking, started):
@@ -155,6 +153,13 @@ def _built(files: Mapping[str, Source], only: str | None, findings: Findings) ->
         findings.all.append(Finding(grade, files[path], NOWHERE, why))
     left = found.left - found.needed - {only}
     return {path: source for path, source in files.items() if path not in left}
+
+
+def _in_cpp(files: Mapping[str, Source], findings: Findings) -> Code:
+    """The files of C++, parsed."""
+    trees = [parse(source) for path, source in sorted(files.items()) if path.endswith(_CODE)]
+    findings.all += [finding for tree in trees for finding in unparsed(tree)]
+    return Code.of(trees)
 
 
 def _in_python(

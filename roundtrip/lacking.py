@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.files import read_source
-from rebsync.reverse.files.packages import CODE, MANIFEST
-from rebsync.reverse.files.python_files import SETUP, SUFFIX
+from rebsync.reverse.files.packages import MANIFEST
+from rebsync.reverse.files.python_files import SETUP
 from rebsync.reverse.files.stores import Disk, join
 from rebsync.roundtrip.digests import Standing
 from rebsync.roundtrip.manifest import BASE
@@ -22,17 +22,9 @@ from rebsync.source import NOWHERE, Source, Span
 if TYPE_CHECKING:
     from rebsync.reverse.build.named import Named
 
-BUILD = "CMakeLists.txt"
-_READ = frozenset({BUILD, MANIFEST, SETUP})
+_BUILD = "CMakeLists.txt"
+_READ = frozenset({_BUILD, MANIFEST, SETUP})
 _STATE = "State.msg"
-_FIELD = re.compile(r"^[ \t]*[\w/\[\]]+[ \t]+(\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
-_CODE = (*sorted(CODE), SUFFIX)
-_FOUND = re.compile(r"\bfind_package\s*\(([^)]*)\)")
-_HASH = re.compile(r"#[^\n]*")
-# By what code names a package, where that is not its own name.
-_NAMED = {"roscpp": "ros"}
-_OF_MESSAGES = re.compile(r"message_(?:generation|runtime)|rosidl_default_\w+")
-_INTERFACES = (".msg", ".srv", ".action")
 _HINT = "put it back, or take out by hand all that belongs to it"
 
 
@@ -62,8 +54,7 @@ def _files(record: Record, now: Standing) -> Iterator[Findings]:
 
 def _gone(path: str, each: Named) -> Findings:
     by = f"{each.source.path}:{each.source.position(each.span.start).line}"
-    found = Diagnostic("RS956", NOWHERE, f"this is gone, and {by} names it", _HINT)
-    return Findings(Source(path, ""), (found,))
+    return _finding(Source(path, ""), NOWHERE, f"this is gone, and {by} names it")
 
 
 def _read(path: str, name: str) -> Source:
@@ -76,69 +67,52 @@ def _read(path: str, name: str) -> Source:
 
 def _fields(kept: Kept, record: Record, now: Standing) -> Iterator[Findings]:
     """The fields that messages of state lost and that code still sets."""
-    files = now.listing.files
     for name in now.changed:
-        if not name.endswith(_STATE) or name not in record.files or name not in files:
+        if not name.endswith(_STATE):
             continue
-        with suppress(RebsyncError):
-            before, source = read_source(f"{kept.root}/{BASE}{name}"), read_source(files[name])
-            has = set(_FIELD.findall(source.text))
-            lost = [f for f in _FIELD.findall(before.text) if f not in has]
-            yield from (_lost(f, source) for f in lost if any(_sets(p, f) for p in files.values()))
+        from rebsync.reverse.build.messages import read_message
+
+        for before, source in _sides(kept, record, now, name):
+            old, new = (read_message(each, "", "").fields for each in (before, source))
+            lost = {f.name for f in old} - {f.name for f in new}
+            for field in sorted(lost):
+                if any(_sets(code, field) for _, code in _codes(now)):
+                    last = len(source.text.rstrip())
+                    span = Span(max(last - 1, 0), last)
+                    yield _finding(source, span, f"the field {field} is gone, and code sets it")
 
 
-def _sets(path: str, field: str) -> bool:
-    if not path.endswith(_CODE):
-        return False
-    with suppress(RebsyncError):
-        return re.search(rf"\bmsg\s*\.\s*{field}\b", read_source(path).text) is not None
-    return False
-
-
-def _lost(field: str, source: Source) -> Findings:
-    last = len(source.text.rstrip())
-    message = f"the field {field} is gone, and code sets it"
-    return Findings(source, (Diagnostic("RS956", Span(max(last - 1, 0), last), message, _HINT),))
+def _sets(code: Source, field: str) -> bool:
+    return re.search(rf"\bmsg\s*\.\s*{field}\b", code.text) is not None
 
 
 def _packages(kept: Kept, record: Record, now: Standing) -> Iterator[Findings]:
     """The packages that a build file no longer asks for, and that code still needs."""
-    files = now.listing.files
     for name in now.changed:
-        last = name.rpartition("/")[2]
-        if last not in (BUILD, MANIFEST) or name not in record.files or name not in files:
+        if name.rpartition("/")[2] not in (_BUILD, MANIFEST):
             continue
-        with suppress(RebsyncError):
-            before, source = read_source(f"{kept.root}/{BASE}{name}"), read_source(files[name])
-            asked = _asked_by_cmake if last == BUILD else _asked_by_manifest
-            for package in sorted(asked(before) - asked(source)):
-                if any(_needs(n, path, package) for n, path in files.items()):
+        from rebsync.reverse.build.dependencies import asked_for, uses
+
+        for before, source in _sides(kept, record, now, name):
+            for package in sorted(asked_for(name, before) - asked_for(name, source)):
+                if any(uses(path, code, package) for path, code in _codes(now)):
                     message = f"this no longer asks for {package}, and code needs it"
-                    found = Diagnostic("RS956", Span(0, 1), message, _HINT)
-                    yield Findings(source, (found,))
+                    yield _finding(source, Span(0, 1), message)
 
 
-def _asked_by_cmake(source: Source) -> set[str]:
-    text = _HASH.sub("", source.text)
-    return {word for m in _FOUND.finditer(text) for word in m[1].split() if not word.isupper()}
+def _sides(kept: Kept, record: Record, now: Standing, name: str) -> Iterator[tuple[Source, Source]]:
+    """A generated file as it was generated and as it is; none where one cannot be read."""
+    if name in record.files and name in now.listing.files:
+        with suppress(RebsyncError):
+            yield read_source(f"{kept.root}/{BASE}{name}"), read_source(now.listing.files[name])
 
 
-def _asked_by_manifest(source: Source) -> set[str]:
-    from rebsync.reverse.build.manifests import read_manifest
+def _codes(now: Standing) -> Iterator[tuple[str, Source]]:
+    """The files of a package that can be read."""
+    for name, path in now.listing.files.items():
+        with suppress(RebsyncError):
+            yield name, read_source(path)
 
-    return set(read_manifest(source).depends)
 
-
-def _needs(name: str, path: str, package: str) -> bool:
-    """Whether a file imports, includes or is of what a package offers."""
-    if _OF_MESSAGES.fullmatch(package):
-        return name.endswith(_INTERFACES)
-    if not name.endswith(_CODE):
-        return False
-    word = re.escape(_NAMED.get(package, package))
-    with suppress(RebsyncError):
-        text = read_source(path).text
-        return (
-            re.search(rf"(?:#\s*include\s*[<\"]|\bfrom\s+|\bimport\s+){word}\b", text) is not None
-        )
-    return False
+def _finding(source: Source, span: Span, message: str) -> Findings:
+    return Findings(source, (Diagnostic("RS956", span, message, _HINT),))

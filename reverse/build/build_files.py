@@ -38,7 +38,8 @@ class BuildFiles:
     """What the CMake files of a package say.
 
     `messages`, `services` and `actions` are paths relative to the package, as are `programs`:
-    scripts that are installed. `foreign` are commands that may make targets of their own.
+    scripts that are installed. `foreign` are commands that may make targets of their own,
+    `packages` the packages that are looked for.
     """
 
     project: str | None
@@ -50,6 +51,7 @@ class BuildFiles:
     unknowns: tuple[Unknown, ...]
     sources: tuple[Source, ...]
     foreign: frozenset[str] = frozenset()
+    packages: frozenset[str] = frozenset()
 
     @property
     def is_closed(self) -> bool:

@@ -8,22 +8,20 @@ from __future__ import annotations
 
 import posixpath
 import re
-from collections.abc import Collection, Mapping
-from fnmatch import fnmatchcase
+from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
 
 from rebsync.records import dataclass
 from rebsync.reverse.build.built_python import unbuilt_python
-from rebsync.reverse.build.cmake import read_build
-from rebsync.reverse.build.cmake_targets import Folder
+from rebsync.reverse.build.cmake import build_of
 from rebsync.reverse.files.packages import CODE, HEADERS
+from rebsync.reverse.files.python_files import is_launch
 from rebsync.source import Source
 
-BUILD = "CMakeLists.txt"
 _HEADERS = tuple(sorted(HEADERS))
 _SOURCES = tuple(sorted(CODE - HEADERS))
 _INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:<([^>\n]*)>|"([^"\n]*)"|(\w+))', re.M)
 _DEFINED = re.compile(r"\b(\w+)\s*::\s*(~?\w+)\s*\(")
-_LAUNCHES = (".launch", ".launch.py", ".launch.xml", ".launch.yaml")
+_WORD = re.compile(r"\w+")
 _CLASS = re.compile(r"\b(?:class|struct)\s+(?:[A-Z_]+\s+)?(\w+)[^;{()]*\{")
 
 
@@ -39,6 +37,9 @@ class Unbuilt:
     needed: frozenset[str] = frozenset()
 
 
+_NOTHING = Unbuilt(frozenset())
+
+
 def unbuilt(files: Mapping[str, Source]) -> Unbuilt:
     """What the build leaves out; `files` are those of a package that were read, by their paths."""
     of_cpp = _unbuilt_cpp(files)
@@ -50,78 +51,69 @@ def unbuilt(files: Mapping[str, Source]) -> Unbuilt:
 
 def _unbuilt_cpp(files: Mapping[str, Source]) -> Unbuilt:
     """Sources of no target, and headers that say anew what one says that a target includes."""
-    compiled = _compiled(files)
-    reached, waiting = set(compiled), list(compiled)
-    while waiting:
-        included = _included(waiting.pop(), files)
-        if included is None:
-            return Unbuilt(frozenset())
-        fresh = included - reached
-        reached |= fresh
-        waiting += fresh
-    if not compiled:
-        return Unbuilt(frozenset())
+    build = build_of(files)
+    if build is None or not build.is_closed:
+        return _NOTHING
+    compiled = {s for t in build.targets for s in t.sources if s in files}
+    reached = _reached(compiled, files)
+    if not reached:
+        return _NOTHING
+    others = [p for p in files if p not in reached and p.endswith((*_SOURCES, *_HEADERS))]
+    if not others:
+        return _NOTHING
     declared = {name for p in reached for name in _CLASS.findall(files[p].text)}
-    others = [p for p in files if p not in reached]
     headers = (p for p in others if p.endswith(_HEADERS))
     again = (p for p in headers if not declared.isdisjoint(_CLASS.findall(files[p].text)))
     sources = frozenset(p for p in others if p.endswith(_SOURCES))
-    needed = frozenset(p for p in sources if _is_needed(p, files, reached, declared))
+    needed = frozenset(_needed(sources, files, reached, declared))
     return Unbuilt(sources.union(again), needed)
 
 
-def _is_needed(
-    path: str, files: Mapping[str, Source], reached: Collection[str], declared: Collection[str]
-) -> bool:
-    """Whether a source that is not built defines what is nowhere else, or a launch file runs it."""
+def _needed(
+    sources: Iterable[str],
+    files: Mapping[str, Source],
+    reached: Collection[str],
+    declared: Collection[str],
+) -> Iterator[str]:
+    """Those of the sources that define what is nowhere else, or that a launch file runs."""
     has = {found for p in reached for found in _DEFINED.findall(files[p].text)}
-    own = {d for d in _DEFINED.findall(files[path].text) if d[0] in declared}
-    if not own <= has:
-        return True
-    stem = _stem(path)
-    if stem in map(_stem, reached):
-        return False
-    launches = (s.text for p, s in files.items() if p.endswith(_LAUNCHES))
-    return any(re.search(rf"\b{re.escape(stem)}\b", text) for text in launches)
+    started = {word for p in files if is_launch(p) for word in _WORD.findall(files[p].text)}
+    started -= set(map(_stem, reached))
+    for path in sources:
+        own = {d for d in _DEFINED.findall(files[path].text) if d[0] in declared}
+        if not own <= has or _stem(path) in started:
+            yield path
 
 
 def _stem(path: str) -> str:
     return posixpath.splitext(posixpath.basename(path))[0]
 
 
-def _compiled(files: Mapping[str, Source]) -> frozenset[str]:
-    """The sources that targets compile; empty where these are not all known."""
-    if BUILD not in files:
-        return frozenset()
-    build = read_build(files[BUILD], Folder(files.get, lambda pattern: glob(files, pattern)))
-    if not build.is_closed:
-        return frozenset()
-    return frozenset(s for t in build.targets for s in t.sources if s in files)
+def _reached(compiled: Iterable[str], files: Mapping[str, Source]) -> set[str]:
+    """Sources, and all that they include of a package; nothing where a macro says what."""
+    by_name: dict[str, list[str]] = {}
+    for path in files:
+        by_name.setdefault(posixpath.basename(path), []).append(path)
+    reached = set(compiled)
+    waiting = list(reached)
+    while waiting:
+        path = waiting.pop()
+        for match in _INCLUDE.finditer(files[path].text):
+            if match[3]:
+                return set()
+            fresh = set(_included(path, match, files, by_name)) - reached
+            reached |= fresh
+            waiting += fresh
+    return reached
 
 
-def glob(files: Mapping[str, Source], pattern: str) -> list[str]:
-    """The files that a pattern of CMake finds; `**/` stands for any folders, or none."""
-    folder, deep, last = pattern.partition("**/")
-    if not deep:
-        folder, last = posixpath.split(pattern)
-        return [p for p in files if posixpath.dirname(p) == folder and _fits(p, last)]
-    return [p for p in files if p.startswith(folder) and _fits(p, last)]
-
-
-def _fits(path: str, last: str) -> bool:
-    return fnmatchcase(posixpath.basename(path), last)
-
-
-def _included(path: str, files: Mapping[str, Source]) -> set[str] | None:
-    """The files of a package that a file includes; None where a macro says which."""
-    found = set[str]()
-    for match in _INCLUDE.finditer(files[path].text):
-        if match[3]:
-            return None
-        name = posixpath.normpath(match[1] or match[2])
-        beside = posixpath.normpath(posixpath.join(posixpath.dirname(path), name))
-        if match[2] and beside in files:
-            found.add(beside)
-        else:
-            found |= {p for p in files if p == name or p.endswith(f"/{name}")}
-    return found
+def _included(
+    path: str, match: re.Match[str], files: Container[str], by_name: Mapping[str, Sequence[str]]
+) -> Sequence[str]:
+    """The files that an include in a file may mean."""
+    name = posixpath.normpath(match[1] or match[2])
+    beside = posixpath.normpath(posixpath.join(posixpath.dirname(path), name))
+    if match[2] and beside in files:
+        return [beside]
+    near = by_name.get(posixpath.basename(name), ())
+    return [p for p in near if p == name or p.endswith(f"/{name}")]

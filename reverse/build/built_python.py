@@ -10,17 +10,18 @@ import ast
 import posixpath
 import re
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 from rebsync.records import dataclass
-from rebsync.reverse.files.python_files import LAUNCHES, SETUP, SUFFIX, is_python
+from rebsync.reverse.build.cmake import BUILD
+from rebsync.reverse.files.python_files import LAUNCHES, SETUP, SUFFIX, is_launch, is_python
 from rebsync.source import Source
 
 _DYNAMIC = frozenset(
     {"importlib", "__import__", "runpy", "pkgutil", "imp", "exec", "eval", "execfile"}
 )
-_STARTING = (*LAUNCHES, ".launch", ".launch.xml", ".launch.yaml", ".launch.yml")
 _WORD = re.compile(r"[\w.]+")
+_DEFINES = re.compile(r"^(?:class|def)[ \t]+(\w+)", re.MULTILINE)
 _INIT = "__init__.py"
 
 
@@ -39,6 +40,8 @@ class _Module:
 def unbuilt_python(files: Mapping[str, Source]) -> frozenset[str]:
     """The modules that no program imports, and that define anew what an imported one defines."""
     paths = [p for p, s in files.items() if p != SETUP and is_python(p, s)]
+    if not _is_any_twice(files[path].text for path in paths):
+        return frozenset()
     read = {path: _read(files[path].text) for path in paths}
     modules = {path: module for path, module in read.items() if module is not None}
     programs = _programs(files, modules)
@@ -55,6 +58,12 @@ def unbuilt_python(files: Mapping[str, Source]) -> frozenset[str]:
     return frozenset(p for p in left if not defined.isdisjoint(modules[p].defined))
 
 
+def _is_any_twice(texts: Iterable[str]) -> bool:
+    """Whether two modules may define the same: else none need be parsed for this."""
+    names = [name for text in texts for name in set(_DEFINES.findall(text)) - {"main"}]
+    return len(set(names)) < len(names)
+
+
 def _read(text: str) -> _Module | None:
     """A module; None where it cannot be read, or may import whatever there is."""
     try:
@@ -66,6 +75,7 @@ def _read(text: str) -> _Module | None:
     nodes = list(ast.walk(tree))
     imports = frozenset(name for node in nodes for name in _imported(node))
     used = {node.id for node in nodes if isinstance(node, ast.Name)}
+    used |= {node.attr for node in nodes if isinstance(node, ast.Attribute)}
     if not _DYNAMIC.isdisjoint(used | {name.partition(".")[0] for name in imports}):
         return None
     kinds = (ast.ClassDef, ast.FunctionDef)
@@ -89,18 +99,16 @@ def _imported(node: ast.AST) -> Iterator[str]:
 
 
 def _programs(files: Mapping[str, Source], modules: Mapping[str, _Module]) -> set[str]:
-    """What is run itself: what the package installs, or else whatever can be run."""
-    launched = [s.text for p, s in files.items() if p.endswith(_STARTING)]
-    words = {word for text in launched for word in _WORD.findall(text)}
-    found = {p for p in modules if p.endswith(LAUNCHES)}
-    found |= {p for p in modules if posixpath.basename(p) in words}
+    """What is run itself: what launch and build files name, and else whatever can be run."""
+    naming = [s.text for p, s in files.items() if is_launch(p) or p in (SETUP, BUILD)]
+    words = {word for text in naming for word in _WORD.findall(text)}
+    found = {p for p in modules if p.endswith(LAUNCHES) or posixpath.basename(p) in words}
     found |= {p for p, m in modules.items() if m.is_program and _stem(p) in words}
+    named = {p for word in words if "." in word for p in _found(word, SETUP, modules)}
     setup = files.get(SETUP)
     if setup is None or "console_scripts" not in setup.text:
-        return found | {p for p, m in modules.items() if m.is_program}
-    named = {word for word in _WORD.findall(setup.text) if "." in word}
-    installed = {p for name in named for p in _found(name, SETUP, modules)}
-    return found | installed if installed else set()
+        return found | named | {p for p, m in modules.items() if m.is_program}
+    return found | named if named else set()
 
 
 def _stem(path: str) -> str:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import field
+from fnmatch import fnmatchcase
 
 from rebsync.records import dataclass
 from rebsync.reverse.build.build_files import BuildFiles
@@ -21,6 +22,7 @@ from rebsync.reverse.build.cmake_values import Variables, known, sections
 from rebsync.reverse.unknowns import Open, Text
 from rebsync.source import Source, Span
 
+BUILD = "CMakeLists.txt"
 _MOST_STEPS = 20_000
 _MOST_FILES = 200
 _DEEPEST = 20
@@ -31,7 +33,27 @@ _PLATFORM: dict[str, tuple[Text, ...]] = {
     **dict.fromkeys(("ANDROID", "APPLE", "MINGW", "MSVC", "WIN32"), ("FALSE",)),
     "UNIX": ("TRUE",),
 }
+_MODULES = "CMAKE_MODULE_PATH"
 _IN_GLOBS = frozenset({"CONFIGURE_DEPENDS", "FOLLOW_SYMLINKS", "LIST_DIRECTORIES", "false"})
+
+
+def build_of(files: Mapping[str, Source]) -> BuildFiles | None:
+    """What the build files of a package say; None where it has none.
+
+    `files` are those of the package that were read, by their paths in it: of these globs find some.
+    """
+    if BUILD not in files:
+        return None
+    return read_build(files[BUILD], Folder(files.get, lambda pattern: _found(files, pattern)))
+
+
+def _found(files: Mapping[str, Source], pattern: str) -> list[str]:
+    """The files that a pattern finds; `**/` stands for any folders, or none."""
+    folder, deep, last = pattern.partition("**/")
+    if not deep:
+        folder, last = posixpath.split(pattern)
+    near = (p for p in files if (p.startswith(folder) if deep else posixpath.dirname(p) == folder))
+    return [path for path in near if fnmatchcase(posixpath.basename(path), last)]
 
 
 def read_build(source: Source, folder: Folder | None = None) -> BuildFiles:
@@ -53,6 +75,7 @@ def read_build(source: Source, folder: Folder | None = None) -> BuildFiles:
         tuple(maker.unknowns),
         tuple(runner.sources),
         frozenset(maker.foreign),
+        frozenset(maker.packages),
     )
 
 
@@ -203,6 +226,8 @@ class _Runner:
                 self.maker.rename(call, parts["TARGET"], parts.get("PROPERTY", [])[:2])
             case "add_message_files" | "add_service_files" | "add_action_files":
                 self.maker.interface(call)
+            case "find_package":
+                self.maker.packages.update(w for w in known(call.words) if not w.isupper())
             case "rosidl_generate_interfaces":
                 self.maker.rosidl(call)
             case "install" | "catkin_install_python":
@@ -257,7 +282,7 @@ class _Runner:
         if isinstance(folder, Open):
             self.maker.unknown("a subdirectory", folder.why, call)
             return
-        path = posixpath.join(folder, "CMakeLists.txt")
+        path = posixpath.join(folder, BUILD)
         inner = self.maker.folder.load(path)
         if inner is None or len(self.sources) >= _MOST_FILES:
             self.maker.unknown(f"the file `{path}`", "it is not at hand", call)
@@ -270,6 +295,8 @@ class _Runner:
     def _include(self, call: Call) -> None:
         """Modules of CMake do not matter here; files of the package may."""
         name = call.words[0] if call.words else ""
+        if _MODULES in call.variables.values:
+            self.maker.foreign.add("include")  # it may be a module of the package
         if isinstance(name, Open) or "." in name or "/" in name:
             what = " ".join(call.source.slice(call.command.span).split())
             self.maker.unknown(f"`{what}`", "included files are not read", call)

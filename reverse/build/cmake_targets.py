@@ -49,14 +49,8 @@ _INSTALL = frozenset(
 # Commands that make no program of a package and name no source of one.
 TARGETLESS = frozenset(
     {
-        *(
-            "cmake_minimum_required",
-            "cmake_policy",
-            "enable_language",
-            "enable_testing",
-            "find_file",
-        ),
-        *("find_library", "find_package", "find_path", "find_program", "include_directories"),
+        *("cmake_minimum_required", "cmake_policy", "enable_language", "enable_testing"),
+        *("find_file", "find_library", "find_path", "find_program", "include_directories"),
         *("add_compile_definitions", "add_compile_options", "add_definitions", "add_dependencies"),
         *("add_link_options", "add_test", "link_directories", "link_libraries", "message"),
         *("option", "math", "string", "separate_arguments", "mark_as_advanced", "return"),
@@ -64,7 +58,7 @@ TARGETLESS = frozenset(
         *("set_target_properties", "set_tests_properties", "get_property", "get_target_property"),
         *("target_compile_definitions", "target_compile_features", "target_compile_options"),
         *("target_include_directories", "target_link_directories", "target_link_options"),
-        *("target_precompile_headers", "configure_file", "export", "pkg_check_modules"),
+        *("configure_file", "export", "pkg_check_modules"),
         *("execute_process", "include_guard", "site_name", "variable_watch", "break", "continue"),
         *("catkin_package", "catkin_metapackage", "catkin_python_setup", "catkin_install_python"),
         *("catkin_add_env_hooks", "catkin_add_gtest", "catkin_add_gmock", "catkin_add_nosetests"),
@@ -132,6 +126,7 @@ class Maker:
     )
     unknowns: list[Unknown] = field(default_factory=list)
     foreign: set[str] = field(default_factory=set)
+    packages: set[str] = field(default_factory=set)
     only_if: tuple[str, ...] = ()
 
     def unknown(self, what: str, why: str, call: Call) -> None:
@@ -183,6 +178,8 @@ class Maker:
 
     def rename(self, call: Call, names: Sequence[Text], properties: Sequence[Text]) -> None:
         """Takes in the properties that name the program of a target."""
+        if "SOURCES" in properties or "INTERFACE_SOURCES" in properties:
+            self.foreign.add(call.command.name)
         values = dict(zip(properties[::2], properties[1::2], strict=False))
         output = values.get("RUNTIME_OUTPUT_NAME", values.get("OUTPUT_NAME"))
         prefix = values.get("PREFIX", "")

@@ -7,9 +7,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from rebsync.records import dataclass
-from rebsync.reverse.build.built import BUILD, glob
-from rebsync.reverse.build.cmake import read_build
-from rebsync.reverse.build.cmake_targets import Folder
+from rebsync.reverse.build.cmake import BUILD, build_of
 from rebsync.reverse.build.manifests import name_in
 from rebsync.reverse.files.python_files import SETUP
 from rebsync.source import NOWHERE, Source, Span
@@ -38,9 +36,9 @@ def named(files: Mapping[str, Source]) -> Iterator[Named]:
 
 def _by_cmake(files: Mapping[str, Source]) -> Iterator[Named]:
     """Sources of targets, interfaces and scripts."""
-    if BUILD not in files:
+    build = build_of(files)
+    if build is None:
         return
-    build = read_build(files[BUILD], Folder(files.get, lambda pattern: glob(files, pattern)))
     for target in build.targets:
         yield from (Named(s, target.source, target.span) for s in target.sources)
     interfaces = (*build.messages, *build.services, *build.actions)

@@ -1,4 +1,4 @@
-"""Which files are Python, and which of them can matter: told from names and bytes alone."""
+"""Which files are Python or launch files, and which can matter: told from names and bytes alone."""
 
 from __future__ import annotations
 
@@ -14,11 +14,22 @@ SETUP = "setup.py"
 _WORDS = (b"rospy", b"rclpy", b"message_filters", b"rebsync:")
 # How the names of launch files end, and what they import.
 LAUNCHES = (".launch.py", "_launch.py", "-launch.py")
+_OF_ROS_2 = re.compile(r"[._-]launch\.(?:py|xml|yaml|yml)\Z")
 _LAUNCH = b"launch_ros"
 _SCRIPT = re.compile(rb"#![^\n]*\bpython")
 _HEAD = 80  # bytes, in which the first line of a script says who runs it
 _IMPORT = re.compile(rb"[ \t]*(?:from[ \t]+([\w.]+)[ \t]+import[ \t]+|import[ \t]+)([^#\n]*)")
 _NAME = re.compile(rb"\w+")
+
+
+def is_launch_of_ros_2(path: str) -> bool:
+    """Whether a file may be a launch file of ROS 2 by its name."""
+    return _OF_ROS_2.search(path) is not None
+
+
+def is_launch(path: str) -> bool:
+    """Whether a file may be a launch file by its name."""
+    return path.endswith(".launch") or is_launch_of_ros_2(path)
 
 
 def is_script(head: bytes) -> bool:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-
 from rebsync.reverse.launch import launch_python
 from rebsync.reverse.launch.launch_tags import actions_of_xml, actions_of_yaml, has_words_of_ros_2
 from rebsync.reverse.launch.launched import Launch
@@ -13,12 +11,6 @@ from rebsync.reverse.unknowns import Unknown
 from rebsync.source import Source
 
 _YAML = (".yaml", ".yml")
-_NAMED = re.compile(r"[._-]launch\.(?:py|xml|yaml|yml)\Z")
-
-
-def is_of_ros_2(path: str) -> bool:
-    """Whether a file may be a launch file of ROS 2 by its name."""
-    return _NAMED.search(path) is not None
 
 
 def speaks_ros_2(source: Source) -> bool:

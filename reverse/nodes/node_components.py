@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 
+from rebsync.reverse.build.cmake import BUILD
 from rebsync.reverse.rclcpp_vocabulary import COMPONENT
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.source import Source
 
-_BUILD = "CMakeLists.txt"
 _COMPONENT = re.compile(rf"^[ \t]*{COMPONENT}\s*\(\s*([\w:]+)\s*\)", re.MULTILINE)
 _CALL = re.compile(r"\brclcpp_components_register_nodes?\s*\(([^()]*)\)")
 _COMMENT = re.compile(r"#[^\n]*")
@@ -27,7 +27,7 @@ def components(code: Code) -> list[str]:
 def executables(files: Mapping[str, Source]) -> dict[str, frozenset[str]]:
     """By class the programs that run it alone, and the names by which containers load it."""
     found: dict[str, set[str]] = {}
-    for plugin, program in _registered(files[_BUILD].text if _BUILD in files else ""):
+    for plugin, program in _registered(files[BUILD].text if BUILD in files else ""):
         names = found.setdefault(plugin.rpartition("::")[2], set())
         names.update(n for n in (plugin, program) if n)
     return {class_: frozenset(names) for class_, names in found.items()}

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 
 from rebsync.records import dataclass
+from rebsync.reverse.files.python_files import is_launch_of_ros_2
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.launch.launch_files import read_launch
-from rebsync.reverse.launch.launch_files_ros2 import is_of_ros_2, read_ros2_launch, speaks_ros_2
+from rebsync.reverse.launch.launch_files_ros2 import read_ros2_launch, speaks_ros_2
 from rebsync.reverse.launch.launch_values import Surroundings
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.nodes.node_components import executables
@@ -46,11 +47,6 @@ class System:
             path = self.launch.sources[0].path.rpartition("/")[2]
             why = f'this file starts another system than "{path}", which the model is of'
             findings.approximated(source, span, why, _HINT)
-
-
-def is_launch(path: str) -> bool:
-    """Whether a file may be a launch file by its name."""
-    return path.endswith(".launch") or is_of_ros_2(path)
 
 
 def system_of(
@@ -94,7 +90,7 @@ def _is_system(path: str, source: Source) -> bool:
 
     In ROS 1 `x.launch.xml` is the name of those that others include.
     """
-    return path.endswith(".launch") or (is_of_ros_2(path) and speaks_ros_2(source))
+    return path.endswith(".launch") or (is_launch_of_ros_2(path) and speaks_ros_2(source))
 
 
 def _read(source: Source, surroundings: Surroundings, package: str) -> Launch:

@@ -9,15 +9,13 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.build.build_files import BuildFiles
-from rebsync.reverse.build.cmake import read_build
-from rebsync.reverse.build.cmake_targets import Folder
+from rebsync.reverse.build.cmake import build_of
 from rebsync.reverse.graph import Graph, NodeFact
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
 from rebsync.source import Source
 
-_BUILD = "CMakeLists.txt"
 _LOOPS = frozenset({"for_statement", "while_statement", "do_statement", "for_range_loop"})
 
 
@@ -57,7 +55,7 @@ class Made:
 def programs(code: Code, files: Mapping[str, Source]) -> tuple[Program, ...]:
     """The executables that the package makes, or what has a `main` where no CMake says so."""
     mains = code.definitions.get(("", "main"), [])
-    build = _build(files) if mains else None
+    build = build_of(files) if mains else None
     found = []
     for main in mains:
         path = main.cpp.source.path
@@ -74,12 +72,6 @@ def with_nodes(found: tuple[Program, ...], graph: Graph) -> tuple[Program, ...]:
     """The programs, each with the node that it is."""
     nodes = [f for f in graph.facts if isinstance(f, NodeFact) and f.nodelet is None]
     return tuple(replace(p, node=_node(nodes, p.main, p.sources)) for p in found)
-
-
-def _build(files: Mapping[str, Source]) -> BuildFiles | None:
-    if _BUILD not in files:
-        return None
-    return read_build(files[_BUILD], Folder(files.get, lambda _: None))
 
 
 def _targets(build: BuildFiles, path: str) -> list[tuple[str, frozenset[str]]]:

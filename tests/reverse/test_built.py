@@ -47,6 +47,14 @@ _LEFT = {"src/old/robot.cpp", "include/p/robot_old.h"}
         ("ament_auto_add_library(robot DIRECTORY src)\nadd_executable(r src/robot.cpp)", set()),
         ("include(more.cmake)\nadd_executable(robot src/robot.cpp)", set()),
         ("find_package(x)\nadd_executable(robot src/robot.cpp ${x_SOURCES})", set()),
+        ("set(CMAKE_MODULE_PATH cmake)\ninclude(more)\nadd_executable(r src/robot.cpp)", set()),
+        (
+            "add_executable(r src/robot.cpp)\n"
+            "set_property(TARGET r PROPERTY SOURCES src/old/robot.cpp)",
+            set(),
+        ),
+        ("add_executable(r ./src//robot.cpp)", _LEFT),
+        ("add_executable(r ${CMAKE_CURRENT_SOURCE_DIR}/src/robot.cpp)", _LEFT),
         ("project(p)", set()),
     ],
 )
@@ -97,6 +105,8 @@ def python(robot: str = "", **others: str) -> dict[str, Source]:
         (python("from p.old import drive\nfrom p.drive import Drive\n"), set()),
         (python("import importlib\nfrom p.drive import Drive\n"), set()),
         (python("from p.drive import Drive\nexec(text)\n"), set()),
+        (python("import builtins\nfrom p.drive import Drive\nbuiltins.exec(text)\n"), set()),
+        (python(p_dot_launch_dot_py='cmd = ["python3", "-m", "p.old.drive"]\n'), set()),
         (python("from p.drive import Drive\nprint 1\n"), set()),  # Python 2
         (python(setup_dot_py="setup(**more)"), set()),  # no program is known
         (python(run_dot_launch='<node type="old.py"/>', old_dot_py="import p.old.drive\n"), set()),

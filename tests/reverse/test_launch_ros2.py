@@ -6,7 +6,8 @@ from collections.abc import Mapping
 
 import pytest
 
-from rebsync.reverse.launch.launch_files_ros2 import is_of_ros_2, read_ros2_launch, speaks_ros_2
+from rebsync.reverse.files.python_files import is_launch_of_ros_2
+from rebsync.reverse.launch.launch_files_ros2 import read_ros2_launch, speaks_ros_2
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.unknowns import Open, Unknown
 from rebsync.source import Source
@@ -349,4 +350,4 @@ def test_what_cannot_be_read_is_listed(path: str, text: str, why: str) -> None:
     ],
 )
 def test_which_files_are_of_ros_2(path: str, text: str, is_it: bool) -> None:
-    assert (is_of_ros_2(path) and speaks_ros_2(Source(path, text))) is is_it
+    assert (is_launch_of_ros_2(path) and speaks_ros_2(Source(path, text))) is is_it

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import pytest
 
 from tests.roundtrip.mutations.harness import Result, Said, Task, results
-from tests.roundtrip.mutations.kinds import BEHAVIOUR, NEUTRAL
+from tests.roundtrip.mutations.kinds import BEHAVIOUR, NEUTRAL, made_by
 from tests.roundtrip.mutations.package import Kind, Package
 
 _SHARE = {"cpp": 12, "py": 24}  # one kind in so many
@@ -48,9 +50,15 @@ _AT_LEAST = {
 
 def share(dialect: str, kinds: tuple[Kind, ...]) -> list[Task]:
     """A share of the kinds, others in each dialect, each on the first example with a place."""
+    chosen = kinds[list(BEHAVIOUR).index(dialect) :: _SHARE[dialect.partition("-")[2]]]
+    return placed(dialect, chosen)
+
+
+def placed(dialect: str, kinds: Iterable[Kind]) -> list[Task]:
+    """One of each kind, on the first example that has a place for it."""
     packages = [Package(name, dialect) for name in _PACKAGES]
     tasks = []
-    for kind in kinds[list(BEHAVIOUR).index(dialect) :: _SHARE[dialect.partition("-")[2]]]:
+    for kind in kinds:
         name = next((p.name for p in packages if any(True for _ in kind.mutants(p))), None)
         if name is not None:
             tasks.append(Task(name, (kind.name,), 1, 1, dialect))
@@ -96,6 +104,16 @@ def test_what_was_reported_for_nothing_is_not(dialect: str) -> None:
     tasks = [Task(name, kinds, 2, 1, dialect) for name in ("hello", "experiment1")]
     found = [result for task in tasks for result in results([task], 1)]
     assert wrong(found, Said.IN_STEP) == []
+
+
+@pytest.mark.parametrize("dialect", BEHAVIOUR)
+def test_the_build_decides_what_is_code(dialect: str) -> None:
+    kinds = made_by("built")
+    tasks = placed(dialect, (k for k in kinds if k in BEHAVIOUR[dialect]))
+    assert len(tasks) == len([k for k in kinds if k in BEHAVIOUR[dialect]])
+    assert wrong(list(results(tasks, 1)), Said.AT_ELEMENT, Said.AT_FILE) == []
+    task = Task("experiment2", tuple(k.name for k in kinds if k in NEUTRAL[dialect]), 3, 1, dialect)
+    assert wrong(list(results([task], 1)), Said.IN_STEP) == []
 
 
 @pytest.mark.parametrize("dialect", BEHAVIOUR)

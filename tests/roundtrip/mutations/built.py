@@ -53,6 +53,17 @@ def _moved_away(package: Package) -> Iterator[Mutant]:
         yield Mutant(files, part.path, (part.element,))
 
 
+def _header_kept(package: Package) -> Iterator[Mutant]:
+    """A header with another value of a variable, and as it was by the same path elsewhere."""
+    for path in package.paths(".h"):
+        text = package.files[path]
+        found = re.search(r"^  int32_t \w+_(?=(?: = \d+|\{\})?;)", text, re.M)
+        if found is not None:
+            changed = f"{found[0]} = 5;{text[text.index(';', found.end()) + 1 :]}"
+            files = {path: text[: found.start()] + changed, f"a/{path}": text}
+            yield Mutant(files, path)
+
+
 def _gone(suffix: str) -> Maker:
     def make(package: Package) -> Iterator[Mutant]:
         for path in package.paths(suffix):
@@ -96,6 +107,7 @@ ALL = (
 )
 CPP = (
     Kind("method in a file that is not built", _moved_away),
+    Kind("header kept by its path elsewhere", _header_kept),
     Kind(
         "sleep of the standard library for a delay",
         within(
