@@ -87,12 +87,13 @@ def test_a_signal_loses_nothing(number: signal.Signals, made: Path, tmp_path: Pa
 
 # Before Python 3.12 what is raised in there comes out as a RuntimeError.
 _WHILE_A_CLASS_IS_MADE = """
-import os, signal, sys
+import os, signal, sys, time
 from rebsync import cli
 
 class Field:
     def __set_name__(self, owner, name):
         os.kill(os.getpid(), signal.{name})
+        time.sleep(60)  # a busy system may deliver it later
 
 cli.rebsync.main = lambda *_, **__: type("Made", (), {{"field": Field()}})
 signal.signal(signal.SIGINT, signal.default_int_handler)
