@@ -14,6 +14,20 @@ from pathlib import Path
 
 SYSTEM_PATH = "/usr/bin:/bin"
 SYSTEM_PYTHON = "/usr/bin/python3"
+# What every source of a package begins with takes half the time of compiling it: it is compiled
+# once. g++ takes it where all else is the same, and reads the headers again where it is not.
+_COMMON = """\
+#include <condition_variable>
+#include <random>
+#include <thread>
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <ros/ros.h>
+"""
+_AS_CATKIN = (
+    *("-std=gnu++14", "-Wpedantic", "-fPIC", "-fwrapv", "-I/usr/include/xmlrpcpp"),
+    *("-DROSCONSOLE_BACKEND_LOG4CXX", "-DROS_BUILD_SHARED_LIBS=1"),
+)
 
 
 class BuildError(Exception):
@@ -130,15 +144,40 @@ def _synchronise(files: Mapping[str, Path], source: Path) -> None:
 
 
 def _make(root: Path, options: Sequence[str]) -> None:
+    has_cpp = any((root / "src").rglob("*.cpp"))
+    flags = "-Werror"
+    if has_cpp:
+        # The name of the package, which only logging asks for, is the one thing that differs.
+        flags += f" -fPIC -UROS_PACKAGE_NAME -include {_common(root.parent)}"
     command = [
         *("catkin_make", "-C", str(root), "-j2"),
         *(f"-DPYTHON_EXECUTABLE={SYSTEM_PYTHON}", "-DCATKIN_ENABLE_TESTING=OFF"),
-        "-DCMAKE_CXX_FLAGS=-Werror",
+        f"-DCMAKE_CXX_FLAGS={flags}",
         *options,
     ]
+    _run(command, ROS_LANG_DISABLE="genlisp" if has_cpp else "genlisp:gencpp")
+
+
+def _common(folder: Path) -> Path:
+    """The header that is compiled once for all workspaces of a folder."""
+    header = folder / "common.h"
+    with _locked(folder / "common.lock"):
+        if not Path(f"{header}.gch").exists():
+            header.write_text(_COMMON)
+            made = folder / "common.gch.part"
+            _run(["g++", *_AS_CATKIN, "-x", "c++-header", str(header), "-o", str(made)])
+            made.rename(f"{header}.gch")
+    return header
+
+
+def _run(command: Sequence[str], **more: str) -> None:
     environment = {"PATH": SYSTEM_PATH, "HOME": os.environ.get("HOME", "/"), "LANG": "C.UTF-8"}
     done = subprocess.run(
-        command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        command,
+        env={**environment, **more},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
     )
     if done.returncode != 0:
         raise BuildError(done.stdout)
