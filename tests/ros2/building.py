@@ -65,12 +65,12 @@ def _flags(package: Path, headers: Path) -> list[str]:
     return [*_STANDARD, *_WARNINGS, *found]
 
 
-def _common(headers: Path) -> list[str]:
-    """Options that have what every source includes compiled once."""
-    common = headers / "common.hpp"
-    if not common.with_name("common.hpp.gch").exists():
+def _common(headers: Path, options: Sequence[str] = ()) -> list[str]:
+    """Options that have what every source includes compiled once for all with the same options."""
+    common = headers / "".join(("common", *options, ".hpp"))
+    if not common.with_name(f"{common.name}.gch").exists():
         common.write_text("#include <random>\n#include <rclcpp/rclcpp.hpp>\n")
-        flags = [*_flags(headers, headers), "-x", "c++-header"]
+        flags = [*_flags(headers, headers), *options, "-x", "c++-header"]
         _tool(["g++", *flags, str(common), "-o", f"{common}.gch"])
     return ["-include", str(common)]
 
@@ -97,9 +97,7 @@ def build_driver(package: Path, headers: Path, out: Path, options: Sequence[str]
     table = out / "mains.cpp"
     table.write_text(_table(mains))
     sources = [*sorted(package.glob("src/*.cpp")), table, STUB / "driver.cpp"]
-    # What every source includes is compiled once, for the usual options.
-    common = [] if options else _common(headers)
-    common += _reading(package, headers, out)
+    common = [*_common(headers, options), *_reading(package, headers, out)]
 
     def compile_(source: Path) -> str:
         renamed = [f"-Dmain=main_of_{source.stem}"] if source.stem in mains else []

@@ -42,7 +42,7 @@ def package(headers: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def driver(package: Path, headers: Path) -> Path:
     """With the thread sanitizer: what it finds ends the run."""
-    return build_driver(package, headers, package.parent / "build")
+    return build_driver(package, headers, package.parent / "build", ["-fsanitize=thread", "-g"])
 
 
 @pytest.fixture(scope="module")
