@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import field
 from functools import reduce
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar
 
 from rebsync import model as m
 from rebsync.intervals import (
@@ -29,12 +29,14 @@ from rebsync.reverse.analysis.needs import Mark, Need
 from rebsync.reverse.analysis.writes import array_of, variable_of, written
 from rebsync.reverse.bodies.building import bare, is_calm
 from rebsync.reverse.bodies.cpp_ranges import fitting
+from rebsync.source import Span
 
 _OPPOSITE = {"<": ">=", ">=": "<", ">": "<=", "<=": ">", "==": "!=", "!=": "=="}
 _TURNED = {"<": ">", ">": "<", "<=": ">=", ">=": "<=", "==": "==", "!=": "!="}
 _COMPARES = frozenset(_TURNED)
 _LOOKS = frozenset({"/", "%", ">>"})
 _BITS = frozenset({"&", "|", "^"})
+_Key = TypeVar("_Key", str, Span)
 _Operand: TypeAlias = tuple[m.Expression, Interval]
 
 
@@ -49,7 +51,8 @@ class IntervalValues:
 
     `broken` are variables that may get another number than an `int` holds, `counted` those that
     only count up to one, `failed` the needs that may not hold. `stored` has all that variables of
-    `widths` get, `left` what bodies leave in those of `state`.
+    `widths` get, `left` what bodies leave in those of `state`, `indices` all that the indices of
+    elements can be, by the places of the elements.
     """
 
     widths: Mapping[str, int]
@@ -65,6 +68,7 @@ class IntervalValues:
     failed: set[Mark] = field(default_factory=set)
     stored: dict[str, Interval] = field(default_factory=dict)
     left: dict[str, Interval] = field(default_factory=dict)
+    indices: dict[Span, Interval] = field(default_factory=dict)
     _now: dict[str, Interval] = field(default_factory=dict)
     _locals: dict[str, m.Type] = field(default_factory=dict)
 
@@ -185,12 +189,13 @@ class IntervalValues:
                 return self._conditional(expression)
             case m.Binary(operator, left, right):
                 return self._combined(operator, left, right)
-            case m.Index(array, index):
-                self._value(index)
+            case m.Index(array, index, span):
+                note(self.indices, span, self._value(index))
                 if not is_calm(array):
                     self._value(array)
                 return self._of(array_of(array) or "")
             case m.Call(target, _, arguments, after, deadline):
+                self._all([] if target is None else [target])
                 self._all([e for e in (*arguments, after, deadline) if e is not None])
                 if writes.calls_own(expression):
                     self._forget_called()
@@ -328,6 +333,6 @@ def values_of(type_: m.Type | None) -> Interval:
     return TRUTH if type_.name == "boolean" else INTEGERS.get(type_.name, ANY)
 
 
-def note(noted: dict[str, Interval], name: str, values: Interval) -> None:
-    """Adds values that a variable has."""
+def note(noted: dict[_Key, Interval], name: _Key, values: Interval) -> None:
+    """Adds values that a variable has, or what else is noted."""
     noted[name] = noted[name].join(values) if name in noted else values

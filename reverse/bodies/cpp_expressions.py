@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import field, replace
 
 from tree_sitter import Node
 
@@ -43,6 +43,7 @@ from rebsync.reverse.bodies.scope import (
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.static.types import BOOLEAN, converts, is_boolean, is_floating
+from rebsync.source import Span
 
 _PREFIX = frozenset({"+", "-", "!", "~"})
 _WORDS = {"and": "&&", "or": "||", "not": "!", "not_eq": "!=", "bitand": "&", "bitor": "|"}
@@ -61,6 +62,7 @@ class CppExpressions:
 
     A value that the model cannot know raises `Unknown`, unless its place allows for a choice:
     that is listed in `findings`. Without `inlines` no function's body can stand for its call.
+    `subscripts` gets the places of elements whose indices nobody tests, with the lengths.
     """
 
     cpp: Cpp
@@ -68,6 +70,7 @@ class CppExpressions:
     findings: Findings | None = None
     within: str = ""
     inlines: Inlines | None = None
+    subscripts: dict[Span, int] = field(default_factory=dict)
 
     def read(self, node: Node) -> m.Expression:
         """The expression, with parentheses where the code has them or the model needs them."""
@@ -225,7 +228,10 @@ class CppExpressions:
                 if is_bare_macro(cpp, value, node):
                     raise self.unread(node, "what stands beside this macro may bind tighter")
                 scope = self.scope.without_constant(spelled)
-                return CppExpressions(cpp, scope, self.findings, self.within).read(value)
+                reader = CppExpressions(
+                    cpp, scope, self.findings, self.within, subscripts=self.subscripts
+                )
+                return reader.read(value)
         if (known := cpp_idioms.constant_named(name, span)) is not None:
             return known
         if self.scope.open:
@@ -268,8 +274,13 @@ class CppExpressions:
         array = self.operand(part(node, "argument"), precedence.PRIMARY)
         if len(indices) != 1:
             raise self.unread(node, "an array of the model has one index at a time")
-        index = as_number(self.scope, self.read(indices[0]))
-        return m.Index(array, index, self.cpp.span(node))
+        index, span = as_number(self.scope, self.read(indices[0])), self.cpp.span(node)
+        if node.type == "subscript_expression":
+            whole = self.place(array).type
+            length = whole.dimensions[0] if whole is not None and whole.dimensions else 0
+            if not (isinstance(index, m.IntLiteral) and 0 <= index.value < length):
+                self.subscripts[span] = min(length, self.subscripts.get(span, length))
+        return m.Index(array, index, span)
 
     def _unary(self, node: Node) -> m.Expression:
         operator = self._sign(node)

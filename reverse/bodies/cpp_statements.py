@@ -268,7 +268,9 @@ class CppStatements:
     @property
     def expressions(self) -> CppExpressions:
         """The reader of expressions with the names of this place."""
-        return CppExpressions(self.cpp, self.scope, self.findings, self.within, self.inlined)
+        return CppExpressions(
+            self.cpp, self.scope, self.findings, self.within, self.inlined, self.shared.subscripts
+        )
 
     def inlined(
         self, node: Node, function: Inline | Lambda, arguments: Sequence[Node]

@@ -8,6 +8,7 @@ from dataclasses import field
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.scope import Meaning, Member, Publishes, Record, Scope, Variable
+from rebsync.source import Span
 
 
 @dataclass(slots=True)
@@ -20,7 +21,8 @@ class Shared:
     each at the place of its call, which is so many levels of code deep: `depth`.
     `again` says that locals were demoted since the body began: what is read counts for nothing,
     but shows which others are.
-    `wide` are the bits of locals that hold more than an `int`, by their names in the model.
+    `wide` are the bits of locals that hold more than an `int`, by their names in the model,
+    `subscripts` the lengths of arrays with an index that nobody tests, by the places of elements.
     """
 
     demoted: set[str] = field(default_factory=set)
@@ -28,6 +30,7 @@ class Shared:
     kept: set[str] = field(default_factory=set)
     made: set[str] = field(default_factory=set)
     wide: dict[str, int] = field(default_factory=dict)
+    subscripts: dict[Span, int] = field(default_factory=dict)
     running: list[tuple[int, str]] = field(default_factory=list)
     depth: int = 0
     # The names of the model that the members of the class have, with the members.
@@ -53,7 +56,7 @@ class Shared:
 
     def clear(self) -> None:
         """Forgets the locals: the body is read again."""
-        for names in (self.names, self.kept, self.made, self.wide):
+        for names in (self.names, self.kept, self.made, self.wide, self.subscripts):
             names.clear()
         self.again = False
 

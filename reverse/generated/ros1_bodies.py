@@ -13,6 +13,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_expressions import CppExpressions
 from rebsync.reverse.bodies.cpp_statements import CppStatements
 from rebsync.reverse.bodies.scope import Outside, Record, Scope, Variable
+from rebsync.reverse.bodies.subscripts import out_of_range, untested
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.ros1_free import passed_by_reference
 from rebsync.reverse.generated.ros1_names import declared_type
@@ -83,12 +84,11 @@ class Bodies:
     def _read(self, cpp: Cpp, inside: Scope, body: Node, within: str) -> m.Block:
         """A body as generated code says it, or else, if it is exact, as people's code says it."""
         marked = self.findings.mark()
-        read = CppStatements(cpp, inside, self.findings, within).block(body)
+        read = _checked(CppStatements(cpp, inside, self.findings, within), body)
         if len(self.findings.all) == marked[0] or _USERS in text_of(body):
             return read
         by_hand = Findings()
-        changed = self.by_hand(inside)
-        again = CppStatements(cpp, changed, by_hand, within).block(body)
+        again = _checked(CppStatements(cpp, self.by_hand(inside), by_hand, within), body)
         if by_hand.all:
             return read
         self.findings.back_to(marked)
@@ -176,7 +176,17 @@ class Bodies:
         reader = CppExpressions(cpp, self._inside(cpp))
         if value.type != "initializer_list":
             yield m.ExpressionStatement(m.Assign("=", m.Name(name), reader.read(value)), (), span)
-            return
-        for index, element in enumerate(named(value)):
-            cell = m.Index(m.Name(name), m.IntLiteral(index))
-            yield m.ExpressionStatement(m.Assign("=", cell, reader.read(element)), (), span)
+        else:
+            for index, element in enumerate(named(value)):
+                cell = m.Index(m.Name(name), m.IntLiteral(index))
+                yield m.ExpressionStatement(m.Assign("=", cell, reader.read(element)), (), span)
+        untested(reader.subscripts)
+
+
+def _checked(reader: CppStatements, body: Node) -> m.Block:
+    """A body; the elements that may not be there are listed."""
+    scope = reader.scope
+    read = reader.block(body)
+    for unread in out_of_range(read, reader.shared, scope):
+        reader.findings.unreadable(reader.cpp.source, unread, reader.within)
+    return read

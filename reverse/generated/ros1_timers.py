@@ -16,6 +16,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_expressions import CppExpressions
 from rebsync.reverse.bodies.scope import Scope, TimerOf
+from rebsync.reverse.bodies.subscripts import untested
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_roles import Roles, call_in
@@ -264,7 +265,10 @@ def _time(timer: Timer, scope: Scope) -> m.Expression:
         return m.IntLiteral(int(units), cpp.span(node))
     if scope.unit != timer.scale:
         raise Unread(cpp.span(node), "this time is in seconds, which are no units of the model")
-    return CppExpressions(cpp, scope).read(node)
+    reader = CppExpressions(cpp, scope)
+    read = reader.read(node)
+    untested(reader.subscripts)
+    return read
 
 
 def with_rearming(body: m.Block, again: m.Statement) -> m.Block:

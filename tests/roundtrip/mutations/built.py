@@ -115,6 +115,7 @@ CPP = (
             r"std::this_thread::sleep_for(std::chrono::seconds(\1));",
         ),
     ),
+    Kind("index not tested", within(r"\.at\((cell\d)\)", r"[\1]")),
     Kind(
         "index out of range caught",
         within(_AT, r"\1try {\n\1  \2\n\1} catch (const std::out_of_range&) {\n\1}"),
