@@ -42,8 +42,8 @@ from rebsync.reverse.bodies.scope import (
 )
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
-from rebsync.static.types import BOOLEAN, converts, is_boolean, is_floating
 from rebsync.source import Span
+from rebsync.static.types import BOOLEAN, converts, is_boolean, is_floating
 
 _PREFIX = frozenset({"+", "-", "!", "~"})
 _WORDS = {"and": "&&", "or": "||", "not": "!", "not_eq": "!=", "bitand": "&", "bitor": "|"}

@@ -1,4 +1,4 @@
-"""Elements that code reads or writes without a look at the index: whether that is ever out of range.
+"""Elements that code takes without a look at the index: whether that is ever out of range.
 
 The model ends with an error there, as `.at()` does for the code that is generated; what `[]` of
 C++ does is undefined ([array.undef], [expr.add]).
