@@ -66,7 +66,7 @@ def eye(
     config = replace(Config(target=dialect), sensors=(bump,))
     folder = tmp_path_factory.mktemp("eyes")
     package = written(generated(_MODEL, "eyes", config), folder, "eyes", config)
-    return Eye(build_real(package, f"eyes_{dialect}"))
+    return Eye(build_real(package, f"qualities_{dialect}"))
 
 
 def test_a_sensor_hears_what_may_be_lost_unless_told_otherwise(eye: Eye, tmp_path: Path) -> None:
