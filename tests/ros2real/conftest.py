@@ -127,4 +127,5 @@ def followed(clock: Clock, dialect: str) -> Clock:
     slow = replace(clock, startup=clock.startup * busy, timeout=clock.timeout * busy)
     if dialect != "ros2-py":
         return replace(slow, rate=clock.rate / busy)
-    return replace(slow, rate=min(clock.rate, 2.0) / busy, step=max(clock.step, 0.02))
+    rate = min(clock.rate, 2.0)
+    return replace(slow, rate=rate / busy, step=max(clock.step, rate / 100))
