@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -34,8 +34,8 @@ __all__ = [
 ]
 
 _DIALECT = "ros2-py"
-_NODE = Path(__file__).parent / "nodes" / "listener.py"
-_LISTENER = "        ExecuteProcess(cmd=['/usr/bin/python3', *{topics!r}], output='screen'),\n"
+_NODES = Path(__file__).parent / "nodes"
+_BESIDE = "        ExecuteProcess(cmd=['/usr/bin/python3', *{words!r}], output='screen'),\n"
 _HEAD = """
 from launch import LaunchDescription
 from launch.actions import ExecuteProcess
@@ -52,11 +52,16 @@ def generate_launch_description():
 
 @dataclass(frozen=True)
 class _Real:
-    """Plays with an installed package, each time in a folder of its own."""
+    """Plays with an installed package, each time in a folder of its own.
+
+    To topics that are `foreign` a node subscribes that is no rebec. The `deaf` hear what others
+    announce some seconds late.
+    """
 
     workspace: Workspace
     factory: pytest.TempPathFactory
     foreign: tuple[str, ...] = ()
+    deaf: tuple[tuple[str, float], ...] = ()
 
     def play(
         self,
@@ -69,7 +74,8 @@ class _Real:
         folder = self.factory.mktemp("play")
         nodes = probe_nodes(rebecs, parameters, names)
         launch = folder / "probe.launch.py"
-        texts = [_LISTENER.format(topics=[str(_NODE), *self.foreign])] if self.foreign else []
+        nodes = [_apart(node) if node.name in dict(self.deaf) else node for node in nodes]
+        texts = [_BESIDE.format(words=words) for words in self._beside()]
         texts += [_node(node, rebecs[node.name], folder) for node in nodes]
         launch.write_text(f"{_HEAD}{''.join(texts)}    ])\n")
         told = nodes[0].parameters["mailbox.rebecs"]
@@ -78,6 +84,18 @@ class _Real:
         present = [f"/{node.name}" for node in nodes]
         followed_clock = followed(clock, _DIALECT)
         return run(self.workspace, launch, present, expected, folder, followed_clock)
+
+    def _beside(self) -> Iterator[list[str]]:
+        """The nodes that run beside the rebecs, as words of commands."""
+        if self.foreign:
+            yield [str(_NODES / "listener.py"), *self.foreign]
+        for rebec, seconds in self.deaf:
+            yield [str(_NODES / "deaf.py"), rebec, str(seconds)]
+
+
+def _apart(node: Launched) -> Launched:
+    """The node with a topic of its own for what is announced."""
+    return replace(node, remaps={**node.remaps, "startup": f"{node.name}/startup"})
 
 
 def _node(node: Launched, rebec: Rebec, folder: Path) -> str:
