@@ -273,6 +273,23 @@ def test_lateness_beyond_the_slack_is_reported(probe: Workspace, tmp_path: Path)
     assert {(r.kind, r.server) for r in recording.reports()} == {("late", "plain")}
 
 
+def test_what_comes_from_outside_is_not_late_between_two_times(
+    probe: Workspace, tmp_path: Path
+) -> None:
+    """Its arrival is rounded down: what counts is how long it has waited."""
+    rebecs = {
+        "a": Rebec(constructor=("send self plain 0 after 1",), plain=("send b plain 1",)),
+        "b": Rebec(plain=("raw c high 7",)),
+        "c": Rebec(),
+    }
+    # b waits for something more urgent, and is late.
+    recording = play(probe, tmp_path, rebecs, Clock(until=4, quiet=3), {"mailbox/settle": 0.7})
+    (served,) = recording.bodies("c")
+    assert (served.server, served.start) == ("high", 1)
+    assert served.stamp > 1.6
+    assert [(r.kind, r.rebec) for r in recording.reports()] == [("late", "b")]
+
+
 def test_a_time_unit_stretches_the_model(probe: Workspace, tmp_path: Path) -> None:
     rebecs = {"a": Rebec(constructor=START, plain=("delay 10", "send self low 1 after 10"))}
     recording = play(probe, tmp_path, rebecs, SHORT, {"mailbox/time_unit": 0.1})

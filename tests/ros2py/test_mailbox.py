@@ -18,6 +18,7 @@ from tests.ros1.test_mailbox import (
     test_the_newest_beyond_the_capacity_is_dropped_and_reported,
     test_the_next_message_is_chosen_when_the_rebec_is_free,
     test_the_sender_is_known_and_answered,
+    test_what_comes_from_outside_is_not_late_between_two_times,
     test_what_is_sent_at_once_is_ordered_as_if_it_came_at_once,
 )
 
@@ -37,5 +38,6 @@ __all__ = [
     "test_the_newest_beyond_the_capacity_is_dropped_and_reported",
     "test_the_next_message_is_chosen_when_the_rebec_is_free",
     "test_the_sender_is_known_and_answered",
+    "test_what_comes_from_outside_is_not_late_between_two_times",
     "test_what_is_sent_at_once_is_ordered_as_if_it_came_at_once",
 ]

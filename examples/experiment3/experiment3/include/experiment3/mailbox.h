@@ -286,7 +286,8 @@ class Mailbox {
   /// Sends to the rebec itself.
   void post(const Server& server, const When& when, std::string arguments, Body serve) {
     const bool early = !started_;
-    add({server, when.from(now_), self_, std::move(arguments), std::move(serve), {}, 0, early});
+    add({server, when.from(now_), self_, std::move(arguments), std::move(serve), {}, {}, 0,
+        early});
   }
 
   /// Takes in what another rebec sent.
@@ -295,8 +296,8 @@ class Mailbox {
     // What is sent in one go may come in any order: give a more urgent message time to come too.
     const bool overtakable = server.priority > best_priority_;
     const ros::Time earliest = overtakable ? ros::Time::now() + settle_ : ros::Time();
-    add({server, timing, std::move(sender), std::move(arguments), std::move(serve), earliest, 0,
-        false});
+    add({server, timing, std::move(sender), std::move(arguments), std::move(serve), earliest, {},
+        0, false});
   }
 
   int32_t now() const { return static_cast<int32_t>(now_); }
@@ -396,6 +397,7 @@ class Mailbox {
     std::string arguments;
     Body serve;
     ros::Time earliest;
+    ros::Time received;  // if no rebec sent it: its arrival is rounded down
     uint64_t receipt;
     bool early;  // its times count from the moment from which this rebec serves
   };
@@ -489,6 +491,7 @@ class Mailbox {
     message.timing.arrival =
         started_ ? static_cast<int64_t>(std::floor(std::max(elapsed() + kRounded, 0.0))) : 0;
     message.timing.deadline = kNever;
+    message.received = ros::Time::now();
   }
 
   Snapshot look() {
@@ -587,7 +590,8 @@ class Mailbox {
     serving_ = true;
     serving_name_ = message.server.name;
     seen_now_ = std::max(now_, message.timing.arrival);
-    lateness_ = (ros::Time::now() - at(static_cast<double>(seen_now_))).toSec();
+    const ros::Time due = std::max(at(static_cast<double>(seen_now_)), message.received);
+    lateness_ = (ros::Time::now() - due).toSec();
     ++steps_;
     return message;
   }
@@ -673,7 +677,7 @@ class Mailbox {
   Body on_stop_ = [] {};
 
   // Of the body that runs: of the main thread before the start, of who serves after it.
-  const Message constructor_{{"constructor", kNoPriority}, {}, {}, {}, {}, {}, 0, false};
+  const Message constructor_{{"constructor", kNoPriority}, {}, {}, {}, {}, {}, {}, 0, false};
   const Message* current_ = &constructor_;
   int64_t start_ = 0;
   int64_t now_ = 0;
