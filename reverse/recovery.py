@@ -32,6 +32,7 @@ from rebsync.reverse.generated.env_values import (
     type_of_value,
 )
 from rebsync.reverse.generated.one_definition import defined_again
+from rebsync.reverse.generated.parameters import objects_in, odd_arguments
 from rebsync.reverse.generated.ros1_classes import Classes
 from rebsync.reverse.generated.ros1_kept import Memory, read_with
 from rebsync.reverse.generated.ros1_messages import own_messages
@@ -48,7 +49,7 @@ from rebsync.reverse.nodes.node_programs import Program, programs, with_nodes
 from rebsync.reverse.nodes.node_system import Nodes, NodeSystem
 from rebsync.reverse.syntax.cpp_calls import calls_in, string_of
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
-from rebsync.reverse.syntax.cpp_tree import named, parse, part, text_of
+from rebsync.reverse.syntax.cpp_tree import parse
 from rebsync.reverse.syntax.unparsed import unparsed
 from rebsync.source import NOWHERE, Source
 
@@ -110,6 +111,8 @@ def extract(
     read = classes.read(wanted) if memory is None else read_with(memory, classes, wanted)
     for owner in classes.chosen(wanted):
         findings.all += defined_again(code, owner)
+    of_model = {owner.name for owner in classes.chosen(wanted)}
+    findings.all += (f for p in started for f in odd_arguments(code, p.main, of_model))
     generated = is_generated(code)
     of_cpp = None
     if not generated or may_have_nodes(code, asking, started):
@@ -368,18 +371,7 @@ class _System:
 
 def _made(function: CppFunction) -> Iterator[tuple[str, list[str]]]:
     """The objects that a program's `main` makes from a node, and the parameters it reads."""
-    for statement in named(function.body) if function.body is not None else []:
-        declarator = statement.child_by_field_name("declarator")
-        if statement.type != "declaration" or declarator is None:
-            continue
-        value = declarator.child_by_field_name("value")
-        if value is None and declarator.type != "function_declarator":  # as `C c(node)` parses
-            continue
-        keys = [
-            key
-            for call in calls_in(value)
-            if call.name == "param"
-            and call.arguments
-            and (key := string_of(call.arguments[0])) is not None
-        ]
-        yield text_of(part(statement, "type")), keys
+    for type_, values in objects_in(function):
+        calls = (c for value in values for c in calls_in(value) if c.name == "param")
+        keys = (string_of(call.arguments[0]) for call in calls if call.arguments)
+        yield type_, [key for key in keys if key is not None]

@@ -6,6 +6,7 @@ generated. Anything else is listed: the model would not show it.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Container, Iterator, Mapping, Sequence
 from math import prod
 from typing import TypeAlias
@@ -14,6 +15,7 @@ from tree_sitter import Node
 
 from rebsync.model import Type
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.parameters import READS
 from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_names import declared_type
 from rebsync.reverse.generated.ros1_roles import (
@@ -33,7 +35,8 @@ from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.types import PRIMITIVES
 
 _Fields: TypeAlias = "Mapping[str, Mapping[str, Type | None]]"
-_SETS_UP = SETS_UP | {"param", "advertise", "advertiseAll", "readArray", "unused"}
+_SETS_UP = SETS_UP | {"advertise", "advertiseAll", "unused"}
+_HANDLE = re.compile(r"const\s+ros::NodeHandle\s+(\w+)\s*(.*)", re.DOTALL)
 _SUBSCRIBES = frozenset({"subscribe", "subscribeOnBridge"})
 _TELLS = frozenset({"flatten", "publish"})
 
@@ -121,29 +124,49 @@ def _odd_in_constructor(
     timers = {t.call.node.id for t in timers_of(code, owner, roles)}
     timers |= {call.node.id for call in idle_timers(code, owner)}
     arguments = dict(arguments_in(function))
+    fields = (f for c in code.lineage(owner.name) for f in c.fields)
+    variables = {f.name for f in fields if declared_type(code, f.type) is not None}
+    waiting = set(roles.globals)
     for statement in working(function.body):
-        given = text_of(statement).partition("=")[0].removeprefix("this->")
-        is_handle = "".join(given.split()).startswith("constros::NodeHandle")
-        prepares = is_handle or given.strip() in roles.globals
+        given = text_of(statement).partition("=")[0].removeprefix("this->").strip()
+        prepares = _is_handle(statement) or given in waiting
         prepares = prepares or _declared_by(statement) in arguments
-        if not prepares and not _sets_up(statement, function, roles, timers):
+        waiting.discard(given)
+        if not prepares and not _sets_up(statement, function, roles, timers, variables):
             yield statement
+
+
+def _is_handle(statement: Node) -> bool:
+    """Whether it declares a handle; those that parameters of the model are read by are plain."""
+    found = _HANDLE.match(text_of(statement))
+    return found is not None and (found[1] not in ("global", "node") or found[2] == ";")
 
 
 def _declared_by(statement: Node) -> str:
     """The variable that a statement declares, if it declares one."""
-    declarator = statement.child_by_field_name("declarator")
-    if statement.type != "declaration" or declarator is None:
+    declarators = statement.children_by_field_name("declarator")
+    if statement.type != "declaration" or len(declarators) != 1:
         return ""
+    (declarator,) = declarators
     return text_of(declarator.child_by_field_name("declarator") or declarator)
 
 
-def _sets_up(statement: Node, function: CppFunction, roles: Roles, timers: Container[int]) -> bool:
-    """Whether it is one call that sets something up, whose value may be kept."""
-    inner = statement
+def _sets_up(
+    statement: Node,
+    function: CppFunction,
+    roles: Roles,
+    timers: Container[int],
+    variables: Container[str],
+) -> bool:
+    """Whether it is one call that sets something up, whose value may be kept.
+
+    The `variables` of the model get what parameters say only as constants and known rebecs.
+    """
+    inner, kept = statement, ""
     if statement.type == "expression_statement":
         inner = named(statement)[0]
     if inner.type == "assignment_expression":
+        kept = text_of(part(inner, "left")).removeprefix("this->")
         inner = part(inner, "right")
     call = call_of(inner)
     if call is None:
@@ -163,6 +186,12 @@ def _sets_up(statement: Node, function: CppFunction, roles: Roles, timers: Conta
             lambda_ = callback is not None and callback.type == "lambda_expression"
             taken = any(callback == t.shim for t in roles.taken)
             return call.node.id in roles.wired and (taken or not lambda_)
+        case "readArray":
+            return text_of(call.arguments[-1]) in roles.globals
+        case "param" if len(call.arguments) > 2:
+            return False
+        case name if name in READS:
+            return kept in roles.known or kept in roles.globals or kept not in variables
         case name:
             return name in _SETS_UP
 

@@ -6,7 +6,7 @@ that publishes or posts is a send. Names and markers decide nothing here.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field
 from typing import TypeAlias
 
@@ -17,6 +17,7 @@ from rebsync.names import original, uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import OWN_TOPICS
 from rebsync.reverse.bodies.scope import Sends
+from rebsync.reverse.generated.parameters import READS, read_by
 from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros2_words import (
     constant_of_model,
@@ -122,7 +123,7 @@ def roles_of(code: Code, owner: CppClass) -> Roles:
             roles.sensors.add(original(member.name.removesuffix(_SENSOR)))
     for function in functions:
         if function.name == owner.name:
-            _wired(roles, function)
+            _wired(roles, function, {f.name: text_of(f.type) for f in owner.fields})
     for constructor in (*owner.functions, *functions):
         if constructor.name == owner.name:
             roles.queue_length = _queue_length(constructor) or roles.queue_length
@@ -211,16 +212,19 @@ def server_of(code: Code, cpp: Cpp, constant: str) -> str | None:
 # --- set up by constructors ---------------------------------------------------------------------
 
 
-def _wired(roles: Roles, constructor: CppFunction) -> None:
+def _wired(roles: Roles, constructor: CppFunction, types: Mapping[str, str]) -> None:
     for member, value in assigned_in(constructor.body):
+        read = read_by(value, types.get(member, ""))
         for call in calls_in(value):
-            _member(roles, member, call)
+            if call.name not in READS or (read is not None and call.node == read.node):
+                _member(roles, member, call)
     for member, value in assigned_in(constructor.body):
         declared = call_of(value)
         if declared is not None and (array := declared_array(declared)) is not None:
             roles.globals[member] = array
     for call in calls_in(constructor.body) if _says(constructor, b"readArray") else ():
-        if call.name == "readArray" and len(call.arguments) == 3:
+        given = [text_of(a) for a in call.arguments]
+        if call.name == "readArray" and len(given) == 3 and given[0] == "global":
             key = string_of(call.arguments[1])
             if key is not None:
                 member = text_of(call.arguments[2])

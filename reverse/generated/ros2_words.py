@@ -7,12 +7,12 @@ from collections.abc import Iterator
 
 from tree_sitter import Node
 
+from rebsync.reverse.generated.parameters import DECLARES, read_by
 from rebsync.reverse.syntax.cpp_calls import CppCall, calls_in, string_of
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
-DECLARES = "declare_parameter"
-SETS_UP = frozenset({"create_publisher", DECLARES, "declareArray", "start"})
+SETS_UP = frozenset({"create_publisher", "start"})
 # Functions that only tell of the node and its clock.
 ASKS = frozenset({"get_logger", "get_clock", "get_name", "get_namespace"})
 _POINTERS = ("::ConstSharedPtr", "::SharedPtr", "::ConstPtr", "ConstPtr", "::Ptr")
@@ -68,13 +68,14 @@ def arguments_in(constructor: CppFunction) -> Iterator[tuple[str, str]]:
     handed = _handed_on(constructor)
     for statement in named(constructor.body) if constructor.body is not None else []:
         declarator = statement.child_by_field_name("declarator")
-        if statement.type != "declaration" or declarator is None:
+        if declarator is None or declarator.type != "init_declarator":
             continue
-        for call in calls_in(declarator.child_by_field_name("value")):
-            key = string_of(call.arguments[0]) if call.arguments else None
-            name = text_of(part(declarator, "declarator"))
-            if call.name == DECLARES and key is not None and name in handed:
-                yield name, key
+        type_ = text_of(part(statement, "type"))
+        call = read_by(declarator.child_by_field_name("value"), type_)
+        key = string_of(call.arguments[0]) if call is not None and call.arguments else None
+        name = text_of(part(declarator, "declarator"))
+        if call is not None and call.name == DECLARES and key is not None and name in handed:
+            yield name, key
 
 
 def _handed_on(constructor: CppFunction) -> set[str]:

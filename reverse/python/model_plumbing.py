@@ -125,8 +125,12 @@ class Plumbing:
             return _is_text(statement)
         member = text_of(field(inner, "left")).removeprefix("self.")
         roles = self.roles
-        if member in roles.state or member in roles.known or member in roles.env:
-            return member not in roles.state or _is_of_type(inner)
+        if member in roles.known:
+            return roles.known[member][2] == inner
+        if member in roles.env:
+            return roles.env[member].statement == inner
+        if member in roles.state:
+            return _is_of_type(inner)
         if member in roles.arguments:
             return True
         called, arguments = call_parts(inner.child_by_field_name("right")) or ("", [])

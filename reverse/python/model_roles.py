@@ -43,7 +43,10 @@ OFFERING = {
 _PLUMBING = {"__init__", "_wire", "_publish_state", "mailbox"}
 _SENSOR = "_sensor"
 # What reads a parameter in ROS 1, in ROS 2, and one that is an array.
+# What reads a parameter: the words of rospy, and of the run-time part. Their names say whose it is.
 _READS = frozenset({"rospy.get_param", "declared", "read_array", "declare_array"})
+_OF_ROS_2 = frozenset({"declared", "declare_array"})
+_CONVERTS = frozenset({"Rebec", "bool", "float", "float32", "int", "int8", "int16", "int32"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,13 +66,23 @@ class Sends:
 
 
 @dataclass(frozen=True, slots=True)
+class ParameterRead:
+    """A parameter that code reads: a node's own one, or else a constant of the model."""
+
+    key: str
+    default: Node | None
+    is_own: bool
+
+
+@dataclass(frozen=True, slots=True)
 class EnvUse:
-    """A constant of the model that a class reads: its key and what stands in for it."""
+    """A constant of the model that a class reads: its key, what stands in for it, and where."""
 
     key: str
     name: str
     type: m.Type
     default: Node | None
+    statement: Node
 
 
 @dataclass(eq=False, slots=True)
@@ -176,8 +189,10 @@ def _wired(roles: Roles, function: Scope) -> None:
             value = without_parentheses(value)
             if left.startswith("self."):
                 _member(roles, function, left.removeprefix("self."), inner, value)
-            elif left.isidentifier() and (read := parameter_read(value)) is not None:
-                roles.arguments[left] = read[0]
+            elif left.isidentifier():
+                read = parameter_read(value)
+                if read is not None and read.is_own:
+                    roles.arguments[left] = read.key
     for parameter in function.parameters:
         if parameter.default is not None and text_of(parameter.default).isdecimal():
             roles.queue_length = roles.queue_length or int(text_of(parameter.default))
@@ -242,26 +257,26 @@ def _variable(
         roles.state[attribute] = name, type_, statement
         if not is_unset(value):
             roles.initial.append((attribute, value))
-    elif read is not None and read[0].startswith("knownrebecs/"):
-        known = original(read[0].partition("/")[2])
+    elif read is not None and read.is_own and read.key.startswith("knownrebecs/"):
+        known = original(read.key.partition("/")[2])
         roles.known[attribute] = known, type_, statement
-    elif read is not None:
-        roles.env[attribute] = EnvUse(read[0], name, type_, read[1])
+    elif read is not None and not read.is_own:
+        roles.env[attribute] = EnvUse(read.key, name, type_, read.default, statement)
 
 
-def parameter_read(value: Node) -> tuple[str, Node | None] | None:
-    """The parameter that a value reads, wherever in it, and what stands in for it."""
+def parameter_read(value: Node) -> ParameterRead | None:
+    """The parameter that a value is, converted or not; None if it is more than that."""
     called, arguments = call_parts(value) or ("", [])
+    if called.partition("[")[0] in _CONVERTS and len(arguments) == 1:
+        return parameter_read(arguments[0])
     strings = [(i, s) for i, a in enumerate(arguments) if (s := string_value(a)) is not None]
-    if strings and called in _READS:
-        index, key = strings[0]
-        default = arguments[index + 1] if index + 1 < len(arguments) else None
-        return key.removeprefix("~").replace(".", "/").removeprefix("env/"), default
-    for argument in arguments:
-        found = parameter_read(argument)
-        if found is not None:
-            return found
-    return None
+    if not strings or called not in _READS:
+        return None
+    index, said = strings[0]
+    default = arguments[index + 1] if index + 1 < len(arguments) else None
+    key = said.removeprefix("env.").replace(".", "/") if called in _OF_ROS_2 else said
+    is_own = not said.startswith("env.") if called in _OF_ROS_2 else said.startswith("~")
+    return ParameterRead(key.removeprefix("~"), default, is_own)
 
 
 def variable_name(attribute: str, markers: Collection[str]) -> str:

@@ -89,7 +89,8 @@ class PythonPart:
                 runs = is_module(scope.py.source.path, module)
             if runs and is_own:
                 arguments = named(field(call, "arguments"))
-                keys = [r[0] for a in arguments if (r := parameter_read(a)) is not None]
+                reads = filter(None, map(parameter_read, arguments))
+                keys = [read.key for read in reads if read.is_own]
                 return made, [*keys, *self.arguments.get(made, ())]
         return None
 

@@ -9,6 +9,7 @@ import pytest
 from tests.roundtrip.mutations.harness import Result, Said, Task, results
 from tests.roundtrip.mutations.kinds import BEHAVIOUR, NEUTRAL, made_by
 from tests.roundtrip.mutations.package import Kind, Package
+from tests.roundtrip.mutations.parameters import KINDS
 
 _SHARE = {"cpp": 12, "py": 24}  # one kind in so many
 _PACKAGES = ("experiment3", "experiment2", "warehouse", "experiment1")
@@ -114,6 +115,13 @@ def test_the_build_decides_what_is_code(dialect: str) -> None:
     assert wrong(list(results(tasks, 1)), Said.AT_ELEMENT, Said.AT_FILE) == []
     task = Task("experiment2", tuple(k.name for k in kinds if k in NEUTRAL[dialect]), 3, 1, dialect)
     assert wrong(list(results([task], 1)), Said.IN_STEP) == []
+
+
+@pytest.mark.parametrize("dialect", BEHAVIOUR)
+def test_parameters_that_are_read_otherwise(dialect: str) -> None:
+    tasks = placed(dialect, KINDS[dialect])
+    assert len(tasks) == len(KINDS[dialect])
+    assert wrong(list(results(tasks, 1)), Said.AT_ELEMENT, Said.AT_FILE) == []
 
 
 @pytest.mark.parametrize("dialect", BEHAVIOUR)

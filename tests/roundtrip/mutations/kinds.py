@@ -16,6 +16,7 @@ from tests.roundtrip.mutations import (
     launch_xml,
     layout,
     neutral,
+    parameters,
     py_bodies,
     py_joints,
     py_neutral,
@@ -71,10 +72,25 @@ _LAUNCH_PY_NEUTRAL = (
 )
 
 BEHAVIOUR: Mapping[str, tuple[Kind, ...]] = {
-    "ros1-cpp": (*_CPP, *_ALL, *roscpp.KINDS, *_XML),
-    "ros2-cpp": (*_CPP, *_ALL, *rclcpp.KINDS, *slips.RCLCPP, *_LAUNCH_PY),
-    "ros1-py": (*_PY, *_ALL, *py_surroundings.ROSPY, *_XML),
-    "ros2-py": (*_PY, *_ALL, *py_surroundings.RCLPY, *slips.RCLPY, *built.RCLPY, *_LAUNCH_PY),
+    "ros1-cpp": (*_CPP, *_ALL, *roscpp.KINDS, *_XML, *parameters.KINDS["ros1-cpp"]),
+    "ros2-cpp": (
+        *_CPP,
+        *_ALL,
+        *rclcpp.KINDS,
+        *slips.RCLCPP,
+        *_LAUNCH_PY,
+        *parameters.KINDS["ros2-cpp"],
+    ),
+    "ros1-py": (*_PY, *_ALL, *py_surroundings.ROSPY, *_XML, *parameters.KINDS["ros1-py"]),
+    "ros2-py": (
+        *_PY,
+        *_ALL,
+        *py_surroundings.RCLPY,
+        *slips.RCLPY,
+        *built.RCLPY,
+        *_LAUNCH_PY,
+        *parameters.KINDS["ros2-py"],
+    ),
 }
 NEUTRAL: Mapping[str, tuple[Kind, ...]] = {
     "ros1-cpp": (*_CPP_NEUTRAL, *roscpp.NEUTRAL, *_XML_NEUTRAL),

@@ -1,0 +1,79 @@
+"""The parameters of a node that generated code reads: what a variable or an argument is given.
+
+A value is that of a parameter only where the code does nothing else with it: what is computed from
+it, or read by another node handle, is none that the model knows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from itertools import zip_longest
+
+from tree_sitter import Node
+
+from rebsync.reverse.findings import Finding, Grade
+from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
+from rebsync.reverse.syntax.cpp_index import Code, CppFunction
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+
+DECLARES = "declare_parameter"
+READS = frozenset({"param", DECLARES, "declareArray"})
+_HINT = "compute with it in the model's constructor"
+_SMALL = frozenset({"char", "float", "int8_t", "int16_t", "short", "uint8_t", "uint16_t"})
+_CONVERTS = frozenset({"static_cast", "narrow"})
+
+
+def read_by(value: Node | None, type_: str) -> CppCall | None:
+    """The call that gives a value which is no more than a parameter, converted to its own type."""
+    if value is None:
+        return None
+    call = call_of(value)
+    if call is not None and call.name in READS:
+        return call if _fits(call, _plain(type_)) else None
+    if value.type in ("parenthesized_expression", "initializer_list") and len(named(value)) == 1:
+        return read_by(named(value)[0], type_)
+    if call is not None and call.name in _CONVERTS and len(call.arguments) == 1:
+        return read_by(call.arguments[0], "") if _is_to(call, type_) else None
+    return None
+
+
+def _fits(call: CppCall, type_: str) -> bool:
+    """Whether a type has all values of a parameter, as far as both are written."""
+    if type_ == "bool":
+        words = (text_of(each) for each in (*call.types, *call.arguments[1:2]))
+        return any(word in ("bool", "true", "false") for word in words)
+    return type_ not in _SMALL
+
+
+def _is_to(call: CppCall, type_: str) -> bool:
+    return [_plain(text_of(t)) for t in call.types] == [_plain(type_)]
+
+
+def _plain(type_: str) -> str:
+    return type_.removeprefix("const ").replace("std::", "").strip()
+
+
+def objects_in(main: CppFunction) -> Iterator[tuple[str, list[Node]]]:
+    """The objects that a program's `main` makes, each by its type with what it is made of."""
+    for statement in named(main.body) if main.body is not None else []:
+        declarator = statement.child_by_field_name("declarator")
+        if statement.type != "declaration" or declarator is None:
+            continue
+        value = declarator.child_by_field_name("value")
+        if value is not None or declarator.type == "function_declarator":  # as `C c(node)` parses
+            yield text_of(part(statement, "type")), named(value) if value is not None else []
+
+
+def odd_arguments(code: Code, main: CppFunction, made: Collection[str]) -> Iterator[Finding]:
+    """What a program gives the constructors of classes beside the node's handle and parameters."""
+    for type_, values in objects_in(main):
+        name = type_.rpartition("::")[2]
+        if name not in made:
+            continue
+        own = [f for f in code.functions_of(code.classes[name]) if f.name == name]
+        types = next((f.parameters for f in own if len(f.parameters) == len(values)), ())
+        for value, taken in zip_longest(values[1:], types[1:]):
+            read = read_by(value, text_of(taken.type) if taken is not None else "")
+            if read is None or read.on != "node":
+                span, why = main.cpp.span(value), "this is more than a parameter of the node"
+                yield Finding(Grade.UNREADABLE, main.cpp.source, span, why, _HINT, f"{name}.main")

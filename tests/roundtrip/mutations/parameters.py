@@ -1,0 +1,79 @@
+"""Changes of how nodes read parameters: computed with, read elsewhere, written over, given twice.
+
+The value of a member that the model has is then another one than the model says.
+"""
+
+from __future__ import annotations
+
+from tests.roundtrip.mutations.package import Kind, in_files
+
+_CONSTANT = {
+    "cpp": r"^(  (\w+_) = )((?:global\.param|declare_parameter<int>)\(\"(?:env\.)?\w+\", .*\));$",
+    "py": r"^(        (self\._\w+): int = )((?:rospy\.get_param|declared)\((?:self, )?\"(?!~).*\))",
+}
+_KNOWN = {
+    "cpp": r"^(  (\w+_) = )((?:node\.param|declare_parameter)<std::string>\(\"knownrebecs.*\));$",
+    "py": r"^(        (self\._\w+): Rebec\[\w+\] = )(Rebec\(.*\))",
+}
+_ARGUMENT = {  # with the type for which a default of 0 or false stands
+    "ros1-cpp": (r"_node.cpp", r"node\.param\(\"\w+\", 0\)"),
+    "ros2-cpp": (
+        r".cpp",
+        r"(?<=const int32_t )(\w+) = declare_parameter<int>\((?:.|\n)*?\)(?=;\n)",
+    ),
+    "ros1-py": (r"_node", r"rospy\.get_param\(\"~\w+\", 0\)"),
+    "ros2-py": (r".py", r"(?<=: int = )declared\(self, \"(?!env)\w+\", 0, .*\)(?=\n)"),
+}
+
+
+def _kind(name: str, suffix: str, row: tuple[str, str]) -> Kind:
+    return Kind(name, in_files(suffix, *row, comments=True))
+
+
+def _of_members(language: str, suffix: str, end: str) -> tuple[Kind, ...]:
+    constant, known = _CONSTANT[language], _KNOWN[language]
+    again, two = rf"\1\3{end}\n", "  " if language == "cpp" else "        "
+    other = '"x"' if language == "cpp" else 'Rebec("x")'
+    return (
+        _kind("constant computed with", suffix, (constant, rf"\1\3 + 1{end}")),
+        _kind("constant written over", suffix, (constant, rf"{again}{two}\2 = 7{end}")),
+        _kind("known rebec written over", suffix, (known, rf"{again}{two}\2 = {other}{end}")),
+    )
+
+
+def _of_arguments(dialect: str) -> tuple[Kind, ...]:
+    suffix, pattern = _ARGUMENT[dialect]
+    return (_kind("argument computed with", suffix, (pattern, r"\g<0> + 1")),)
+
+
+KINDS = {
+    "ros1-cpp": (
+        *_of_members("cpp", ".cpp", ";"),
+        *_of_arguments("ros1-cpp"),
+        _kind(
+            "constants of a namespace", ".cpp", (r"NodeHandle global;", 'NodeHandle global("a");')
+        ),
+        _kind(
+            "argument of everybody",
+            "_node.cpp",
+            (r"node\.param\((\"\w+\", 0\))", r"ros::NodeHandle().param(\1"),
+        ),
+        _kind(
+            "constant of one node", ".cpp", (r"global\.param\((\"\w+\", .*\));$", r"node.param(\1;")
+        ),
+    ),
+    "ros2-cpp": (
+        *_of_members("cpp", ".cpp", ";"),
+        *_of_arguments("ros2-cpp"),
+        _kind("argument made a truth", ".cpp", (r"const int32_t (?=\w+ = decl)", "const bool ")),
+    ),
+    "ros1-py": (
+        *_of_members("py", ".py", ""),
+        *_of_arguments("ros1-py"),
+        _kind("argument of everybody", "_node", (r"get_param\(\"~(\w+\", 0\))", r'get_param("\1')),
+        _kind(
+            "constant of one node", ".py", (r"get_param\(\"(?!~)(\w+\", .*\))", r'get_param("~\1')
+        ),
+    ),
+    "ros2-py": (*_of_members("py", ".py", ""), *_of_arguments("ros2-py")),
+}
