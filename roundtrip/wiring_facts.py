@@ -71,8 +71,11 @@ _TYPES = {
 }
 _FOLDER = re.compile(r"^(script_dir|install_scripts)[ \t]*=[ \t]*(\S+)", re.MULTILINE)
 _COMPILED = re.compile(
-    r"\b(?:add|target)_(?:compile_\w+|definitions)\s*\(([^)]*)\)|_FLAGS\s+([^)]*)\)"
+    r"\b(?:add|target)_(?:compile_\w+|definitions)\s*\(([^)]*)\)"
+    r"|_(?:FLAGS|OPTIONS)\s+([^)]*)\)|\bset\s*\(\s*\w+\s+([^)]*)\)"
 )
+_DEFINED = re.compile(r"_(?:compile_definitions\s*\(\s*[^\s)]+|COMPILE_DEFINITIONS)\s+([^)]*)\)")
+_SCOPES = frozenset({"PRIVATE", "PUBLIC", "INTERFACE"})
 _OPTION = re.compile(r"(?:^|[\s\"])((?:-D|-U|-f|-include)\s*[^\s\"]+)")
 _FAR = 400  # characters within which a subscription names its handler
 _POSTED = re.compile(r"\bk[A-Z]\w*")
@@ -339,9 +342,14 @@ def _has_bearing(name: str) -> bool:
 
 def _programs(source: Source) -> Iterator[Fact]:
     """The files that programs are made of, what these are called, how they are compiled."""
-    for m in _COMPILED.finditer(_HASH.sub(lambda m: " " * len(m[0]), source.text)):
-        for option in _OPTION.findall(m[1] or m[2] or ""):
+    commands = _HASH.sub(lambda m: " " * len(m[0]), source.text)
+    for m in _COMPILED.finditer(commands):
+        for option in _OPTION.findall(m[1] or m[2] or m[3] or ""):
             yield Fact("compiler option", "", _squeezed(option), "given", source, Span(*m.span()))
+    for m in _DEFINED.finditer(commands):
+        for word in sorted({*m[1].split()} - _SCOPES):
+            option = f"-D{word.removeprefix('-D')}"
+            yield Fact("compiler option", "", option, "given", source, Span(*m.span()))
     named = {m[1]: m[2] for m in _NAMED.finditer(source.text)}
     for m in _TARGETS.finditer(source.text):
         for target in re.split(r"\b[A-Z]+\b(?! *\})", m[1])[0].split():

@@ -26,8 +26,6 @@ _STOPPED = re.compile(r"~(\w+)\s*\([^;{]*\{[^}]*\bmailbox_\s*\.\s*stop\s*\(\s*\)
 _COMPONENT = re.compile(r"\bRCLCPP_COMPONENTS_REGISTER_NODE\s*\(\s*(?:\w+\s*::\s*)*(\w+)\s*\)")
 _BUILT = re.compile(r"\brclcpp_components_register_nodes\s*\(([^)]*)\)")
 _MESSAGES = re.compile(r"\b(?:rosidl_generate_interfaces|add_message_files)\s*\(([^)]*)\)")
-_OPTIONS = re.compile(r"\bset\s*\(\s*\w*options\w*\s+([^)]*)\)")
-_OPTION = re.compile(r"(?:^|[\s\"])((?:-D|-U|-f|-include)\s*[^\s\"]+)")
 _LIBRARY = re.compile(r"\badd_library\s*\(\s*(\S+)\s+([^)]*)\)")
 _HASH = re.compile(r"#[^\n]*")
 _WHOLE = frozenset({"int", "int64_t", "std::int64_t", "long"})
@@ -54,11 +52,8 @@ def of_code(source: Source, text: str) -> Iterator[Told]:
 
 
 def of_build(source: Source) -> Iterator[Told]:
-    """Of a CMakeLists.txt: libraries with their sources, components, messages, options."""
+    """Of a CMakeLists.txt: libraries with their sources, components, messages."""
     text = _HASH.sub(lambda m: " " * len(m[0]), source.text)
-    for m in _OPTIONS.finditer(text):
-        for option in _OPTION.findall(m[1]):
-            yield "compiler option", "", "".join(option.split()), "given", source, Span(*m.span())
     for m in _LIBRARY.finditer(text):
         for name in (path.rpartition("/")[2] for path in m[2].split()):
             if "." in name:

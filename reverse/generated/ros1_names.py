@@ -76,10 +76,10 @@ def is_interface(owner: CppClass, alone: bool) -> bool:
     """
     if alone and not any(marker.startswith("interface ") for marker in owner.markers):
         return False
-    destructor = f"~{owner.name}"
-    names = {f.name for f in owner.functions}
-    others = (f for f in owner.functions if f.name != destructor)
-    return not owner.fields and destructor in names and all(f.pure for f in others)
+    ends = [f for f in owner.functions if f.name == f"~{owner.name}"]
+    others = (f for f in owner.functions if f not in ends)
+    plain = len(ends) == 1 and ends[0].body is None
+    return not owner.fields and plain and all(f.pure for f in others)
 
 
 def state_types(code: Code, owner: CppClass) -> Iterator[str]:

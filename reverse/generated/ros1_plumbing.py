@@ -36,6 +36,7 @@ from rebsync.static.types import PRIMITIVES
 
 _Fields: TypeAlias = "Mapping[str, Mapping[str, Type | None]]"
 _SETS_UP = SETS_UP | {"advertise", "advertiseAll", "unused"}
+_ONCE = frozenset({"construct", "onServed", "start"})
 _HANDLE = re.compile(r"const\s+ros::NodeHandle\s+(\w+)\s*(.*)", re.DOTALL)
 _SUBSCRIBES = frozenset({"subscribe", "subscribeOnBridge"})
 _TELLS = frozenset({"flatten", "publish"})
@@ -58,6 +59,12 @@ def check_plumbing(
     for cpp, node in odd_priorities(code, roles):
         why = "a server has kNoPriority, priority(number) or globalPriority(number)"
         findings.unreadable(cpp.source, Unread(cpp.span(node), why), owner.name)
+    for member in owner.fields:
+        storage = (c.text for c in member.node.children if c.type == "storage_class_specifier")
+        if b"static" in storage and declared_type(code, member.type) is not None:
+            why = "all objects of the class share this; in the model each rebec has its own"
+            unread = Unread(member.cpp.span(member.node), why)
+            findings.unreadable(member.cpp.source, unread, owner.name)
     for function in code.functions_of(owner):
         if function.body is None:
             continue
@@ -126,8 +133,13 @@ def _odd_in_constructor(
     arguments = dict(arguments_in(function))
     fields = (f for c in code.lineage(owner.name) for f in c.fields)
     variables = {f.name for f in fields if declared_type(code, f.type) is not None}
-    waiting = set(roles.globals)
+    waiting, done = set(roles.globals), set[str]()
     for statement in working(function.body):
+        once = {c.name for c in calls_in(statement) if c.name in _ONCE and c.on == "mailbox_"}
+        if once & done:
+            yield statement
+            continue
+        done |= once
         given = text_of(statement).partition("=")[0].removeprefix("this->").strip()
         prepares = _is_handle(statement) or given in waiting
         prepares = prepares or _declared_by(statement) in arguments

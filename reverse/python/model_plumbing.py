@@ -51,9 +51,7 @@ _AT_TOP = frozenset(
     }
 )
 _IN_CLASS = frozenset({"function_definition", "decorated_definition", "pass_statement"})
-_DECORATORS = frozenset(
-    {"abstractmethod", "final", "override", "property", "staticmethod", "classmethod"}
-)
+_DECORATORS = frozenset({"abstractmethod", "final", "override", "staticmethod", "classmethod"})
 _WHY = "what this does is not in the model"
 _HINT = "say it in the model, or move it into a user block"
 
@@ -78,7 +76,7 @@ class Plumbing:
             for node in self._odd(function):
                 self._list(owner.py, node, _WHY, function.name)
         for function in self.roles.functions.values():
-            odd = [d for d in function.decorators if d not in _DECORATORS]
+            odd = [d for d in function.decorators if not _is_plain(function, d)]
             if odd := [d for d in odd if not is_transparent(self.code, owner.module, d)]:
                 why = f'nobody knows what "@{odd[0]}" makes of it'
                 self._list(owner.py, function.node, why, function.name)
@@ -229,6 +227,11 @@ def odd_at_top(module: Scope) -> Iterator[Node]:
         if statement.type == "if_statement" and "TYPE_CHECKING" in text_of(statement):
             continue
         yield statement
+
+
+def _is_plain(function: Scope, decorator: str) -> bool:
+    """Whether a function is with it what it is without: what is called is no property."""
+    return decorator in _DECORATORS or (decorator == "property" and function.name == "mailbox")
 
 
 def _is_of_type(statement: Node) -> bool:

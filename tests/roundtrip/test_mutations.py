@@ -9,7 +9,7 @@ import pytest
 from tests.roundtrip.mutations.harness import Result, Said, Task, results
 from tests.roundtrip.mutations.kinds import BEHAVIOUR, NEUTRAL, made_by
 from tests.roundtrip.mutations.package import Kind, Package
-from tests.roundtrip.mutations.parameters import KINDS
+from tests.roundtrip.mutations.set_up import KINDS
 
 _SHARE = {"cpp": 12, "py": 24}  # one kind in so many
 _PACKAGES = ("experiment3", "experiment2", "warehouse", "experiment1")
@@ -118,7 +118,7 @@ def test_the_build_decides_what_is_code(dialect: str) -> None:
 
 
 @pytest.mark.parametrize("dialect", BEHAVIOUR)
-def test_parameters_that_are_read_otherwise(dialect: str) -> None:
+def test_what_is_set_up_otherwise(dialect: str) -> None:
     tasks = placed(dialect, KINDS[dialect])
     assert len(tasks) == len(KINDS[dialect])
     assert wrong(list(results(tasks, 1)), Said.AT_ELEMENT, Said.AT_FILE) == []

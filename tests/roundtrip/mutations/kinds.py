@@ -16,7 +16,6 @@ from tests.roundtrip.mutations import (
     launch_xml,
     layout,
     neutral,
-    parameters,
     py_bodies,
     py_joints,
     py_neutral,
@@ -25,6 +24,7 @@ from tests.roundtrip.mutations import (
     rclcpp,
     roscpp,
     sending,
+    set_up,
     slips,
     spelling,
     surroundings,
@@ -72,16 +72,16 @@ _LAUNCH_PY_NEUTRAL = (
 )
 
 BEHAVIOUR: Mapping[str, tuple[Kind, ...]] = {
-    "ros1-cpp": (*_CPP, *_ALL, *roscpp.KINDS, *_XML, *parameters.KINDS["ros1-cpp"]),
+    "ros1-cpp": (*_CPP, *_ALL, *roscpp.KINDS, *_XML, *set_up.KINDS["ros1-cpp"]),
     "ros2-cpp": (
         *_CPP,
         *_ALL,
         *rclcpp.KINDS,
         *slips.RCLCPP,
         *_LAUNCH_PY,
-        *parameters.KINDS["ros2-cpp"],
+        *set_up.KINDS["ros2-cpp"],
     ),
-    "ros1-py": (*_PY, *_ALL, *py_surroundings.ROSPY, *_XML, *parameters.KINDS["ros1-py"]),
+    "ros1-py": (*_PY, *_ALL, *py_surroundings.ROSPY, *_XML, *set_up.KINDS["ros1-py"]),
     "ros2-py": (
         *_PY,
         *_ALL,
@@ -89,7 +89,7 @@ BEHAVIOUR: Mapping[str, tuple[Kind, ...]] = {
         *slips.RCLPY,
         *built.RCLPY,
         *_LAUNCH_PY,
-        *parameters.KINDS["ros2-py"],
+        *set_up.KINDS["ros2-py"],
     ),
 }
 NEUTRAL: Mapping[str, tuple[Kind, ...]] = {

@@ -1,6 +1,6 @@
-"""Changes of how nodes read parameters: computed with, read elsewhere, written over, given twice.
-
-The value of a member that the model has is then another one than the model says.
+"""Changes of what constructors set up: parameters that are computed with, read elsewhere or written
+over, so that a member has another value than the model says; constructors of the model that run
+twice; members that objects share.
 """
 
 from __future__ import annotations
@@ -46,8 +46,32 @@ def _of_arguments(dialect: str) -> tuple[Kind, ...]:
     return (_kind("argument computed with", suffix, (pattern, r"\g<0> + 1")),)
 
 
+_CPP = (
+    _kind("constructed twice", ".cpp", (r"^(  mailbox_\.construct\(.*\);)$", r"\1\n\1")),
+    Kind("member of all objects", in_files(".h", r"^  (int32_t \w+_)\{\};", r"  static \1;")),
+    Kind("member of all objects", in_files(".hpp", r"^  (int32_t \w+_)\{\};", r"  static \1;")),
+)
+_PY = (
+    _kind(
+        "server made a property",
+        ".py",
+        (r"^(    # rebsync: msgsrv \w+\.\w+\n)(?=    def)", r"\1    @property\n"),
+    ),
+)
+_VARIABLE = _kind(
+    "macro given by a variable of CMake", "CMakeLists.txt", (r"-Wall\b", "-Wall -Dmailbox_=m_")
+)
+_DEFINITION = _kind(
+    "macro given as a definition",
+    "CMakeLists.txt",
+    (r"\Z", "target_compile_definitions(${PROJECT_NAME}_nodes PRIVATE mailbox_=m_)\n"),
+)
+
 KINDS = {
     "ros1-cpp": (
+        *_CPP[:2],
+        _VARIABLE,
+        _DEFINITION,
         *_of_members("cpp", ".cpp", ";"),
         *_of_arguments("ros1-cpp"),
         _kind(
@@ -63,11 +87,16 @@ KINDS = {
         ),
     ),
     "ros2-cpp": (
+        _CPP[0],
+        _CPP[2],
+        _VARIABLE,
+        _DEFINITION,
         *_of_members("cpp", ".cpp", ";"),
         *_of_arguments("ros2-cpp"),
         _kind("argument made a truth", ".cpp", (r"const int32_t (?=\w+ = decl)", "const bool ")),
     ),
     "ros1-py": (
+        *_PY,
         *_of_members("py", ".py", ""),
         *_of_arguments("ros1-py"),
         _kind("argument of everybody", "_node", (r"get_param\(\"~(\w+\", 0\))", r'get_param("\1')),
@@ -75,5 +104,5 @@ KINDS = {
             "constant of one node", ".py", (r"get_param\(\"(?!~)(\w+\", .*\))", r'get_param("~\1')
         ),
     ),
-    "ros2-py": (*_of_members("py", ".py", ""), *_of_arguments("ros2-py")),
+    "ros2-py": (*_PY, *_of_members("py", ".py", ""), *_of_arguments("ros2-py")),
 }
