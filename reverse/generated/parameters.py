@@ -7,7 +7,6 @@ it, or read by another node handle, is none that the model knows.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from itertools import zip_longest
 
 from tree_sitter import Node
 
@@ -71,9 +70,10 @@ def odd_arguments(code: Code, main: CppFunction, made: Collection[str]) -> Itera
         if name not in made:
             continue
         own = [f for f in code.functions_of(code.classes[name]) if f.name == name]
-        types = next((f.parameters for f in own if len(f.parameters) == len(values)), ())
-        for value, taken in zip_longest(values[1:], types[1:]):
-            read = read_by(value, text_of(taken.type) if taken is not None else "")
-            if read is None or read.on != "node":
+        taken = [f.parameters for f in own if len(f.parameters) == len(values)]
+        for index, value in enumerate(values[1:], 1):
+            types = [text_of(parameters[index].type) for parameters in taken]
+            reads = [read_by(value, type_) for type_ in types or [""]]
+            if not any(read is not None and read.on == "node" for read in reads):
                 span, why = main.cpp.span(value), "this is more than a parameter of the node"
                 yield Finding(Grade.UNREADABLE, main.cpp.source, span, why, _HINT, f"{name}.main")

@@ -46,7 +46,12 @@ _SENSOR = "_sensor"
 # What reads a parameter: the words of rospy, and of the run-time part. Their names say whose it is.
 _READS = frozenset({"rospy.get_param", "declared", "read_array", "declare_array"})
 _OF_ROS_2 = frozenset({"declared", "declare_array"})
-_CONVERTS = frozenset({"Rebec", "bool", "float", "float32", "int", "int8", "int16", "int32"})
+_CONVERTS = frozenset(
+    {
+        *("Rebec", "bool", "boolean", "float", "float32", "float64"),
+        *("int", "int8", "int16", "int32"),
+    }
+)
 
 
 @dataclass(frozen=True, slots=True)
