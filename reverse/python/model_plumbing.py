@@ -5,6 +5,7 @@ Set-up, shims, and functions that send are not in the model: what somebody chang
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from tree_sitter import Node
@@ -76,7 +77,7 @@ class Plumbing:
             for node in self._odd(function):
                 self._list(owner.py, node, _WHY, function.name)
         for function in self.roles.functions.values():
-            odd = [d for d in function.decorators if not _is_plain(function, d)]
+            odd = [d for d in function.decorators if not self._is_plain(function, d)]
             if odd := [d for d in odd if not is_transparent(self.code, owner.module, d)]:
                 why = f'nobody knows what "@{odd[0]}" makes of it'
                 self._list(owner.py, function.node, why, function.name)
@@ -84,6 +85,14 @@ class Plumbing:
             if statement.type in _IN_CLASS or _is_text(statement) or self._is_constant(statement):
                 continue
             self._list(owner.py, statement, _WHY, "")
+
+    def _is_plain(self, function: Scope, decorator: str) -> bool:
+        """Whether the model knows what a function is with it: what is called is no property."""
+        if decorator != "property":
+            return decorator in _DECORATORS
+        roles, name = self.roles, function.name
+        called = re.search(rf"\bself\.{name}\s*\(", text_of(roles.owner.node))
+        return called is None and not any(name in r for r in (roles.handlers, roles.sends))
 
     def _is_constant(self, statement: Node) -> bool:
         """Whether it names a constant that no instance has another value for."""
@@ -227,11 +236,6 @@ def odd_at_top(module: Scope) -> Iterator[Node]:
         if statement.type == "if_statement" and "TYPE_CHECKING" in text_of(statement):
             continue
         yield statement
-
-
-def _is_plain(function: Scope, decorator: str) -> bool:
-    """Whether a function is with it what it is without: what is called is no property."""
-    return decorator in _DECORATORS or (decorator == "property" and function.name == "mailbox")
 
 
 def _is_of_type(statement: Node) -> bool:
