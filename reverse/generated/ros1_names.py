@@ -78,7 +78,7 @@ def is_interface(owner: CppClass, alone: bool) -> bool:
         return False
     ends = [f for f in owner.functions if f.name == f"~{owner.name}"]
     others = (f for f in owner.functions if f not in ends)
-    plain = len(ends) == 1 and ends[0].body is None
+    plain = len(ends) == 1 and (ends[0].body is None or not named(ends[0].body))
     return not owner.fields and plain and all(f.pure for f in others)
 
 
