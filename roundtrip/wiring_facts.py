@@ -360,9 +360,9 @@ def _programs(source: Source) -> Iterator[Fact]:
     for m in _FOLDERS.finditer(source.text):
         for folder in m[1].split():
             yield Fact("installed folder", "", folder, "there", source, Span(*m.span(1)))
-    for m in _GENERATED.finditer(_HASH.sub(lambda m: " " * len(m[0]), source.text)):
+    for m in _GENERATED.finditer(commands):
         yield Fact("code of the messages", "", "", "generated", source, Span(*m.span()))
-    for m in _MODULES.finditer(_HASH.sub(lambda m: " " * len(m[0]), source.text)):
+    for m in _MODULES.finditer(commands):
         yield Fact("Python package", "", "", "built", source, Span(*m.span()))
     for m in _PROGRAM.finditer(source.text):
         command, target, rest = m.groups()

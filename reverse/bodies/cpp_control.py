@@ -149,7 +149,7 @@ def _case(reader: CppStatements, node: Node, annotations: tuple[m.Annotation, ..
     body = [c for c in node.named_children if value is None or c.start_byte >= value.end_byte]
     inside = [c for c in body if c.type != "comment"]
     if len(inside) == 1 and inside[0].type == "compound_statement":
-        statements = reader.inner(inside[0]).statements
+        statements = reader.branch(inside[0]).statements
     else:
         statements = tuple(reader.statements(body))
     return m.Case(read, statements, annotations, reader.cpp.span(node))

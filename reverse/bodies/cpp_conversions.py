@@ -49,6 +49,23 @@ def variable_of(scope: Scope, name: str, is_member: bool = False) -> Variable | 
     return scope.results.get(name)
 
 
+def place_of(scope: Scope, target: m.Expression) -> Variable:
+    """What is known of a place that is written."""
+    match target:
+        case m.Name(name) | m.Member(m.Self(), name):
+            return variable_of(scope, name) or Variable(name)
+        case m.Paren(inner):
+            return place_of(scope, inner)
+        case m.Index(array):
+            whole = place_of(scope, array)
+            if whole.type is None or not whole.type.dimensions:
+                return Variable(whole.name)
+            of = m.Type(whole.type.name, whole.type.dimensions[1:])
+            return Variable(whole.name, of, whole.bits, whole.domain, whole.wide)
+        case _:
+            return Variable("")
+
+
 def _is_taken(scope: Scope, name: str) -> bool:
     """Whether a variable of the model has a name."""
     known = (*scope.locals.values(), *scope.members.values())

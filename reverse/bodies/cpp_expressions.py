@@ -17,8 +17,8 @@ from rebsync.reverse.bodies.cpp_conversions import (
     as_number,
     converted_to,
     operands,
+    place_of,
     type_in,
-    variable_of,
 )
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_literals import in_range, is_bare_macro, literal
@@ -228,10 +228,7 @@ class CppExpressions:
                 if is_bare_macro(cpp, value, node):
                     raise self.unread(node, "what stands beside this macro may bind tighter")
                 scope = self.scope.without_constant(spelled)
-                reader = CppExpressions(
-                    cpp, scope, self.findings, self.within, subscripts=self.subscripts
-                )
-                return reader.read(value)
+                return replace(self, cpp=cpp, scope=scope, inlines=None).read(value)
         if (known := cpp_idioms.constant_named(name, span)) is not None:
             return known
         if self.scope.open:
@@ -276,7 +273,7 @@ class CppExpressions:
             raise self.unread(node, "an array of the model has one index at a time")
         index, span = as_number(self.scope, self.read(indices[0])), self.cpp.span(node)
         if node.type == "subscript_expression":
-            whole = self.place(array).type
+            whole = place_of(self.scope, array).type
             length = whole.dimensions[0] if whole is not None and whole.dimensions else 0
             if not (isinstance(index, m.IntLiteral) and 0 <= index.value < length):
                 self.subscripts[span] = min(length, self.subscripts.get(span, length))
@@ -299,7 +296,7 @@ class CppExpressions:
         counted = self.read(argument)
         if not is_place(counted):
             raise self.unread(argument, "what is changed here is only known when it runs")
-        place = self.place(counted)
+        place = place_of(self.scope, counted)
         real = place.type is not None and is_floating(place.type)
         if place.bits or real:
             if not before and node.parent is not None and node.parent.type.endswith("expression"):
@@ -350,7 +347,7 @@ class CppExpressions:
         written = self.operand(target, precedence.CHAIN)
         if not is_place(written):
             raise self.unread(target, "what is changed here is only known when it runs")
-        place, span = self.place(written), self.cpp.span(node)
+        place, span = place_of(self.scope, written), self.cpp.span(node)
         if operator == "=":
             return m.Assign("=", written, self.stored(value, place), span)
         right = self.read(value)
@@ -363,22 +360,6 @@ class CppExpressions:
             whole = kept(self, node, binary(done, left, right), place)
             return m.Assign("=", written, whole, span)
         return m.Assign(operator, written, right, span)
-
-    def place(self, target: m.Expression) -> Variable:
-        """What is known of a place that is written."""
-        match target:
-            case m.Name(name) | m.Member(m.Self(), name):
-                return variable_of(self.scope, name) or Variable(name)
-            case m.Paren(inner):
-                return self.place(inner)
-            case m.Index(array):
-                whole = self.place(array)
-                if whole.type is None or not whole.type.dimensions:
-                    return Variable(whole.name)
-                of = m.Type(whole.type.name, whole.type.dimensions[1:])
-                return Variable(whole.name, of, whole.bits, whole.domain, whole.wide)
-            case _:
-                return Variable("")
 
     def cast(self, to: Node, operand: Node, node: Node) -> m.Expression:
         """A value that is converted by a cast of whatever kind."""

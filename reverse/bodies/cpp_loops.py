@@ -9,7 +9,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies.building import binary, negated
-from rebsync.reverse.bodies.cpp_conversions import type_in
+from rebsync.reverse.bodies.cpp_conversions import place_of, type_in
 from rebsync.reverse.bodies.cpp_types import carried
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -76,7 +76,7 @@ def _element(
         raise reader.unread(declarator, "the model has no such element")
     name = text_of(declarator)
     kept = carried(part(node, "type"), reader.scope.enums)
-    wide = reader.expressions.place(element).wide
+    wide = place_of(reader.scope, element).wide
     local = Variable(reader.fresh(name), of, wide=wide)
     if kept is not None:
         local = Variable(local.name, kept.type, wide=kept.wide)

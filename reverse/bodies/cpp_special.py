@@ -11,7 +11,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_mailbox, cpp_messages, cpp_plain_locals, cpp_timers
 from rebsync.reverse.bodies.building import bare, negated
-from rebsync.reverse.bodies.cpp_conversions import as_boolean, as_number, converted_to
+from rebsync.reverse.bodies.cpp_conversions import as_boolean, as_number, converted_to, place_of
 from rebsync.reverse.bodies.cpp_effects import Effects, Touches, touching
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_time import pause, units
@@ -332,7 +332,7 @@ def stores(reader: CppStatements, node: Node, known: Stores) -> Iterator[m.State
         written = expressions.read(target) if isinstance(target, Node) else target
     except Unread:
         return
-    place = expressions.place(written)
+    place = place_of(reader.scope, written)
     listed = isinstance(value, Node) and value.type == "initializer_list"
     if listed and isinstance(value, Node) and place.type is not None and place.type.dimensions:
         initial = cpp_plain_locals.braces(reader, value, place.type)

@@ -223,7 +223,7 @@ class CppStatements:
         span = self.cpp.span(node)
         match kind:
             case "compound_statement" | "initializer_list":
-                block = m.Block(self.inner(node).statements, annotations, span)
+                block = m.Block(self.branch(node).statements, annotations, span)
                 yield from block.statements if cpp_locals.is_hoisting(node) else (block,)
             case "if_statement" if cpp_users.only_logs(self, node):
                 pass
@@ -268,8 +268,9 @@ class CppStatements:
     @property
     def expressions(self) -> CppExpressions:
         """The reader of expressions with the names of this place."""
+        lengths = self.shared.subscripts
         return CppExpressions(
-            self.cpp, self.scope, self.findings, self.within, self.inlined, self.shared.subscripts
+            self.cpp, self.scope, self.findings, self.within, self.inlined, lengths
         )
 
     def inlined(
@@ -390,13 +391,8 @@ class CppStatements:
 
     def branch(self, node: Node) -> m.Block:
         """The body of a branch or loop, in braces or not."""
-        return self.inner(node) if node.type == "compound_statement" else self._nested(node, [node])
-
-    def inner(self, node: Node) -> m.Block:
-        return self._nested(node, node.named_children)
-
-    def _nested(self, node: Node, statements: Sequence[Node]) -> m.Block:
+        is_block = node.type == "compound_statement"
         outside = self.scope
-        read = tuple(self.statements(statements))
+        read = tuple(self.statements(node.named_children if is_block else [node]))
         self.scope = outside
         return m.Block(read, span=self.cpp.span(node))

@@ -42,7 +42,6 @@ OFFERING = {
 }
 _PLUMBING = {"__init__", "_wire", "_publish_state", "mailbox"}
 _SENSOR = "_sensor"
-# What reads a parameter in ROS 1, in ROS 2, and one that is an array.
 # What reads a parameter: the words of rospy, and of the run-time part. Their names say whose it is.
 _READS = frozenset({"rospy.get_param", "declared", "read_array", "declare_array"})
 _OF_ROS_2 = frozenset({"declared", "declare_array"})
