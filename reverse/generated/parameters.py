@@ -11,13 +11,14 @@ from collections.abc import Collection, Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.findings import Finding, Grade
-from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
+from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 DECLARES = "declare_parameter"
 READS = frozenset({"param", DECLARES, "declareArray"})
 _HINT = "compute with it in the model's constructor"
+_TELLS = frozenset({"described"})  # what stands in the arguments, but for values
 _SMALL = frozenset({"char", "float", "int8_t", "int16_t", "short", "uint8_t", "uint16_t"})
 _CONVERTS = frozenset({"static_cast", "narrow"})
 
@@ -28,7 +29,8 @@ def read_by(value: Node | None, type_: str) -> CppCall | None:
         return None
     call = call_of(value)
     if call is not None and call.name in READS:
-        return call if _fits(call, _plain(type_)) else None
+        asked = all(c.name in _TELLS for a in call.arguments for c in calls_in(a))
+        return call if asked and _fits(call, _plain(type_)) else None
     if value.type in ("parenthesized_expression", "initializer_list") and len(named(value)) == 1:
         return read_by(named(value)[0], type_)
     if call is not None and call.name in _CONVERTS and len(call.arguments) == 1:

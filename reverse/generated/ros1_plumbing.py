@@ -31,12 +31,13 @@ from rebsync.reverse.generated.ros1_timers import idle_timers, makes, timers_of
 from rebsync.reverse.generated.ros2_words import SETS_UP, arguments_in
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
-from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
 from rebsync.static.types import PRIMITIVES
 
 _Fields: TypeAlias = "Mapping[str, Mapping[str, Type | None]]"
 _SETS_UP = SETS_UP | {"advertise", "advertiseAll", "unused"}
 _ONCE = frozenset({"construct", "onServed", "start"})
+_CHANGES = ("assignment_expression", "update_expression", "delete_expression", "throw_statement")
 _HANDLE = re.compile(r"const\s+ros::NodeHandle\s+(\w+)\s*(.*)", re.DOTALL)
 _SUBSCRIBES = frozenset({"subscribe", "subscribeOnBridge"})
 _TELLS = frozenset({"flatten", "publish"})
@@ -136,7 +137,7 @@ def _odd_in_constructor(
     waiting, done = set(roles.globals), set[str]()
     for statement in working(function.body):
         once = {c.name for c in calls_in(statement) if c.name in _ONCE and c.on == "mailbox_"}
-        if once & done:
+        if once & done or _changes_more(statement):
             yield statement
             continue
         done |= once
@@ -146,6 +147,23 @@ def _odd_in_constructor(
         waiting.discard(given)
         if not prepares and not _sets_up(statement, function, roles, timers, variables):
             yield statement
+
+
+def _changes_more(statement: Node) -> bool:
+    """Whether it changes something beside what it gives a value to, but for the bodies in it."""
+    expression = named(statement)[0] if statement.type == "expression_statement" else None
+    found = (n for n in inside(statement, *_CHANGES) if n != expression)
+    return any(not _is_in_body(node, statement) for node in found)
+
+
+def _is_in_body(node: Node, statement: Node) -> bool:
+    """Whether a lambda in a statement does it, when that is called."""
+    above = node.parent
+    while above is not None and above != statement:
+        if above.type == "compound_statement":
+            return True
+        above = above.parent
+    return False
 
 
 def _is_handle(statement: Node) -> bool:

@@ -46,10 +46,14 @@ def _of_arguments(dialect: str) -> tuple[Kind, ...]:
     return (_kind("argument computed with", suffix, (pattern, r"\g<0> + 1")),)
 
 
+_READ = r"^(  (\w+_) = (?:global\.param|declare_parameter<int>)\(\"(?:env\.)?\w+\", "
 _CPP = (
     _kind("constructed twice", ".cpp", (r"^(  mailbox_\.construct\(.*\);)$", r"\1\n\1")),
     Kind("member of all objects", in_files(".h", r"^  (int32_t \w+_)\{\};", r"  static \1;")),
     Kind("member of all objects", in_files(".hpp", r"^  (int32_t \w+_)\{\};", r"  static \1;")),
+    _kind("state changed in a default", ".cpp", (rf"{_READ})(\d+)", r"\1id_ = \3")),
+    _kind("state changed by a default", ".cpp", (rf"{_READ})(\d+)", r"\1next()")),
+    _kind("state changed before a constant", ".cpp", (rf"{_READ})", r"  \2 = id_ = 4;\n\1")),
 )
 _PY = (
     _kind(
@@ -70,6 +74,7 @@ _DEFINITION = _kind(
 KINDS = {
     "ros1-cpp": (
         *_CPP[:2],
+        *_CPP[3:],
         _VARIABLE,
         _DEFINITION,
         *_of_members("cpp", ".cpp", ";"),
@@ -88,7 +93,7 @@ KINDS = {
     ),
     "ros2-cpp": (
         _CPP[0],
-        _CPP[2],
+        *_CPP[2:],
         _VARIABLE,
         _DEFINITION,
         *_of_members("cpp", ".cpp", ";"),
