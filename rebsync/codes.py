@@ -210,7 +210,7 @@ STEP = {
     "RS962": "a manifest that is damaged",
     "RS963": "a manifest of a newer rebsync",
     "RS964": "a package without the model as of the last time in step",
-    "RS965": "a package without the model that it was made from",
+    "RS965": "a package whose model is not where it was, or not of that name",
     "RS966": "a conflict that a merge left in a file",
     "RS967": "changes of model and code that make no model together",
     "RS968": "merged code that does not say what the merged model says",

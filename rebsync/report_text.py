@@ -8,7 +8,7 @@ from unicodedata import east_asian_width
 from rebsync.diagnostics import Diagnostic, Severity
 from rebsync.records import dataclass
 from rebsync.source import NOWHERE, Source, Span
-from rebsync.terminal import one_line, printable
+from rebsync.terminal import named, one_line, printable
 
 _WIDTH = 120
 _CLIPPED = "..."
@@ -41,7 +41,7 @@ def finding_pieces(source: Source, diagnostic: Diagnostic) -> Iterator[Piece]:
 
 
 def _place(source: Source, span: Span) -> str:
-    path = one_line(source.path)
+    path = one_line(named(source.path))
     if span is NOWHERE:
         return path
     position = source.position(span.start)

@@ -9,6 +9,7 @@ Whatever rebsync says goes through here, and shows them as escapes. What is the 
 from __future__ import annotations
 
 import json
+import os
 import re
 import sys
 from collections.abc import Iterable
@@ -41,6 +42,13 @@ def printable(text: str) -> str:
 def one_line(text: str) -> str:
     """The same for what is part of a line: line ends are escapes as well."""
     return _CONTROL_OR_END.sub(_escape, text)
+
+
+def named(path: str) -> str:
+    """The path of a file or directory for people: of one above this, its name instead of `..`."""
+    if path.strip("./") or ".." not in path:
+        return path
+    return os.path.basename(os.path.realpath(path)) or path  # noqa: PTH119
 
 
 def _escape(match: re.Match[str]) -> str:

@@ -8,6 +8,7 @@ its files must be those that its own model and settings generate.
 
 from __future__ import annotations
 
+import os
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from rebsync.roundtrip.checked import Checked
 
 _PART = "records"
+_PLACES = "models"  # where they are that no manifest leads to
 _MOST = 10_000  # seals; when there are more, the older half goes
 _MESSAGE = "these records are not what this rebsync writes for the model that they hold"
 _HINT = (
@@ -41,6 +43,32 @@ def attest(manifest: str) -> None:
     if cache is not None:
         cache.store(digest_of(encoded(manifest)), b"")
         cache.tidy(_MOST)
+
+
+def remember_model(root: str, manifest: str, model: str) -> None:
+    """Notes for this user where the model is of a package whose manifest cannot say so."""
+    cache = open_cache(_PLACES)
+    if cache is not None:
+        where = os.fsencode(os.path.realpath(model))
+        cache.store(_place(root, digest_of(encoded(manifest))), where)
+        cache.tidy(_MOST)
+
+
+def remembered_model(root: str) -> str | None:
+    """The real path of the model that a package was last written from, where that was noted."""
+    cache = open_cache(_PLACES)
+    if cache is None:
+        return None
+    try:
+        digest = digest_of(read_bytes(f"{root}/{MANIFEST}"))
+    except RebsyncError:
+        return None
+    found = cache.load(_place(root, digest))
+    return os.fsdecode(found) if found is not None else None
+
+
+def _place(root: str, digest: str) -> str:
+    return digest_of(os.fsencode(os.path.realpath(root)) + digest.encode())
 
 
 def is_attested(root: str) -> bool:

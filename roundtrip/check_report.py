@@ -12,7 +12,7 @@ from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.roundtrip.checked import Checked
 from rebsync.roundtrip.outcome import IN_STEP, Outcome, verdict_of
 from rebsync.source import NOWHERE, Source, Span
-from rebsync.terminal import encoded, lines_text
+from rebsync.terminal import encoded, lines_text, named
 
 if TYPE_CHECKING:
     from rebsync.roundtrip.difference import Difference
@@ -104,7 +104,7 @@ def differences(checked: Checked | None) -> Iterator[tuple[Difference, Mover]]:
 
 def lines(outcome: Outcome) -> Iterator[str]:
     """The verdict, and below it the differences with both places, by class."""
-    yield f"{outcome.root}: {sentence(outcome)}"
+    yield f"{named(outcome.root)}: {sentence(outcome)}"
     checked = outcome.checked
     if checked is None or checked.drift is None:
         return

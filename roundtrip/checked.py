@@ -11,7 +11,7 @@ from rebsync.records import dataclass
 from rebsync.roundtrip.attested import is_attested
 from rebsync.roundtrip.digests import Standing, is_base_whole, is_text_of, standing
 from rebsync.roundtrip.manifest import BASE_MODEL
-from rebsync.roundtrip.model_file import model_of
+from rebsync.roundtrip.model_file import model_of, moved_model
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record, read_record, told_in_step
 from rebsync.roundtrip.settings import changed_settings
@@ -75,8 +75,7 @@ def begin(
     is_known = (now.is_as_generated and not record.is_merged) or _was_in_step(record, now, depth)
     if not (is_known and _is_unchanged(model, record) and is_attested(kept.root)):
         return Begun(kept, model, record, now)
-    findings = (*changed_settings(model, record), *_about_base(kept, record))
-    return Checked(kept, model, record, now, findings=findings)
+    return Checked(kept, model, record, now, findings=_about_records(kept, model, record))
 
 
 def _record(kept: Kept, read: Callable[[str], Record]) -> Record | None:
@@ -102,6 +101,12 @@ def _is_unchanged(model: str, record: Record) -> bool:
     from rebsync.files import read_bytes
 
     return is_text_of(read_bytes(model), record.digest)
+
+
+def _about_records(kept: Kept, model: str, record: Record) -> tuple[Findings, ...]:
+    """What is to be said of where a model, its settings and the one of last time are."""
+    moved = moved_model(kept, record, model)
+    return (*moved, *_about_base(kept, record), *changed_settings(model, record))
 
 
 def _about_base(kept: Kept, record: Record) -> tuple[Findings, ...]:
@@ -151,8 +156,7 @@ def finish(begun: Begun, depth: str) -> Checked:
             unknown += odd
             drift = replace(drift, differences=(*drift.differences, *changes))
         drift = undetermined(drift) if unknown else drift
-        about = (*_about_base(kept, record), *changed_settings(model, record))
-        findings = (*about, *findings, *unknown)
+        findings = (*_about_records(kept, model, record), *findings, *unknown)
         return _as_sync_says(Checked(kept, model, record, now, drift, findings), record)
     return Checked(kept, model, record, now, drift, findings)
 

@@ -1,34 +1,136 @@
-"""Where the model of a package is."""
+"""Where the model of a package is: as recorded, or where it has moved to within the repository."""
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 
-from rebsync.diagnostics import RebsyncError
-from rebsync.files import read_bytes
-from rebsync.roundtrip.digests import is_text_of
-from rebsync.roundtrip.packages import SKIPPED, SUFFIX, Kept
-from rebsync.roundtrip.recorded import Record
-from rebsync.trees import repository
+from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
+from rebsync.files import STANDARD_INPUT
+from rebsync.roundtrip.attested import remember_model, remembered_model
+from rebsync.roundtrip.manifest import FOLDER, made_from
+from rebsync.roundtrip.model_search import Search, is_alike, search
+from rebsync.roundtrip.packages import Kept
+from rebsync.roundtrip.recorded import Record, read_record
+from rebsync.source import NOWHERE, Source
+from rebsync.trees import repository, tree_of
 
 _NEAR = ("..", ".", "../models", "../model", "models", "model")
 
 
 def model_of(kept: Kept, record: Record) -> str:
-    """The path of a model: where its user or the manifest says, or else near by.
+    """The path of a model: where its user or the manifest says, or else where it has moved to.
 
-    RebsyncError: it is in none of these places.
+    RebsyncError: it is in none of these places, or in several.
     """
     if kept.model is not None:
         return kept.model
-    tried = _tried(kept.root, record)
-    for path in filter(os.path.lexists, tried):
+    if (placed := placed_model(kept, record)) is not None:
+        return placed
+    found = search(kept, record)
+    if found.model is not None:
+        return found.model
+    raise _lost(kept, record, found)
+
+
+def placed_model(kept: Kept, record: Record) -> str | None:
+    """The model in the place that is recorded, or near the package; None where none is there.
+
+    RebsyncError: that is outside of what belongs together.
+    """
+    if (known := _remembered(kept.root, record)) is not None:
+        return known if Path(kept.root).is_absolute() else os.path.relpath(known)
+    for path in filter(os.path.lexists, _tried(kept.root, record)):
         if kept.holds(os.path.realpath(path)):
             return path
         raise _outside(kept, path)
-    raise _lost(kept, record, tried)
+    return None
+
+
+def other_model(root: str, model: str, name: str) -> str | None:
+    """The other model that a package was made from, by which `model` must not go; None if none.
+
+    `name` is how `model` is recorded. One that is gone may have become this one.
+    """
+    try:
+        record = read_record(root)
+        kept = Kept(root, tree_of(root))
+        placed = placed_model(kept, record) if model != STANDARD_INPUT else None
+    except RebsyncError:
+        other = made_from(Path(root))
+        return other if other != name else None
+    if placed is not None:
+        is_same = os.path.realpath(placed) == os.path.realpath(model)
+        return None if is_same else placed
+    is_known = record.model == name or (model != STANDARD_INPUT and is_alike(model, root))
+    return None if is_known else record.model
+
+
+def former_packages(folder: str, model: str) -> tuple[Findings, ...]:
+    """Notes of packages beside a new one that were made from its model by another name."""
+    hint = 'to go on with that one, write `package = "{}"` in rebsync.toml'
+    return tuple(
+        _note(root, f"this was made from {model} when it was {name}", hint.format(Path(root).name))
+        for root, name in _siblings(folder, model)
+    )
+
+
+def _siblings(folder: str, model: str) -> Iterator[tuple[str, str]]:
+    """The packages beside a folder that were made from a model, with the name that it had then."""
+    for records in sorted(Path(folder).parent.glob(f"*/{FOLDER}")):
+        root = str(records.parent)
+        kept = Kept(root, tree_of(root))
+        with suppress(RebsyncError):
+            record = read_record(root)
+            if Path(model).name != record.model and Path(model_of(kept, record)).samefile(model):
+                yield root, record.model
+
+
+def moved_model(kept: Kept, record: Record, model: str) -> tuple[Findings, ...]:
+    """A note where a model was found, but not where the manifest says."""
+    if kept.model is not None or is_recorded(kept.root, record, model):
+        return ()
+    message = f"its model {record.model} is {model} now"
+    hint = f"`rebsync sync {kept.root}` records that"
+    return (_note(kept.root, message, hint),)
+
+
+def _note(path: str, message: str, hint: str) -> Findings:
+    note = Diagnostic("RS965", NOWHERE, message, hint, severity=Severity.NOTE)
+    return Findings(Source(path, ""), (note,))
+
+
+def is_recorded(root: str, record: Record, model: str) -> bool:
+    """Whether the records of a package lead to a model, so that nobody has to say which it is."""
+    if model == STANDARD_INPUT:
+        return True
+    known = _remembered(root, record)
+    places = [known] if known is not None else _tried(root, record)
+    first = next(filter(os.path.lexists, places), None)
+    return first is not None and os.path.realpath(first) == os.path.realpath(model)
+
+
+def remember(root: str, manifest: str, model: str) -> None:
+    """Notes for this user where a model is to which the manifest of its package cannot lead."""
+    told = json.loads(manifest)["model"]
+    beside = Path(os.path.realpath(root)).parent / told["name"]
+    if model == STANDARD_INPUT or os.path.realpath(model) == str(beside):
+        return
+    if not _leads(root, told.get("path", "")):
+        remember_model(root, manifest, model)
+
+
+def _leads(root: str, path: str) -> bool:
+    """Whether a path of a manifest is believed, as one within a repository is."""
+    return bool(path) and repository(os.path.realpath(root)) is not None
+
+
+def _remembered(root: str, record: Record) -> str | None:
+    known = remembered_model(root) if not _leads(root, record.path) else None
+    return known if known is not None and Path(known).is_file() else None
 
 
 def _outside(kept: Kept, path: str) -> RebsyncError:
@@ -52,25 +154,16 @@ def _tried(root: str, record: Record) -> list[str]:
     return list(dict.fromkeys(map(os.path.normpath, whole)))
 
 
-def _lost(kept: Kept, record: Record, tried: list[str]) -> RebsyncError:
+def _lost(kept: Kept, record: Record, found: Search) -> RebsyncError:
+    """The mistake of a model that is in none of the places, or in several of them."""
     message = f"the model {record.model}, from which this package was made, is not there"
-    hint = f"looked for {', '.join(tried)}; say where it is with --model FILE"
-    same = [path for path in _models(kept.tree) if _has_text(path, record.digest)]
-    if len(same) == 1:
-        shown = os.path.relpath(same[0])
-        generate = f"rebsync generate --force {shown} -o {Path(kept.root).parent}"
-        hint = f"{shown} has the same text: `{generate}` records that, or use --model {shown}"
+    records = "`rebsync sync --model {} {}` brings both in step and records it"
+    if len(found.copies) > 1:
+        message += f", and may be any of {', '.join(found.copies)}"
+        hint = f"say which: {records.format('FILE', kept.root)}"
+    elif found.likely is not None:
+        hint = f"if it is {found.likely} now, {records.format(found.likely, kept.root)}"
+    else:
+        tried = ", ".join(_tried(kept.root, record))
+        hint = f"looked for {tried}; say where it is with --model FILE"
     return RebsyncError.of(kept.root, "RS965", message, hint)
-
-
-def _models(tree: str) -> Iterator[str]:
-    for folder, folders, names in os.walk(tree):
-        folders[:] = sorted(n for n in folders if n[0] != "." and n not in SKIPPED)
-        yield from (f"{folder}/{n}" for n in sorted(names) if n.endswith(SUFFIX))
-
-
-def _has_text(path: str, digest: str) -> bool:
-    try:
-        return is_text_of(read_bytes(path), digest)
-    except RebsyncError:
-        return False

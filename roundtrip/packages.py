@@ -111,8 +111,9 @@ def _packages(path: str, model: str | None) -> Iterator[Kept]:
         if not is_folder:
             Path(path).stat()
     if path.endswith(SUFFIX) and not is_folder:
-        folder = str(Path(path).parent)
-        yield from (Kept(k.root, k.tree, path) for k in _below(folder) if _is_of(k, path))
+        for folder in _around_model(path):
+            every = list(_below(folder))
+            yield from (Kept(_from_here(k.root), k.tree, path) for k in every if _is_of(k, path))
         return
     around = _around(path)
     if around is not None:
@@ -134,6 +135,20 @@ def _unrecorded_at(path: str, model: str | None) -> Iterator[Kept]:
         for kept in _unrecorded(os.path.relpath(above), []):
             if Path(kept.root).samefile(path):
                 yield Kept(path, kept.tree, kept.model)
+
+
+def _around_model(path: str) -> tuple[str, ...]:
+    """The directories with all packages that may be made from a model: its repository.
+
+    Without one these are the current directory and that of the model.
+    """
+    tree = repository(str(Path(os.path.realpath(path)).parent))
+    trees = (tree,) if tree is not None else (os.curdir, str(Path(path).parent))
+    return trees if Path(path).is_absolute() else tuple(map(os.path.relpath, trees))
+
+
+def _from_here(path: str) -> str:
+    return path if Path(path).is_absolute() else os.path.relpath(path)
 
 
 def _is_of(kept: Kept, model: str) -> bool:
@@ -238,20 +253,26 @@ def _unrecorded(folder: str, roots: list[str]) -> Iterator[Kept]:
             yield Kept(root, tree_of(root), f"{prefix}{model.name}")
 
 
-def path_to_model(model: str, root: str) -> str:
+def path_to_model(model: str, root: str, name: str) -> str:
     """The path from a package's folder to its model, if that is worth recording.
 
-    Empty for a model that lies beside the folder, where it is found anyway, and for one that is
-    not kept together with it: neither in one repository nor below the current directory.
+    Empty for a model that lies beside the folder with the name of the package's model, where it is
+    found anyway, and for one that is not kept together with it: in another repository, or so far
+    away that the path would name directories of this machine.
     """
     there, here = Path(os.path.realpath(model)), Path(os.path.realpath(root))
-    if model == STANDARD_INPUT or there.parent == here.parent:
+    if model == STANDARD_INPUT or there == here.parent / name:
         return ""
-    tree = repository(str(here)) or str(Path.cwd())
-    if repository(str(there)) != repository(str(here)) or not _are_below(tree, there, here):
+    if repository(str(there)) != repository(str(here)):
+        return ""
+    if repository(str(here)) is None and _is_of_machine(os.path.commonpath((there, here))):
         return ""
     return Path(os.path.relpath(there, here)).as_posix()
 
 
-def _are_below(tree: str, *paths: Path) -> bool:
-    return all(Path(tree) in path.parents for path in paths)
+def _is_of_machine(folder: str) -> bool:
+    """Whether what is in a directory is named by the machine or its users: above all homes."""
+    with suppress(RuntimeError):  # a user without a home
+        if Path(folder) in Path(os.path.realpath(Path.home())).parents:
+            return True
+    return folder == Path(folder).anchor

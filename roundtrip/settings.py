@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator
-from dataclasses import asdict, fields
+from dataclasses import asdict, fields, replace
+from pathlib import Path
 
-from rebsync.config import Config, settings_beside
+from rebsync.config import Config, config_of_record, settings_beside
 from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.roundtrip.recorded import Record
 from rebsync.source import NOWHERE, Source, Span
@@ -21,12 +22,24 @@ def changed_settings(model: str, record: Record) -> tuple[Findings, ...]:
     """The settings beside a model that are not as recorded. RebsyncError: they are wrong."""
     source, config = settings_beside(model)
     options = {**_OFF, **record.options}
+    now = dict(_recorded(config))
+    last = options.get("package", config.package)
+    if last != config.package and _name(record, last) == _name(record, config.package):
+        now["package"] = last  # said, or after the model: it is the same
     found = tuple(
         Diagnostic("RS955", _place(source, key), _message(key, options[key], value), _HINT)
-        for key, value in _recorded(config)
+        for key, value in now.items()
         if key not in _APART and key in options and options[key] != value
     )
     return (Findings(source, found),) if found else ()
+
+
+def _name(record: Record, package: str | None) -> str:
+    """The name that a package has by a setting."""
+    from rebsync.forward.generate import package_name
+
+    config = config_of_record(record.options) or Config()
+    return package_name(Path(record.model).stem, replace(config, package=package))
 
 
 def _recorded(config: Config) -> Iterator[tuple[str, object]]:
@@ -39,9 +52,8 @@ def _recorded(config: Config) -> Iterator[tuple[str, object]]:
 def _message(key: str, old: object, new: object) -> str:
     if isinstance(new, list):
         return f"`{key}` is not as it was when the code was generated"
-    return (
-        f"`{key}` was {json.dumps(old)} when the code was generated, and is {json.dumps(new)} now"
-    )
+    before, now = ("not set" if v is None else json.dumps(v) for v in (old, new))
+    return f"`{key}` was {before} when the code was generated, and is {now} now"
 
 
 def _place(source: Source, key: str) -> Span:

@@ -30,6 +30,7 @@ from rebsync.roundtrip.merge_check import finding, read_with, wrongly_merged
 from rebsync.roundtrip.merge_code import Stages, ancestors, merged_code
 from rebsync.roundtrip.merge_files import moved_files
 from rebsync.roundtrip.merge_models import Compared, Favour, as_code_says, merged_model
+from rebsync.roundtrip.model_file import is_recorded
 from rebsync.roundtrip.models import code_given, model_given, parsed
 from rebsync.roundtrip.recorded import (
     Record,
@@ -43,6 +44,8 @@ from rebsync.roundtrip.sync_records import with_what_holds
 from rebsync.roundtrip.verdict import Mover
 from rebsync.source import NOWHERE, Source
 from rebsync.terminal import encoded
+
+_SETTLED = ("RS955", "RS964", "RS965")  # what is put right by writing the records
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,8 +76,9 @@ class Sync:
 def synced(checked: Checked, favour: Favour) -> Sync:
     """What brings a package in step. RebsyncError: it cannot be worked out."""
     record = checked.record or read_record(checked.kept.root)
-    asks_again = any(d.code in ("RS955", "RS964") for f in checked.findings for d in f.diagnostics)
-    if checked.drift is None and not asks_again:
+    asks_again = any(d.code in _SETTLED for f in checked.findings for d in f.diagnostics)
+    is_placed = is_recorded(checked.kept.root, record, checked.model)
+    if checked.drift is None and is_placed and not asks_again:
         return Sync(checked, findings=checked.findings)
     syncing = _Syncing(checked, record, favour, Compared())
     try:
@@ -191,7 +195,7 @@ class _Syncing:
         self, today: Given, model: Given, base: Given | None, told: Given, code: Given
     ) -> Sync:
         options = _config_of(self.record)
-        now = self._generated(model, self._config())
+        now = self._generated(model, self._config(), self._name)
         recorded = self._recorded() if base is not None else {}
         base = base or today
         before = self._generated(base, options)
@@ -207,7 +211,7 @@ class _Syncing:
         if merged.conflicts:
             records = self._records(told, last)
             return Sync(self.checked, new_text, merged.texts, records, merged.conflicts, findings)
-        records = self._records(model, now)
+        records = self._records(model, now, self._name)
         result = Sync(self.checked, new_text, merged.texts, records, {}, findings)
         return self._proved(result, model, self.compared(today, code), code)
 
@@ -242,31 +246,41 @@ class _Syncing:
 
     def _config(self) -> Config:
         """Today's settings, for the dialect that the package is in."""
-        source, config = settings_beside(self.checked.model)
-        options = _config_of(self.record)
         from rebsync.forward.generate import package_name
 
-        old, new = (package_name(self._stem, each) for each in (options, config))
+        source, config = settings_beside(self.checked.model)
+        old = package_name(Path(self.record.model).stem, _config_of(self.record))
+        new = package_name(Path(self._name).stem, config)
         if old != new:
             message = f"the package was {old} when its code was generated, and is {new} now"
             hint = "`rebsync generate` writes the new package beside the old one"
             raise RebsyncError.of(source.path, "RS955", message, hint)
-        return replace(config, target=options.target)
+        return replace(config, target=_config_of(self.record).target)
 
     @property
-    def _stem(self) -> str:
-        return Path(self.record.model).stem
+    def _name(self) -> str:
+        """The name of the model from now on: that of its file, if the package keeps its own so."""
+        from rebsync.forward.generate import package_name
 
-    def _generated(self, given: Given, config: Config) -> dict[str, str]:
-        return generated(given.source, config, self._stem)
+        now, last = Path(self.checked.model), Path(self.record.model)
+        _, config = settings_beside(self.checked.model)
+        old = package_name(last.stem, _config_of(self.record))
+        is_kept = now.suffix == last.suffix and package_name(now.stem, config) == old
+        return now.name if is_kept else self.record.model
 
-    def _records(self, given: Given, files: Mapping[str, str]) -> dict[str, str | None]:
+    def _generated(self, given: Given, config: Config, name: str | None = None) -> dict[str, str]:
+        return generated(given.source, config, Path(name or self.record.model).stem)
+
+    def _records(
+        self, given: Given, files: Mapping[str, str], name: str | None = None
+    ) -> dict[str, str | None]:
         """All of `.rebsync/` for a model and what was generated for it."""
         from rebsync.roundtrip.packages import path_to_model
 
         root = self.checked.kept.root
-        path = path_to_model(self.checked.model, root)
-        whole = with_manifest(files, self.record.model, given.source.text, self._config(), path)
+        name = name or self.record.model
+        path = path_to_model(self.checked.model, root, name)
+        whole = with_manifest(files, name, given.source.text, self._config(), path)
         records: dict[str, str | None] = {
             name: text for name, text in whole.items() if name.startswith(f"{FOLDER}/")
         }
@@ -300,7 +314,7 @@ def _config_of(record: Record) -> Config:
 
 def _is_settled(found: Findings) -> bool:
     """Whether a finding is about what is put right by this."""
-    return all(d.code in ("RS955", "RS964") for d in found.diagnostics)
+    return all(d.code in _SETTLED for d in found.diagnostics)
 
 
 def _is_of_records(found: Findings) -> bool:

@@ -14,6 +14,7 @@ from rebsync.git_own import is_own_repository
 from rebsync.roundtrip.attested import attest
 from rebsync.roundtrip.manifest import BASE_MODEL, FOLDER, MANIFEST
 from rebsync.roundtrip.merge_code import Stages
+from rebsync.roundtrip.model_file import remember
 from rebsync.roundtrip.sync import Sync, relative
 from rebsync.roundtrip.sync_records import marked
 from rebsync.source import Source
@@ -49,6 +50,7 @@ def write(sync: Sync, before: Stamps) -> tuple[str, ...]:
         raise RebsyncError([_as_shown(f, root, sync, beside) for f in error.findings]) from None
     if (manifest := sync.records.get(MANIFEST)) is not None:
         attest(manifest)
+        remember(root, manifest, sync.checked.model)
     _tell_git(sync)
     own = (path for path in written if not path.startswith(f"{FOLDER}/"))
     return tuple(

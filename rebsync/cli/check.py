@@ -16,7 +16,7 @@ from rebsync.roundtrip.checked import Checked
 from rebsync.roundtrip.checking import Result, check_all
 from rebsync.roundtrip.outcome import IN_STEP, Outcome, verdict_of
 from rebsync.roundtrip.packages import Kept, find
-from rebsync.terminal import say, say_lines
+from rebsync.terminal import named, say, say_lines
 
 if TYPE_CHECKING:
     from rebsync.roundtrip.proof import Proof
@@ -118,7 +118,7 @@ class _Told:
         if self.style != "text" or self.output != "-":
             self.all.append(outcome)
         elif outcome.is_plain:
-            say(f"{outcome.root}: {IN_STEP}")
+            say(f"{named(outcome.root)}: {IN_STEP}")
         else:
             from rebsync.report import print_report
             from rebsync.roundtrip.check_report import told_lines

@@ -21,7 +21,7 @@ from rebsync.diagnostics import RebsyncError
 from rebsync.files import followed, operating_on
 from rebsync.records import dataclass
 from rebsync.report import print_report
-from rebsync.terminal import json_text, lines_text, one_line, say, write_data
+from rebsync.terminal import json_text, lines_text, named, one_line, say, write_data
 
 if TYPE_CHECKING:
     from rebsync.reverse.answer import Answer
@@ -113,7 +113,7 @@ class _Told:
             return Status.UNDETERMINED
         if given.summary and not given.report:
             sys.stdout.flush()
-            say(f"{given.root}: {given.summary}", err=True)
+            say(f"{named(given.root)}: {given.summary}", err=True)
         return _STATUS[given.grade]
 
     def _tell_model(self, given: Answer, model: str) -> None:
@@ -129,7 +129,7 @@ class _Told:
         if not self.several:
             return given.report
         if not given.report.startswith("{"):
-            return lines_text([f"{given.root}:"]) + given.report
+            return lines_text([f"{named(given.root)}:"]) + given.report
         told = {"path": given.root, **json.loads(given.report)}
         return json_text(told) + "\n"
 

@@ -18,7 +18,8 @@ from rebsync.files import followed, operating_on, read_source
 from rebsync.locking import alone_in
 from rebsync.report import print_report
 from rebsync.roundtrip.attested import attest, is_attested
-from rebsync.roundtrip.manifest import MANIFEST
+from rebsync.roundtrip.manifest import FOLDER, MANIFEST
+from rebsync.roundtrip.model_file import former_packages, remember
 from rebsync.roundtrip.plan import Action, Step, aside, name_to_keep, plan
 from rebsync.source import NOWHERE, Source
 from rebsync.stamps import Stamps, stamps
@@ -64,11 +65,14 @@ def command(
         return _show(plan(folder, files))
     with alone_in(str(folder)):
         if not force:
-            _refuse_another_model(folder, f"{_stem(model)}.rebeca")
+            _refuse_another_model(str(folder), model)
+        if not (folder / FOLDER).exists():
+            print_report(former_packages(str(folder), model), sys.stderr)
         before = stamps(str(folder))
         status = _merged(folder, plan(folder, files), source, force, before)
     if status is Status.CLEAN:
         attest(files[MANIFEST])
+        remember(str(folder), files[MANIFEST], model)
     return status
 
 
@@ -116,17 +120,18 @@ def _stem(path: str) -> str:
     return Path(path).stem if path != "-" else "model"
 
 
-def _refuse_another_model(folder: Path, name: str) -> None:
+def _refuse_another_model(folder: str, model: str) -> None:
     """Two models of one package name must not replace each other's code."""
-    from rebsync.roundtrip.manifest import made_from
+    from rebsync.roundtrip.model_file import other_model
 
-    other = made_from(folder)
-    if other is not None and other != name:
+    other = other_model(folder, model, f"{_stem(model)}.rebeca")
+    if other is not None:
         raise RebsyncError.of(
-            str(folder),
+            folder,
             "RS708",
-            f"this package was made from {other}, not from {name}; nothing was written",
-            "choose another `package` in rebsync.toml; --force if the model has a new name",
+            f"this package was made from {other}, not from {model}; nothing was written",
+            "choose another `package` in rebsync.toml; if this is its model from now on,"
+            f" `rebsync sync --model {model} {folder}`",
         )
 
 
@@ -155,8 +160,9 @@ def package_files(source: Source, config: Config, output: str = ".") -> tuple[st
         print_report([Findings(source, found)], sys.stderr)
     files = generate(parsed.model, parsed.comments, analysis, config, stem)
     name = package_name(stem, config)
-    path = path_to_model(source.path, str(Path(output, name)))
-    return name, with_manifest(files, f"{stem}.rebeca", source.text, config, path)
+    file = f"{stem}.rebeca"
+    path = path_to_model(source.path, str(Path(output, name)), file)
+    return name, with_manifest(files, file, source.text, config, path)
 
 
 def _show(steps: tuple[Step, ...]) -> Status:

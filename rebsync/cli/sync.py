@@ -20,7 +20,7 @@ from rebsync.roundtrip.checked import check_merged
 from rebsync.roundtrip.packages import Kept, find
 from rebsync.source import NOWHERE, Source
 from rebsync.stamps import Stamps, stamps
-from rebsync.terminal import say
+from rebsync.terminal import named, say
 from rebsync.writing import told
 
 if TYPE_CHECKING:
@@ -108,9 +108,9 @@ def _done(sync: Sync, before: Stamps) -> Status:
         return Status.FINDINGS
     status = _status(sync)
     if status is Status.UNDETERMINED:
-        say(f"{root}: as far as the code can be read, in step with {sync.checked.model}")
+        say(f"{named(root)}: as far as the code can be read, in step with {sync.checked.model}")
     else:
-        say(f"{root}: in step with {sync.checked.model}")
+        say(f"{named(root)}: in step with {sync.checked.model}")
     return status
 
 
@@ -141,7 +141,7 @@ def _patch(sync: Sync) -> Iterator[str]:
 def _refused(sync: Sync) -> Status:
     print_report(sync.findings, sys.stderr)
     print_report(sync.refused, sys.stderr)
-    say(f"{sync.checked.kept.root}: nothing was written", err=True)
+    say(f"{named(sync.checked.kept.root)}: nothing was written", err=True)
     return Status.UNDETERMINED if sync.is_undetermined else Status.FINDINGS
 
 
