@@ -10,7 +10,10 @@ from pathlib import Path
 import jinja2
 import pytest
 
+from tests.retrying import pytest_runtest_setup
 from tests.ros1.workspace import SYSTEM_PATH, Workspace, build, missing_ros
+
+__all__ = ["pytest_runtest_setup"]
 
 _HERE = Path(__file__).parent
 _TEMPLATES = _HERE.parents[1] / "forward" / "templates"

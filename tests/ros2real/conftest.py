@@ -13,6 +13,7 @@ import pytest
 
 from rebsync.config import Config
 from tests.forward.compiling import generated, written
+from tests.retrying import pytest_runtest_setup
 from tests.ros1.conftest import shared
 from tests.ros1.recording import Recording
 from tests.ros1.run import Clock
@@ -20,6 +21,8 @@ from tests.ros2.launching import launched
 from tests.ros2.test_mailbox import MODEL
 from tests.ros2real.running import run
 from tests.ros2real.workspace import Workspace, build, missing_ros2
+
+__all__ = ["pytest_runtest_setup"]
 
 _HERE = Path(__file__).parent
 _TIMEOUT = 1800  # s: the first test of a package builds it
