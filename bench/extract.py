@@ -103,7 +103,7 @@ def language_of(path: str) -> str:
 def compare_language(root: str, language: str) -> None:
     """Prints the same of the files of one language."""
     # First, as processes are copies of this one, which a command has not read anything in yet.
-    every = best(lambda: list(each([root], work)), perf_counter)
+    every = best(lambda: list(each(all_listings([root]), work)), perf_counter)
     paths = (path for listing in all_listings([root]) for path in listing.files.values())
     texts = [Path(path).read_bytes() for path in paths if language_of(path) == language]
     if not texts:
@@ -171,7 +171,7 @@ def watch_memory(root: str, count: int) -> None:
     start = perf_counter()
     largest: dict[int, float] = {}
     marks = {max(1, round(count * share)): share for share in (0.1, 0.5, 1.0)}
-    for number, (process, _, used) in enumerate(each([root], work), 1):
+    for number, (process, _, used) in enumerate(each(all_listings([root]), work), 1):
         largest[process] = used
         if number in marks:
             others = " ".join(f"{m:.0f}" for p, m in largest.items() if p != os.getpid())

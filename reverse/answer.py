@@ -46,6 +46,11 @@ class Answer:
     report: str = ""
     whole: str = ""
 
+    @property
+    def is_read(self) -> bool:
+        """Whether there is something of a model or of ROS in it."""
+        return self.model is not None or self.asks
+
 
 def answer(given: Chosen, style: str | None, whole: bool, also: Also = lambda files: ()) -> Answer:
     """Reads a package; `style` is that of the report, `whole` asks for the object.

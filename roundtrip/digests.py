@@ -14,7 +14,7 @@ from rebsync.reverse.files.stores import Disk, contents, join
 from rebsync.roundtrip.manifest import BASE_MODEL
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
-from rebsync.roundtrip.units import listing_of
+from rebsync.roundtrip.units import both_at, listing_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +46,8 @@ class Standing:
 def standing(kept: Kept, record: Record | None) -> Standing:
     """How a package stands against what its manifest records; without one, all is changed."""
     wanted = record.files if record is not None else {}
-    listing = listing_of(kept.root, kept.tree_of_code, wanted)
+    both = both_at(kept.root) if record is None else None
+    listing = both or listing_of(kept.root, kept.tree_of_code, wanted)
     if kept.root == ".":  # as servers name the files of a change
         listing.files = {name: path.removeprefix("./") for name, path in listing.files.items()}
     digests: dict[str, str] = {}

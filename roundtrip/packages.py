@@ -124,11 +124,14 @@ def _packages(path: str, model: str | None) -> Iterator[Kept]:
 
 
 def _unrecorded_at(path: str, model: str | None) -> Iterator[Kept]:
-    """A package without records of which a user or settings say what its model is."""
-    if not Path(path, "package.xml").is_file():
-        return
+    """Packages without records of which a user or settings say what their model is."""
     if model is not None:
-        yield Kept(path, tree_of(path), model)
+        from rebsync.roundtrip.units import units
+
+        roots = (u.root.removeprefix("./") for u in units([path]) if u.is_package)
+        yield from (Kept(root, tree_of(root), model) for root in roots)
+        return
+    if not Path(path, "package.xml").is_file():
         return
     above = Path(os.path.normpath(Path(path).absolute())).parent
     if (above / SETTINGS).is_file():

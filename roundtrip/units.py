@@ -7,11 +7,12 @@ own for these. Files go by their paths from the folder of both.
 from __future__ import annotations
 
 import os
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
 from itertools import islice
 
 from rebsync.reverse.files.packages import MANIFEST, Listing, listings
+from rebsync.reverse.files.reading import all_listings
 from rebsync.reverse.files.stores import Store
 
 _MESSAGES = "_interfaces"
@@ -43,17 +44,27 @@ def listing_of(
     return whole
 
 
+def units(paths: Iterable[str]) -> Iterator[Listing]:
+    """The packages that paths stand for, not yet read; a folder of nodes and messages is one.
+
+    RebsyncError: there is no such path, or it may not be read.
+    """
+    for path in paths:
+        both = both_at(path)
+        yield from all_listings([path]) if both is None else (both,)
+
+
 def both_at(path: str, store: Store | None = None) -> Listing | None:
-    """The nodes and the messages in a folder of both, read as one; None where there is no such.
+    """The nodes and the messages that are all packages below a path, read as one; else None.
 
     RebsyncError: there is no such path, or it may not be read.
     """
     found = [each.root for each in islice(listings(path, store=store), 4) if each.is_package]
     if len(found) != 2 or found[1] != f"{found[0]}{_MESSAGES}":
         return None
-    inside = (root.removeprefix(path).strip("/") for root in found)
-    names = [f"{folder}/{MANIFEST}" for folder in inside]
-    return as_one(listing_of(path, path if store is None else None, names, store))
+    folder = found[0].rpartition("/")[0] or path
+    names = [f"{root.removeprefix(folder).strip('/')}/{MANIFEST}" for root in found]
+    return as_one(listing_of(folder, folder if store is None else None, names, store))
 
 
 def folders_of(names: Iterable[str]) -> tuple[str, ...]:

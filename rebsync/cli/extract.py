@@ -7,6 +7,7 @@ import os
 import re
 import sys
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import field
 from functools import partial
 from itertools import chain, islice
@@ -60,19 +61,38 @@ def command(paths: tuple[str, ...], form: str, style: str | None, output: str) -
     from rebsync.reverse.answer import answer
     from rebsync.reverse.files.parallel import each
     from rebsync.roundtrip.ranges_told import unwrapped
+    from rebsync.roundtrip.units import units
 
     if style is not None and form == "json":
         raise click.UsageError("--format json has the report in it: leave out --report")
     for path in paths:
         refuse_to_overwrite(path, output)
-    answers = each(paths, partial(answer, style=style, whole=form == "json", also=unwrapped))
-    first = list(islice(answers, 2))
+    answers = each(units(paths), partial(answer, style=style, whole=form == "json", also=unwrapped))
+    first = list(_one(answers, output) if _is_one_file(output) else islice(answers, 2))
     told = _Told(output, len(first) > 1)
-    told.check()
     statuses = [s for given in chain(first, answers) if (s := told.tell(given)) is not None]
     if not statuses:
         raise _nothing(paths[0], told.asks)
     return worst(statuses)
+
+
+def _is_one_file(output: str) -> bool:
+    return output != "-" and not Path(output).is_dir()
+
+
+def _one(answers: Iterator[Answer], output: str) -> Iterator[Answer]:
+    """All answers, if there is something to write of one of them only.
+
+    RebsyncError: there is more, which would be written to one file.
+    """
+    found = 0
+    for each in answers:
+        found += each.is_read or (bool(each.whole) and each.grade != "exact")
+        if found > 1:
+            hint = f"make it: mkdir {output}"
+            message = "for several packages a directory is wanted here"
+            raise RebsyncError.of(output, "RS802", message, hint)
+        yield each
 
 
 @dataclass(slots=True)
@@ -87,20 +107,12 @@ class _Told:
     asks: bool = False
     names: Counter[str] = field(default_factory=Counter)
 
-    def check(self) -> None:
-        """A RebsyncError when several packages would be written to one file."""
-        if self.several and self.output != "-" and not Path(self.output).is_dir():
-            hint = f"make it: mkdir {self.output}"
-            message = "for several packages a directory is wanted here"
-            raise RebsyncError.of(self.output, "RS802", message, hint)
-
     def tell(self, given: Answer) -> Status | None:
         """Prints what is known of a package; None where that is nothing."""
-        is_read = given.model is not None or given.asks
         if given.whole:
-            if is_read or given.grade != "exact":
+            if given.is_read or given.grade != "exact":
                 write_output(self._target(given, ".json"), given.whole + "\n")
-            return _STATUS[given.grade] if is_read else None
+            return _STATUS[given.grade] if given.is_read else None
         if given.model is not None:
             self._tell_model(given, given.model)
         print_report(given.findings, sys.stderr)
@@ -119,7 +131,8 @@ class _Told:
     def _tell_model(self, given: Answer, model: str) -> None:
         target = self._target(given, ".rebeca")
         if not given.report or target != "-":
-            head = f"// {one_line(given.root)}\n" if self.several else ""
+            is_headed = self.several and not _is_one_file(self.output)
+            head = f"// {one_line(given.root)}\n" if is_headed else ""
             write_output(target, head + model)
         if given.report:
             write_data(self._report(given))

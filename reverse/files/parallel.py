@@ -8,7 +8,7 @@ import signal
 import sys
 import threading
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from functools import partial
@@ -20,7 +20,7 @@ from typing import TypeVar
 from rebsync.diagnostics import RebsyncError
 from rebsync.long_numbers import allow_long_numbers
 from rebsync.reverse.files.packages import Listing
-from rebsync.reverse.files.reading import Chosen, all_listings, read
+from rebsync.reverse.files.reading import Chosen, read
 
 _SIZE = attrgetter("size")
 T = TypeVar("T")
@@ -33,13 +33,12 @@ _AHEAD = 4  # packages for each process that are handed out before their turn
 _TOGETHER = 64  # of so many the largest are handed out first, as otherwise they are waited for
 
 
-def each(paths: Iterable[str], work: Callable[[Chosen], T]) -> Iterator[T]:
-    """What `work` makes of each package in some paths, in their order.
+def each(listings: Iterator[Listing], work: Callable[[Chosen], T]) -> Iterator[T]:
+    """What `work` makes of each of some packages, in their order.
 
     `work` and what it gives must be fit for another process: a function of a module, and values
-    that can be pickled. RebsyncError: there is no such path, or it may not be read.
+    that can be pickled. RebsyncError: one of them may not be read.
     """
-    listings = all_listings(paths)
     first = _first(listings)
     every = chain(first, listings)
     if len(first) < 2:

@@ -256,3 +256,32 @@ def test_packages_of_one_name_do_not_overwrite_each_other(tmp_path: Path) -> Non
     assert rebsync("extract", "first", "second", "-o", "models", cwd=tmp_path).status == 0
     written = {p.name: p.read_text() for p in (tmp_path / "models").iterdir()}
     assert set(written) == {"experiment1.rebeca", "experiment1_2.rebeca"}
+
+
+def test_two_packages_of_one_system_give_one_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shutil.copy(EXAMPLE.parent / "experiment1.rebeca", tmp_path)
+    monkeypatch.chdir(tmp_path)
+    given = ("experiment1.rebeca", "-o", "ros/src", "--target", "ros2-py")
+    assert rebsync("generate", *given, cwd=tmp_path).status == 0
+    shutil.rmtree("ros/src/experiment1/.rebsync")
+    wanted = rebsync("extract", "ros/src/experiment1/experiment1", cwd=tmp_path).out
+    for path in ("ros/src/experiment1", "ros/src", "."):
+        shown = rebsync("extract", path, cwd=tmp_path)
+        assert (shown.status, shown.out, shown.err) == (0, wanted, "")
+        done = rebsync("extract", path, "-o", "out.rebeca", cwd=tmp_path)
+        assert (done.status, done.out) == (0, ""), done.err
+        assert Path("out.rebeca").read_text() == wanted
+
+
+def test_packages_without_a_class_do_not_count(workspace: Path) -> None:
+    shutil.rmtree(workspace / "src/experiment2")
+    for name in ("all_messages", "bringup"):
+        (workspace / "src" / name).mkdir()
+        (workspace / "src" / name / "package.xml").write_text(
+            f"<package><name>{name}</name></package>"
+        )
+    done = rebsync("extract", "src", "-o", "one.rebeca", cwd=workspace)
+    assert (done.status, done.out) == (0, ""), done.err
+    assert (workspace / "one.rebeca").read_text().startswith("env ")

@@ -298,3 +298,20 @@ def test_a_model_of_another_repository_is_remembered(run: Run, folder: Path) -> 
     replace("models/patrol.rebeca", "delay(1)", "delay(2)")
     assert run("sync", "other/patrol")[0] == 0
     assert run("check", "other/patrol") == in_step("other/patrol")
+
+
+# --- without a manifest -------------------------------------------------------------------------
+
+
+def test_a_model_that_is_named_needs_no_manifest(run: Run, folder: Path, target: str) -> None:
+    records = ".rebsync"
+    shutil.rmtree(f"{PACKAGE}/{records}")
+    for path in (PACKAGE, "ros/src", "."):
+        assert run("check", "--model", "models/patrol.rebeca", path) == in_step(PACKAGE)
+    (source,) = Path(PACKAGE).rglob("robot.cpp" if target == "ros1-cpp" else "robot.py")
+    replace(str(source), "delay(1)", "delay(3)")
+    status, shown = run("check", "--model", "models/patrol.rebeca", PACKAGE)
+    assert (status, "delay is 1 in the model, 3 in the code" in shown) == (1, True), shown
+    shutil.copytree(PACKAGE, "other/patrol")
+    status, shown = run("check", "--model", "models/patrol.rebeca", ".")
+    assert (status, "--model is for one package, and here are" in shown) == (2, True), shown

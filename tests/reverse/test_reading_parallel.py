@@ -11,7 +11,7 @@ import pytest
 from rebsync.diagnostics import RebsyncError
 from rebsync.reverse.files import parallel
 from rebsync.reverse.files.parallel import each
-from rebsync.reverse.files.reading import Chosen
+from rebsync.reverse.files.reading import Chosen, all_listings
 
 NODE = '#include <ros/ros.h>\nint main() { ros::init("x"); }\n'
 COUNT = 24
@@ -51,25 +51,25 @@ def dying(given: Chosen) -> str:
 
 
 def test_the_order_is_that_of_the_packages(packages: Path) -> None:
-    found = list(each([str(packages)], named))
+    found = list(each(all_listings([str(packages)]), named))
     assert [name for name, _ in found] == [f"p{n:02}" for n in range(COUNT)]
     assert os.getpid() not in {process for _, process in found}
 
 
 def test_one_package_needs_no_process(packages: Path) -> None:
-    assert list(each([str(packages / "p03")], named)) == [("p03", os.getpid())]
+    assert list(each(all_listings([str(packages / "p03")]), named)) == [("p03", os.getpid())]
 
 
 def test_little_needs_no_process(packages: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(parallel, "ENOUGH", 1 << 20)
-    found = list(each([str(packages)], named))
+    found = list(each(all_listings([str(packages)]), named))
     assert ({process for _, process in found}, len(found)) == ({os.getpid()}, COUNT)
 
 
 def test_errors_come_where_the_package_comes(packages: Path) -> None:
     found = []
     with pytest.raises(RebsyncError):
-        for root in each([str(packages)], refusing):
+        for root in each(all_listings([str(packages)]), refusing):
             found.append(Path(root).name)
     assert found == [f"p{n:02}" for n in range(7)]
 
@@ -77,7 +77,7 @@ def test_errors_come_where_the_package_comes(packages: Path) -> None:
 def test_a_process_that_dies_is_told_with_its_package(packages: Path) -> None:
     found = []
     with pytest.raises(RebsyncError) as error:
-        for root in each([str(packages)], dying):
+        for root in each(all_listings([str(packages)]), dying):
             found.append(Path(root).name)
     assert found == [f"p{n:02}" for n in range(5)]
     assert "ended the process" in error.value.findings[0].diagnostics[0].message
@@ -85,6 +85,6 @@ def test_a_process_that_dies_is_told_with_its_package(packages: Path) -> None:
 
 
 def test_what_is_not_asked_for_is_given_up(packages: Path) -> None:
-    for name, _ in each([str(packages)], named):
+    for name, _ in each(all_listings([str(packages)]), named):
         assert name == "p00"
         break
