@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from itertools import chain
 
 from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.records import dataclass
@@ -240,6 +241,8 @@ class _Excuses:
             return True
         if self._has_moved(first) or self._is_renamed(key) or self._follows(first):
             return True
+        if first.kind == "import" and key not in self.today:
+            return not self._is_named(first)
         if first.kind == "node" and first.name == "ns":
             return self._is_in_one_space
         if first.kind == "field":
@@ -303,6 +306,12 @@ class _Excuses:
             return self._is_of_a_topic(fact)
         is_own = not fact.owner or (TYPE, fact.owner, "") in self.base
         return is_own and is_about(self.now, self.today, fact)
+
+    def _is_named(self, fact: Fact) -> bool:
+        """Whether the code of a class still has a name."""
+        facts = chain.from_iterable(f for (_, of, _), f in self.today.items() if of == fact.owner)
+        texts = {fact.source.text for fact in facts}
+        return not texts or any(re.search(rf"\b{fact.name}\b", text) for text in texts)
 
     def _is_of_a_topic(self, remap: Fact) -> bool:
         """Whether a remap has the last name of a topic of the package, where no more is known."""

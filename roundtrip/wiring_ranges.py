@@ -113,6 +113,8 @@ def _evaluated(function: ast.FunctionDef) -> Iterator[ast.AST]:
         match node:
             case ast.Expr(ast.Call() as call) if is_log(call):
                 continue
+            case ast.JoinedStr():
+                continue  # a text, of any length
             case _:
                 yield node
                 waiting.extend(ast.iter_child_nodes(node))

@@ -29,6 +29,7 @@ from rebsync.reverse.python.model_helpers import (
 from rebsync.reverse.python.model_kinds import literal_kind
 from rebsync.reverse.python.model_overloads import resolved
 from rebsync.reverse.python.model_roles import Roles, Sends, plain_name, servers_of
+from rebsync.reverse.python.model_silent import Silent, silent_in
 from rebsync.reverse.python.model_statements import Statements
 from rebsync.reverse.python.model_types import passed_on, type_of
 from rebsync.reverse.python.py_callbacks import body_of
@@ -237,7 +238,15 @@ class Bodies:
             descriptors=descriptors,
             handlers=handlers,
             fillings=fillings,
+            silent=self._silent(owner),
         )
+
+    def _silent(self, owner: Scope) -> Silent:
+        """What of a class only people are told."""
+        line = self.line(owner)
+        each = [self.roles(above) for above in line]
+        taken = {n for r in each for n in (*r.state, *r.known, *r.env, *r.publishers)}
+        return silent_in(line, self.roles(owner).functions, taken)
 
 
 def result_of(function: Scope, variables: Callable[[str], m.Type | None]) -> m.Type | None:

@@ -27,6 +27,8 @@ from rebsync.reverse.python.py_tree import named, text_of
 from rebsync.reverse.python.py_values import Values
 from rebsync.source import Source
 
+# What the set-up of a server shows, whatever a marker says.
+_SHOWN = frozenset({"priority", "globalPriority"}) | OFFERS
 # The modules of the run-time part, and what each has that people's of that name lack.
 _RUNTIME = {
     "mailbox": ("\nclass Mailbox",),
@@ -159,7 +161,8 @@ class Classes:
 
     def _reactive(self, owner: Scope) -> m.ReactiveClass:
         roles = self._of(owner)
-        Plumbing(roles, self.messages, self.findings, self.code).check()
+        silent = self._bodies.names(owner).silent
+        Plumbing(roles, self.messages, self.findings, self.code, silent).check()
         members: list[m.ClassMember] = []
         known = [self._variable(owner, *v) for v in roles.known.values()]
         state = [self._variable(owner, *v) for v in roles.state.values()]
@@ -266,15 +269,15 @@ class Classes:
         yield from self._set_up(owner, function) or ()
 
     def _marked(self, owner: Scope, function: Scope) -> Iterator[m.Annotation]:
-        """The annotations of the markers; what services and actions there are, the set-up says."""
+        """The annotations of the markers; priorities, services and actions the set-up says."""
         shown = self._set_up(owner, function)
-        offered = {a.name: a for a in shown or () if a.name in OFFERS}
+        said = {a.name: a for a in shown or () if a.name in _SHOWN}
         for each in _annotations(function):
-            if each.name not in OFFERS or shown is None:
+            if each.name not in _SHOWN or shown is None:
                 yield each
-            elif (own := offered.pop(each.name, None)) is not None:
+            elif (own := said.pop(each.name, None)) is not None:
                 yield each if each.arguments == own.arguments else own
-        yield from offered.values()
+        yield from said.values()
 
     def _set_up(self, owner: Scope, function: Scope) -> tuple[m.Annotation, ...] | None:
         """The annotations that the set-up of a server shows, here or in a class above."""

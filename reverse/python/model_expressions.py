@@ -20,6 +20,7 @@ from rebsync.reverse.python.model_helpers import Helper
 from rebsync.reverse.python.model_kinds import kind_of
 from rebsync.reverse.python.model_roles import Sends
 from rebsync.reverse.python.model_sends import of_mailbox, sent
+from rebsync.reverse.python.model_silent import NOTHING, Silent
 from rebsync.reverse.python.model_types import (
     call_parts,
     in_double_quotes,
@@ -37,7 +38,15 @@ _CASTS = {
     "to_double": "double",
     "to_boolean": "boolean",
 }
-_FORMATS = frozenset({"int8", "int16", "int32", "float32", "float64", "boolean"})
+_FORMATS = {
+    "int8": "byte",
+    "int16": "short",
+    "int32": "int",
+    "float32": "float",
+    "float64": "double",
+    "boolean": "boolean",
+}
+_NARROW = frozenset({"int8", "int16"})
 _OPERATIONS = {
     "divide": "/",
     "quotient": "/",
@@ -74,6 +83,7 @@ class Names:
     those of functions, by their names in the model; `properties` functions that are read.
     `imported` are what names of the module are of, `helpers` functions without an object,
     `fillings` what publishers send, `descriptors` and `handlers` the servers that are posted.
+    `silent` is what only people are told.
     """
 
     variables: Mapping[str, str]
@@ -89,6 +99,7 @@ class Names:
     fillings: Mapping[str, Filling] = with_default(default_factory=dict)
     descriptors: Mapping[str, str] = with_default(default_factory=dict)
     handlers: Mapping[str, str] = with_default(default_factory=dict)
+    silent: Silent = NOTHING
 
 
 @dataclass(eq=False, slots=True)
@@ -279,7 +290,8 @@ class Expressions:
         span = self.py.span(whole)
         called, arguments = call_parts(value) or ("", [])
         holder, _, method = called.partition(".")
-        if holder in _FORMATS and method in _UPDATES and len(arguments) == 2:
+        is_update = holder in _FORMATS and method in _UPDATES and len(arguments) == 2
+        if is_update and self.read(arguments[0]) == target and self._is_kept(target, holder):
             operator = _UPDATES[method]
             if operator in "+-" and text_of(arguments[1]) == "1":
                 if statement:
@@ -288,7 +300,17 @@ class Expressions:
             return m.Assign(f"{operator}=", target, self.read(arguments[1]), span)
         read = self.read(value)
         idioms.check_copied(self, value, read)
+        if called in _NARROW and not self._is_kept(target, called):
+            read = _cast(called, read)
         return m.Assign("=", target, read, span)
+
+    def _is_kept(self, target: m.Expression, called: str) -> bool:
+        """Whether a variable is of the type of a format, so that storing implies the conversion."""
+        while isinstance(target, m.Index):
+            target = target.target
+        name = target.name if isinstance(target, m.Name | m.Member) else ""
+        type_ = self.types.get(name, self.names.types.get(name))
+        return type_ is None or type_.name == _FORMATS[called]
 
     def _put_item(self, node: Node, arguments: list[Node]) -> m.Expression:
         values, index, value = arguments
@@ -316,6 +338,11 @@ class Expressions:
         if called in _OPERATIONS and len(arguments) == 2:
             left, right = map(self.read, arguments)
             return binary(_OPERATIONS[called], left, right, self.py.span(node))
+        holder, _, method = called.partition(".")
+        if holder in _FORMATS and method in _UPDATES and len(arguments) == 2:
+            left, right = map(self.read, arguments)
+            made = binary(_UPDATES[method], left, right, self.py.span(node))
+            return _cast(holder, made) if holder in _NARROW else idioms.grouped(node, made)
         if called.startswith((f"{self.own}.", "super().")):
             plain = called.removeprefix(f"{self.own}.")
             called = called if plain == called else f"self.{plain}"
@@ -327,7 +354,11 @@ class Expressions:
         """A conversion that the model implies; of a literal it tells its type."""
         if node.type == "float" and called == "float64":
             return m.FloatLiteral(f"{text_of(node)}d", self.py.span(node))
-        return self.read(node)
+        read = self.read(node)
+        call = node.parent.parent if node.parent is not None else None
+        if called in _NARROW and call is not None and idioms.is_within(call):
+            return _cast(called, read)  # the model narrows only what it stores
+        return read
 
     def _function(self, node: Node, called: str, arguments: list[Node]) -> m.Expression:
         span = self.py.span(node)
@@ -384,6 +415,12 @@ class Expressions:
             raise self.unread(node, "this serves a message at once; the model only sends them")
         target = m.Super(span) if holder == "super()" else None
         return m.Call(target, function, tuple(map(self.read, arguments)), span=span)
+
+
+def _cast(called: str, read: m.Expression) -> m.Expression:
+    """A conversion that the model does not imply."""
+    is_plain = not isinstance(read, m.Binary | m.Conditional | m.Assign)
+    return m.Cast(m.Type(_FORMATS[called]), read if is_plain else m.Paren(read))
 
 
 _SAME = {"is": "==", "is not": "!="}

@@ -27,6 +27,13 @@ _GROWING = frozenset({"+", "-", "*", "<<", ">>", "&", "|", "^"})
 # Functions for which only the truth of what they are given matters.
 _ASKING = frozenset({"bool", "boolean", "to_boolean", "assertion", "any", "all"})
 _WHOLE = {"//": "divide", "/": "divide", "%": "remainder"}
+# Functions of Python and of the run-time part that store nothing.
+_QUIET = frozenset(
+    {
+        *("int8", "int16", "int32", "boolean", "divide", "remainder", "abs", "min", "max", "bool"),
+        *("int", "range", "len", "sum", "any", "all", "When", "print", "str"),
+    }
+)
 
 
 def comparison(reader: Expressions, node: Node) -> m.Expression:
@@ -69,10 +76,10 @@ def assert_alike(
 def grouped(node: Node, found: m.Expression) -> m.Expression:
     """What Python says in one piece and the model in several, within an operation."""
     is_one = not isinstance(found, m.Binary | m.Conditional)
-    return found if is_one or not _is_within(node) else m.Paren(found)
+    return found if is_one or not is_within(node) else m.Paren(found)
 
 
-def _is_within(node: Node) -> bool:
+def is_within(node: Node) -> bool:
     """Whether something stands in an operation, be it in parentheses."""
     above = node.parent
     while above is not None and above.type == "parenthesized_expression":
@@ -296,7 +303,20 @@ def _is_steady(reader: Expressions, node: Node, body: Node) -> bool:
         return all(_is_steady(reader, n, body) for n in named(node))
     if node.type == "identifier":
         return text_of(node) not in stored_in(body)
+    if node.type == "attribute" and text_of(field(node, "object")) == reader.own:
+        return text_of(node) not in stored_in(body) and not _calls_own(reader, body)
     return node.type == "integer" or text_of(node) in reader.names.constants
+
+
+def _calls_own(reader: Expressions, node: Node) -> bool:
+    """Whether a block calls functions of the object that are no sends, and may store something."""
+    if node.type == "call":
+        holder, _, name = text_of(field(node, "function")).rpartition(".")
+        if holder in (reader.own, "super()") and name not in reader.names.sends:
+            return True
+        if not holder and name not in _QUIET:
+            return True
+    return any(_calls_own(reader, each) for each in node.named_children)
 
 
 def stored_in(node: Node) -> set[str]:

@@ -15,8 +15,8 @@ from rebsync.records import dataclass
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python.model_constants import is_quiet
 from rebsync.reverse.python.model_helpers import is_transparent
-from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_roles import OFFERING, Roles
+from rebsync.reverse.python.model_silent import Silent
 from rebsync.reverse.python.model_types import (
     call_parts,
     called_late,
@@ -69,6 +69,7 @@ class Plumbing:
     fields: Mapping[str, Sequence[str]]
     findings: Findings
     code: PyCode
+    silent: Silent
 
     def check(self) -> None:
         """Lists what a class does besides."""
@@ -108,7 +109,7 @@ class Plumbing:
 
     def _odd(self, function: Scope) -> Iterator[Node]:
         name = function.name
-        body = [s for s in body_of(function) if not only_logs(s)]
+        body = [s for s in body_of(function) if not self.silent.holds(s)]
         if name in ("__init__", "_wire"):
             yield from (s for s in body if not self._sets_up(function, s))
         elif name in self.roles.shims:
@@ -131,6 +132,8 @@ class Plumbing:
         if inner.type != "assignment":
             return _is_text(statement)
         member = text_of(field(inner, "left")).removeprefix("self.")
+        if self.silent.is_member(member):
+            return True
         roles = self.roles
         if member in roles.known:
             return roles.known[member][2] == inner

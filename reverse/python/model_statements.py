@@ -66,7 +66,7 @@ class Statements:
         waiting = list(nodes)
         while waiting:
             node = waiting.pop(0)
-            if only_logs(node):
+            if self.expressions.names.silent.holds(node):
                 continue
             try:
                 if users.is_users(self.expressions, node):
@@ -140,6 +140,8 @@ class Statements:
                 return self._for(node, before)
             case "with_statement" if "block()" in text_of(node).partition(":")[0]:
                 return [self.suite(field(node, "body"))]
+            case "with_statement" if held := self.expressions.names.silent.locked(node):
+                return list(self.block(named(held), held).statements)
             case "return_statement":
                 return self._return(node)
             case "break_statement":

@@ -25,7 +25,7 @@ else:
     import tomli as tomllib
 
 HERE = Path(__file__).parent
-FILES = ("python.toml", "rclcpp.toml", "cpp.toml", "mixed.toml")
+FILES = ("python.toml", "rclcpp.toml", "cpp.toml", "mixed.toml", "harmless.toml")
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 
 # A later change of the model of each example, in code that few of the edits touch.

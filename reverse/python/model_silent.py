@@ -1,0 +1,322 @@
+"""Members of generated Python that nothing of the model depends on: what is only told to people.
+
+Texts, lists and parameters that are only logged, publishers of diagnostics, and locks. A store in
+such a member changes nothing that a model could show, as long as nothing else looks at it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import field as with_default
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reverse.python.log_words import HARMLESS
+from rebsync.reverse.python.model_logs import only_logs
+from rebsync.reverse.python.model_types import call_parts, string_value
+from rebsync.reverse.python.py_callbacks import body_of
+from rebsync.reverse.python.py_index import Scope
+from rebsync.reverse.python.py_tree import field, named, text_of
+
+_SET_UP = ("__init__", "_wire")
+_VALUES = frozenset({"string", "concatenated_string", "none", "list", "tuple"})
+_LOCKS = {"threading.Lock": False, "threading.RLock": True}
+_PUBLISHERS = frozenset({"rospy.Publisher", "self.create_publisher"})
+# Packages whose messages tell people how a node does, and that no node of a model is sent.
+_TELLING = re.compile(r"(?:diagnostic_msgs|visualization_msgs)\.msg\Z")
+_CLOCKS = frozenset({"rospy.Time.now", "rospy.get_time", "time.time", "self.get_clock"})
+_ON_CLOCKS = frozenset({"now", "to_msg", "to_sec"})
+_STORING = frozenset({"named_expression", "await", "yield", "lambda"})
+_STATEMENTS = frozenset({"function_definition", "class_definition", "module"})
+_GROWING = frozenset({"append", "clear"})
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Silent:
+    """The silent members of a class: `texts` are told to people only, `locks` whether again.
+
+    `locals` are the messages that a function makes for people, by the function's node, and
+    `makers` what such messages are made by.
+    """
+
+    texts: frozenset[str] = frozenset()
+    publishers: frozenset[str] = frozenset()
+    locks: dict[str, bool] = with_default(default_factory=dict)
+    locals: dict[int, frozenset[str]] = with_default(default_factory=dict)
+    makers: frozenset[str] = frozenset()
+
+    def is_member(self, name: str) -> bool:
+        """Whether only people are told of a member, or it is a lock."""
+        return name in self.texts or name in self.publishers or name in self.locks
+
+    def holds(self, node: Node) -> bool:
+        """Whether a statement does nothing but to tell people something, or to keep it for that."""
+        if only_logs(node):
+            return True
+        if node.type == "if_statement":
+            return all(map(self._branch_holds, [node, *node.children_by_field_name("alternative")]))
+        inner = named(node)[0] if node.type == "expression_statement" and named(node) else None
+        if inner is None:
+            return False
+        if inner.type in ("assignment", "augmented_assignment"):
+            value = inner.child_by_field_name("right")
+            return self._is_place(field(inner, "left")) and (value is None or self._is_made(value))
+        return inner.type == "call" and self._tells(inner)
+
+    def _branch_holds(self, part: Node) -> bool:
+        condition = part.child_by_field_name("condition")
+        body = field(part, "body" if part.type == "else_clause" else "consequence")
+        inside = [n for n in named(body) if n.type != "pass_statement"]
+        is_pure = condition is None or self._is_pure(condition)
+        return is_pure and bool(inside) and all(map(self.holds, inside))
+
+    def _tells(self, call: Node) -> bool:
+        """`self._diagnostics_pub.publish(status)` and `self._history.append(x)`."""
+        function, arguments = field(call, "function"), named(field(call, "arguments"))
+        if function.type != "attribute" or not all(map(self._is_made, arguments)):
+            return False
+        holder, method = field(function, "object"), text_of(field(function, "attribute"))
+        if method == "publish":
+            return text_of(holder).removeprefix("self.") in self.publishers
+        return method in _GROWING and self._is_place(holder)
+
+    def _is_place(self, node: Node) -> bool:
+        """Whether something is a silent member or message, or a part of one."""
+        while node.type == "attribute" and text_of(field(node, "object")) != "self":
+            node = field(node, "object")
+        if node.type == "attribute":
+            return text_of(field(node, "attribute")) in self.texts
+        return node.type == "identifier" and text_of(node) in self.locals.get(_function(node), ())
+
+    def _is_made(self, node: Node) -> bool:
+        """Whether a value only takes up what is there, or is a parameter of the node's own."""
+        return self._is_pure(node) or _own_parameter(node)
+
+    def _is_pure(self, node: Node) -> bool:
+        if node.type in _STORING:
+            return False
+        if node.type == "call":
+            called = text_of(field(node, "function"))
+            is_known = called in _CLOCKS or called in self.makers
+            if not is_known and called.rpartition(".")[2] not in HARMLESS | _ON_CLOCKS:
+                return False
+        return all(map(self._is_pure, node.named_children))
+
+    # --- locks ----------------------------------------------------------------------------------
+
+    def locked(self, node: Node) -> Node | None:
+        """What is done while a lock of the object's own is held; None if that may wait for ever."""
+        head = next((c for c in named(node) if c.type == "with_clause"), node)
+        items = [text_of(i) for i in named(head) if i.type == "with_item"]
+        name = items[0].removeprefix("self.") if len(items) == 1 else ""
+        if name not in self.locks or items[0] == name:
+            return None
+        body = field(node, "body")
+        return body if self.locks[name] or not _may_lock(body) else None
+
+
+NOTHING = Silent()
+
+
+def silent_in(
+    line: Sequence[Scope], functions: Mapping[str, Scope], taken: Collection[str]
+) -> Silent:
+    """The silent members of a class, the first of a line with those above it.
+
+    They are among what the constructor, of its `functions`, makes; those in `taken` are others.
+    """
+    owner = line[0]
+    members = {name: value for name, value in _made(functions) if name not in taken}
+    makers = frozenset(_makers(owner.module))
+    found = Silent(
+        frozenset(n for n, v in members.items() if v.type in _VALUES or _own_parameter(v)),
+        frozenset(n for n, v in members.items() if _is_publisher(v, makers)),
+        {n: _LOCKS[lock] for n, v in members.items() if (lock := _lock(owner.module, v))},
+        {f.node.id: frozenset(_messages(f, makers)) for f in functions.values()},
+        makers,
+    )
+    if not (members or any(found.locals.values())):
+        return NOTHING
+    modules = {id(c.module): c.module for c in line}
+    while True:
+        wrong = {n for module in modules.values() for n in _odd(found, module.node)}
+        if not wrong:
+            return found
+        found = _without(found, wrong)
+
+
+def _without(silent: Silent, wrong: set[str]) -> Silent:
+    locals_ = {f: frozenset(names - wrong) for f, names in silent.locals.items()}
+    locks = {n: again for n, again in silent.locks.items() if n not in wrong}
+    texts, publishers = silent.texts - wrong, silent.publishers - wrong
+    return Silent(texts, publishers, locks, locals_, silent.makers)
+
+
+def _made(functions: Mapping[str, Scope]) -> Iterator[tuple[str, Node]]:
+    """What the constructor of a class puts into members, into each once only."""
+    found: dict[str, list[Node]] = {}
+    for function in (functions[name] for name in _SET_UP if name in functions):
+        for statement in body_of(function):
+            inner = named(statement)[0] if statement.type == "expression_statement" else statement
+            left, value = inner.child_by_field_name("left"), inner.child_by_field_name("right")
+            if inner.type != "assignment" or left is None or value is None:
+                continue
+            if left.type == "attribute" and text_of(field(left, "object")) == "self":
+                found.setdefault(text_of(field(left, "attribute")), []).append(value)
+    yield from ((name, values[0]) for name, values in found.items() if len(values) == 1)
+
+
+# --- what members are ---------------------------------------------------------------------------
+
+
+def _own_parameter(node: Node) -> bool:
+    """`rospy.get_param("~label", "robot")` and `self.declare_parameter("label", "robot").value`."""
+    if node.type == "attribute" and text_of(field(node, "attribute")) == "value":
+        called, arguments = call_parts(field(node, "object")) or ("", [])
+        is_read = called == "self.declare_parameter" and len(arguments) == 2
+    else:
+        called, arguments = call_parts(node) or ("", [])
+        is_read = called == "rospy.get_param" and len(arguments) == 2
+    key = string_value(arguments[0]) if is_read else None
+    if key is None or (called == "rospy.get_param" and not key.startswith("~")):
+        return False
+    is_plain = arguments[1].type in _VALUES | {"true", "false", "integer", "float"}
+    section = re.split(r"[./]", key.removeprefix("~"))[0]
+    return is_plain and section not in ("env", "knownrebecs", "mailbox", "drive")
+
+
+def _lock(module: Scope, node: Node) -> str:
+    """The lock that a value is, by its name in Python's library; empty if it is none."""
+    called, arguments = call_parts(node) or ("", [])
+    head, _, rest = called.partition(".")
+    of = _imported(module, head)
+    whole = ".".join(filter(None, (of, rest)))
+    return whole if whole in _LOCKS and not arguments else ""
+
+
+def _is_publisher(node: Node, makers: frozenset[str]) -> bool:
+    called, arguments = _parts(node)
+    types = [a for a in arguments if text_of(a) in makers]
+    topics = [s for a in arguments if (s := string_value(a)) is not None]
+    return called in _PUBLISHERS and len(types) == 1 and len(topics) == 1
+
+
+def _parts(node: Node) -> tuple[str, list[Node]]:
+    """What is called and the arguments, those with names among them."""
+    if node.type != "call":
+        return "", []
+    return text_of(field(node, "function")), named(field(node, "arguments"))
+
+
+def _imported(module: Scope, name: str) -> str:
+    """What a name of a module is of, as `threading.Lock`; empty if it is not imported alone."""
+    bindings = module.names.get(name, [])
+    if len(bindings) != 1 or bindings[0].how != "import":
+        return ""
+    node = bindings[0].node
+    if node.type == "import_from_statement":
+        return f"{text_of(field(node, 'module_name'))}.{name}"
+    return name
+
+
+def _makers(module: Scope) -> Iterator[str]:
+    """The message types for people that a module imports."""
+    for name in module.names:
+        package, _, type_ = _imported(module, name).rpartition(".")
+        if _TELLING.match(package) and type_ == name:
+            yield name
+
+
+def _messages(function: Scope, makers: frozenset[str]) -> Iterator[str]:
+    """The locals of a function that are messages for people."""
+    for name, bindings in function.names.items():
+        values = [b.value for b in bindings]
+        if values and all(v is not None and _parts(v)[0] in makers for v in values):
+            yield name
+
+
+# --- where they are used ------------------------------------------------------------------------
+
+
+def _odd(silent: Silent, root: Node) -> set[str]:
+    """The members and locals that something else than a statement for people names."""
+    members = silent.texts | silent.publishers | silent.locks.keys()
+    found, waiting = set[str](), [root]
+    while waiting:
+        node = waiting.pop()
+        waiting += node.named_children
+        if node.type == "attribute" and text_of(field(node, "attribute")) in members:
+            name = text_of(field(node, "attribute"))
+            is_own = text_of(field(node, "object")) == "self"
+            if not (is_own and _is_quiet(silent, node, name)):
+                found.add(name)
+        elif node.type == "identifier" and not _is_of_other(node):
+            name = text_of(node)
+            is_local = name in silent.locals.get(_function(node), ())
+            if is_local and not _is_quiet(silent, node, name):
+                found.add(name)
+        elif node.type == "string_content" and text_of(node) in members:
+            found.add(text_of(node))  # as getattr names it
+    return found
+
+
+def _is_of_other(node: Node) -> bool:
+    """Whether a name is that of an attribute or of an argument."""
+    above = node.parent
+    if above is not None and above.type == "attribute":
+        return above.child_by_field_name("attribute") == node
+    return (
+        above is not None
+        and above.type == "keyword_argument"
+        and above.child_by_field_name("name") == node
+    )
+
+
+def _is_quiet(silent: Silent, node: Node, name: str) -> bool:
+    """Whether a member or local stands in a statement for people, or is set up there."""
+    above: Node | None = node
+    while above is not None and above.type not in _STATEMENTS:
+        if above.type == "with_item":
+            return name in silent.locks and text_of(above) == f"self.{name}"
+        if above.type == "expression_statement" and _sets_up(above, name):
+            return True
+        if silent.holds(above):
+            return True
+        above = above.parent
+    return False
+
+
+def _sets_up(statement: Node, name: str) -> bool:
+    """Whether a statement of the constructor makes the member."""
+    inner = named(statement)[0]
+    function = _enclosing(statement)
+    is_first = function is not None and text_of(field(function, "name")) in _SET_UP
+    is_made = inner.type == "assignment" and text_of(field(inner, "left")) == f"self.{name}"
+    return is_first and is_made
+
+
+def _may_lock(node: Node) -> bool:
+    """Whether something waits for a lock, or calls what may."""
+    if node.type == "with_statement":
+        return True
+    if node.type == "call":
+        called = text_of(field(node, "function"))
+        is_own = called.startswith("self.") and called.count(".") == 1
+        if is_own and not called.startswith("self.send_"):
+            return True
+    return any(map(_may_lock, node.named_children))
+
+
+def _enclosing(node: Node) -> Node | None:
+    above = node.parent
+    while above is not None and above.type != "function_definition":
+        above = above.parent
+    return above
+
+
+def _function(node: Node) -> int:
+    """The function that something is in, by its node."""
+    found = _enclosing(node)
+    return found.id if found is not None else 0
