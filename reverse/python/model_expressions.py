@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import field as with_default
+from dataclasses import replace
 
 from tree_sitter import Node
 
@@ -14,6 +15,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import binary
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_builtins as builtins
+from rebsync.reverse.python import model_formats as formats
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_filled import Filling
 from rebsync.reverse.python.model_helpers import Helper
@@ -38,15 +40,6 @@ _CASTS = {
     "to_double": "double",
     "to_boolean": "boolean",
 }
-_FORMATS = {
-    "int8": "byte",
-    "int16": "short",
-    "int32": "int",
-    "float32": "float",
-    "float64": "double",
-    "boolean": "boolean",
-}
-_NARROW = frozenset({"int8", "int16"})
 _OPERATIONS = {
     "divide": "/",
     "quotient": "/",
@@ -54,18 +47,6 @@ _OPERATIONS = {
     "modulus": "%",
     "shift_left": "<<",
     "shift_right": ">>",
-}
-_UPDATES = {
-    "add": "+",
-    "subtract": "-",
-    "multiply": "*",
-    "divide": "/",
-    "remainder": "%",
-    "shift_left": "<<",
-    "shift_right": ">>",
-    "all_of": "&",
-    "any_of": "|",
-    "one_of": "^",
 }
 _WORDS = {"and": "&&", "or": "||"}
 _LEVELS = {"or": 2, "and": 3, "|": 6, "^": 7, "&": 8, "<<": 9, ">>": 9, "+": 10, "-": 10}
@@ -289,28 +270,16 @@ class Expressions:
         """An assignment: `x = int32.add(x, 1)` is what the model writes `x++`, or `++x`."""
         span = self.py.span(whole)
         called, arguments = call_parts(value) or ("", [])
-        holder, _, method = called.partition(".")
-        is_update = holder in _FORMATS and method in _UPDATES and len(arguments) == 2
-        if is_update and self.read(arguments[0]) == target and self._is_kept(target, holder):
-            operator = _UPDATES[method]
-            if operator in "+-" and text_of(arguments[1]) == "1":
-                if statement:
-                    return m.Postfix(operator * 2, target, span)
-                return m.Unary(operator * 2, target, span)
-            return m.Assign(f"{operator}=", target, self.read(arguments[1]), span)
+        updated = formats.updated(self, target, called, arguments)
+        if updated is not None and statement and isinstance(updated, m.Unary):
+            return m.Postfix(updated.operator, target, span)
+        if updated is not None:
+            return replace(updated, span=span)
         read = self.read(value)
         idioms.check_copied(self, value, read)
-        if called in _NARROW and not self._is_kept(target, called):
-            read = _cast(called, read)
+        if called in formats.NARROW and not formats.is_kept(self, target, called):
+            read = formats.cast(called, read)
         return m.Assign("=", target, read, span)
-
-    def _is_kept(self, target: m.Expression, called: str) -> bool:
-        """Whether a variable is of the type of a format, so that storing implies the conversion."""
-        while isinstance(target, m.Index):
-            target = target.target
-        name = target.name if isinstance(target, m.Name | m.Member) else ""
-        type_ = self.types.get(name, self.names.types.get(name))
-        return type_ is None or type_.name == _FORMATS[called]
 
     def _put_item(self, node: Node, arguments: list[Node]) -> m.Expression:
         values, index, value = arguments
@@ -331,18 +300,15 @@ class Expressions:
 
     def _call(self, node: Node) -> m.Expression:
         called, arguments = call_parts(node) or ("", [])
-        if called in _FORMATS and len(arguments) == 1:
+        if called in formats.FORMATS and len(arguments) == 1:
             return self._converted(called, arguments[0])
         if called in _CASTS and len(arguments) == 1:
             return m.Cast(m.Type(_CASTS[called]), self.read(arguments[0]), self.py.span(node))
         if called in _OPERATIONS and len(arguments) == 2:
             left, right = map(self.read, arguments)
             return binary(_OPERATIONS[called], left, right, self.py.span(node))
-        holder, _, method = called.partition(".")
-        if holder in _FORMATS and method in _UPDATES and len(arguments) == 2:
-            left, right = map(self.read, arguments)
-            made = binary(_UPDATES[method], left, right, self.py.span(node))
-            return _cast(holder, made) if holder in _NARROW else idioms.grouped(node, made)
+        if (made := formats.operation(self, node, called, arguments)) is not None:
+            return made
         if called.startswith((f"{self.own}.", "super().")):
             plain = called.removeprefix(f"{self.own}.")
             called = called if plain == called else f"self.{plain}"
@@ -356,8 +322,8 @@ class Expressions:
             return m.FloatLiteral(f"{text_of(node)}d", self.py.span(node))
         read = self.read(node)
         call = node.parent.parent if node.parent is not None else None
-        if called in _NARROW and call is not None and idioms.is_within(call):
-            return _cast(called, read)  # the model narrows only what it stores
+        if called in formats.NARROW and call is not None and idioms.is_within(call):
+            return formats.cast(called, read)  # the model narrows only what it stores
         return read
 
     def _function(self, node: Node, called: str, arguments: list[Node]) -> m.Expression:
@@ -415,12 +381,6 @@ class Expressions:
             raise self.unread(node, "this serves a message at once; the model only sends them")
         target = m.Super(span) if holder == "super()" else None
         return m.Call(target, function, tuple(map(self.read, arguments)), span=span)
-
-
-def _cast(called: str, read: m.Expression) -> m.Expression:
-    """A conversion that the model does not imply."""
-    is_plain = not isinstance(read, m.Binary | m.Conditional | m.Assign)
-    return m.Cast(m.Type(_FORMATS[called]), read if is_plain else m.Paren(read))
 
 
 _SAME = {"is": "==", "is not": "!="}
