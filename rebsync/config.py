@@ -18,6 +18,8 @@ from rebsync.toml import Table, read_toml
 FILE_NAME = "rebsync.toml"
 TARGETS = ("ros1-cpp", "ros1-py", "ros2-cpp", "ros2-py")
 DRIVES = ("holonomic", "differential")
+ALLOWED = ("deadlock",)
+APART = frozenset({"allow"})  # settings that no code depends on, and that are not recorded
 
 Drive: TypeAlias = Literal["holonomic", "differential"]
 
@@ -64,7 +66,10 @@ class ClassTarget:
 
 @dataclass(frozen=True, slots=True)
 class Config:
-    """The settings of one model; times in seconds, lengths in metres, angles in radians."""
+    """The settings of one model; times in seconds, lengths in metres, angles in radians.
+
+    `allow` is what is no mistake to a verification; no code depends on it.
+    """
 
     package: str | None = None
     target: str = "ros1-cpp"
@@ -83,6 +88,7 @@ class Config:
     description: str | None = None
     sensors: tuple[SensorBinding, ...] = ()
     targets: tuple[ClassTarget, ...] = ()
+    allow: tuple[str, ...] = ()
 
     def target_of(self, class_name: str) -> str:
         """The dialect of a class."""
@@ -164,6 +170,7 @@ def _config(table: Table) -> Config:
         description=_without_controls(table, "description"),
         sensors=_sensors(table),
         targets=_targets(table),
+        allow=_allow(table),
     )
 
 
@@ -256,6 +263,16 @@ def _targets(table: Table) -> tuple[ClassTarget, ...]:
     found = [ClassTarget(n, _one_of(chosen, n, TARGETS, "ros1-cpp")) for n in list(chosen.values)]
     chosen.finish()
     return tuple(found)
+
+
+def _allow(table: Table) -> tuple[str, ...]:
+    """What is no mistake to a verification: `allow = ["deadlock"]`."""
+    given = table.strings("allow")
+    for each in given:
+        if each not in ALLOWED:
+            hint = did_you_mean(each, ALLOWED) or f"known: {', '.join(ALLOWED)}"
+            table.wrong("allow", f'`allow` cannot have "{each}"', hint)
+    return given
 
 
 def _matching(

@@ -53,7 +53,7 @@ def sentence(outcome: Outcome) -> str:
 # --- text ---------------------------------------------------------------------------------------
 
 
-def as_text(outcomes: Sequence[Outcome], style: str) -> str:
+def as_text(outcomes: Sequence[Outcome], style: str, *, is_full: bool = False) -> str:
     """What there is to say of some packages, in one of the forms of the command."""
     match style:
         case "json":
@@ -69,17 +69,20 @@ def as_text(outcomes: Sequence[Outcome], style: str) -> str:
         case _:
             from rebsync.report import report
 
-            parts = (lines_text(told_lines(o)) + report(o.findings) for o in outcomes)
+            parts = (
+                lines_text(told_lines(o, is_full=is_full)) + report(o.findings) for o in outcomes
+            )
             return "".join(parts)
 
 
-def told_lines(outcome: Outcome) -> Iterator[str]:
-    """Everything but findings, line by line."""
+def told_lines(outcome: Outcome, *, is_full: bool) -> Iterator[str]:
+    """Everything but findings, line by line; of long runs what matters, unless it is `is_full`."""
     yield from lines(outcome)
     if outcome.proof is not None:
         from rebsync.roundtrip.proof_report import proof_lines
 
-        yield from proof_lines(outcome.proof, verdict_of(outcome) != IN_STEP)
+        drifted = verdict_of(outcome) != IN_STEP
+        yield from proof_lines(outcome.proof, drifted, is_full=is_full)
 
 
 def differences(checked: Checked | None) -> Iterator[tuple[Difference, Mover]]:

@@ -33,7 +33,10 @@ def made_from(folder: Path) -> str | None:
 
 def _options(config: Config) -> dict[str, object]:
     """The settings as they are recorded; an option that is off is as if there were none."""
-    return {key: value for key, value in asdict(config).items() if value is not False}
+    from rebsync.config import APART
+
+    told = asdict(config).items()
+    return {key: value for key, value in told if value is not False and key not in APART}
 
 
 def with_manifest(

@@ -27,8 +27,8 @@ class Proof:
     """What a verification of the extracted model says.
 
     `path` is that of the user's model, `source` the text that was verified; `places` tells for its
-    lines where they are in model and code. `reason` says why the verdict is no better, empty if
-    nothing is in its way.
+    lines where they are in model and code. `subject` is the text of the properties. `reason` says
+    why the verdict is no better, empty if nothing is in its way.
     """
 
     verdict: Verdict
@@ -37,6 +37,7 @@ class Proof:
     source: Source
     result: Result | None = None
     places: dict[int, Both] = field(default_factory=dict)
+    subject: str = ""
     remarks: tuple[Findings, ...] = ()
 
     @property
@@ -65,7 +66,8 @@ def prove(code: Code, today: Given, property_path: str | None, options: Options)
 
         places = correspondence(source, parse_model(source).model, code.given, today)
     reason, model = result.reason or "", today.source.path
-    return _judged(Proof(result.verdict, reason, model, source, result, places), code)
+    subject = properties.text if properties is not None else ""
+    return _judged(Proof(result.verdict, reason, model, source, result, places, subject), code)
 
 
 def _beside(model: str) -> str | None:

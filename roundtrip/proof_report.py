@@ -4,25 +4,21 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from pathlib import PurePath
 from typing import Any, TypeAlias
 
 from rebsync.checker.result import Violation
 from rebsync.checker.show import words
 from rebsync.checker.show.data import result_json
-from rebsync.checker.show.flights import departures
-from rebsync.checker.trace import TraceStep
 from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.roundtrip.correspondence import Both
 from rebsync.roundtrip.difference import Place
 from rebsync.roundtrip.proof import Proof
+from rebsync.roundtrip.run_table import run_table
 from rebsync.source import NOWHERE, Source, Span
 
 Json: TypeAlias = dict[str, Any]
 Remark: TypeAlias = tuple[Source, Span, str]
 
-_HEAD = ("step", "time", "", "model", "code")
-_LONG = 30  # columns of a place that is told whole with every step
 _NOWHERE = Both(None, None)
 
 
@@ -36,8 +32,15 @@ def outcome_of(proof: Proof, drifted: bool) -> str:
         case "violated":
             what = _broken(proof)
         case _:
-            what = f"whether the properties hold is undetermined: {proof.reason}"
+            what = f"whether the properties hold is undetermined: {proof.reason}{_open(proof)}"
     return f"{head}, {what}"
+
+
+def _open(proof: Proof) -> str:
+    """What a search that was stopped has not come to an end with."""
+    properties = proof.result.properties if proof.result is not None else ()
+    names = [name for name, verdict in properties if verdict == "undetermined"]
+    return f"; not finished: {', '.join(names)}" if names else ""
 
 
 def _broken(proof: Proof) -> str:
@@ -48,8 +51,11 @@ def _broken(proof: Proof) -> str:
     return "; ".join(filter(None, (told, ", ".join(others))))
 
 
-def proof_lines(proof: Proof, drifted: bool) -> Iterator[str]:
-    """The verdict; then each run in which something goes wrong, with both places of each step."""
+def proof_lines(proof: Proof, drifted: bool, *, is_full: bool) -> Iterator[str]:
+    """The verdict; then each run in which something goes wrong, with both places of each step.
+
+    Of long runs only what matters, unless it is `is_full`.
+    """
     yield f"  {outcome_of(proof, drifted)}"
     if proof.verdict == "violated" and proof.reason:
         yield f"  caveat: {proof.reason}"
@@ -60,52 +66,12 @@ def proof_lines(proof: Proof, drifted: bool) -> Iterator[str]:
     for violation in proof.result.violations:
         yield ""
         yield f"  {words.title(violation)}: {violation.message}"
-        yield from run_lines(proof, violation)
+        yield from run_lines(proof, violation, is_full=is_full)
 
 
-def run_lines(proof: Proof, violation: Violation) -> Iterator[str]:
+def run_lines(proof: Proof, violation: Violation, *, is_full: bool = True) -> Iterator[str]:
     """A run as a table: what happens in each step, and both places of it."""
-    rows = [_row(proof, step) for step in violation.trace.steps]
-    wide = [max(len(row[i]) for row in (_HEAD, *rows)) for i in range(5)]
-    yield _laid_out(_HEAD, wide)
-    for row, step in zip(rows, violation.trace.steps, strict=True):
-        yield _laid_out(row, wide)
-        for text in _details(step):
-            yield f"    {'':{wide[0]}}  {'':{wide[1]}}    {text}"
-        if step.number == violation.trace.loop:
-            yield "    from here on the run repeats for ever"
-
-
-def _laid_out(row: tuple[str, ...], wide: list[int]) -> str:
-    step, time, what, model, code = row
-    line = f"    {step:>{wide[0]}}  {time:>{wide[1]}}  {what:{wide[2]}}  {model:{wide[3]}}  {code}"
-    return line.rstrip()
-
-
-def _row(proof: Proof, step: TraceStep) -> tuple[str, ...]:
-    both = proof.places.get(step.line, _NOWHERE)
-    sides = both.model, both.code
-    places = (_shown(p) if p is not None else "-" if step.line else "" for p in sides)
-    return (str(step.number), str(step.time), words.heading(step), *places)
-
-
-def _shown(place: Place) -> str:
-    """A place as a step names it: where the path is long, by the name of the file."""
-    whole = str(place)
-    return whole if len(whole) <= _LONG else f"{PurePath(place.source.path).name}:{place.line}"
-
-
-def _details(step: TraceStep) -> Iterator[str]:
-    if step.choices:
-        yield f"chooses {', '.join(step.choices)}"
-    for message in departures(step):
-        yield f"sends {words.sending(message, step.time)}"
-    if step.kind != "start":
-        for change in step.changes:
-            whose = f"{change.rebec}." if change.rebec != step.rebec else ""
-            yield f"{whose}{words.difference(change)}"
-    if step.failure is not None:
-        yield step.failure
+    return run_table(violation, proof.places, proof.subject, is_full=is_full)
 
 
 # --- for other programs -------------------------------------------------------------------------

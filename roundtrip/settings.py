@@ -8,14 +8,14 @@ from collections.abc import Iterator
 from dataclasses import asdict, fields, replace
 from pathlib import Path
 
-from rebsync.config import Config, config_of_record, settings_beside
+from rebsync.config import APART, Config, config_of_record, settings_beside
 from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.roundtrip.recorded import Record
 from rebsync.source import NOWHERE, Source, Span
 
 _HINT = "`rebsync generate` takes the setting into the code"
 _OFF = {"lifecycle": False, "copyright": None}  # what is recorded only where it is on
-_APART = frozenset({"target"})  # what the command line may say otherwise
+_APART = APART | {"target"}  # what the command line may say otherwise
 
 
 def changed_settings(model: str, record: Record) -> tuple[Findings, ...]:
@@ -29,7 +29,7 @@ def changed_settings(model: str, record: Record) -> tuple[Findings, ...]:
     found = tuple(
         Diagnostic("RS955", _place(source, key), _message(key, options[key], value), _HINT)
         for key, value in now.items()
-        if key not in _APART and key in options and options[key] != value
+        if key in options and options[key] != value
     )
     return (Findings(source, found),) if found else ()
 
@@ -45,6 +45,8 @@ def _name(record: Record, package: str | None) -> str:
 def _recorded(config: Config) -> Iterator[tuple[str, object]]:
     """The settings as a manifest has them."""
     for each in fields(config):
+        if each.name in _APART:
+            continue
         value: object = getattr(config, each.name)
         yield each.name, [asdict(x) for x in value] if isinstance(value, tuple) else value
 

@@ -50,6 +50,7 @@ _PROVED = {
 @click.option("--max-states", type=click.IntRange(1), metavar="N", help="Stop at N states.")
 @click.option("--max-time", callback=duration, metavar="TIME", help="Stop after 90, 90s, 5m or 1h.")
 @click.option("--memory", callback=amount, metavar="SIZE", help="Stop at 500M or 2G of memory.")
+@click.option("--full", is_flag=True, help="Show all steps of long runs.")
 @click.option(
     "--format",
     "style",
@@ -69,7 +70,7 @@ def command(ctx: click.Context, /, paths: tuple[str, ...], style: str, **_: obje
     """
     given = ctx.params
     packages = list(find(paths or (".",), given["model"]))
-    told = _Told(style, given["output"])
+    told = _Told(style, given["output"], given["full"])
     every = zip(packages, check_all(packages, given["depth"]), strict=True)
     found = [told.tell(_outcome(kept, result, given)) for kept, result in every]
     return worst([*found, told.finish()])
@@ -95,13 +96,15 @@ def _outcome(kept: Kept, checked: Result, given: dict[str, Any]) -> Outcome:
 def _proof(checked: Checked, given: dict[str, Any]) -> Proof:
     from rebsync.checker.exploration import Limits
     from rebsync.checker.problem import Options
+    from rebsync.config import settings_beside
     from rebsync.roundtrip.models import code_given, model_given
     from rebsync.roundtrip.proof import prove
 
     code = code_given(checked.kept, checked.standing)
     today = model_given(checked.model)
     limits = Limits(given["max_states"], given["max_time"], given["memory"])
-    options = Options(limits=limits, allowed=frozenset(given["allow"]))
+    _, settings = settings_beside(checked.model)
+    options = Options(limits=limits, allowed=frozenset({*given["allow"], *settings.allow}))
     return prove(code, today, given["property_file"], options)
 
 
@@ -111,6 +114,7 @@ class _Told:
 
     style: str
     output: str
+    is_full: bool
     all: list[Outcome] = field(default_factory=list)
 
     def tell(self, outcome: Outcome) -> Status:
@@ -123,7 +127,7 @@ class _Told:
             from rebsync.report import print_report
             from rebsync.roundtrip.check_report import told_lines
 
-            say_lines(told_lines(outcome))
+            say_lines(told_lines(outcome, is_full=self.is_full))
             print_report(outcome.findings, sys.stdout)
         return _status(outcome)
 
@@ -133,7 +137,7 @@ class _Told:
             from rebsync.cli.options import write_output
             from rebsync.roundtrip.check_report import as_text
 
-            write_output(self.output, as_text(self.all, self.style))
+            write_output(self.output, as_text(self.all, self.style, is_full=self.is_full))
         return Status.CLEAN
 
 

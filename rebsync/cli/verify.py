@@ -131,7 +131,7 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
         from rebsync.cli.runs import replay_file
 
         return replay_file(problem, given["replay"], given["violation"], given["style"], output)
-    options = _options(given)
+    options = _options(given, model)
     if given["export"] or given["states"]:
         from rebsync.cli.spaces import write_space
 
@@ -144,9 +144,11 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     return _STATUS[result.verdict]
 
 
-def _options(given: dict[str, Any]) -> Options:
+def _options(given: dict[str, Any], model: str) -> Options:
+    """The options of the command line, and what the settings beside the model allow."""
     from rebsync.checker.exploration import Limits
     from rebsync.checker.problem import Options
+    from rebsync.config import settings_beside
 
     if given["language"] == "core" and given["fairness"] == "progress":
         raise click.UsageError("--language core has no time: leave --fairness progress out")
@@ -155,7 +157,7 @@ def _options(given: dict[str, Any]) -> Options:
         engine=given["engine"],
         limits=Limits(given["max_states"], given["max_time"], given["memory"], given["until"]),
         fairness=given["fairness"],
-        allowed=frozenset(given["allow"]),
+        allowed=frozenset({*given["allow"], *settings_beside(model)[1].allow}),
         hash_compaction=given["hash_compaction"],
         reduce=given["reduce"],
     )

@@ -640,7 +640,39 @@ def test_drift_that_harms_nothing_is_told_from_drift_that_does(check: Check) -> 
     assert status == 3
     assert "drifted, property Stays_Small broken" in shown
     line = next(x for x in shown.splitlines() if "robot1.look() from robot1" in x)
-    assert "patrol.rebeca:18" in line and "robot.cpp:" in line
+    assert "patrol.rebeca:18" in line and "patrol/src/robot.cpp:" in line
+    bad = [x for x in shown.splitlines() if x.startswith("  > ")]
+    assert [re.sub(r".*robot.cpp:\d+", "", x) for x in bad] == ["  <-- property Stays_Small"]
+
+
+def test_a_long_run_is_folded_to_what_matters(check: Check) -> None:
+    replace(SOURCE, "% 4", "% 60")
+    replace("patrol.property", "< 4", "< 20")
+    status, folded = check("--verify")
+    full = check("--verify", "--full")[1]
+    steps = re.compile(r"^[ >]{4} *(\d+) +\d+  ", re.MULTILINE)
+    shown, every = ([int(n) for n in steps.findall(text)] for text in (folded, full))
+    assert (status, every) == (3, list(range(len(every))))
+    assert shown[0] == 0 and shown[-8:] == every[-8:]
+    left = len(every) - len(shown)
+    assert left > 20
+    assert sum(map(int, re.findall(r"\.\.\.  (\d+) steps? more; --full", folded))) == left
+    assert "--full" not in full
+
+
+def test_places_of_a_run_are_those_from_here(
+    check: Check, package: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    deep = Path("a/folder/with/a/long/name/below/the/current/directory")
+    deep.mkdir(parents=True)
+    for name in ("patrol.rebeca", "patrol.property", "patrol"):
+        Path(name).rename(deep / name)
+    replace(str(deep / SOURCE), "% 4", "% 6")
+    for path in (str(deep), str(deep.absolute())):
+        shown = check("--verify", path)[1]
+        assert f"  {deep}/patrol.rebeca:18  {deep}/{SOURCE}:" in shown
+    monkeypatch.chdir(deep / "patrol/launch")
+    assert "  ../../patrol.rebeca:18  ../src/robot.cpp:" in check("--verify")[1]
 
 
 def test_a_violation_is_a_finding_in_the_code(check: Check) -> None:
@@ -669,7 +701,28 @@ def test_nothing_holds_of_what_cannot_be_read(check: Check) -> None:
 def test_a_search_that_is_cut_short_is_undetermined(check: Check) -> None:
     status, shown = check("--verify", "--max-states", "2")
     assert status == 4
-    assert "undetermined" in shown
+    assert "undetermined: the bound of 2 states was reached; not finished: Stays_Small" in shown
+
+
+def test_settings_allow_a_system_to_end(check: Check) -> None:
+    for path in (SOURCE, "patrol.rebeca"):
+        text = Path(path).read_text()
+        Path(path).write_text(re.sub(r"\n.*look\(.* after\(e\);|\n.*postLook\(.*", "", text))
+    ending = Path("patrol.rebeca").read_text()
+    shutil.rmtree("patrol")
+    assert main(["generate", "patrol.rebeca"]) == 0
+    assert "look() after" not in ending
+    status, shown = check("--verify")
+    assert (status, "in step, deadlock" in shown) == (3, True), shown
+    assert main(["verify", "patrol.rebeca"]) == 3
+    Path("rebsync.toml").write_text('allow = ["deadlock"]\n')
+    status, shown = check("--verify")
+    assert (status, "in step, all properties hold" in shown) == (0, True), shown
+    assert check() == (0, "patrol: in step\n")
+    assert main(["verify", "patrol.rebeca"]) == 0
+    Path("rebsync.toml").write_text('allow = ["dedlock"]\n')
+    status, shown = check("--verify")
+    assert (status, "RS809" in shown and 'did you mean "deadlock"' in shown) == (2, True), shown
 
 
 def test_properties_that_do_not_fit_are_undetermined(check: Check) -> None:

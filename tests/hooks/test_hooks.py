@@ -229,3 +229,22 @@ def test_the_hooks_can_be_tried(repository: Path, source: Path) -> None:
     shown = run(*tried, cwd=repository, status=1)
     assert "the model is ahead" in shown
     assert "- exit code: 1" in shown
+
+
+def test_the_hook_of_a_push_is_bounded_and_says_what_it_left(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = (ROOT / ".pre-commit-hooks.yaml").read_text()
+    entry = text.partition("id: rebsync-verify")[2].partition("entry: rebsync ")[2]
+    command = entry.partition("\n")[0].split()
+    assert "--max-time" in command
+    (tmp_path / "patrol.rebeca").write_text(MODEL)
+    (tmp_path / "patrol.property").write_text(PROPERTY)
+    monkeypatch.chdir(tmp_path)
+    assert main(["generate", "patrol.rebeca"]) == 0
+    assert main(command) == 0
+    capsys.readouterr()
+    assert main([*command, "--max-time", "0.000001"]) == 4  # as `args` of a configuration does
+    shown = capsys.readouterr().out
+    assert "patrol: in step" in shown
+    assert "undetermined: the bound of 1e-06 seconds was reached; not finished: Stays" in shown
