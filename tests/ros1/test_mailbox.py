@@ -298,6 +298,18 @@ def test_a_time_unit_stretches_the_model(probe: Workspace, tmp_path: Path) -> No
     assert 1 <= first.stamp < 1.5 and 2 <= second.stamp < 2.5
 
 
+def test_no_state_is_published_where_nobody_wants_it(probe: Workspace, tmp_path: Path) -> None:
+    rebecs = {
+        "a": Rebec(constructor=START, plain=("delay 1", "send b plain 1")),
+        "b": Rebec(plain=("send a high 2 after 1",)),
+    }
+    recording = play(probe, tmp_path, rebecs, SHORT, {"mailbox/publish_state": False})
+    assert recording.served == ()
+    sent = [m.fields for m in recording.messages if "timing" in m.fields]
+    assert [fields["timing"]["arrival"] for fields in sent] == [1, 2]
+    assert recording.problems() == ()
+
+
 def test_the_real_clock_serves_as_well(probe: Workspace, tmp_path: Path) -> None:
     rebecs = {
         "a": Rebec(constructor=START, plain=("delay 1", "send b plain 1", "send b high 2 after 1")),

@@ -131,6 +131,16 @@ def test_a_simulated_clock_wakes_who_waits(
     assert all(b.stamp < b.now + 0.05 + 0.07 for b in found)
 
 
+def test_no_state_is_published_where_nobody_wants_it(
+    recording: Recording, package: Path, driver: Path
+) -> None:
+    silent = run(package, driver, package.parent, 30, parameters={"mailbox.publish_state": False})
+    assert silent.served == ()
+    answers = [m.fields["x"] for m in silent.messages if m.topic.endswith("/answer")]
+    assert answers == [14]
+    assert len(silent.reports("overflow")) == len(recording.reports("overflow")) == 1
+
+
 @pytest.mark.parametrize("policy", ["depth", "reliability"])
 def test_no_parameter_may_have_messages_of_the_model_lost(
     package: Path, driver: Path, policy: str
