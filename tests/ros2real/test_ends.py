@@ -15,9 +15,10 @@ import pytest
 
 from rebsync.config import Config
 from tests.forward.compiling import generated, written
-from tests.ros1.run import launched
+from tests.ros1.run import Clock, launched
+from tests.ros1.test_examples import EXAMPLES, example_package
 from tests.ros1.workspace import SYSTEM_PYTHON
-from tests.ros2real.conftest import DIALECTS, Builder
+from tests.ros2real.conftest import DIALECTS, Builder, Play
 from tests.ros2real.workspace import Workspace
 
 _LISTENER = Path(__file__).parent / "nodes" / "velocities.py"
@@ -172,3 +173,16 @@ def test_a_robot_whose_node_was_killed_stops_when_that_comes_back(
         assert before[-1] > 0
         velocities.until(lambda heard: 0 in heard[len(before) :])
         assert velocities.driving()[-1] > 0
+
+
+@pytest.mark.parametrize("dialect", DIALECTS)
+def test_a_robot_whose_ticks_come_too_late_stops(
+    dialect: str, play_real: Play, tmp_path: Path
+) -> None:
+    """Held on to for so long, velocities take it farther and farther from where it should be."""
+    package = example_package(EXAMPLES / "hello", dialect, tmp_path)
+    recording = play_real(package, dialect, Clock(until=40, quiet=30, rate=2.0, step=4.0))
+    assert [line for line in recording.log if "overrun" in line.text]
+    *others, last = recording.velocities("walker")
+    assert any(v.x != 0 for v in others)
+    assert (last.x, last.y, last.turn) == (0, 0, 0)
