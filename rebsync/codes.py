@@ -192,6 +192,8 @@ EXTRACTION = {
     "RS942": "a place of the code of which the model allows more than it does",
     "RS943": "code in which no class of a model was found",
     "RS944": "a file of code that no program of the package is made of: it is not read",
+    "RS945": "an accepted finding that is not there as it was",
+    "RS946": "a place where there is nothing that may be accepted",
 }
 
 STEP = {

@@ -44,10 +44,14 @@ def sentence(outcome: Outcome) -> str:
         case "apart":
             return "model and code differ; who moved is not known"
         case "undetermined":
-            return "undetermined: not all of the code can be told in a model"
+            count = len(checked.accepted)
+            said = "undetermined: not all of the code can be told in a model"
+            return f"{said} ({count} accepted)" if count else said
         case _:
             inexact = any(d.code == "RS942" for f in checked.findings for d in f.diagnostics)
-            return "in step, as far as the code can be told" if inexact else IN_STEP
+            said = "in step, as far as the code can be told" if inexact else IN_STEP
+            count = len(checked.accepted)
+            return f"{said}, with {count} accepted" if count else said
 
 
 # --- text ---------------------------------------------------------------------------------------
@@ -247,6 +251,10 @@ def _package(outcome: Outcome) -> Json:
             for difference, mover, print_ in _printed(outcome)
         ],
         "findings": json.loads(findings_json(outcome.findings))["findings"],
+        "accepted": [
+            {"code": e.code, "path": e.path, "message": e.finding, "reason": e.reason}
+            for e in (outcome.checked.accepted if outcome.checked is not None else ())
+        ],
         "verification": _verification(outcome),
     }
 

@@ -18,6 +18,7 @@ from rebsync.roundtrip.settings import changed_settings
 from rebsync.source import NOWHERE, Source
 
 if TYPE_CHECKING:
+    from rebsync.roundtrip.accepted import Entry
     from rebsync.roundtrip.difference import Comparison, Difference
     from rebsync.roundtrip.verdict import Drift, Mover
 
@@ -27,7 +28,8 @@ class Checked:
     """A package, and how it stands to its model.
 
     `drift` is None where digests alone tell that both are in step. `findings` are the places of
-    the code that a model cannot tell exactly, and whatever else is to be put right.
+    the code that a model cannot tell exactly, and whatever else is to be put right, `accepted`
+    those of them that a user has accepted.
     """
 
     kept: Kept
@@ -36,6 +38,7 @@ class Checked:
     standing: Standing
     drift: Drift | None = None
     findings: tuple[Findings, ...] = field(default=())
+    accepted: tuple[Entry, ...] = field(default=())
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import gc
+import os
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from typing import TypeAlias, cast
 
 from rebsync.diagnostics import Findings, RebsyncError
 from rebsync.roundtrip.checked import Begun, Checked, begin, finish_proved
+from rebsync.roundtrip.manifest import ACCEPTED
 from rebsync.roundtrip.packages import Kept
 
 # Findings say why it cannot be told how a package stands.
@@ -21,7 +23,19 @@ def check_all(packages: Iterable[Kept], depth: str) -> Iterator[Result]:
     pending = [b for b in begun if isinstance(b, Begun)]
     finished = _in_processes(pending, depth) if _is_much(pending) else _in_turn(pending, depth)
     for each in begun:
-        yield next(finished) if isinstance(each, Begun) else each
+        yield _as_accepted(next(finished) if isinstance(each, Begun) else each)
+
+
+def _as_accepted(result: Result) -> Result:
+    """The same with what the user has accepted, where anything is."""
+    if not isinstance(result, Checked) or result.drift is None:
+        return result
+    root = result.kept.root
+    if not os.path.lexists(f"{root}/{ACCEPTED}"):
+        return result
+    from rebsync.roundtrip.accepted import with_accepted
+
+    return cast("Result", _tried(root, lambda: with_accepted(result)))
 
 
 def _tried(root: str, task: Callable[[], Checked | Begun]) -> Result | Begun:

@@ -41,10 +41,12 @@ def _suite(outcome: Outcome) -> str:
 
 def _element(root: str, case: _Case) -> str:
     head = f"    <testcase classname={_quoted(root)} name={_quoted(case.name)}"
+    text = without_commands(escape(printable(case.text)), "&#35;")
+    if not case.element and text:
+        return f"{head}>\n      <system-out>{text}</system-out>\n    </testcase>\n"
     if not case.element:
         return f"{head}/>\n"
     what = f"{case.element} type={_quoted(case.kind)} message={_quoted(case.message)}"
-    text = without_commands(escape(printable(case.text)), "&#35;")
     return f"{head}>\n      <{what}>{text}</{case.element}>\n    </testcase>\n"
 
 
@@ -57,7 +59,8 @@ def _cases(outcome: Outcome) -> Iterator[_Case]:
     first, *rest = map(one_line, lines(outcome))
     found = report(outcome.findings)
     if verdict == IN_STEP and not found:
-        yield _Case(IN_STEP)
+        accepted = outcome.checked.accepted if outcome.checked is not None else ()
+        yield _Case(IN_STEP, text="".join(f"accepted {e.path}: {e.reason}\n" for e in accepted))
     else:
         element = "failure" if outcome.checked is not None else "error"
         message = first.removeprefix(f"{one_line(outcome.root)}: ")

@@ -19,6 +19,7 @@ FOLDER = RECORDS
 MANIFEST = f"{FOLDER}/manifest.json"
 BASE_MODEL = f"{FOLDER}/base.rebeca"
 BASE = f"{FOLDER}/base/"
+ACCEPTED = f"{FOLDER}/accepted.toml"
 FORMAT = 1
 
 

@@ -9,6 +9,7 @@ import click
 from rebsync.diagnostics import did_you_mean
 
 COMMANDS = {
+    "accept": "Accept places of which no verdict can be given.",
     "check": "Tell whether packages and their models are in step.",
     "diff": "Compare two models, packages of code, or revisions of either.",
     "export": "Print a model in the form that another tool accepts.",

@@ -1,0 +1,88 @@
+"""`rebsync accept`: what no verdict can be given on was looked at, and is as it is to be."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+
+import click
+
+from rebsync.cli.status import Status
+from rebsync.diagnostics import RebsyncError
+from rebsync.roundtrip.accepted import Entry, acceptable, entries_text, read_entries
+from rebsync.roundtrip.checked import check
+from rebsync.roundtrip.manifest import ACCEPTED
+from rebsync.roundtrip.packages import Kept, find
+from rebsync.terminal import named, one_line, say
+from rebsync.writing import replace_tree
+
+_PLACE = re.compile(r"(.+?):(\d+)(?::\d+)?:?\Z")
+
+
+@click.command("accept")
+@click.argument("findings", metavar="[FINDING...]", nargs=-1)
+@click.option("--reason", metavar="TEXT", help="Why it is as it is to be; others will read this.")
+@click.option("--list", "is_list", is_flag=True, help="List what was accepted; change nothing.")
+def command(findings: tuple[str, ...], reason: str | None, is_list: bool) -> Status:
+    """Accept places of which `rebsync check` can give no verdict.
+
+    FINDING is FILE:LINE, as `rebsync check` prints it. With --list it is a package, as for `check`.
+    """
+    if is_list:
+        for kept in find(findings or (".",)):
+            _list(kept)
+        return Status.CLEAN
+    if not findings:
+        raise click.UsageError(
+            "name what is to be accepted: FILE:LINE, as `rebsync check` tells it"
+        )
+    if reason is None or not reason.strip():
+        raise click.UsageError("say with --reason why it is as it is to be")
+    wanted: dict[str, tuple[Kept, set[tuple[str, int]]]] = {}
+    for finding in findings:
+        path, line = _place(finding)
+        (kept,) = find((path,))
+        wanted.setdefault(kept.root, (kept, set()))[1].add((os.path.realpath(path), line))
+    chosen = [(kept, list(_found(kept, places))) for kept, places in wanted.values()]
+    for kept, entries in chosen:
+        _write(kept, [replace(entry, reason=reason.strip()) for entry in entries])
+    return Status.CLEAN
+
+
+def _place(finding: str) -> tuple[str, int]:
+    found = _PLACE.match(finding)
+    if found is None:
+        raise click.UsageError(f'"{finding}" is no FILE:LINE, as `rebsync check` tells it')
+    return found[1], int(found[2])
+
+
+def _list(kept: Kept) -> None:
+    for entry in read_entries(kept.root):
+        say(f"{named(kept.root)}/{entry.path}: {entry.code} {one_line(entry.finding)}")
+        say(f"  {one_line(entry.reason)}")
+
+
+def _found(kept: Kept, places: set[tuple[str, int]]) -> Iterator[Entry]:
+    """The entries for some lines of a package. RebsyncError: there is nothing to accept."""
+    left = set(places)
+    for found, each, entry in acceptable(check(kept)):
+        line = found.source.position(each.span.start).line
+        key = os.path.realpath(found.source.path), line
+        if key in places:
+            left.discard(key)
+            yield entry
+    for path, line in sorted(left):
+        message = f"there is nothing in line {line} of it that may be accepted"
+        hint = (
+            "only what `rebsync check` cannot tell is accepted; `rebsync sync` is for differences"
+        )
+        raise RebsyncError.of(os.path.relpath(path), "RS946", message, hint)
+
+
+def _write(kept: Kept, entries: list[Entry]) -> None:
+    old = [e for e in read_entries(kept.root) if e.key not in {each.key for each in entries}]
+    replace_tree(kept.to_write(), {ACCEPTED: entries_text([*old, *entries])})
+    for entry in entries:
+        say(f"accepted {named(kept.root)}/{entry.path}: {entry.code} {one_line(entry.finding)}")
