@@ -40,7 +40,7 @@ _HEAD = """\
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """An accepted finding: its code, the file in the package, its message, a digest of its place."""
+    """An accepted finding: its code, the file in the package, its message, its place's digest."""
 
     code: str
     path: str
@@ -108,8 +108,8 @@ def acceptable(checked: Checked) -> Iterator[tuple[Findings, Diagnostic, Entry]]
                 path = Path(found.source.path)
                 if path.is_relative_to(checked.kept.root):
                     inside = path.relative_to(checked.kept.root).as_posix()
-                    place = places.digest(found.source, each)
-                    yield found, each, Entry(each.code, inside, each.message, place)
+                    digest = places.digest(found.source, each)
+                    yield found, each, Entry(each.code, inside, each.message, digest)
 
 
 @dataclass(frozen=True, slots=True)

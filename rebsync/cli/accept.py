@@ -35,9 +35,7 @@ def command(findings: tuple[str, ...], reason: str | None, is_list: bool) -> Sta
             _list(kept)
         return Status.CLEAN
     if not findings:
-        raise click.UsageError(
-            "name what is to be accepted: FILE:LINE, as `rebsync check` tells it"
-        )
+        raise click.UsageError("name what is to be accepted, as FILE:LINE")
     if reason is None or not reason.strip():
         raise click.UsageError("say with --reason why it is as it is to be")
     wanted: dict[str, tuple[Kept, set[tuple[str, int]]]] = {}
@@ -75,9 +73,7 @@ def _found(kept: Kept, places: set[tuple[str, int]]) -> Iterator[Entry]:
             yield entry
     for path, line in sorted(left):
         message = f"there is nothing in line {line} of it that may be accepted"
-        hint = (
-            "only what `rebsync check` cannot tell is accepted; `rebsync sync` is for differences"
-        )
+        hint = "only what `rebsync check` cannot tell is; for differences there is `rebsync sync`"
         raise RebsyncError.of(os.path.relpath(path), "RS946", message, hint)
 
 
