@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
@@ -32,14 +32,16 @@ from rebsync.reverse.generated.env_values import (
     type_of_value,
 )
 from rebsync.reverse.generated.one_definition import defined_again
+from rebsync.reverse.generated.own_parameters import Stored, given_to
 from rebsync.reverse.generated.parameters import objects_in, odd_arguments
 from rebsync.reverse.generated.ros1_classes import Classes
 from rebsync.reverse.generated.ros1_kept import Memory, read_with
 from rebsync.reverse.generated.ros1_messages import own_messages
-from rebsync.reverse.generated.ros1_names import variable_name
+from rebsync.reverse.generated.ros1_names import stored_in, variable_name
 from rebsync.reverse.generated.ros2_words import made_in
 from rebsync.reverse.graph import Graph
 from rebsync.reverse.launch.launched import Launch, LaunchedNode
+from rebsync.reverse.launch.parameters import Parameter
 from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_joined import Joined, Part
 from rebsync.reverse.nodes.node_lacking import marked_lacking
@@ -243,12 +245,19 @@ class _System:
     programs: tuple[Program, ...]
     python: PythonPart | None = None
 
+    @property
+    def common(self) -> tuple[Parameter, ...]:
+        """The parameters that are under no node."""
+        return self.launch.parameters if self.launch is not None else ()
+
     # --- constants ------------------------------------------------------------------------------
 
     def heads(self) -> Iterator[m.Env]:
         """The constants of the model: all global parameters but those of the run-time part."""
         used = dict(self._used())
-        common = self.launch.parameters if self.launch else ()
+        every = (s.parameter for o in self.read for s in self._stored(o.name))
+        own = {f"/{p.key}" for p in every if p.for_all}
+        common = (p for p in self.common if p.name not in own)
         given = {p.name.lstrip("/").removeprefix("env/"): p for p in common}
         for key in [*given, *(k for k in used if k not in given)]:
             first = key.partition("/")[0]
@@ -310,13 +319,14 @@ class _System:
         ]
         bindings = [self._bound(node, f"knownrebecs/{graph_name(k)}") for k in known]
         constructors = [c for c in declared[0].members if isinstance(c, m.Constructor)]
-        parameters = next(
-            (c.parameters for c in constructors if len(c.parameters) == len(keys)), ()
-        )
+        own = self._stored(type_)
+        count = len(keys) + len(own)
+        parameters = next((c.parameters for c in constructors if len(c.parameters) == count), ())
         arguments = [
             self._argument(node, key, parameter.type)
             for key, parameter in zip(keys, parameters, strict=False)
         ]
+        arguments += given_to(node, own, self.common, self.classes.findings, type_)
         markers = (annotation(text, node.span) for text in node.markers)
         return m.Rebec(
             m.Type(type_),
@@ -356,6 +366,14 @@ class _System:
             return None
         span = parameter.source.within(parameter.span)
         return m.Name(uncarry(parameter.value, TAKEN_NODES), span)
+
+    def _stored(self, type_: str) -> Sequence[Stored]:
+        """The parameters of a node's own that its class stores."""
+        if self.python is not None and type_ in self.python.own:
+            return self.python.own[type_]
+        owners = self.code.classes.values()
+        owner = next((o for o in owners if class_name(o.name) == type_), None)
+        return stored_in(self.code, self.classes.roles[owner.name], owner) if owner else ()
 
     def _argument(self, node: LaunchedNode, key: str, type_: m.Type) -> m.Expression | None:
         parameter = node.parameter(key)

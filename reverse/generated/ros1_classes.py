@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import field, replace
 from fractions import Fraction
+from functools import partial
 
 from rebsync import model as m
 from rebsync.names import carry, uncarry
@@ -23,6 +24,7 @@ from rebsync.reverse.bodies.scope import (
     Variable,
 )
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.own_parameters import with_own
 from rebsync.reverse.generated.ros1_annotations import (
     annotations_in,
     class_annotations,
@@ -41,6 +43,7 @@ from rebsync.reverse.generated.ros1_names import (
     plain_name,
     runtime_of,
     state_types,
+    stored_in,
     variable_name,
 )
 from rebsync.reverse.generated.ros1_plumbing import check_plumbing
@@ -117,9 +120,8 @@ class Classes:
         return self._reactive(owner) if self._has_mailbox(owner) else self._interface(owner)
 
     def _has_mailbox(self, owner: CppClass) -> bool:
-        return any(
-            text_of(f.type) == "Mailbox" for c in self.code.lineage(owner.name) for f in c.fields
-        )
+        fields = (f for c in self.code.lineage(owner.name) for f in c.fields)
+        return any(text_of(f.type) == "Mailbox" for f in fields)
 
     def _timed(self, owner: CppClass) -> Iterator[Timer]:
         """The timers of a class; their callbacks are servers, unless they only post a message."""
@@ -144,6 +146,7 @@ class Classes:
         return m.Interface(name, servers, extends, annotations_in(owner.markers, owner), span)
 
     def _reactive(self, owner: CppClass) -> m.ReactiveClass:
+        roles = self.roles[owner.name]
         check_plumbing(self.code, owner, self.roles, self.fields, self.findings)
         for meaning in self.meanings:
             if in_files_of(self.code, owner, meaning):
@@ -155,7 +158,8 @@ class Classes:
         known, state = self._variables(owner)
         members: list[m.ClassMember] = [m.KnownRebecs(tuple(known))] if known else []
         members += [m.StateVars(tuple(state))] if state else []
-        members += self._constructors(owner)
+        own = stored_in(self.code, roles, owner)
+        members += with_own(tuple(self._constructors(owner)), own, class_name(owner.name))
         members += [
             self._server(owner, f, name)
             for f in functions
@@ -253,9 +257,8 @@ class Classes:
 
     def _server(self, owner: CppClass, function: CppFunction, name: str) -> m.MessageServer:
         bodies, within = self._bodies(owner), f"{owner.name}.{name}"
-        timer = next(
-            (t for t in self.timers.get(owner.name, ()) if t.callback == function.name), None
-        )
+        timers = self.timers.get(owner.name, ())
+        timer = next((t for t in timers if t.callback == function.name), None)
         if timer is not None:
             parameters: tuple[m.Parameter, ...] = ()
             body: m.Block | None = bodies.ticking(timer, function, name, within)
@@ -310,8 +313,8 @@ class Classes:
 
     def _constructors(self, owner: CppClass) -> Iterator[m.Constructor]:
         """Those of the model, with what happens before and after them."""
-        bodies = self._bodies(owner)
-        given = bodies.given(initial_values(self.code, owner), owner.name)
+        bodies, own = self._bodies(owner), self.roles[owner.name].own
+        given = bodies.given(initial_values(self.code, owner, own), owner.name)
         at_start = (p for p in self._timed_servers(owner) if p[0].at_start)
         started = bodies.started(at_start, owner.name)
         name, found = class_name(owner.name), 0
@@ -333,9 +336,7 @@ class Classes:
             yield m.Constructor(name, (), m.Block((*given, *started)))
 
     def _bodies(self, owner: CppClass) -> Bodies:
-        def by_hand(scope: Scope) -> Scope:
-            return as_by_hand(self.code, owner, scope)
-
+        by_hand = partial(as_by_hand, self.code, owner)
         return Bodies(self.code, self.scope(owner), self.findings, by_hand)
 
     # --- names ----------------------------------------------------------------------------------

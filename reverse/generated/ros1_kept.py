@@ -30,7 +30,7 @@ _AROUND = frozenset(
         *("preproc_if", "preproc_ifdef", "preproc_else", "preproc_elif"),
     }
 )
-_OF_ONE_RUN = frozenset({"wired"})  # what goes by the places of nodes in memory
+_OF_ONE_RUN = frozenset({"wired", "reading"})  # what goes by the places of nodes in memory
 _Bodies: TypeAlias = "dict[int, Node]"
 
 

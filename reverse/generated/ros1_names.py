@@ -12,6 +12,7 @@ from rebsync.names import carry, free_name, uncarry
 from rebsync.reserved import RESERVED, RESERVED_GLOBALS, RUNTIME_MEMBERS
 from rebsync.reverse.bodies.cpp_types import type_of
 from rebsync.reverse.bodies.scope import Runtime
+from rebsync.reverse.generated.own_parameters import Stored
 from rebsync.reverse.generated.ros1_roles import Roles
 from rebsync.reverse.generated.ros2_words import message_name
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppField, CppFunction
@@ -39,6 +40,15 @@ def variable_name(roles: Roles, member: CppField) -> str:
         return name
     key, _ = roles.globals[member.name]
     return name if key in (name, free_name(name, {name})) else uncarry(key, RESERVED_GLOBALS)
+
+
+def stored_in(code: Code, roles: Roles, owner: CppClass) -> list[Stored]:
+    """The state variables of a class that parameters of the node are stored in."""
+    return [
+        Stored(variable_name(roles, f), type_, roles.own[f.name], f.cpp.span(f.node))
+        for f in owner.fields
+        if f.name in roles.own and (type_ := declared_type(code, f.type)) is not None
+    ]
 
 
 def _own_name(member: CppField) -> str:

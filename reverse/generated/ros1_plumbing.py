@@ -137,6 +137,8 @@ def _odd_in_constructor(
     waiting, done = set(roles.globals), set[str]()
     for statement in working(function.body):
         once = {c.name for c in calls_in(statement) if c.name in _ONCE and c.on == "mailbox_"}
+        if statement.id in roles.reading:
+            continue
         if once & done or _changes_more(statement):
             yield statement
             continue

@@ -17,8 +17,10 @@ from rebsync.names import original, uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import OWN_TOPICS
 from rebsync.reverse.bodies.scope import Sends
+from rebsync.reverse.generated.own_parameters import OwnParameter
 from rebsync.reverse.generated.parameters import READS, read_by
 from rebsync.reverse.generated.ros1_idle import working
+from rebsync.reverse.generated.ros1_parameters import own_parameters
 from rebsync.reverse.generated.ros2_words import (
     constant_of_model,
     declared_array,
@@ -87,8 +89,9 @@ class Roles:
     parameter server and the default, `annotations` those that the set-up of a server shows; of
     overloads that take equally many arguments the first one's first. `topics` are those of shims
     by their names, `offers` as what those of shims are offered, `wired` the calls
-    that make them and publishers of the rebec; `passing` are callbacks of timers that only post a
-    message; `odd_sends` what functions that send do besides.
+    that make them and publishers of the rebec; `own` are parameters of the node that state
+    variables get, `reading` the statements that do that; `passing` are callbacks of timers that
+    only post a message; `odd_sends` what functions that send do besides.
     """
 
     handlers: dict[str, str] = field(default_factory=dict)
@@ -107,6 +110,8 @@ class Roles:
     offers: dict[str, m.Annotation] = field(default_factory=dict)
     taken: list[Taken] = field(default_factory=list)
     wired: set[int] = field(default_factory=set)
+    own: dict[str, OwnParameter] = field(default_factory=dict)
+    reading: set[int] = field(default_factory=set)
     passing: set[str] = field(default_factory=set)
     queue_length: int | None = None
 
@@ -124,6 +129,7 @@ def roles_of(code: Code, owner: CppClass) -> Roles:
     for function in functions:
         if function.name == owner.name:
             _wired(roles, function, {f.name: text_of(f.type) for f in owner.fields})
+    roles.own, roles.reading = own_parameters(code, owner)
     for constructor in (*owner.functions, *functions):
         if constructor.name == owner.name:
             roles.queue_length = _queue_length(constructor) or roles.queue_length

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 
 from tree_sitter import Node
 
@@ -12,12 +12,18 @@ from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
 _ZEROS = frozenset({"0", "0.0", "0.0f", "false", "{}", ""})
 
 
-def initial_values(code: Code, owner: CppClass) -> Iterator[tuple[CppField, Cpp, Node]]:
+def initial_values(
+    code: Code, owner: CppClass, without: Container[str] = ()
+) -> Iterator[tuple[CppField, Cpp, Node]]:
     """Members with a value other than zero: where they are declared, or given by a constructor."""
     given = dict(_listed(code, owner))
     for member in owner.fields:
         cpp, value = given.get(member.name, (member.cpp, member.value))
-        if value is not None and (inner := _inner(value)) is not None:
+        if (
+            member.name not in without
+            and value is not None
+            and (inner := _inner(value)) is not None
+        ):
             yield member, cpp, inner
 
 

@@ -16,6 +16,7 @@ from rebsync.reserved import NO_PYTHON_CLASSES, OFFERS
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.own_parameters import Stored, with_own
 from rebsync.reverse.python.model_bodies import Bodies
 from rebsync.reverse.python.model_overloads import families
 from rebsync.reverse.python.model_plumbing import Plumbing, odd_at_top
@@ -73,6 +74,9 @@ class Classes:
             for o in self._owners
             if id(o) in reached or _is_marked(o) or (reached and self._is_only_declared(o))
         ]
+        for owner in self._owners:
+            if not self._is_alone(owner):
+                self.roles[id(owner)].own.clear()
         own = {o.name for o in self._owners}
         self._types = frozenset({*self.messages, *_messages_of(self._owners), *own})
 
@@ -123,6 +127,23 @@ class Classes:
         """The parameters that the constructors of classes read for their arguments, in order."""
         return {class_name(o.name): list(self._of(o).arguments.values()) for o in self._owners}
 
+    def own(self) -> dict[str, list[Stored]]:
+        """By class the state variables that parameters of the node are stored in."""
+        return {class_name(o.name): found for o in self._owners if (found := self._own(o))}
+
+    def _own(self, owner: Scope) -> list[Stored]:
+        roles = self._of(owner)
+        kept = ((roles.state[name], own) for name, (own, _) in roles.own.items())
+        return [Stored(n, type_, own, owner.py.span(node)) for (n, type_, node), own in kept]
+
+    def _is_alone(self, owner: Scope) -> bool:
+        """Whether no class of the model is above or below one: constructors go apart there."""
+        lines = (
+            [c for c in self.line(o) if not is_runtime_file(c.py.source)] for o in self._owners
+        )
+        joined = (line for line in lines if owner in line)
+        return all(c is owner or not self._has_mailbox(c) for line in joined for c in line)
+
     def env(self) -> Iterator[EnvUse]:
         """The constants that classes read."""
         return (e for o in self._owners for e in self._of(o).env.values())
@@ -168,7 +189,8 @@ class Classes:
         state = [self._variable(owner, *v) for v in roles.state.values()]
         members += [m.KnownRebecs(tuple(known))] if known else []
         members += [m.StateVars(tuple(state))] if state else []
-        members += self._constructors(owner)
+        constructors = tuple(self._constructors(owner))
+        members += with_own(constructors, self._own(owner), class_name(owner.name))
         rest = [f for f in self._functions(owner) if self._is_of_model(owner, f)]
         served = {f.name: self._served(owner, f) for f in rest}
         members += [self._server(owner, f, s) for f in rest if (s := served[f.name]) is not None]

@@ -15,15 +15,19 @@ from rebsync.records import dataclass
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python.model_constants import is_quiet
 from rebsync.reverse.python.model_helpers import is_transparent
+from rebsync.reverse.python.model_parameters import declared_by
 from rebsync.reverse.python.model_roles import OFFERING, Roles
 from rebsync.reverse.python.model_silent import Silent
 from rebsync.reverse.python.model_types import (
     call_parts,
     called_late,
     handed_over,
+    is_unset,
+    literal_type,
     passed_on,
     type_made,
     type_of,
+    without_parentheses,
 )
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import PyCode, Scope
@@ -139,6 +143,8 @@ class Plumbing:
             return roles.known[member][2] == inner
         if member in roles.env:
             return roles.env[member].statement == inner
+        if member in roles.own and roles.own[member][1] == inner:
+            return True
         if member in roles.state:
             return _is_of_type(inner)
         if member in roles.arguments:
@@ -159,7 +165,8 @@ class Plumbing:
             _, values = call_parts(given) or ("", [])
             names = [*(p.name for p in function.parameters[1:]), *self.roles.arguments]
             return [text_of(v) for v in values] == names[-len(values) :] if values else True
-        return called in _CALLED
+        declared = declared_by(call)
+        return called in _CALLED or (declared is not None and declared[1].own() is not None)
 
     def _is_connected(self, member: str, arguments: list[Node]) -> bool:
         """Whether topics are called after the servers they lead to."""
@@ -242,9 +249,11 @@ def odd_at_top(module: Scope) -> Iterator[Node]:
 
 
 def _is_of_type(statement: Node) -> bool:
-    """Whether a state variable is made as long as its type says."""
-    said = type_of(statement.child_by_field_name("type"))
-    made = type_made(field(statement, "right"))
+    """Whether a state variable is made as its type says, with a value that the model has."""
+    value = without_parentheses(field(statement, "right"))
+    if not is_unset(value) and literal_type(value) is None:
+        return False
+    said, made = type_of(statement.child_by_field_name("type")), type_made(value)
     return said is None or made is None or said.dimensions == made.dimensions
 
 

@@ -7,6 +7,7 @@ that publishes or posts is a send. Markers only tell names that the code had to 
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Collection, Iterator
 from dataclasses import field as with_default
 
@@ -17,6 +18,8 @@ from rebsync.names import carry, original, uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import OWN_TOPICS, PYTHON_FUNCTIONS, PYTHON_MEMBERS
 from rebsync.reverse.bodies.overloads import Signature
+from rebsync.reverse.generated.own_parameters import OwnParameter, only_once
+from rebsync.reverse.python.model_parameters import ParameterRead, declared_by, parameter_read
 from rebsync.reverse.python.model_types import (
     call_parts,
     handed_over,
@@ -42,15 +45,6 @@ OFFERING = {
 }
 _PLUMBING = {"__init__", "_wire", "_publish_state", "mailbox"}
 _SENSOR = "_sensor"
-# What reads a parameter: the words of rospy, and of the run-time part. Their names say whose it is.
-_READS = frozenset({"rospy.get_param", "declared", "read_array", "declare_array"})
-_OF_ROS_2 = frozenset({"declared", "declare_array"})
-_CONVERTS = frozenset(
-    {
-        *("Rebec", "bool", "boolean", "float", "float32", "float64"),
-        *("int", "int8", "int16", "int32"),
-    }
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,15 +61,6 @@ class Sends:
     parameters: tuple[str, ...] = ()
     types: Signature = ()
     rivals: frozenset[Signature] = frozenset()
-
-
-@dataclass(frozen=True, slots=True)
-class ParameterRead:
-    """A parameter that code reads: a node's own one, or else a constant of the model."""
-
-    key: str
-    default: Node | None
-    is_own: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,6 +93,9 @@ class Roles:
     by_shim: dict[str, str] = with_default(default_factory=dict)
     shims: set[str] = with_default(default_factory=set)
     arguments: dict[str, str] = with_default(default_factory=dict)
+    own: dict[str, tuple[OwnParameter, Node]] = with_default(default_factory=dict)
+    declared: dict[str, ParameterRead] = with_default(default_factory=dict)
+    stored: Counter[str] = with_default(default_factory=Counter)
     topics: dict[str, str] = with_default(default_factory=dict)
     offers: dict[str, m.Annotation] = with_default(default_factory=dict)
     sensors: set[str] = with_default(default_factory=set)
@@ -145,6 +133,9 @@ def roles_of(code: PyCode, owner: Scope) -> Roles:
     for name in ("__init__", "_wire"):
         if name in roles.functions:
             _wired(roles, roles.functions[name])
+    own = only_once((name, own) for name, (own, _) in roles.own.items())
+    once = {name for name in own if roles.stored[name] == 1}
+    roles.own = {name: told for name, told in roles.own.items() if name in once}
     servers = servers_of(owner.module)
     for function in roles.functions.values():
         if function.name not in _PLUMBING:
@@ -185,6 +176,8 @@ def _wired(roles: Roles, function: Scope) -> None:
         inner = named(statement)[0] if statement.type == "expression_statement" else None
         if inner is not None and inner.type == "call":
             _called(roles, inner)
+            if (told := declared_by(inner)) is not None:
+                roles.declared[told[0]] = told[1]
         elif inner is not None and inner.type == "assignment":
             left = text_of(field(inner, "left"))
             value = inner.child_by_field_name("right")
@@ -194,7 +187,7 @@ def _wired(roles: Roles, function: Scope) -> None:
             if left.startswith("self."):
                 _member(roles, function, left.removeprefix("self."), inner, value)
             elif left.isidentifier():
-                read = parameter_read(value)
+                read = parameter_read(value, roles.declared)
                 if read is not None and read.is_own:
                     roles.arguments[left] = read.key
     for parameter in function.parameters:
@@ -214,6 +207,8 @@ def _member(roles: Roles, function: Scope, name: str, statement: Node, value: No
     called, arguments = call_parts(value) or ("", [])
     said = statement.child_by_field_name("type")
     type_ = type_of(said) if said is not None else type_made(value) or literal_type(value)
+    if type_ is None and said is None and (read := parameter_read(value, roles.declared)):
+        type_ = read.type
     if called == "Mailbox":
         roles.has_mailbox = True
         lengths = [int(text_of(a)) for a in arguments if text_of(a).isdecimal()]
@@ -256,7 +251,8 @@ def _variable(
 ) -> None:
     markers = markers_beside(function.py, statement)
     name = variable_name(attribute, markers)
-    read = parameter_read(value)
+    read = parameter_read(value, roles.declared)
+    roles.stored[attribute] += not is_unset(value)
     if is_unset(value) or literal_type(value) is not None:
         roles.state[attribute] = name, type_, statement
         if not is_unset(value):
@@ -266,21 +262,9 @@ def _variable(
         roles.known[attribute] = known, type_, statement
     elif read is not None and not read.is_own:
         roles.env[attribute] = EnvUse(read.key, name, type_, read.default, statement)
-
-
-def parameter_read(value: Node) -> ParameterRead | None:
-    """The parameter that a value is, converted or not; None if it is more than that."""
-    called, arguments = call_parts(value) or ("", [])
-    if called.partition("[")[0] in _CONVERTS and len(arguments) == 1:
-        return parameter_read(arguments[0])
-    strings = [(i, s) for i, a in enumerate(arguments) if (s := string_value(a)) is not None]
-    if not strings or called not in _READS:
-        return None
-    index, said = strings[0]
-    default = arguments[index + 1] if index + 1 < len(arguments) else None
-    key = said.removeprefix("env.").replace(".", "/") if called in _OF_ROS_2 else said
-    is_own = not said.startswith("env.") if called in _OF_ROS_2 else said.startswith("~")
-    return ParameterRead(key.removeprefix("~"), default, is_own)
+    elif read is not None and (own := read.own()) is not None and own.fits(type_):
+        roles.own[attribute] = own, statement
+        roles.state.setdefault(attribute, (name, type_, statement))
 
 
 def variable_name(attribute: str, markers: Collection[str]) -> str:

@@ -6,8 +6,6 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import field as with_default
 from functools import partial
 
-from tree_sitter import Node
-
 from rebsync import model as m
 from rebsync.names import carry
 from rebsync.package import Value
@@ -17,6 +15,7 @@ from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.files.python_files import SETUP
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.own_parameters import Stored
 from rebsync.reverse.graph import (
     Callback,
     Callbacks,
@@ -32,12 +31,12 @@ from rebsync.reverse.nodes.node_system import unit_of_time
 from rebsync.reverse.python.body_started import Started, is_module, scripts_of
 from rebsync.reverse.python.body_system import PyNodes, PySystem
 from rebsync.reverse.python.model_classes import Classes, is_runtime_file
-from rebsync.reverse.python.model_roles import parameter_read
-from rebsync.reverse.python.model_types import call_parts, class_name
+from rebsync.reverse.python.model_parameters import constant, parameter_read
+from rebsync.reverse.python.model_types import class_name
 from rebsync.reverse.python.py_calls import graph_with, owner_of
 from rebsync.reverse.python.py_hooks import hooks_in
 from rebsync.reverse.python.py_index import PyCode
-from rebsync.reverse.python.py_tree import field, named, number_of, parse, text_of, unparsed
+from rebsync.reverse.python.py_tree import field, named, parse, text_of, unparsed
 from rebsync.reverse.python.py_values import Values
 from rebsync.source import Source
 
@@ -58,7 +57,7 @@ class PythonPart:
     """What files of Python say: classes of the model, and all that they ask of ROS.
 
     `scripts` are the modules of the programs that the package installs, by their names, `arguments`
-    the parameters that constructors read themselves.
+    the parameters that constructors read themselves, and `own` those of them that they store.
     """
 
     graph: Graph
@@ -68,6 +67,7 @@ class PythonPart:
     nodes: PyNodes = PyNodes()
     scripts: Mapping[str, str] = with_default(default_factory=dict)
     arguments: Mapping[str, Sequence[str]] = with_default(default_factory=dict)
+    own: Mapping[str, Sequence[Stored]] = with_default(default_factory=dict)
 
     def starts(self, launch: Launch) -> bool:
         """Whether a launch file starts any class of these files."""
@@ -154,8 +154,8 @@ def read_python(
     _list_callbacks(graph, own, findings, path, nodes)
     _list_hooks(values, own, findings, path)
     used = tuple((e.key, (e.type, e.name, constant(e.default))) for e in classes.env())
-    arguments = classes.arguments()
-    return PythonPart(graph, read, used, python.code, nodes, scripts, arguments)
+    arguments, stored = classes.arguments(), classes.own()
+    return PythonPart(graph, read, used, python.code, nodes, scripts, arguments, stored)
 
 
 def _types_in(known: MessageTypes) -> dict[str, dict[str, m.Type]]:
@@ -168,26 +168,6 @@ def _types_in(known: MessageTypes) -> dict[str, dict[str, m.Type]]:
         }
         for type_, fields in known.own.items()
     }
-
-
-def constant(node: Node | None) -> Value | None:
-    """A constant of Python: a number, a truth value, or an array of these."""
-    match node.type if node is not None else None:
-        case "true" | "false":
-            return node is not None and node.type == "true"
-        case "integer" | "float":
-            return number_of(node) if node is not None else None
-        case "unary_operator" if node is not None:
-            inner = constant(field(node, "argument"))
-            return -inner if isinstance(inner, (int, float)) else None
-        case "call":
-            called, arguments = call_parts(node) or ("", [])
-            if called == "Array" and len(arguments) == 1:
-                values = [constant(v) for v in named(arguments[0])]
-                return None if None in values else tuple(v for v in values if v is not None)
-            return constant(arguments[0]) if len(arguments) == 1 else None
-        case _:
-            return None
 
 
 # --- what is not read ---------------------------------------------------------------------------
