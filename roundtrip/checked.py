@@ -169,12 +169,13 @@ def _as_sync_says(checked: Checked, record: Record) -> Checked:
 
     It would go on to generate the file anew, or wait until it parses.
     """
-    from rebsync.roundtrip.difference import Comparison, Removed
+    from rebsync.roundtrip.difference import Changed, Comparison, Removed
     from rebsync.roundtrip.verdict import undetermined
 
     drift = checked.drift
     apart = tuple(d for d, _ in drift.differences) if drift is not None else ()
-    if drift is None or not any(isinstance(d, Removed) for d in apart):
+    of_system = (d.element.kind in ("rebec", "env") and isinstance(d, Changed) for d in apart)
+    if drift is None or not (any(isinstance(d, Removed) for d in apart) or any(of_system)):
         return checked
     from rebsync.roundtrip.gone import Gone
     from rebsync.roundtrip.models import code_given

@@ -1,4 +1,4 @@
-"""Classes and rebecs that the code lacks only because a file is gone or cannot be read."""
+"""What the code lacks only because a file is gone, or not all of it can be read."""
 
 from __future__ import annotations
 
@@ -11,8 +11,16 @@ from rebsync import model as m
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.files import read_source
 from rebsync.records import dataclass
+from rebsync.reverse.files.packages import MANIFEST
 from rebsync.reverse.syntax.unparsed import NO_CPP, NO_PYTHON
-from rebsync.roundtrip.difference import Comparison, Difference, Place, Removed
+from rebsync.roundtrip.difference import (
+    Aspect,
+    Changed,
+    Comparison,
+    Difference,
+    Place,
+    Removed,
+)
 from rebsync.roundtrip.merge_check import finding
 from rebsync.roundtrip.recorded import Record
 from rebsync.roundtrip.verdict import Mover
@@ -25,6 +33,7 @@ _LAUNCH = (".launch", ".launch.py")
 _LAUNCHING = re.compile(r".*\.launch(?:\.py)?\Z")
 _PROGRAM = re.compile(r"(?:.*/)?\w+_node(?:\.cpp|\.py)?\Z")
 _HINT = "put back what is missing, or take out by hand all that belongs to it"
+_SAID = frozenset({Aspect.ARGUMENT, Aspect.BINDING, Aspect.INITIAL})
 _REMARK = re.compile(r'"""[\s\S]*?"""|/\*[\s\S]*?\*/|(?:#|//)[^\n]*')
 
 
@@ -38,12 +47,13 @@ class Gone:
     def without_cause(self, apart: Comparison, code: m.Model) -> Iterator[Findings]:
         """Why classes and rebecs that the code lacks are not to be taken out of the model.
 
-        A launch file is gone or starts nothing, a file cannot be read at all, or a generated
-        program still runs the class.
+        A launch file is gone, starts nothing or is not read as a whole, a file cannot be read at
+        all, or a generated program still runs the class.
         """
         removed = [d.element for d in apart.differences if self._is_by_code(d)]
         rebecs = [e for e in removed if e.kind == "rebec"]
         classes = [e.path for e in removed if e.kind in ("reactiveclass", "interface")]
+        yield from self._unread_system(apart)
         if rebecs or classes:
             yield from filter(is_of_file, self.checked.findings)
         if rebecs:
@@ -54,6 +64,37 @@ class Gone:
         for name in classes:
             message = f"this runs {name}, and no class of that name is read"
             yield from self._at(self._running(name), message)
+
+    def _unread_system(self, apart: Comparison) -> Iterator[Findings]:
+        """What of the launch file is not known, where rebecs or constants seem to be gone.
+
+        They may be there: a loop starts nodes, a file of another package sets parameters.
+        """
+        if not any(self._is_of_system(d) for d in apart.differences):
+            return
+        from rebsync.reverse.files.reading import read
+        from rebsync.reverse.nodes.node_launch import system_of
+        from rebsync.roundtrip.units import as_one
+        from rebsync.roundtrip.wiring_facts import package_name
+
+        listing = as_one(self.checked.standing.listing)
+        package = package_name(listing.files.get(MANIFEST, ""))
+        system = system_of(read(listing).files, package)
+        for unknown in system.launch.unknowns if system is not None else ():
+            message = (
+                f"{unknown.what} is not known ({unknown.why}), so nothing that the launch file"
+            )
+            message += " may say is taken out of the model"
+            hint = "write it in a way that can be read, or change the model by hand as well"
+            yield finding(Place(unknown.source, unknown.span), "RS959", message, hint)
+
+    def _is_of_system(self, difference: Difference) -> bool:
+        """Whether it is the code that lacks something that a launch or parameter file says."""
+        if difference.element.kind not in ("rebec", "env"):
+            return False
+        if isinstance(difference, Changed) and difference.aspect in _SAID:
+            return self._mover(difference) is not Mover.MODEL
+        return self._is_by_code(difference)
 
     def unparsed(self) -> Iterator[Findings]:
         """Files that do not parse, where the code seems to lack what may be in these."""
@@ -74,11 +115,14 @@ class Gone:
             hint = "`rebsync generate` writes it anew"
             yield finding(place, "RS969", "this generated file is not there", hint)
 
-    def _is_by_code(self, difference: object) -> bool:
+    def _is_by_code(self, difference: Difference) -> bool:
         """Whether it is the code that lacks an element, and not the model that has one more."""
+        return isinstance(difference, Removed) and self._mover(difference) is not Mover.MODEL
+
+    def _mover(self, difference: Difference) -> Mover | None:
         drift = self.checked.drift
         movers = dict(drift.differences) if drift is not None else {}
-        return isinstance(difference, Removed) and movers.get(difference) is not Mover.MODEL
+        return movers.get(difference)
 
     def _at(self, paths: Iterable[str], message: str) -> Iterator[Findings]:
         for path in paths:
