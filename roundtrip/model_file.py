@@ -36,6 +36,12 @@ def model_of(kept: Kept, record: Record) -> str:
     raise _lost(kept, record, found)
 
 
+def properties_beside(model: str) -> str | None:
+    """The property file of a model: the one of its name; None where there is none."""
+    path = Path(model).with_suffix(".property")
+    return str(path) if os.path.lexists(path) else None
+
+
 def placed_model(kept: Kept, record: Record) -> str | None:
     """The model in the place that is recorded, or near the package; None where none is there.
 

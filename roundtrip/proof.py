@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import field, replace
-from pathlib import Path
 
 from rebsync.checker.problem import Options, Problem
 from rebsync.checker.result import Result, Verdict
@@ -15,11 +13,10 @@ from rebsync.printing import print_model
 from rebsync.records import dataclass
 from rebsync.roundtrip.correspondence import Both, correspondence
 from rebsync.roundtrip.extraction_cache import keep, kept, key_of
+from rebsync.roundtrip.model_file import properties_beside
 from rebsync.roundtrip.models import Code
 from rebsync.roundtrip.sides import Given
 from rebsync.source import Source
-
-PROPERTY = ".property"
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +51,7 @@ def prove(code: Code, today: Given, property_path: str | None, options: Options)
     """
     text = print_model(code.given.model)
     source = Source(f"{code.given.source.path} as a model", text)
-    path = property_path or _beside(today.source.path)
+    path = property_path or properties_beside(today.source.path)
     properties = read_source(path) if path is not None else None
     problem = _problem(source, properties, today.source.path)
     if not isinstance(problem, Problem):
@@ -68,11 +65,6 @@ def prove(code: Code, today: Given, property_path: str | None, options: Options)
     reason, model = result.reason or "", today.source.path
     subject = properties.text if properties is not None else ""
     return _judged(Proof(result.verdict, reason, model, source, result, places, subject), code)
-
-
-def _beside(model: str) -> str | None:
-    path = Path(model).with_suffix(PROPERTY)
-    return str(path) if os.path.lexists(path) else None
 
 
 def _problem(source: Source, properties: Source | None, model: str) -> Problem | Proof:

@@ -13,7 +13,7 @@ from pathlib import Path
 from rebsync import model as m
 from rebsync.config import Config, config_of_record, settings_beside
 from rebsync.diagnostics import Findings, RebsyncError
-from rebsync.files import source_below
+from rebsync.files import read_source, source_below
 from rebsync.records import dataclass
 from rebsync.roundtrip.checked import Checked
 from rebsync.roundtrip.difference import (
@@ -30,7 +30,7 @@ from rebsync.roundtrip.merge_check import finding, read_with, wrongly_merged
 from rebsync.roundtrip.merge_code import Stages, ancestors, merged_code
 from rebsync.roundtrip.merge_files import moved_files
 from rebsync.roundtrip.merge_models import Compared, Favour, as_code_says, merged_model
-from rebsync.roundtrip.model_file import is_recorded
+from rebsync.roundtrip.model_file import is_recorded, properties_beside
 from rebsync.roundtrip.models import code_given, model_given, parsed
 from rebsync.roundtrip.recorded import (
     Record,
@@ -52,9 +52,10 @@ _SETTLED = ("RS955", "RS964", "RS965")  # what is put right by writing the recor
 class Sync:
     """What is to be written so that a package and its model are in step.
 
-    `model_text` and `texts` are those that change (None: the file goes), `records` all of
-    `.rebsync/`. `conflicts` are left to decide, by path from the package or `""` for the model;
-    then both sides are in the texts, between markers. With `refused` nothing is to be written.
+    `model_text`, that of the `properties` beside it and `texts` are those that change (None: the
+    file goes), `records` all of `.rebsync/`. `conflicts` are left to decide, by path from the
+    package or `""` for the model; then both sides are in the texts, between markers. With `refused`
+    nothing is to be written.
     `findings` are places of the code that are not known exactly.
     """
 
@@ -66,11 +67,20 @@ class Sync:
     findings: tuple[Findings, ...] = ()
     refused: tuple[Findings, ...] = ()
     is_undetermined: bool = False
+    properties: str | None = None
 
     @property
     def changes(self) -> bool:
         """Whether a model or code is to change."""
-        return self.model_text is not None or bool(self.texts)
+        return bool(self.beside) or bool(self.texts)
+
+    @property
+    def beside(self) -> dict[str, str]:
+        """The texts that change outside of the package, by their paths."""
+        told = {self.checked.model: self.model_text}
+        if (path := properties_beside(self.checked.model)) is not None:
+            told[path] = self.properties
+        return {path: text for path, text in told.items() if text is not None}
 
 
 def synced(checked: Checked, favour: Favour) -> Sync:
@@ -121,7 +131,8 @@ class _Syncing:
             return self._left_open(base, today, merged.text, told)
         source = Source(today.source.path, merged.text)
         model = Given(_parsed(source), source)
-        return self._with_code(today, model, base, told, code.given)
+        result = self._with_code(today, model, base, told, code.given)
+        return replace(result, properties=_properties(base, today, model))
 
     # --- what is known --------------------------------------------------------------------------
 
@@ -291,6 +302,18 @@ class _Syncing:
 
 
 # --- parts --------------------------------------------------------------------------------------
+
+
+def _properties(base: Given | None, today: Given, merged: Given) -> str | None:
+    """The new text of the property file beside a model; None where it stays as it is."""
+    path = properties_beside(today.source.path)
+    if path is None:
+        return None
+    from rebsync.roundtrip.merge_properties import renamed_properties
+
+    source = read_source(path)
+    text = renamed_properties(source, base, today, merged)
+    return text if text != source.text else None
 
 
 def _parsed(source: Source) -> m.Model:

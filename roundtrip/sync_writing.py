@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Collection
+from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 
@@ -34,10 +34,8 @@ def write(sync: Sync, before: Stamps) -> tuple[str, ...]:
     ordered = sorted(sync.records.items(), key=lambda r: (r[0] == MANIFEST, r[0] == BASE_MODEL))
     texts |= {path: text for path, text in ordered if text is not None}
     gone = [p for each in (sync.texts, sync.records) for p, t in each.items() if t is None]
-    beside: dict[str, str] = {}
-    if sync.model_text is not None:
-        model = _model_to_write(sync)
-        beside[model] = marked(*os.path.split(model), sync.model_text)
+    shown = {_to_write(sync, path): path for path in sync.beside}
+    beside = {p: marked(*os.path.split(p), sync.beside[shown[p]]) for p in shown}
 
     def refuse_changed() -> None:
         before.refuse_changed([*beside, *(f"{root}/{path}" for path in (*texts, *gone))])
@@ -47,33 +45,30 @@ def write(sync: Sync, before: Stamps) -> tuple[str, ...]:
             root, texts, remove=gone, ready=refuse_changed, beside=beside, real=root
         )
     except RebsyncError as error:
-        raise RebsyncError([_as_shown(f, root, sync, beside) for f in error.findings]) from None
+        raise RebsyncError([_as_shown(f, root, sync, shown) for f in error.findings]) from None
     if (manifest := sync.records.get(MANIFEST)) is not None:
         attest(manifest)
         remember(root, manifest, sync.checked.model)
     _tell_git(sync)
     own = (path for path in written if not path.startswith(f"{FOLDER}/"))
-    return tuple(
-        sync.checked.model if p in beside else f"{sync.checked.kept.root}/{p}" for p in own
-    )
+    return tuple(shown.get(p, f"{sync.checked.kept.root}/{p}") for p in own)
 
 
-def _as_shown(found: Findings, root: str, sync: Sync, beside: Collection[str]) -> Findings:
+def _as_shown(found: Findings, root: str, sync: Sync, shown: Mapping[str, str]) -> Findings:
     """A finding with the path of its file as the user knows it."""
-    path = sync.checked.model
-    if found.source.path not in beside:
+    path = shown.get(found.source.path)
+    if path is None:
         path = f"{sync.checked.kept.root}/{relative(os.path.normpath(found.source.path), root)}"
     return Findings(Source(path, found.source.text), found.diagnostics)
 
 
-def _model_to_write(sync: Sync) -> str:
-    """The real path of the model. RebsyncError: it is a link that leads out of the tree."""
-    model = sync.checked.model
-    with operating_on(model):
-        real = real_path(model)
-    if Path(model).is_symlink() and not sync.checked.kept.holds(real):
+def _to_write(sync: Sync, path: str) -> str:
+    """The real path of what lies beside the package. RebsyncError: it is a link out of the tree."""
+    with operating_on(path):
+        real = real_path(path)
+    if Path(path).is_symlink() and not sync.checked.kept.holds(real):
         message = "this is a link that leads out of the tree, and it would have to change"
-        raise RebsyncError.of(model, "RS813", message, "put the file itself here")
+        raise RebsyncError.of(path, "RS813", message, "put the file itself here")
     return real
 
 

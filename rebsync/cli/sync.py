@@ -57,7 +57,7 @@ def _one(kept: Kept, conflict: str, dry_run: bool) -> Status:
             return _shown(_worked_out(kept, conflict))
         models = _models_of(kept)
         with alone_in(kept.root, *models):
-            before = stamps(kept.root, *models)
+            before = stamps(kept.root, *models, *_beside(models))
             return _done(_worked_out(kept, conflict), before)
     except RebsyncError as error:
         print_report(error.findings, sys.stderr)
@@ -82,6 +82,13 @@ def _models_of(kept: Kept) -> tuple[str, ...]:
         return (kept.model or model_of(kept, read_merged_record(kept.root)),)
     except RebsyncError:
         return ()  # what is wrong is told when it is worked out
+
+
+def _beside(models: tuple[str, ...]) -> Iterator[str]:
+    """The property files of models."""
+    from rebsync.roundtrip.model_file import properties_beside
+
+    return filter(None, map(properties_beside, models))
 
 
 def _worked_out(kept: Kept, conflict: str) -> Sync:
@@ -127,9 +134,7 @@ def _shown(sync: Sync) -> Status:
 
 
 def _patch(sync: Sync) -> Iterator[str]:
-    changes: dict[str, str | None] = {}
-    if sync.model_text is not None:
-        changes[sync.checked.model] = sync.model_text
+    changes: dict[str, str | None] = {**sync.beside}
     changes |= {f"{sync.checked.kept.root}/{p}": t for p, t in sync.texts.items()}
     for path, text in changes.items():
         exists = Path(path).is_file()
