@@ -74,7 +74,7 @@ class _Patch:
     def _callable(self, x: _Callable, r: _Callable) -> None:
         made = self.two.written(r)
         made = replace(made, name=x.name if isinstance(x, m.Constructor) else r.name)
-        whole = print_member(made)
+        whole = self.two.out.printed(print_member(made))
         if x.body is None or r.body is None:
             if (x.body is None) != (r.body is None) or not self._is_head_same(x, r):
                 self.two.out.replace(x.span, whole)

@@ -13,7 +13,6 @@ from rebsync.roundtrip.sides import Item
 
 _CLASSES = ("reactiveclass", "interface")
 _BODIES = ("msgsrv", "method", "constructor")
-_INDENT = "  "
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,16 +43,17 @@ class Additions:
         printed, written = self.two.bodies.printed, self.two.written
         match item.node:
             case m.ReactiveClass() | m.Interface() as node:
-                return print_class(self._renamed(written(node))).removesuffix("\n")
+                text = print_class(self._renamed(written(node)))
             case m.Rebec() as node:
                 return print_line(printed.of(node))
             case m.Constructor() as node:
                 made = replace(written(node), name=printed.class_name(item.owner))
-                return print_member(made).removesuffix("\n")
+                text = print_member(made)
             case m.MessageServer() | m.Method() as node:
-                return print_member(written(node)).removesuffix("\n")
+                text = print_member(written(node))
             case _:
                 return self.two.line(item)
+        return self.two.out.printed(text.removesuffix("\n"))
 
     def _renamed(self, node: m.ReactiveClass | m.Interface) -> m.ReactiveClass | m.Interface:
         name = self.two.bodies.printed.class_name
@@ -73,12 +73,12 @@ class Additions:
             case "rebec":
                 assert model.main is not None
                 opening = self.two.out.text.index("{", model.main.span.start) + 1
-                return opening, self.two.out.indent_at(model.main.span.start) + _INDENT
+                return opening, self.two.out.indent_at(model.main.span.start) + self.two.out.step
             case _ if item.owner:
                 owner = self._owner(item)
                 start = owner.name_span.end
                 opening = self.two.out.text.index("{", start) + 1
-                return opening, self.two.out.indent_at(owner.span.start) + _INDENT
+                return opening, self.two.out.indent_at(owner.span.start) + self.two.out.step
             case _:
                 return 0, ""
 
@@ -129,10 +129,10 @@ class Additions:
         owner = self._owner(item)
         members = owner.members if isinstance(owner, m.ReactiveClass) else ()
         section = next((x for x in members if isinstance(x, SECTIONS[item.kind])), None)
-        indent = self.two.out.indent_at(owner.span.start) + _INDENT
+        indent = self.two.out.indent_at(owner.span.start) + self.two.out.step
         if section is not None:
             at = self.two.out.text.index("{", section.span.start) + 1
-            inserts.setdefault((at, indent + _INDENT), []).append(self.two.line(item))
+            inserts.setdefault((at, indent + self.two.out.step), []).append(self.two.line(item))
             return
         at = self.two.out.text.index("{", owner.name_span.end) + 1
         key = (at, indent)
@@ -140,7 +140,7 @@ class Additions:
         texts = inserts.setdefault(key, [])
         head = f"{word} {{\n"
         known = next((i for i, t in enumerate(texts) if t.startswith(head)), None)
-        line = f"{_INDENT}{self.two.line(item)}\n}}"
+        line = f"{self.two.out.step}{self.two.line(item)}\n}}"
         if known is None:
             texts.append(f"{head}{line}")
         else:

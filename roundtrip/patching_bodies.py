@@ -203,7 +203,8 @@ class BodyPatch:
 
     def _text(self, r: m.Statement) -> str:
         made = self.printed.of(r)
-        return print_statement(with_starts(made) if self.printed.side.in_python else made)
+        made = with_starts(made) if self.printed.side.in_python else made
+        return self.out.printed(print_statement(made))
 
     # --- expressions ----------------------------------------------------------------------------
 

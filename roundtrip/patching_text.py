@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from dataclasses import field
+from functools import cached_property
 
 from rebsync.diagnostics import Edit
 from rebsync.records import dataclass
 from rebsync.source import Span
 
-_STEP = "  "
+_STEP = "  "  # of what rebsync prints, and of a text in which nothing is indented
 
 
-@dataclass(slots=True, eq=False)
+_INDENTED = re.compile(r"^(?:  )+", re.MULTILINE)
+
+
+@dataclass(eq=False)
 class TextPatch:
     """Changes that are collected for a text, in characters of the text as it was."""
 
@@ -22,6 +28,22 @@ class TextPatch:
     def newline(self) -> str:
         """How the lines of the text end."""
         return "\r\n" if "\r\n" in self.text else "\n"
+
+    @cached_property
+    def step(self) -> str:
+        """By what the text indents: mostly a line against the one before it."""
+        steps: Counter[str] = Counter()
+        above = ""
+        for line in self.text.splitlines():
+            blanks = line[: len(line) - len(line.lstrip())]
+            if line.strip() and not line.lstrip().startswith(("//", "*", "/*")):
+                steps[blanks.removeprefix(above)] += blanks.startswith(above) and blanks != above
+                above = blanks
+        return next((step for step, count in steps.most_common(1) if count), _STEP)
+
+    def printed(self, text: str) -> str:
+        """What rebsync has printed, indented as the text is."""
+        return _INDENTED.sub(lambda m: self.step * (len(m[0]) // len(_STEP)), text)
 
     # --- collecting -----------------------------------------------------------------------------
 
@@ -64,10 +86,10 @@ class TextPatch:
         inner = self.text[opening + 1 : span.end - 1]
         indent = self.indent_at(span.start)
         if not inner.strip() and "\n" not in inner:
-            own = f"\n{indented(text, indent + _STEP)}\n{indent}"
+            own = f"\n{indented(text, indent + self.step)}\n{indent}"
             self._edit(opening + 1, span.end - 1, own)
         else:
-            self.after(opening + 1, text, indent + _STEP)
+            self.after(opening + 1, text, indent + self.step)
 
     def take_back(self, mark: int) -> None:
         """Forgets the changes that came after the first `mark` ones."""

@@ -52,7 +52,7 @@ class Two:
         matching = matched(left, right)
         first, second = names_of(matching)
         out = TextPatch(left.given.source.text)
-        printed = Tokens(replace(right, depth=Depth.IDENTICAL), second)
+        printed = Tokens(replace(right, depth=Depth.IDENTICAL), second, bare=True)
         bodies = BodyPatch(Tokens(left, first), Tokens(right, second), printed, out)
         return cls(left, right, matching, bodies, out, {id(r): x for x, r in matching.pairs})
 

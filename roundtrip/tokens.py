@@ -46,6 +46,7 @@ class Tokens:
 
     side: Side
     names: Names
+    bare: bool = False  # whether parentheses are left out that the order of operators makes plain
     locals: Mapping[int, str] = field(default_factory=dict)
     origin: dict[int, object] = field(default_factory=dict)
     kept: list[object] = field(default_factory=list)  # so that no `id` is used again
@@ -79,7 +80,7 @@ class Tokens:
 
     def _made(self, node: object) -> object:
         match node:
-            case m.Paren(inner) if self._folds:
+            case m.Paren(inner) if self._folds or self.bare:
                 return self._copy(self.of(inner))
             case m.Cast(type_, inner) if self._folds and self._is_of(inner, type_):
                 return self._copy(self.of(inner))

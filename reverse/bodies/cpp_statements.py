@@ -337,6 +337,8 @@ class CppStatements:
             yield from special
             return
         read = self.effect(expression)
+        if expression.type == "cast_expression" and not is_effect(read) and is_calm(read):
+            return  # `(void)x;`, which only people write
         if isinstance(read, m.Call) and read.name == MOVE:
             cells = zip(("X", "Y"), read.arguments, strict=False)
             move = m.Annotation("Move", tuple(cell(axis, offset) for axis, offset in cells))
