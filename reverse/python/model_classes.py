@@ -138,11 +138,9 @@ class Classes:
 
     def _is_alone(self, owner: Scope) -> bool:
         """Whether no class of the model is above or below one: constructors go apart there."""
-        lines = (
-            [c for c in self.line(o) if not is_runtime_file(c.py.source)] for o in self._owners
-        )
-        joined = (line for line in lines if owner in line)
-        return all(c is owner or not self._has_mailbox(c) for line in joined for c in line)
+        related = (c for o in self._owners if owner in (line := self.line(o)) for c in line)
+        own = (c for c in related if c is not owner and not is_runtime_file(c.py.source))
+        return not any(map(self._has_mailbox, own))
 
     def env(self) -> Iterator[EnvUse]:
         """The constants that classes read."""
