@@ -243,6 +243,8 @@ class _Excuses:
             return True
         if first.kind == "import" and key not in self.today:
             return not self._is_named(first)
+        if first.kind == "parameters" and key not in self.base:
+            return self._is_of_another_tool(first.name)
         if first.kind == "node" and first.name == "ns":
             return self._is_in_one_space
         if first.kind == "field":
@@ -306,6 +308,13 @@ class _Excuses:
             return self._is_of_a_topic(fact)
         is_own = not fact.owner or (TYPE, fact.owner, "") in self.base
         return is_own and is_about(self.now, self.today, fact)
+
+    def _is_of_another_tool(self, section: str) -> bool:
+        """Whether a section of parameters is for a node that is none of the package."""
+        nodes = {owner for kind, owner, _ in self.today if kind == TYPE}
+        is_known = bool(nodes) and all(re.fullmatch(r"\w+", n) and n != "None" for n in nodes)
+        name = section.rpartition("/")[2]
+        return is_known and re.fullmatch(r"\w+", name) is not None and name not in nodes
 
     def _is_named(self, fact: Fact) -> bool:
         """Whether the code of a class still has a name."""

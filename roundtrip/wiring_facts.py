@@ -220,7 +220,8 @@ def _launched(source: Source, text: str, package: str) -> Iterator[Fact]:
         end, tag, rest, closed = m.groups()
         given = {a[1]: a[2] if a[2] is not None else a[3] for a in _ATTRIBUTE.finditer(rest)}
         span = Span(*m.span())
-        if tag in ("param", "rosparam") and not end and not node:
+        is_absolute = given.get("name", "").startswith("/")  # whatever it is in
+        if tag in ("param", "rosparam") and not (end or node or is_absolute):
             yield Fact(SPACE, "", str(m.start()), "/".join(filter(None, spaces)), source, span)
         match tag:
             case "group" if end:
@@ -233,6 +234,8 @@ def _launched(source: Source, text: str, package: str) -> Iterator[Fact]:
                 if given.get("pkg") == package:
                     given["pkg"] = OWN
                 given["ns"] = "/".join(filter(None, (*spaces, given.get("ns"))))
+                if not _may_rename(given.get("args", "")):
+                    given.pop("args", None)
                 for key in ("pkg", "respawn", "ns", "args"):
                     yield Fact("node", name, key, given.get(key) or NOT_GIVEN, source, span)
                 yield Fact(TYPE, name, "", given.get("type", ""), source, span)
@@ -256,6 +259,11 @@ def _launched(source: Source, text: str, package: str) -> Iterator[Fact]:
                 yield Fact("setting", "", name, value, source, span)
             case _:
                 pass
+
+
+def _may_rename(arguments: str) -> bool:
+    """Whether arguments of a program are more than what generated programs do not look at."""
+    return any(sign in arguments for sign in (":=", "$(", "__"))
 
 
 def _declared(source: Source, package: str) -> Iterator[Fact]:

@@ -82,9 +82,29 @@ def of_launch(source: Source) -> Iterator[Told]:
         span = _span(source, call)
         for key in _KEYWORDS:
             value = ast.unparse(given[key]) if key in given else "not given"
+            if key == "arguments" and key in given and _only_logs(given[key]):
+                value = "not given"
             yield "node", node, key, value, source, span
         files = _files(given.get("parameters"), names)
         yield "node", node, "parameter file", " and ".join(files) or "none", source, span
+
+
+def _only_logs(value: ast.expr) -> bool:
+    """Whether a node is only told what to log: `["--ros-args", "--log-level", "debug"]`."""
+    if not isinstance(value, ast.List | ast.Tuple):
+        return False
+    items = list(value.elts)
+    if items and _is_text(items[0], "--ros-args"):
+        items = items[1:]
+    pairs = list(zip(items[::2], items[1::2], strict=False))
+    return len(items) % 2 == 0 and all(
+        _is_text(option, "--log-level") and not isinstance(level, ast.Starred)
+        for option, level in pairs
+    )
+
+
+def _is_text(node: ast.expr, text: str) -> bool:
+    return isinstance(node, ast.Constant) and node.value == text
 
 
 def _files(value: ast.expr | None, names: Mapping[str, ast.expr]) -> Iterable[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -38,6 +39,8 @@ if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_statements import CppStatements
 
 _DEEPEST = 8
+# What a lambda may hold: references, and the object; a copy may be older than the call.
+_CAPTURES = re.compile(r"(?:=, this)?|(?:&\w*|this)(?:\s*,\s*(?:&\w+|this))*")
 _GUARDED = frozenset({"conditional_expression", "while_statement", "for_statement", "do_statement"})
 
 
@@ -119,7 +122,7 @@ def _entered(
             return inside, called.body, called.parameters, called.result
         case Lambda(node, kept):
             captures = text_of(part(node, "captures")).strip("[] ")
-            if captures not in ("", "&", "this", "&, this", "=, this", "this, &"):
+            if _CAPTURES.fullmatch(captures) is None:
                 raise reader.unread(node, f"what [{captures}] keeps may change before the call")
             if kept is None:
                 return _of_member(reader, node)
