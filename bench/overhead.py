@@ -19,7 +19,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
@@ -106,15 +106,19 @@ def built(dialect: str, folder: Path, seconds: float) -> Players:
 def running(command: Sequence[str], environment: Mapping[str, str]) -> Iterator[None]:
     """A program, and all that it starts, while the block runs."""
     quiet = subprocess.DEVNULL
-    process = subprocess.Popen(list(command), env=dict(environment), stdout=quiet, stderr=quiet)
+    process = subprocess.Popen(
+        list(command), env=dict(environment), stdout=quiet, stderr=quiet, start_new_session=True
+    )
     try:
         yield
     finally:
         process.send_signal(signal.SIGINT)
         try:
-            process.wait(30)
-        except subprocess.TimeoutExpired:
-            process.kill()
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(30)
+        finally:  # what is left over would play in the next run
+            with suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
 
 
 @contextmanager
@@ -167,8 +171,15 @@ def measured(dialect: str, pairs: int, seconds: float, cpus: str | None) -> str:
     return f"{dialect:9}{cells[0]:>20}{cells[1]:>20}{median(ratios):8.2f} {spread}"
 
 
+def interruptible() -> None:
+    """Has SIGINT end the nodes also where a shell that starts this with `&` has it ignored."""
+    if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
 def main() -> None:
     """Prints a line for each dialect."""
+    interruptible()
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("dialects", nargs="*", metavar="DIALECT", help=", ".join(DIALECTS))
     parser.add_argument("--pairs", type=int, default=5, help="runs of each kind")

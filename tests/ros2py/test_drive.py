@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+from typing import Any, cast
+
+import pytest
+
+from tests.ros1.probes import Player, play
+from tests.ros1.run import Clock
 from tests.ros1.test_drive import (
+    robot,
     test_a_differential_robot_never_slides,
     test_a_differential_robot_turns_first_and_the_short_way,
     test_a_holonomic_robot_moves_straight_and_evenly,
@@ -14,6 +22,8 @@ from tests.ros1.test_drive import (
     test_velocities_come_at_ten_hertz_and_end_with_a_stop,
     tour,
 )
+from tests.ros2py.messages import Message
+from tests.ros2py.world import Publisher
 
 __all__ = [
     "test_a_differential_robot_never_slides",
@@ -27,3 +37,24 @@ __all__ = [
     "test_velocities_come_at_ten_hertz_and_end_with_a_stop",
     "tour",
 ]
+
+
+def test_a_robot_whose_velocity_does_not_go_out_stops(
+    probe: Player, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    publish, told = Publisher.publish, []
+
+    def fails_once(publisher: Publisher, message: Message) -> None:
+        if publisher.topic_name == "/a/cmd_vel" and cast(Any, message).linear.x != 0:
+            told.append(message)
+            if len(told) == 5:
+                raise RuntimeError("no way out")
+        publish(publisher, message)
+
+    monkeypatch.setattr(Publisher, "publish", fails_once)
+    rebecs = {"a": robot(("move 1 0",), move_time=4.0)}
+    recording = play(probe, tmp_path, rebecs, Clock(until=8, quiet=8))
+    assert [line.text for line in recording.log] == ["drive: a.cmd_vel (no way out)"]
+    *_, last = (v for v in recording.velocities("a") if v.stamp < 1)
+    assert len(told) == 5
+    assert last.x == 0

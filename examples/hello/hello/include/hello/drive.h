@@ -172,7 +172,7 @@ class Drive {
     complain("no velocity in time");
   }
 
-  // A velocity that does not go out must not be followed by others.
+  // A velocity that does not go out must not be followed by others, and the robot has to stand.
   void send(const geometry_msgs::Twist& twist) {
     try {
       cmd_vel_.publish(twist);
@@ -180,6 +180,15 @@ class Drive {
     } catch (const std::exception& error) {
       complain(error.what());
       forget();
+      stand();
+    }
+  }
+
+  void stand() {
+    try {
+      cmd_vel_.publish(geometry_msgs::Twist());
+    } catch (const std::exception& error) {
+      complain(error.what());
     }
   }
 
