@@ -122,7 +122,7 @@ class Trial:
             if not old:
                 (self.package / end).write_text(new, encoding="utf-8")
                 continue
-            found = [p for p in self._files() if p.as_posix().endswith(self._ending(end))]
+            found = [p for p in self._files() if p.as_posix().endswith(self.ending(end))]
             assert len(found) == 1, (end, found)
             text = found[0].read_text(encoding="utf-8")
             assert old in text, (end, old)
@@ -131,7 +131,7 @@ class Trial:
             (self.package / path).parent.mkdir(parents=True, exist_ok=True)
             (self.package / path).write_text(text, encoding="utf-8")
 
-    def _ending(self, end: str) -> str:
+    def ending(self, end: str) -> str:
         """The end of a path, of a header as the dialect has it."""
         is_header = end.endswith(".h") and self.case.dialect == "ros2-cpp"
         return f"{end}pp" if is_header else end
