@@ -26,6 +26,10 @@ _CODES = {"model": "RS951", "code": "RS952", "conflict": "RS953", "unknown": "RS
 
 def sentence(outcome: Outcome) -> str:
     """The verdict as people are told it."""
+    return f"{_sentence(outcome)}; same behaviour" if outcome.is_same else _sentence(outcome)
+
+
+def _sentence(outcome: Outcome) -> str:
     checked = outcome.checked
     if checked is None:
         return "cannot be checked"

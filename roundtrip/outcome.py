@@ -16,12 +16,16 @@ IN_STEP = "in step"
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What there is to say of a package: how it stands, or why that cannot be told."""
+    """What there is to say of a package: how it stands, or why that cannot be told.
+
+    `is_same` says that model and code differ, and are proved to do the same.
+    """
 
     root: str
     checked: Checked | None
     error: RebsyncError | None = None
     proof: Proof | None = None
+    is_same: bool = False
 
     @property
     def findings(self) -> tuple[Findings, ...]:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from rebsync.roundtrip.proof import Proof
 
 FORMATS = ("text", "json", "sarif", "github", "junit")
+_FEW = 5000  # states of each side, within which --behaviour is to answer
 _PROVED = {
     "satisfied": Status.CLEAN,
     "violated": Status.VIOLATED,
@@ -47,6 +48,7 @@ _PROVED = {
     multiple=True,
     help="What is no mistake to --verify: systems that are meant to end.",
 )
+@click.option("--behaviour", is_flag=True, help="Tell whether what differs does the same.")
 @click.option("--max-states", type=click.IntRange(1), metavar="N", help="Stop at N states.")
 @click.option("--max-time", callback=duration, metavar="TIME", help="Stop after 90, 90s, 5m or 1h.")
 @click.option("--memory", callback=amount, metavar="SIZE", help="Stop at 500M or 2G of memory.")
@@ -90,7 +92,20 @@ def _outcome(kept: Kept, checked: Result, given: dict[str, Any]) -> Outcome:
         from rebsync.roundtrip.unparsed_code import as_far_as_parsed
 
         checked = as_far_as_parsed(checked)
-    return Outcome(kept.root, checked, proof=proof)
+    is_same = given["behaviour"] and _is_same(checked, given["max_states"])
+    return Outcome(kept.root, checked, proof=proof, is_same=is_same)
+
+
+def _is_same(checked: Checked, most: int | None) -> bool:
+    """Whether model and code differ, and are proved to do the same within a bound."""
+    is_open = any(d.code != "RS944" for f in checked.findings for d in f.diagnostics)
+    if checked.drift is None or not checked.drift.differences or is_open:
+        return False
+    from rebsync.roundtrip.bisimulation import compare_behaviour
+    from rebsync.roundtrip.models import code_given, model_given
+
+    code = code_given(checked.kept, checked.standing).given
+    return compare_behaviour(model_given(checked.model), code, most or _FEW).verdict == "same"
 
 
 def _proof(checked: Checked, given: dict[str, Any]) -> Proof:
