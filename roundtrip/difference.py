@@ -260,6 +260,8 @@ def _change(change: Changed) -> str:
     if not change.new:
         return f"{what} removed: {clipped(change.old)}"
     old, new = both_clipped(change.old, change.new)
+    if old == new:
+        return f"{what} is written alike, and means something else: {old}"
     return f"{what} changed from {old} to {new}"
 
 

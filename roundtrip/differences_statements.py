@@ -32,6 +32,7 @@ from rebsync.roundtrip.differences_likeness import (
 )
 from rebsync.roundtrip.sides import is_unreadable
 from rebsync.roundtrip.tokens import Tokens
+from rebsync.roundtrip.written_alike import told_apart
 from rebsync.source import NOWHERE
 from rebsync.statements import UNREADABLE
 
@@ -187,6 +188,8 @@ class Bodies:
                     self._lists(lefts, rights, left, right)
         if len(self.found) == before:
             texts = self._text(self.left, x), self._text(self.right, r)
+            if texts[0] == texts[1]:
+                texts = told_apart(texts[0], (self.left, x), (self.right, r))
             self.found.append(Changed(self.element, Aspect.EXPRESSION, "", *texts, left, right))
 
     def _changed(self, part: Part, left: Place | None, right: Place | None) -> None:
@@ -197,10 +200,9 @@ class Bodies:
         aspect = part.aspect
         if aspect is Aspect.AFTER and self._is_own(part.of):
             aspect = Aspect.PERIOD
-        texts = [
-            self._shown(tokens, node)
-            for tokens, node in ((self.left, part.left), (self.right, part.right))
-        ]
+        texts = self._shown(self.left, part.left), self._shown(self.right, part.right)
+        if texts[0] == texts[1]:
+            texts = told_apart(texts[0], (self.left, part.left), (self.right, part.right))
         self.found.append(Changed(self.element, aspect, part.of, texts[0], texts[1], *places))
 
     def _is_own(self, of: str) -> bool:

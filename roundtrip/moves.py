@@ -77,6 +77,8 @@ def _apart(difference: Difference) -> str:
             if not (old and new):
                 return f"{what} only in the {'model' if old else 'code'}: {clipped(old or new)}"
             first, second = both_clipped(old, new)
+            if first == second:
+                return f"{what} is written alike in both, and means something else: {first}"
             return f"{what} is {first} in the model, {second} in the code"
         case StatementInserted(text=text):
             return f"statement only in the code: {clipped(text)}"

@@ -14,6 +14,8 @@ from rebsync.roundtrip.manifest import BASE, FOLDER
 from rebsync.roundtrip.markers import user_blocks, with_user_blocks
 from rebsync.roundtrip.text_merge import merged_text
 
+_CRLF = "\r\n"
+
 
 class Action(Enum):
     """What happens to one file."""
@@ -67,10 +69,29 @@ def _step(folder: Path, path: str, text: str) -> Step:
         return Step(path, Action.CREATE, None, text)
     if path.startswith(f"{FOLDER}/"):
         return Step(path, Action.UNCHANGED if old == text else Action.UPDATE, old, text)
+    plain = _plain(old)
+    if old != plain == plain.replace("\r", "") and old == plain.replace("\n", _CRLF):
+        return _with_line_ends(_step_of(folder, path, plain, text), old)
+    return _step_of(folder, path, old, text)
+
+
+def _plain(text: str) -> str:
+    """A text with the line ends that generated texts have."""
+    return text.replace(_CRLF, "\n")
+
+
+def _with_line_ends(step: Step, old: str) -> Step:
+    """The same for a file all of whose lines end as git has them checked out on Windows."""
+    new, plain = (t.replace("\n", _CRLF) if t is not None else None for t in (step.new, step.plain))
+    return Step(step.path, step.action, old, new, plain)
+
+
+def _step_of(folder: Path, path: str, old: str, text: str) -> Step:
+    """The fate of a file with a text, of which `text` is generated."""
     new = with_user_blocks(text, user_blocks(old))
     if old == new:
         return Step(path, Action.UNCHANGED, old, new)
-    base = _read(folder, BASE + path)
+    base = _base(folder, path)
     if base is not None and old == with_user_blocks(base, user_blocks(old)):
         return Step(path, Action.UPDATE, old, new)
     if base == text:
@@ -95,10 +116,10 @@ def _merged(path: str, old: str, base: str | None, text: str) -> Step:
 
 def _stale(folder: Path, path: str) -> list[Step]:
     """A file that is generated no more goes, unless it was edited; so does its base."""
-    old, base = _read(folder, path), _read(folder, BASE + path)
+    old, base = _read(folder, path), _base(folder, path)
     steps = []
     if old is not None:
-        edited = base is None or old != base
+        edited = base is None or _plain(old) != base
         steps.append(Step(path, Action.CONFLICT if edited else Action.DELETE, old, None))
     return [*steps, Step(BASE + path, Action.DELETE, base, None)]
 
@@ -117,6 +138,12 @@ def name_to_keep(folder: Path, step: Step) -> str:
         if not (folder / name).exists() or _read(folder, name) == step.old:
             return name
     raise AssertionError("count() does not end")
+
+
+def _base(folder: Path, path: str) -> str | None:
+    """What was generated for a file last time, if that is known."""
+    base = _read(folder, BASE + path)
+    return _plain(base) if base is not None else None
 
 
 def _read(folder: Path, name: str) -> str | None:

@@ -65,6 +65,8 @@ _UNWANTED = frozenset(
         *("environment", "launch file", "unknown", "parameters"),
     }
 )
+# Values of facts of which only matters that they are there.
+_PRESENT = frozenset({"generated", "there", "loaded", "included", "given", "built"})
 _SAYING = frozenset({"receiving", "sending", "set-up"})
 _HELPING = frozenset({PROGRAM, PLAYED, TYPE, SPACE})
 _HINT = "take the edit back: no model tells this"
@@ -163,13 +165,27 @@ def _is_missed(fact: Fact) -> bool:
 
 
 def _change(kind: str, old: set[str], new: set[str]) -> str:
-    """What is another now; of functions only the statements that are."""
-    if kind not in _SAYING:
-        return f"is {_shown(new) or 'gone'}; generated was {_shown(old) or 'none'}"
+    """What is another now than it was when it was generated."""
+    if kind in _SAYING:
+        return _said(old, new)
+    was, said = (_shown(each - _PRESENT) for each in (old, new))
+    if not new:
+        return f"is gone; it was {was}" if was else "is gone"
+    if not old and kind != RANGE:
+        return f"is new: {said}" if said else "is new"
+    if not was:
+        return f"is {said}"
+    return f"is {said}; it was {was}"
+
+
+def _said(old: set[str], new: set[str]) -> str:
+    """What a function says otherwise: only the statements that are other ones."""
     before, now = ([s for text in each for s in text.split("; ")] for each in (old, new))
     said = _shown(s for s in now if s not in before)
     was = _shown(s for s in before if s not in now)
-    return f"says {said or 'less' if new else 'nothing'}; generated was {was or 'less'}"
+    if not said:
+        return f"is without {was}"
+    return f"is with {said}; it was with {was}" if was else f"is with {said} as well"
 
 
 def _shown(values: Iterable[str]) -> str:

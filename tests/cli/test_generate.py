@@ -374,3 +374,24 @@ def test_generation_does_not_depend_on_the_process(model: Path, tmp_path: Path) 
             env={**os.environ, "PYTHONHASHSEED": seed, "LC_ALL": locale, "PYTHONPATH": str(ROOT)},
         )
     assert tree(tmp_path / "1") == tree(tmp_path / "77")
+
+
+def test_line_ends_are_no_edit(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    generate()
+    for path in Path("patrol").rglob("*"):
+        if path.is_file():
+            path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
+    before = tree(Path("patrol"))
+    capsys.readouterr()
+    assert generate() == 0
+    assert "your edit" not in capsys.readouterr().out
+    own = {n: t for n, t in tree(Path("patrol")).items() if not n.startswith(".rebsync/")}
+    assert own == {n: t for n, t in before.items() if n in own}
+    model.write_text(MODEL.replace("delay(1)", "delay(3)"))
+    assert generate() == 0
+    assert "your edit" not in capsys.readouterr().out
+    text = Path("patrol/src/robot.cpp").read_bytes()
+    assert b"delay(3);\r\n" in text and b"\n" not in text.replace(b"\r\n", b"")
+    Path("patrol/README.md").write_bytes(b"mine\r\n")
+    assert generate() == 0
+    assert "kept your edit of patrol/README.md\n" in capsys.readouterr().out
