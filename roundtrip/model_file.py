@@ -99,7 +99,7 @@ def moved_model(kept: Kept, record: Record, model: str) -> tuple[Findings, ...]:
     """A note where a model was found, but not where the manifest says."""
     if kept.model is not None or is_recorded(kept.root, record, model):
         return ()
-    message = f"its model {record.model} is {model} now"
+    message = f"its model is {model}, which its manifest does not say"
     hint = f"`rebsync sync {kept.root}` records that"
     return (_note(kept.root, message, hint),)
 

@@ -524,7 +524,7 @@ def test_a_model_that_moved_is_pointed_at(check: Check) -> None:
     Path("patrol.rebeca").rename("deep/down/guard.rebeca")
     status, shown = check("patrol")
     assert status == 0
-    assert "its model patrol.rebeca is deep/down/guard.rebeca now" in shown
+    assert "RS965 its model is deep/down/guard.rebeca, which" in shown
     assert check("patrol", "--model", "deep/down/guard.rebeca") == (0, "patrol: in step\n")
 
 

@@ -116,7 +116,7 @@ def test_a_model_may_move(run: Run, folder: Path, moved: Callable[[str, str], No
     moved("models/rebsync.toml", "deep/down/rebsync.toml")
     status, shown = run("check", PACKAGE)
     assert (status, shown.startswith(f"{PACKAGE}: in step\n")) == (0, True), shown
-    assert "its model patrol.rebeca is deep/down/patrol.rebeca now" in shown
+    assert "RS965 its model is deep/down/patrol.rebeca, which" in shown
     assert f"`rebsync sync {PACKAGE}` records that" in shown
     assert run("check", "deep/down/patrol.rebeca")[0] == 0
     replace("deep/down/patrol.rebeca", "delay(1)", "delay(2)")
@@ -160,7 +160,7 @@ def test_a_model_may_get_another_name(run: Run, folder: Path) -> None:
     move("models/patrol.rebeca", "models/guard.rebeca")
     before = {p: p.read_bytes() for p in Path(PACKAGE).rglob("*") if p.is_file()}
     status, shown = run("check", PACKAGE)
-    assert (status, "is models/guard.rebeca now" in shown) == (0, True), shown
+    assert (status, "its model is models/guard.rebeca, which" in shown) == (0, True), shown
     assert f"`rebsync sync {PACKAGE}` records that" in shown
     assert run("sync", PACKAGE)[0] == 0
     manifest = Path(PACKAGE, ".rebsync/manifest.json")
