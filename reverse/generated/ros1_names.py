@@ -115,8 +115,17 @@ def enumerators(code: Code) -> dict[str, int]:
     return {n: v for n, vs in values.items() for v in vs if len(vs) == 1 and v is not None}
 
 
+_ATOMIC = re.compile(r"(?:std::)?atomic<(?:std::)?(bool|int|int32_t)>")
+_HELD = {"bool": "boolean", "int": "int", "int32_t": "int"}
+
+
 def declared_type(code: Code, node: Node) -> Type | None:
-    """The model's type for a C++ type, or for what an alias stands for."""
+    """The model's type for a C++ type, or for what an alias or an atomic object stands for.
+
+    What another thread does to such an object is listed where that thread is begun.
+    """
+    if (held := _ATOMIC.fullmatch("".join(text_of(node).split()))) is not None:
+        return Type(_HELD[held[1]])
     aliases = code.aliases.get(text_of(node), ()) if node.type == "type_identifier" else ()
     types = {type_of(alias.type) for alias in aliases}
     return types.pop() if len(types) == 1 else type_of(node)
