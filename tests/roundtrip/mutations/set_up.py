@@ -37,6 +37,7 @@ def _of_members(language: str, suffix: str, end: str) -> tuple[Kind, ...]:
     return (
         _kind("constant computed with", suffix, (constant, rf"\1\3 + 1{end}")),
         _kind("constant written over", suffix, (constant, rf"{again}{two}\2 = 7{end}")),
+        _kind("constant computed over", suffix, (constant, rf"{again}{two}\2 = abs(-7){end}")),
         _kind("known rebec written over", suffix, (known, rf"{again}{two}\2 = {other}{end}")),
     )
 
@@ -99,6 +100,7 @@ KINDS = {
         *_of_members("cpp", ".cpp", ";"),
         *_of_arguments("ros2-cpp"),
         _kind("argument made a truth", ".cpp", (r"const int32_t (?=\w+ = decl)", "const bool ")),
+        _kind("argument made small", ".cpp", (r"const int32_t (?=\w+ = decl)", "const int8_t ")),
     ),
     "ros1-py": (
         *_PY,
