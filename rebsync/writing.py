@@ -12,7 +12,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from rebsync.diagnostics import RebsyncError
-from rebsync.files import BOM, followed, operating_on
+from rebsync.files import BOM, RECORDS, followed, operating_on
 from rebsync.folder import Folder, content_of, open_regular, opened, refuse_special
 from rebsync.records import dataclass
 from rebsync.terminal import encoded
@@ -81,7 +81,6 @@ def told(path: str) -> str:
 def replace_tree(
     root: str,
     texts: Mapping[str, str],
-    executable: Collection[str] = (),
     remove: Collection[str] = (),
     ready: Callable[[], None] = lambda: None,
     beside: Mapping[str, str] | None = None,
@@ -100,7 +99,7 @@ def replace_tree(
     with operating_on(root), ExitStack() as folders:
         if not os.path.isdir(root):  # noqa: PTH112
             if texts:
-                _create_tree(Path(root), texts, executable)
+                _create_tree(Path(root), texts)
             return tuple(texts)
         handle = opened(real) if real is not None else None
         tree = folders.enter_context(Folder(root, handle))
@@ -112,7 +111,7 @@ def replace_tree(
                     place = tree.place(name, created)
                 data = encoded(text)
                 replacements.append(
-                    _Replacement(f"{root}/{name}", *place, data, name in executable, name)
+                    _Replacement(f"{root}/{name}", *place, data, name)
                 )
             writes = [each for each in replacements if _content(each) != each.data]
             deletions = [
@@ -145,16 +144,11 @@ class _Replacement:
     folder: int
     name: str
     data: bytes | None
-    executable: bool = False
     key: str = ""
     staged: str | None = None
     saved: str | None = None
     existed: bool = False
     done: bool = False
-
-    @property
-    def mode(self) -> int:
-        return 0o777 if self.executable else 0o666
 
     @property
     def status(self) -> os.stat_result | None:
@@ -170,6 +164,11 @@ class _Replacement:
         return found
 
 
+def _mode(name: str, data: bytes) -> int:
+    """The mode of a new file: programs can be run, but for those that are only kept as records."""
+    return 0o777 if data.startswith(b"#!") and not name.startswith(f"{RECORDS}/") else 0o666
+
+
 def _content(each: _Replacement) -> bytes | None:
     with operating_on(each.path):
         found = each.status
@@ -178,7 +177,7 @@ def _content(each: _Replacement) -> bytes | None:
         return content_of(open_regular(each.name, each.path, found, each.folder))
 
 
-def _create_tree(root: Path, texts: Mapping[str, str], executable: Collection[str]) -> None:
+def _create_tree(root: Path, texts: Mapping[str, str]) -> None:
     """A tree that is not there yet appears in one step."""
     created: list[Path] = []
     _refuse_link(root)
@@ -191,8 +190,8 @@ def _create_tree(root: Path, texts: Mapping[str, str], executable: Collection[st
                 with Folder(str(root), above.take(stage)) as tree:
                     for name, text in texts.items():
                         place = tree.place(name, [])
-                        mode = 0o777 if name in executable else 0o666
-                        _write(*place, encoded(text), mode)
+                        data = encoded(text)
+                        _write(*place, data, _mode(name, data))
                 os.rename(stage, root.name, src_dir_fd=above.handle, dst_dir_fd=above.handle)
             except BaseException:
                 above.remove(stage)
@@ -242,8 +241,7 @@ def _stage(each: _Replacement) -> None:
     kept = None
     if found is not None:
         kept = stat.S_IMODE(found.st_mode)
-        kept |= (kept & 0o444) >> 2 if each.executable else 0
-    _write(each.folder, each.staged, each.data, each.mode, kept)
+    _write(each.folder, each.staged, each.data, _mode(each.key, each.data), kept)
 
 
 def _save(each: _Replacement) -> None:

@@ -29,6 +29,7 @@ from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
 from rebsync.roundtrip.units import manifest_of
 from rebsync.roundtrip.wiring_facts import (
+    CLOCK,
     CONSTANT,
     NOT_GIVEN,
     PLAYED,
@@ -263,6 +264,8 @@ class _Excuses:
             return self._is_of_another_tool(first.name)
         if first.kind == "node" and first.name == "ns":
             return self._is_in_one_space
+        if first.kind == "node" and first.name == CLOCK:
+            return self._are_by_one_clock
         if first.kind == "field":
             return self._types(self.base, first.owner) == self._types(self.today, first.owner)
         return (first.kind == "remap" or first.kind in TOPICS) and self._same_are_joined(key)
@@ -270,7 +273,7 @@ class _Excuses:
     @property
     def _is_in_one_space(self) -> bool:
         """Whether all generated nodes and their parameters are in one namespace."""
-        own = {owner for kind, owner, _ in self.base if kind == TYPE}
+        own = self._nodes
         found = {
             "" if fact.value == NOT_GIVEN else fact.value.strip("/")
             for (kind, owner, name), facts in self.today.items()
@@ -278,6 +281,16 @@ class _Excuses:
             if kind == SPACE or ((kind, name) == ("node", "ns") and owner in own)
         }
         return len(found) == 1
+
+    @property
+    def _are_by_one_clock(self) -> bool:
+        """Whether all generated nodes follow the same clock."""
+        given = (self.today.get(("node", name, CLOCK), ()) for name in self._nodes)
+        return len({fact.value for facts in given for fact in facts}) < 2
+
+    @property
+    def _nodes(self) -> frozenset[str]:
+        return frozenset(owner for kind, owner, _ in self.base if kind == TYPE)
 
     def _types(self, facts: Facts, message: str) -> list[str]:
         """The types of a message's fields in their order; extraction tells if names do not fit."""

@@ -22,7 +22,7 @@ from rebsync.roundtrip import wiring_ros2
 from rebsync.source import Source, Span
 
 PROGRAM, PLAYED, TYPE, SPACE = "program", "played sensor", "type of a node", "space of parameters"
-CONSTANT = "type of the constant"
+CONSTANT, CLOCK = "type of the constant", "use_sim_time"
 NOT_GIVEN, OWN = "not given", "this package"
 _PACKAGE = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
 
@@ -282,6 +282,8 @@ def _declared(source: Source, package: str) -> Iterator[Fact]:
         yield Fact(TYPE, name, "", str(node.type), source, node.span)
         for remap in node.remaps:
             yield Fact("remap", name, remap.private, str(remap.target), source, remap.span)
+        clocks = [repr(p.value) for p in node.parameters if p.name == CLOCK]
+        yield Fact("node", name, CLOCK, (clocks or [NOT_GIVEN])[-1], source, node.span)
         for given in node.parameters:
             section = given.name.partition("/")[0]
             is_constant = section == "env"  # whose value is read where parameters are

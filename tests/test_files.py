@@ -146,9 +146,7 @@ def test_a_full_disk_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.Mon
 def test_a_tree_is_written_and_later_only_what_changed(tmp_path: Path) -> None:
     root = tmp_path / "out" / "package"
     texts = {"a.txt": "a", "src/b.py": "b", "old": "gone"}
-    assert replace_tree(str(root), texts, executable=["src/b.py"]) == ("a.txt", "src/b.py", "old")
-    assert stat.S_IMODE((root / "src/b.py").stat().st_mode) & 0o111
-    assert not stat.S_IMODE((root / "a.txt").stat().st_mode) & 0o111
+    assert replace_tree(str(root), texts) == ("a.txt", "src/b.py", "old")
     del texts["old"]
     texts["new/c"] = "c"
     assert replace_tree(str(root), texts, remove=["old", "never"]) == ("new/c", "old")
@@ -158,6 +156,18 @@ def test_a_tree_is_written_and_later_only_what_changed(tmp_path: Path) -> None:
         "package/src/b.py": b"b",
         "package/new/c": b"c",
     }
+
+
+def test_programs_can_be_run_but_for_their_records(tmp_path: Path) -> None:
+    texts = {"scripts/a": "#!/bin/sh\n", ".rebsync/base/scripts/a": "#!/bin/sh\n", "b.py": "b"}
+    replace_tree(str(tmp_path / "new"), texts)
+    (tmp_path / "there").mkdir()
+    replace_tree(str(tmp_path / "there"), texts)
+    for root in (tmp_path / "new", tmp_path / "there"):
+        assert [name for name in texts if os.access(root / name, os.X_OK)] == ["scripts/a"]
+        (root / "scripts/a").chmod(0o640)
+        replace_tree(str(root), {**texts, "scripts/a": "#!/bin/bash\n"})
+        assert stat.S_IMODE((root / "scripts/a").stat().st_mode) == 0o640
 
 
 @pytest.mark.parametrize("there", [True, False], ids=["existing", "new"])

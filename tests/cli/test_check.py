@@ -496,6 +496,11 @@ WRONG: dict[str, tuple[Callable[[], object], int, str]] = {
     ),
     "base gone": (Path("patrol/.rebsync/base.rebeca").unlink, 1, "base.rebeca: RS964"),
     "base damaged": (put("patrol/.rebsync/base.rebeca", "<<"), 1, "base.rebeca: RS964"),
+    "base of the code edited": (
+        lambda: replace("patrol/.rebsync/base/src/robot.cpp", "delay(1)", "delay(2)"),
+        1,
+        "base/src/robot.cpp: RS964 this is kept as it was generated, and has been edited",
+    ),
     "code gone": (Path(SOURCE).unlink, 4, "RS941"),
     "code a dangling link": (unreadable_code, 4, "robot.cpp: RS941"),
     "all code gone": (lambda: shutil.rmtree("patrol/src"), 4, "its body is not in these files"),

@@ -77,6 +77,7 @@ def probe(
         shutil.copytree(_HERE / "packages" / "probe_py", package)
         for name, path in MODULES.items():
             (package / "src" / "probe" / f"{name}.py").write_text(rendered(path, "probe"))
+        (package / "scripts" / "script_node").chmod(0o644)  # as some file systems have it
         return build_workspace("probe_py", [package])
     shutil.copytree(_HERE / "packages" / "probe", package)
     for name in HEADERS:
