@@ -30,6 +30,7 @@ Facts: TypeAlias = "dict[tuple[str, str, str], list[Fact]]"
 
 _LAYOUT = re.compile(r" ?([^\w \"]) ?")
 _STARTED = re.compile(r"\bmailbox_\s*\.\s*start\s*\(\s*\)")
+_SHOWS = re.compile(r"\bmailbox_\s*\.\s*onServed\s*\(")
 _HASH = re.compile(r"#[^\n]*")
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 # Names and literals that a formatter broke.
@@ -168,6 +169,8 @@ def _joints(source: Source, text: str) -> Iterator[Fact]:
     for number, m in enumerate(_STARTED.finditer(text)):
         told = "there again" if number else "there"
         yield Fact("start of serving", owner[1], "", told, source, Span(*m.span()))
+    for m in _SHOWS.finditer(text):
+        yield Fact("state after each body", owner[1], "", "shown", source, Span(*m.span()))
     for m in _SENSOR.finditer(text):
         yield Fact("sensor", owner[1], m[1], m[2], source, Span(*m.span(2)))
     for m in _SUBSCRIBED.finditer(text):

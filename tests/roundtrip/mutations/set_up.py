@@ -50,6 +50,7 @@ def _of_arguments(dialect: str) -> tuple[Kind, ...]:
 _READ = r"^(  (\w+_) = (?:global\.param|declare_parameter<int>)\(\"(?:env\.)?\w+\", "
 _CPP = (
     _kind("constructed twice", ".cpp", (r"^(  mailbox_\.construct\(.*\);)$", r"\1\n\1")),
+    _kind("no state shown", ".cpp", (r"^  mailbox_\.onServed\(.*\n", "")),
     Kind("member of all objects", in_files(".h", r"^  (int32_t \w+_)\{\};", r"  static \1;")),
     Kind("member of all objects", in_files(".hpp", r"^  (int32_t \w+_)\{\};", r"  static \1;")),
     _kind("state changed in a default", ".cpp", (rf"{_READ})(\d+)", r"\1id_ = \3")),
@@ -74,8 +75,8 @@ _DEFINITION = _kind(
 
 KINDS = {
     "ros1-cpp": (
-        *_CPP[:2],
-        *_CPP[3:],
+        *_CPP[:3],
+        *_CPP[4:],
         _VARIABLE,
         _DEFINITION,
         *_of_members("cpp", ".cpp", ";"),
@@ -93,8 +94,8 @@ KINDS = {
         ),
     ),
     "ros2-cpp": (
-        _CPP[0],
-        *_CPP[2:],
+        *_CPP[:2],
+        *_CPP[3:],
         _VARIABLE,
         _DEFINITION,
         *_of_members("cpp", ".cpp", ";"),
