@@ -110,9 +110,7 @@ def replace_tree(
                 with operating_on(f"{root}/{name}"):
                     place = tree.place(name, created)
                 data = encoded(text)
-                replacements.append(
-                    _Replacement(f"{root}/{name}", *place, data, name)
-                )
+                replacements.append(_Replacement(f"{root}/{name}", *place, data, name))
             writes = [each for each in replacements if _content(each) != each.data]
             deletions = [
                 _Replacement(f"{root}/{name}", *tree.place(name), None, key=name)
