@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TypeAlias
 
 from rebsync import model as m
 from rebsync.diagnostics import Findings
@@ -15,15 +13,12 @@ from rebsync.reverse.build.manifests import name_in
 from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.files.python_files import is_python
 from rebsync.reverse.files.reading import Chosen
-from rebsync.reverse.findings import Finding
 from rebsync.reverse.graph import Graph
 from rebsync.reverse.graph_json import graph_data
 from rebsync.reverse.recovery import Extracted, extract
 from rebsync.reverse.report import as_json, as_text, diagnostics, grade_of, report_data, summary
-from rebsync.source import Source
 from rebsync.terminal import json_text
 
-Also: TypeAlias = "Callable[[Mapping[str, Source]], Iterable[Finding]]"
 _NOTHING = Extracted(m.Model((), (), None), (), ())
 
 
@@ -52,15 +47,11 @@ class Answer:
         return self.model is not None or self.asks
 
 
-def answer(given: Chosen, style: str | None, whole: bool, also: Also = lambda files: ()) -> Answer:
-    """Reads a package; `style` is that of the report, `whole` asks for the object.
-
-    `also` tells what else there is to say of the files that were read.
-    """
+def answer(given: Chosen, style: str | None, whole: bool) -> Answer:
+    """Reads a package; `style` is that of the report, `whole` asks for the object."""
     readable = given.only is None or given.only in given.files
     read = extract(given.files, given.only) if readable else _NOTHING
-    told = also({n: f for n, f in given.files.items() if given.only in (None, n)})
-    extracted = replace(read, findings=given.findings + read.findings + tuple(told))
+    extracted = replace(read, findings=given.findings + read.findings)
     model = _model(extracted)
     report = as_text if style == "text" else as_json
     return Answer(

@@ -128,7 +128,7 @@ def _edited_base(kept: Kept, record: Record) -> Iterator[Findings]:
     for name, text in recorded_base(kept.root, BASE).items():
         if not is_text_of(encoded(text), record.files.get(name, "")):
             message = "this is kept as it was generated, and has been edited"
-            hint = "take the edit back; `rebsync generate` writes it anew, once model and code are in step"
+            hint = "`rebsync generate` writes it anew, once model and code are in step"
             found = Diagnostic("RS964", NOWHERE, message, hint, severity=Severity.WARNING)
             yield Findings(Source(f"{kept.root}/{BASE}{name}", ""), (found,))
 

@@ -42,7 +42,6 @@ from rebsync.roundtrip.wiring_facts import (
     package_name,
 )
 from rebsync.roundtrip.wiring_names import TOPICS, Joined, is_about, joined, replaced
-from rebsync.roundtrip.wiring_ranges import RANGE, range_hint
 from rebsync.source import NOWHERE, Source
 
 _WIRED = (
@@ -62,7 +61,7 @@ _MISSED = frozenset(
 # What was not there when the code was generated makes a difference too.
 _UNWANTED = frozenset(
     {
-        *("setting", "compiler option", RANGE),
+        *("setting", "compiler option"),
         *("environment", "launch file", "unknown", "parameters"),
     }
 )
@@ -196,8 +195,6 @@ def _shown(values: Iterable[str]) -> str:
 def _hint(fact: Fact) -> str:
     """What to do about a fact that is another."""
     match fact.kind:
-        case "range":
-            return range_hint(fact.name, fact.value)
         case "remap" | "publisher" | "subscription" | "sensor":
             return "let the other end have the same name, or take the edit back"
         case "priority" | "best priority":

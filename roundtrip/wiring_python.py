@@ -21,7 +21,6 @@ from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.roundtrip.python_trees import bindings, plain, said, span_of, tree_of
 from rebsync.roundtrip.runtime_python import MODULE
 from rebsync.roundtrip.wiring_facts import PLAYED, PROGRAM, Fact
-from rebsync.roundtrip.wiring_ranges import RANGE, ranges_in, types_in, types_of_functions
 from rebsync.source import Source
 
 _READS = frozenset({"rospy.get_param", "declared", "read_array", "declare_array"})
@@ -44,21 +43,15 @@ def facts_in_python(name: str, source: Source, package: str) -> Iterator[Fact]:
     found = [f for c in classes for f in _Class.of(source, tree, c).facts()]
     if classes:
         found += _imports(source, tree, classes[0], package)
-        found += _helping(source, tree, uncarry(classes[0].name, NO_PYTHON_CLASSES))
     else:
         stem = Path(name).stem
-        found += [*_program(stem, source, tree), *_helping(source, tree, stem)]
+        found += _program(stem, source, tree)
     seen: Counter[tuple[str, ...]] = Counter()
     for fact in found:
         told = (*fact.key, fact.value)
         seen[told] += 1
         again = "again " * (seen[told] - 1)
         yield replace(fact, value=f"{again}{fact.value}")
-
-
-def has_nodes(tree: ast.Module) -> bool:
-    """Whether a module has a generated class."""
-    return any(_is_node(c) for c in tree.body if isinstance(c, ast.ClassDef))
 
 
 def _is_node(node: ast.ClassDef) -> bool:
@@ -80,7 +73,6 @@ class _Class:
     node: ast.ClassDef
     servers: Mapping[str, ast.Call]
     handlers: Mapping[str, str]
-    types: Mapping[str, str]
 
     @classmethod
     def of(cls, source: Source, tree: ast.Module, node: ast.ClassDef) -> _Class:
@@ -91,14 +83,13 @@ class _Class:
             for target, value in [(statement.targets[0], statement.value)]
             if isinstance(target, ast.Name) and isinstance(value, ast.Call) and _is_server(value)
         }
-        types = types_of_functions(tree)
-        named = cls(source, uncarry(node.name, NO_PYTHON_CLASSES), node, servers, {}, types)
+        named = cls(source, uncarry(node.name, NO_PYTHON_CLASSES), node, servers, {})
         handlers = {
             handler: named.server(call.args[0])
             for call in _calls(node, "self._mailbox.receive")
             if len(call.args) == 5 and (handler := _handler(call.args[4]))
         }
-        return cls(source, named.owner, node, servers, handlers, types)
+        return cls(source, named.owner, node, servers, handlers)
 
     def server(self, node: ast.expr) -> str:
         """The server that a descriptor stands for."""
@@ -110,7 +101,6 @@ class _Class:
 
     def facts(self) -> Iterator[Fact]:
         """All that the class does beside what is in the model."""
-        types = {**self.types, **types_in(self.node)}
         used = {n.id for n in ast.walk(self.node) if isinstance(n, ast.Name)}
         for name, call in self.servers.items():
             if name in used:
@@ -127,9 +117,6 @@ class _Class:
                 yield self.fact("receiving", name, self._plain(function), function)
             elif sent := self._sent(function):
                 yield self.fact("sending", sent, self._plain(function), function)
-            else:
-                for name, range_, at in ranges_in(function, types):
-                    yield self.fact(RANGE, name, range_, at)
 
     def _sent(self, function: ast.FunctionDef) -> str:
         """What a function sends, to whom; empty for one that does not send."""
@@ -280,19 +267,6 @@ def _imports(source: Source, tree: ast.Module, node: ast.ClassDef, package: str)
         if head in _OF_ROS or head == package or head == f"{package}_interfaces":
             inside = of.removeprefix(package)
             yield Fact("import", owner, name, inside, source, span_of(source, statement))
-
-
-def _helping(source: Source, tree: ast.Module, owner: str) -> Iterator[Fact]:
-    """The sums that do not wrap in functions and classes beside a node's."""
-    types = types_of_functions(tree)
-    for statement in tree.body:
-        within = [statement] if isinstance(statement, ast.FunctionDef) else []
-        if isinstance(statement, ast.ClassDef) and not _is_node(statement):
-            within = [f for f in statement.body if isinstance(f, ast.FunctionDef)]
-            types = types | types_in(statement)
-        for function in within:
-            for name, range_, at in ranges_in(function, types):
-                yield Fact(RANGE, owner, name, range_, source, span_of(source, at))
 
 
 def _arguments(function: ast.FunctionDef) -> list[str]:

@@ -60,14 +60,13 @@ def command(paths: tuple[str, ...], form: str, style: str | None, output: str) -
     """
     from rebsync.reverse.answer import answer
     from rebsync.reverse.files.parallel import each
-    from rebsync.roundtrip.ranges_told import unwrapped
     from rebsync.roundtrip.units import units
 
     if style is not None and form == "json":
         raise click.UsageError("--format json has the report in it: leave out --report")
     for path in paths:
         refuse_to_overwrite(path, output)
-    answers = each(units(paths), partial(answer, style=style, whole=form == "json", also=unwrapped))
+    answers = each(units(paths), partial(answer, style=style, whole=form == "json"))
     first = list(_one(answers, output) if _is_one_file(output) else islice(answers, 2))
     told = _Told(output, len(first) > 1)
     statuses = [s for given in chain(first, answers) if (s := told.tell(given)) is not None]

@@ -47,7 +47,8 @@ class IntervalValues:
     `widths` are the bits of the numbers to be looked at, by name; `types` the types of other
     variables; `known` what some names hold when a body starts, `always` what some hold at any time.
     `state` are the state variables, `called` those that functions of the class may change. `needs`
-    has what must hold of expressions, by their ids. `wraps` says whether sums of the code wrap.
+    has what must hold of expressions, by their ids. `wraps` says whether sums of the code wrap, and
+    `cuts` to which bounds some expressions are brought where they do not, by their ids.
 
     `broken` are variables that may get another number than an `int` holds, `counted` those that
     only count up to one, `failed` the needs that may not hold. `stored` has all that variables of
@@ -63,6 +64,7 @@ class IntervalValues:
     called: Collection[str] = ()
     needs: Mapping[int, Sequence[Need]] = field(default_factory=dict)
     wraps: bool = True
+    cuts: Mapping[int, Interval] = field(default_factory=dict)
     broken: set[str] = field(default_factory=set)
     counted: set[str] = field(default_factory=set)
     failed: set[Mark] = field(default_factory=set)
@@ -131,7 +133,9 @@ class IntervalValues:
                 pass
 
     def _compared(self, left: m.Expression, sign: str, right: m.Expression) -> None:
-        if not self.wraps:
+        if id(bare(left)) in self.cuts:
+            return  # another number than that of the variable
+        if not self.wraps and not self.cuts:
             left, right = writes.moved(left, right)
         name = variable_of(left)
         if name is None or self._is_real(left) or self._is_real(right):
@@ -152,7 +156,11 @@ class IntervalValues:
 
     def _value(self, expression: m.Expression) -> Interval:
         """What an expression can give; what it writes is written."""
-        return self._checked(expression, self._evaluated(expression))
+        return self._checked(expression, self._cut(expression, self._evaluated(expression)))
+
+    def _cut(self, expression: m.Expression, values: Interval) -> Interval:
+        whole = self.cuts.get(id(expression))
+        return values if whole is None else values.in_type(whole)
 
     def _checked(self, expression: m.Expression, values: Interval) -> Interval:
         """What an expression can give, after a look at what it must be."""
@@ -174,10 +182,10 @@ class IntervalValues:
             case m.Paren(inner):
                 return self._value(inner)
             case m.Assign(operator, target, value):
-                return self._assigned(operator, target, value)
+                return self._assigned(expression, operator, target, value)
             case m.Postfix(operator, target) | m.Unary("++" | "--" as operator, target):
                 before = self._value(target)
-                changed = self._assigned(f"{operator[0]}=", target, m.IntLiteral(1))
+                changed = self._assigned(expression, f"{operator[0]}=", target, m.IntLiteral(1))
                 return changed if isinstance(expression, m.Unary) else before
             case m.Unary(operator, operand):
                 return of_unary(operator, self._value(operand))
@@ -292,7 +300,9 @@ class IntervalValues:
 
     # --- writing --------------------------------------------------------------------------------
 
-    def _assigned(self, operator: str, target: m.Expression, value: m.Expression) -> Interval:
+    def _assigned(
+        self, whole: m.Expression, operator: str, target: m.Expression, value: m.Expression
+    ) -> Interval:
         place = bare(target)
         name = array_of(place)
         if isinstance(place, m.Index):
@@ -302,6 +312,7 @@ class IntervalValues:
         before = earlier.join(self._of(name or ""))  # which of both is evaluated first
         if operator != "=":
             given = self._operated(operator[:-1], (place, before), (value, given))
+            given = self._checked(whole, self._cut(whole, given))
         if name is None:
             return given
         known = self._store(name, given, writes.counts_up(operator, name, value))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from rebsync import model as m
 from rebsync import precedence
 from rebsync.source import NOWHERE, Span
@@ -53,6 +55,13 @@ def bare(expression: m.Expression) -> m.Expression:
     while isinstance(expression, m.Paren):
         expression = expression.inner
     return expression
+
+
+def located(expression: m.Expression, span: Span) -> m.Expression:
+    """The expression with its place in the code, if it has none yet."""
+    if isinstance(expression, m.Paren):
+        return replace(expression, inner=located(expression.inner, span))
+    return expression if expression.span != NOWHERE else replace(expression, span=span)
 
 
 def is_calm(expression: m.Expression) -> bool:

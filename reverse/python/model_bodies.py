@@ -6,13 +6,14 @@ those of each class that calls them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import field as with_default
 from dataclasses import replace
 
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.intervals import INT32, INTEGERS
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.findings import Findings, Unread
@@ -26,15 +27,17 @@ from rebsync.reverse.python.model_helpers import (
     own_name,
     without_object,
 )
-from rebsync.reverse.python.model_kinds import literal_kind
+from rebsync.reverse.python.model_kinds import kind_of, literal_kind
 from rebsync.reverse.python.model_overloads import resolved
 from rebsync.reverse.python.model_roles import Roles, Sends, plain_name, servers_of
 from rebsync.reverse.python.model_silent import Silent, silent_in
 from rebsync.reverse.python.model_statements import Statements
 from rebsync.reverse.python.model_types import passed_on, type_of
+from rebsync.reverse.python.model_widths import Known, beyond, hint_of
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import PyCode, Scope
 from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.source import Span
 
 _HINT = "say its type, as `: int` or `-> int`"
 
@@ -56,6 +59,7 @@ class Bodies:
     serving: Served
     fields: Mapping[str, Mapping[str, m.Type]]
     known: dict[int, Names] = with_default(default_factory=dict)
+    passed: dict[int, Mapping[str, Sequence[m.Type | None]]] = with_default(default_factory=dict)
 
     def parameters(self, owner: Scope, function: Scope, within: str) -> tuple[m.Parameter, ...]:
         """What a function takes, without its object."""
@@ -80,7 +84,48 @@ class Bodies:
             if type_ is not None:
                 reader.expressions.types[reader.local(name)] = type_
         self.findings.statements[within] += 0
-        return reader.block(body_of(function), field(function.node, "body"))
+        found = reader.block(body_of(function), field(function.node, "body"))
+        self._list_beyond(owner, function, reader, found)
+        return found
+
+    def _list_beyond(
+        self, owner: Scope, function: Scope, reader: Statements, body: m.Block
+    ) -> None:
+        """Lists the integers of a body that may be others than those of the model."""
+        source, names = function.py.source, reader.expressions.names
+        said = function.node.child_by_field_name("return_type")
+        result = (type_of(said) if said is not None else None) or m.Type("int")
+        own = {reader.local(_plain(n)): t for n, t in self._taken(owner, function) if t is not None}
+        known = Known(
+            {**names.types, **own},
+            names.results,
+            self._passed_types(owner),
+            lambda e, types: kind_of(e, types.get, names.results),
+            reader.expressions.cuts.of,
+            reader.expressions.cuts.rounded,
+        )
+        for _, start, end, why in beyond(body, result, source.path, known):
+            span = Span(start, end)
+            hint = hint_of(source.slice(span), why)
+            unread = Unread(span, f"not the number of the model: {why}", hint)
+            self.findings.unreadable(source, unread, reader.within)
+
+    def _passed_types(self, owner: Scope) -> Mapping[str, Sequence[m.Type | None]]:
+        """What functions, and servers to which a class sends, take: of several the narrowest."""
+        if id(owner) not in self.passed:
+            found: dict[str, Sequence[m.Type | None]] = {}
+            names = self.names(owner)
+            for above in self.line(owner):
+                for function in self.roles(above).functions.values():
+                    name = names.functions.get(function.name)
+                    if name is not None:
+                        _narrow(found, name, [t for _, t in self._taken(above, function)])
+            for helper in names.helpers.values():
+                _narrow(found, helper.name, [t for _, t in self._taken(owner, helper.function)])
+            for sends in names.sends.values():
+                _narrow(found, sends.server, sends.types)
+            self.passed[id(owner)] = found
+        return self.passed[id(owner)]
 
     def result(self, owner: Scope, function: Scope, within: str) -> m.Type:
         """The type of what a function gives."""
@@ -260,6 +305,19 @@ def result_of(function: Scope, variables: Callable[[str], m.Type | None]) -> m.T
 def _variables(names: Names) -> Callable[[str], m.Type | None]:
     """The types of attributes."""
     return lambda attribute: names.types.get(names.variables.get(attribute, ""))
+
+
+def _narrow(
+    found: dict[str, Sequence[m.Type | None]], name: str, types: Sequence[m.Type | None]
+) -> None:
+    """Adds what one of several functions or servers of a name takes."""
+    before = found.get(name, types)
+    narrow = [b if _width(b) < _width(t) else t for b, t in zip(before, types, strict=False)]
+    found[name] = narrow if len(narrow) == len(before) == len(types) else []
+
+
+def _width(type_: m.Type | None) -> int:
+    return INTEGERS.get(type_.name, INT32).high if type_ is not None else INT32.high
 
 
 def _plain(node: Node) -> str:

@@ -12,14 +12,15 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.names import original
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.building import binary
+from rebsync.reverse.bodies.building import binary, located
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_formats as formats
 from rebsync.reverse.python import model_idioms as idioms
+from rebsync.reverse.python.model_cuts import Cuts
 from rebsync.reverse.python.model_filled import Filling
 from rebsync.reverse.python.model_helpers import Helper
-from rebsync.reverse.python.model_kinds import kind_of
+from rebsync.reverse.python.model_kinds import is_single, kind_of
 from rebsync.reverse.python.model_roles import Sends
 from rebsync.reverse.python.model_sends import of_mailbox, sent
 from rebsync.reverse.python.model_silent import NOTHING, Silent
@@ -88,7 +89,8 @@ class Expressions:
     """Reads the expressions of one body; `locals` are its variables by their names in Python.
 
     `types` are those of the locals, by their names in the model; `bound` names that stand for an
-    expression while a comprehension is read; `own` is what the object is called.
+    expression while a comprehension is read; `own` is what the object is called; `cuts` are the
+    integers that are cut to the width that they have in the model.
     """
 
     py: Py
@@ -98,6 +100,7 @@ class Expressions:
     types: dict[str, m.Type] = with_default(default_factory=dict)
     bound: dict[str, m.Expression] = with_default(default_factory=dict)
     own: str = "self"
+    cuts: Cuts = with_default(default_factory=Cuts)
 
     def read(self, node: Node) -> m.Expression:
         """An expression. Unread: the model has none for it."""
@@ -106,7 +109,8 @@ class Expressions:
             case "integer":
                 return m.IntLiteral(int(text_of(node), 0), span)
             case "float":
-                return m.FloatLiteral(text_of(node), span)
+                exact = "" if is_single(text_of(node)) else "d"
+                return m.FloatLiteral(f"{text_of(node)}{exact}", span)
             case "true" | "false":
                 return m.BoolLiteral(node.type == "true", span)
             case "string":
@@ -270,15 +274,16 @@ class Expressions:
         """An assignment: `x = int32.add(x, 1)` is what the model writes `x++`, or `++x`."""
         span = self.py.span(whole)
         called, arguments = call_parts(value) or ("", [])
-        updated = formats.updated(self, target, called, arguments)
-        if updated is not None and statement and isinstance(updated, m.Unary):
-            return m.Postfix(updated.operator, target, span)
+        updated: m.Expression | None = formats.updated(self, target, called, arguments)
         if updated is not None:
-            return replace(updated, span=span)
+            if statement and isinstance(updated, m.Unary):
+                updated = m.Postfix(updated.operator, target)
+            changed = replace(updated, span=span)
+            return self.cuts.converted(called.partition(".")[0], changed, update=True)
         read = self.read(value)
         idioms.check_copied(self, value, read)
         if called in formats.NARROW and not formats.is_kept(self, target, called):
-            read = formats.cast(called, read)
+            read = located(formats.cast(called, read), self.py.span(value))
         return m.Assign("=", target, read, span)
 
     def _put_item(self, node: Node, arguments: list[Node]) -> m.Expression:
@@ -291,10 +296,11 @@ class Expressions:
 
     def _before(self, node: Node, arguments: list[Node]) -> m.Expression:
         target = self.read(arguments[0])
-        update = re.search(r"\.(add|subtract)\(", text_of(arguments[1]))
+        update = re.search(r"(\w+)\.(add|subtract)\(", text_of(arguments[1]))
         if update is None:
             raise self.unread(node, "the model has no such expression")
-        return m.Postfix("++" if update[1] == "add" else "--", target, self.py.span(node))
+        operator = "++" if update[2] == "add" else "--"
+        return self.cuts.converted(update[1], m.Postfix(operator, target, self.py.span(node)))
 
     # --- calls ----------------------------------------------------------------------------------
 
@@ -306,9 +312,10 @@ class Expressions:
             return m.Cast(m.Type(_CASTS[called]), self.read(arguments[0]), self.py.span(node))
         if called in _OPERATIONS and len(arguments) == 2:
             left, right = map(self.read, arguments)
-            return binary(_OPERATIONS[called], left, right, self.py.span(node))
-        if (made := formats.operation(self, node, called, arguments)) is not None:
-            return made
+            made = binary(_OPERATIONS[called], left, right, self.py.span(node))
+            return self.cuts.operated(called, made)
+        if (operated := formats.operation(self, node, called, arguments)) is not None:
+            return operated
         if called.startswith((f"{self.own}.", "super().")):
             plain = called.removeprefix(f"{self.own}.")
             called = called if plain == called else f"self.{plain}"
@@ -318,13 +325,15 @@ class Expressions:
 
     def _converted(self, called: str, node: Node) -> m.Expression:
         """A conversion that the model implies; of a literal it tells its type."""
-        if node.type == "float" and called == "float64":
-            return m.FloatLiteral(f"{text_of(node)}d", self.py.span(node))
+        if node.type == "float" and called in ("float32", "float64"):
+            suffix = "d" if called == "float64" else ""
+            return m.FloatLiteral(f"{text_of(node)}{suffix}", self.py.span(node))
         read = self.read(node)
         call = node.parent.parent if node.parent is not None else None
         if called in formats.NARROW and call is not None and idioms.is_within(call):
-            return formats.cast(called, read)  # the model narrows only what it stores
-        return read
+            cast = formats.cast(called, read)  # the model narrows only what it stores
+            return located(cast, self.py.span(call))
+        return self.cuts.converted(called, read)
 
     def _function(self, node: Node, called: str, arguments: list[Node]) -> m.Expression:
         span = self.py.span(node)
@@ -363,7 +372,7 @@ class Expressions:
         found = drawn or builtins.of_python(self, node, called, arguments)
         if found is None:
             raise self.unread(node, f'the model has no function "{called}"')
-        return found
+        return located(found, self.py.span(node))
 
     def _own_call(self, node: Node, called: str, arguments: list[Node]) -> m.Expression:
         if called.startswith("self._mailbox."):

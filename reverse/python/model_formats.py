@@ -60,7 +60,9 @@ def operation(
     left, right = map(reader.read, arguments)
     made = binary(operator, left, right, reader.py.span(node))
     holder = called.partition(".")[0]
-    return cast(holder, made) if holder in NARROW else idioms.grouped(node, made)
+    if holder in NARROW:
+        return cast(holder, made)
+    return idioms.grouped(node, reader.cuts.converted(holder, made, update=True))
 
 
 def _operator(called: str, arguments: list[Node]) -> str:

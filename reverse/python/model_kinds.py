@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Callable, Mapping
 from typing import TypeAlias
 
@@ -20,6 +21,7 @@ _MADE = dict.fromkeys(("int8", "int16", "int32", "divide", "remainder", "abs", "
 _MADE |= {"bool": _BOOLEAN, "any": _BOOLEAN, "all": _BOOLEAN, "float64": _DOUBLE}
 
 Known: TypeAlias = Callable[[str], "m.Type | None"]
+TypeOf: TypeAlias = Callable[[m.Expression], "m.Type | None"]
 
 
 def kind_of(expression: m.Expression, known: Known, results: Mapping[str, m.Type]) -> m.Type | None:
@@ -61,6 +63,46 @@ def kind_of(expression: m.Expression, known: Known, results: Mapping[str, m.Type
             return _BOOLEAN if operator in _TESTS else _DOUBLE if is_real else _joined(*kinds)
         case _:
             return None
+
+
+def real_type(
+    expression: m.Expression, type_of: TypeOf, results: Mapping[str, m.Type]
+) -> str | None:
+    """Whether the model computes an expression as `float` or `double`; None for other numbers.
+
+    `type_of` tells the types of variables and their elements.
+    """
+
+    def of(inner: m.Expression) -> str | None:
+        return real_type(inner, type_of, results)
+
+    match expression:
+        case m.Paren(inner) | m.Unary(_, inner) | m.Assign(_, inner) | m.Postfix(_, inner):
+            return of(inner)
+        case m.FloatLiteral(text):
+            return "double" if text[-1] in "dD" else "float"
+        case m.Cast(type_):
+            return type_.name if type_.name in _FLOATING else None
+        case m.Conditional(_, one, other) | m.Binary(_, one, other):
+            types = {of(one), of(other)}
+            return "double" if "double" in types else "float" if "float" in types else None
+        case m.Call(None, "pow" | "sqrt" as name) if name not in results:
+            return "double"
+        case m.Call(None, name):
+            found = results.get(name)
+        case _:
+            found = type_of(expression)
+    return found.name if found is not None and found.name in _FLOATING else None
+
+
+def is_single(literal: str) -> bool:
+    """Whether 32 bits hold the very number that a literal of the code says."""
+    value = float(literal.replace("_", ""))
+    try:
+        (single,) = struct.unpack("f", struct.pack("f", value))
+    except OverflowError:
+        return False
+    return bool(single == value)
 
 
 def literal_kind(node: Node, variables: Known) -> m.Type | None:

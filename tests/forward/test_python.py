@@ -80,14 +80,14 @@ def test_arithmetic(tmp_path: Path) -> None:
         broken = (sys.modules["calc.values"].Violation, IndexError)
         for number, wanted in enumerate(expected_values(bodies)):
             assert wanted is not None
-            found = _after(rebec, number, broken)
+            found = after(rebec, number, broken)
             differ = {n: (found[n], wanted[n]) for n in wanted if found[n] != wanted[n]}
             if differ:
                 wrong.append(f"{bodies[number]}\n    {differ}")
     assert not wrong, f"{len(wrong)} of {len(bodies)}:\n" + "\n".join(wrong[:5])
 
 
-def _after(rebec: object, number: int, broken: tuple[type[Exception], ...]) -> dict[str, Value]:
+def after(rebec: object, number: int, broken: tuple[type[Exception], ...]) -> dict[str, Value]:
     """The variables after a body that starts with those of every body."""
     for name, value in START.items():
         values = sys.modules["calc.values"]

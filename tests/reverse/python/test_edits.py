@@ -45,7 +45,12 @@ SHOWN = {
         "    other.step(by) after(3);\n",
         "",
     ),
-    "delay": ("self._mailbox.delay(n)", "self._mailbox.delay(2 * n)", "delay(n)", "delay(2 * n)"),
+    "delay": (
+        "self._mailbox.delay(n)",
+        "self._mailbox.delay(int32(2 * n))",
+        "delay(n)",
+        "delay(2 * n)",
+    ),
     "after": ("When(after=3)", "When(after=4, deadline=9)", "after(3)", "after(4) deadline(9)"),
     "assignment": (
         "self._busy = True",
