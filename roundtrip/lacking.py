@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from contextlib import suppress
 from typing import TYPE_CHECKING
+from warnings import catch_warnings, simplefilter
 
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.files import read_source
@@ -30,7 +31,36 @@ _HINT = "put it back, or take out by hand all that belongs to it"
 
 def lacking(kept: Kept, record: Record, now: Standing) -> tuple[Findings, ...]:
     """What was generated and is gone while the build names it, or code uses it."""
-    return (*_files(record, now), *_fields(kept, record, now), *_packages(kept, record, now))
+    return (
+        *_files(record, now),
+        *_fields(kept, record, now),
+        *_packages(kept, record, now),
+        *_refused(now),
+    )
+
+
+def _refused(now: Standing) -> Iterator[Findings]:
+    """The files of Python that have a tree, but that Python does not take."""
+    for name in now.changed:
+        path = now.listing.files.get(name, "")
+        source = _code(path) if name.endswith(".py") else None
+        if source is None:
+            continue
+        try:
+            with catch_warnings():
+                simplefilter("ignore")
+                compile(source.text, path, "exec", dont_inherit=True)
+        except (SyntaxError, ValueError, RecursionError) as error:
+            last = source.text.count("\n") + 1
+            line = source.start_of(min(getattr(error, "lineno", None) or 1, last))
+            message = f"Python does not take this: {getattr(error, 'msg', error)}"
+            yield _finding(source, Span(line, line + 1), message)
+
+
+def _code(path: str) -> Source | None:
+    with suppress(RebsyncError):  # what cannot be read, extraction lists
+        return read_source(path)
+    return None
 
 
 def _files(record: Record, now: Standing) -> Iterator[Findings]:
