@@ -171,7 +171,7 @@ def _change(kind: str, old: set[str], new: set[str]) -> str:
     was, said = (_shown(each - _PRESENT) for each in (old, new))
     if not new:
         return f"is gone; it was {was}" if was else "is gone"
-    if not old and kind != RANGE:
+    if not old:
         return f"is new: {said}" if said else "is new"
     if not was:
         return f"is {said}"
