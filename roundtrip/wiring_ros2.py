@@ -81,7 +81,7 @@ def of_launch(source: Source) -> Iterator[Told]:
         node = str(name.value) if isinstance(name, ast.Constant) else ""
         span = _span(source, call)
         for key in _KEYWORDS:
-            value = ast.unparse(given[key]) if key in given else "not given"
+            value = _said(given[key], names) if key in given else "not given"
             if key == "arguments" and key in given and _only_logs(given[key]):
                 value = "not given"
             yield "node", node, key, value, source, span
@@ -105,6 +105,16 @@ def _only_logs(value: ast.expr) -> bool:
 
 def _is_text(node: ast.expr, text: str) -> bool:
     return isinstance(node, ast.Constant) and node.value == text
+
+
+def _said(value: ast.expr, names: Mapping[str, ast.expr]) -> str:
+    """What a node is given, but for the least severity that it logs."""
+    found = _resolved(value, names)
+    if not isinstance(found, ast.List | ast.Tuple):
+        return ast.unparse(value)
+    said = [ast.unparse(each) for each in found.elts]
+    level = said.index("'--log-level'") if "'--log-level'" in said else len(said)
+    return ", ".join(said[:level] + said[level + 2 :])
 
 
 def _files(value: ast.expr | None, names: Mapping[str, ast.expr]) -> Iterable[str]:

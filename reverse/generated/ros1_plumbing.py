@@ -36,6 +36,7 @@ from rebsync.static.types import PRIMITIVES
 
 _Fields: TypeAlias = "Mapping[str, Mapping[str, Type | None]]"
 _SETS_UP = SETS_UP | {"advertise", "advertiseAll", "unused"}
+_STARTING = frozenset({"construct", "start"})
 _ONCE = frozenset({"construct", "onServed", "start"})
 _CHANGES = ("assignment_expression", "update_expression", "delete_expression", "throw_statement")
 _HANDLE = re.compile(r"const\s+ros::NodeHandle\s+(\w+)\s*(.*)", re.DOTALL)
@@ -128,7 +129,7 @@ def _is_constructed(code: Code, owner: CppClass) -> bool:
 def _odd_in_constructor(
     code: Code, owner: CppClass, function: CppFunction, roles: Roles
 ) -> Iterator[Node]:
-    """Statements that neither set up anything nor prepare that."""
+    """Statements that neither set up anything nor prepare that, or come too late for it."""
     timers = {t.call.node.id for t in timers_of(code, owner, roles)}
     timers |= {call.node.id for call in idle_timers(code, owner)}
     arguments = dict(arguments_in(function))
@@ -139,7 +140,8 @@ def _odd_in_constructor(
         once = {c.name for c in calls_in(statement) if c.name in _ONCE and c.on == "mailbox_"}
         if statement.id in roles.reading:
             continue
-        if once & done or _changes_more(statement):
+        is_late = not _STARTING.isdisjoint(done) and once != {"start"}
+        if once & done or is_late or _changes_more(statement):
             yield statement
             continue
         done |= once

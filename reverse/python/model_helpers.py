@@ -128,7 +128,8 @@ def _function(code: PyCode, module: Scope, name: str) -> Scope | None:
     if binding.how != "scope":
         return None
     found = code.scope_of(binding.node, module.py)
-    return found if found.kind == FUNCTION and not found.decorators else None
+    is_coroutine = any(c.type == "async" for c in found.node.children)
+    return found if found.kind == FUNCTION and not (found.decorators or is_coroutine) else None
 
 
 def is_runtime(module: Scope) -> bool:

@@ -15,7 +15,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python.model_constants import is_quiet
 from rebsync.reverse.python.model_helpers import is_transparent
-from rebsync.reverse.python.model_parameters import declared_by
+from rebsync.reverse.python.model_parameters import declared_by, parameter_read
 from rebsync.reverse.python.model_roles import OFFERING, Roles
 from rebsync.reverse.python.model_silent import Silent
 from rebsync.reverse.python.model_types import (
@@ -58,6 +58,7 @@ _AT_TOP = frozenset(
 _IN_CLASS = frozenset({"function_definition", "decorated_definition", "pass_statement"})
 _DECORATORS = frozenset({"abstractmethod", "final", "override", "staticmethod", "classmethod"})
 _WHY = "what this does is not in the model"
+_LATE = "this gives a coroutine, and nobody runs it"
 _HINT = "say it in the model, or move it into a user block"
 
 
@@ -82,6 +83,8 @@ class Plumbing:
             for node in self._odd(function):
                 self._list(owner.py, node, _WHY, function.name)
         for function in self.roles.functions.values():
+            if any(c.type == "async" for c in function.node.children):
+                self._list(owner.py, function.node, _LATE, function.name)
             odd = [d for d in function.decorators if not self._is_plain(function, d)]
             if odd := [d for d in odd if not is_transparent(self.code, owner.module, d)]:
                 why = f'nobody knows what "@{odd[0]}" makes of it'
@@ -115,7 +118,7 @@ class Plumbing:
         name = function.name
         body = [s for s in body_of(function) if not self.silent.holds(s)]
         if name in ("__init__", "_wire"):
-            yield from (s for s in body if not self._sets_up(function, s))
+            yield from self._odd_in_set_up(function, body)
         elif name in self.roles.shims:
             yield from (s for s in body if not self._receives(function, s))
         elif name in self.roles.sends:
@@ -126,6 +129,15 @@ class Plumbing:
             yield from (s for s in body if text_of(s) != "return self._mailbox")
 
     # --- set up ---------------------------------------------------------------------------------
+
+    def _odd_in_set_up(self, function: Scope, body: list[Node]) -> Iterator[Node]:
+        """What does not set up, or comes when the model's constructor has been handed over."""
+        is_constructed = False
+        for statement in body:
+            if is_constructed or not self._sets_up(function, statement):
+                yield statement
+            called, _ = call_parts(_inner(statement)) or ("", [])
+            is_constructed = is_constructed or called == "self._mailbox.construct"
 
     def _sets_up(self, function: Scope, statement: Node) -> bool:
         inner = _inner(statement)
@@ -148,7 +160,8 @@ class Plumbing:
         if member in roles.state:
             return _is_of_type(inner)
         if member in roles.arguments:
-            return True
+            read = parameter_read(field(inner, "right"))
+            return read is not None and read.key == roles.arguments[member]
         called, arguments = call_parts(inner.child_by_field_name("right")) or ("", [])
         if called.endswith("get_logger"):
             return True
@@ -237,6 +250,9 @@ def odd_at_top(module: Scope) -> Iterator[Node]:
         inner = _inner(statement)
         called, _ = call_parts(inner.child_by_field_name("right") if inner else None) or ("", [])
         definition = statement.child_by_field_name("definition")
+        if any(c.type == "wildcard_import" for c in statement.children):
+            yield statement
+            continue
         if statement.type in _AT_TOP or called in _NAMED or _is_text(statement):
             continue
         if is_quiet(module, statement):

@@ -131,6 +131,14 @@ KINDS = (
     Kind("known rebec is another", _other_rebec),
     Kind("known rebec not given", _in_nodes(r'^ *"knownrebecs\..*\n', "")),
     Kind("clock of one node", _in_nodes(r"^ *clock,\n", "")),
+    Kind(
+        "remap before another",
+        _in_nodes(r'^( *)\("(~/.*)", "(.*)"\),\n', r'\1("\2", "other"),\n\g<0>'),
+    ),
+    Kind(
+        "remap among the arguments",
+        in_files(_FILE, r"^(    logging = \[)", r'\1"-r", "~/state:=other", '),
+    ),
     Kind("remap removed", _in_nodes(r'^ *\("~/.*"\),\n', "")),
     Kind("remap to another topic", _in_nodes(r'(\("~/[^"]*", ")', r"\1other/")),
     Kind("remap from another topic", _in_nodes(r'(\("~/)', r"\1other/")),

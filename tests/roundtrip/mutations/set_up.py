@@ -57,7 +57,39 @@ _CPP = (
     _kind("state changed by a default", ".cpp", (rf"{_READ})(\d+)", r"\1next()")),
     _kind("state changed before a constant", ".cpp", (rf"{_READ})", r"  \2 = id_ = 4;\n\1")),
 )
+_LATE = _kind(
+    "set up after the start",
+    ".cpp",
+    (
+        r"^(  mailbox_\.onServed\(.*\n)((?:.*\n)*?)"
+        r"(  mailbox_\.construct\(.*\);\n(?:  mailbox_\.start\(\);\n)?)",
+        r"\2\3\1",
+    ),
+)
+_EARLY = _kind(
+    "started before it is constructed",
+    ".cpp",
+    (r"^(  mailbox_\.construct\(.*\n)(  mailbox_\.start\(\);\n)", r"\2\1"),
+)
+_SET_LATE = _kind(
+    "state set after the constructor",
+    ".py",
+    (
+        r"^(        self\.(_\w+): int = int\(\).*\n)((?:.*\n)*?)"
+        r"(        self\._mailbox\.construct\(.*\n)",
+        r"\3\4\1",
+    ),
+)
+_COROUTINE = _kind(
+    "server made a coroutine",
+    ".py",
+    (r"^(    # rebsync: msgsrv \w+\.\w+\n    )(?=def)", r"\1async "),
+)
+_STAR = _kind("names of a module beside", ".py", (r"^(?=_\w+ = Server)", "from math import *\n"))
 _PY = (
+    _SET_LATE,
+    _COROUTINE,
+    _STAR,
     _kind(
         "server made a property",
         ".py",
@@ -75,6 +107,7 @@ _DEFINITION = _kind(
 
 KINDS = {
     "ros1-cpp": (
+        _LATE,
         *_CPP[:3],
         *_CPP[4:],
         _VARIABLE,
@@ -94,6 +127,8 @@ KINDS = {
         ),
     ),
     "ros2-cpp": (
+        _LATE,
+        _EARLY,
         *_CPP[:2],
         *_CPP[3:],
         _VARIABLE,
