@@ -178,15 +178,6 @@ PY = (
         anywhere(hidden('\\1        "env.NAME": VALUE,\n', _PY, r"^(    system = \{\n)")),
     ),
     Kind(
-        "namespace of all nodes",
-        _with_import(
-            "launch_ros.actions",
-            "PushRosNamespace",
-            _LIST,
-            r'\1            PushRosNamespace("a"),\n',
-        ),
-    ),
-    Kind(
         "remap for all nodes",
         _with_import(
             "launch_ros.actions",
@@ -268,10 +259,24 @@ PY = (
     Kind("remap to the same topic", _same_topic(r'\("~/[^"]*", ("[^"]*")\)')),
 )
 
-PY_NEUTRAL = kinds_in(
-    _PY,
-    {
-        "remap of something else": (r'^( {20})(\("~/[^\n]*\n)', r'\1("/tf", "/robot/tf"),\n\1\2'),
-        "terminal as it is": (_INNER, r"\1emulate_tty=True,\n\1\2"),
-    },
+PY_NEUTRAL = (
+    Kind(
+        "namespace of all nodes",
+        _with_import(
+            "launch_ros.actions",
+            "PushRosNamespace",
+            _LIST,
+            r'\1            PushRosNamespace("a"),\n',
+        ),
+    ),
+    *kinds_in(
+        _PY,
+        {
+            "remap of something else": (
+                r'^( {20})(\("~/[^\n]*\n)',
+                r'\1("/tf", "/robot/tf"),\n\1\2',
+            ),
+            "terminal as it is": (_INNER, r"\1emulate_tty=True,\n\1\2"),
+        },
+    ),
 )
