@@ -16,6 +16,7 @@ from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_effects import Effects, Touches
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
+from rebsync.reverse.bodies.cpp_references import is_made, stays
 from rebsync.reverse.bodies.cpp_roots import specifiers_of
 from rebsync.reverse.bodies.cpp_types import Carried, carried
 from rebsync.reverse.bodies.cpp_widths import place_of, wide_of
@@ -348,28 +349,16 @@ def _reference(
     if isinstance(meaning, Variable | Record | Outside):
         reader.meaning(declared.name, meaning)
         return
-    if value.type == "subscript_expression":
+    if value.type in ("subscript_expression", "call_expression"):
         place = reader.expressions.read(value)
-        if is_calm(place) and _stays(reader, place, declared):
+        if is_calm(place) and stays(place, declared.node):
             reader.meaning(declared.name, place)
             return
-    if declared.constant:
+    if declared.constant and is_made(reader.scope, value):
         plain = replace(declared, kind="identifier")
         yield from _declared(reader, plain)
         return
     raise reader.unread(declared.node, "the model has no pointers and references")
-
-
-def _stays(reader: CppStatements, place: m.Expression, declared: _Declared) -> bool:
-    """Whether the index of an element is the same wherever the reference is used."""
-    if not isinstance(place, m.Index):
-        return False
-    names = {n.name for n in m.walk(place.index) if isinstance(n, m.Name | m.Member)}
-    block = declared.node.parent
-    while block is not None and block.type != "compound_statement":
-        block = block.parent
-    text = text_of(block) if block is not None else ""
-    return not any(re.search(rf"\b{n}_?\s*(?:[-+*/%&|^]?=[^=]|\+\+|--)", text) for n in names)
 
 
 def _called_or_made(reader: CppStatements, declared: _Declared) -> Iterator[m.Statement]:

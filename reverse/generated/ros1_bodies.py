@@ -11,8 +11,9 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+from rebsync.reverse.bodies.cpp_references import is_made
 from rebsync.reverse.bodies.cpp_statements import CppStatements
-from rebsync.reverse.bodies.scope import Outside, Record, Scope, Variable
+from rebsync.reverse.bodies.scope import Called, Outside, Record, Scope, Variable
 from rebsync.reverse.bodies.subscripts import out_of_range, untested
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.ros1_free import passed_by_reference
@@ -22,6 +23,8 @@ from rebsync.reverse.generated.ros1_timers import Timer, sent_later, with_rearmi
 from rebsync.reverse.syntax.cpp_index import Code, CppField, CppFunction, CppParameter
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 
+_BY_VALUE = "pass it by value"
+_WORD = re.compile(r"\w+")
 _USERS = "rebsync: user"  # what stands in such a block is nobody else's
 
 
@@ -50,9 +53,32 @@ class Bodies:
             elif index in references:
                 why = "what this function does to its parameter the caller's variable keeps"
                 self._unread(function, parameter.node, why, function.name)
+            elif self._may_change(function, index):
+                why = "this refers to a member that the function may change"
+                self._unread(function, parameter.node, why, function.name, _BY_VALUE)
             name = self._given_name(function, parameter)
             found.append(m.Parameter(type_ or m.Type("int"), name, span))
         return tuple(found)
+
+    def _may_change(self, function: CppFunction, index: int) -> bool:
+        """Whether a reference to a constant may refer to a member that the function changes."""
+        parameter = function.parameters[index].node.child_by_field_name("declarator")
+        if parameter is None or parameter.type != "reference_declarator" or not function.body:
+            return False
+        calls = self.code.calls_of(function)
+        if any(isinstance(self.scope.functions.get(c.name), Called) for c in calls):
+            members = set(self.scope.members)
+        else:
+            members = self.scope.members.keys() & set(_WORD.findall(text_of(function.body)))
+        every = (f for c in self.code.lineage(function.owner) for f in self.code.functions_of(c))
+        given = (
+            call.arguments[index]
+            for caller in every
+            for call in self.code.calls_of(caller)
+            if call.name == function.name and index < len(call.arguments)
+        )
+        places = (text_of(each) for each in given if not is_made(self.scope, each))
+        return any(members & set(_WORD.findall(place)) for place in places)
 
     def _given_name(self, function: CppFunction, parameter: CppParameter) -> str:
         """The model's name of a parameter: another one where it would hide a member in use."""
@@ -98,8 +124,10 @@ class Bodies:
     def _inside(self, cpp: Cpp) -> Scope:
         return replace(self.scope, constants=self.code.constants_for(cpp))
 
-    def _unread(self, function: CppFunction, node: Node, why: str, within: str) -> None:
-        unread = Unread(function.cpp.span(node), why)
+    def _unread(
+        self, function: CppFunction, node: Node, why: str, within: str, hint: str = ""
+    ) -> None:
+        unread = Unread(function.cpp.span(node), why, hint)
         self.findings.unreadable(function.cpp.source, unread, within)
 
     # --- handlers that are lambdas --------------------------------------------------------------

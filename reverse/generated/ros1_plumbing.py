@@ -67,6 +67,9 @@ def check_plumbing(
             why = "all objects of the class share this; in the model each rebec has its own"
             unread = Unread(member.cpp.span(member.node), why)
             findings.unreadable(member.cpp.source, unread, owner.name)
+        if any(c.type == "bitfield_clause" for c in member.node.children):
+            unread = Unread(member.cpp.span(member.node), "this holds some of its bits only")
+            findings.unreadable(member.cpp.source, unread, owner.name)
     for function in code.functions_of(owner):
         if function.body is None:
             continue

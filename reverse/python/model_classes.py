@@ -180,8 +180,8 @@ class Classes:
 
     def _reactive(self, owner: Scope) -> m.ReactiveClass:
         roles = self._of(owner)
-        silent = self._bodies.names(owner).silent
-        Plumbing(roles, self.messages, self.findings, self.code, silent).check()
+        silent, lineage = self._bodies.names(owner).silent, self.line(owner)[1:]
+        Plumbing(roles, self.messages, self.findings, self.code, silent, lineage).check()
         members: list[m.ClassMember] = []
         known = [self._variable(owner, *v) for v in roles.known.values()]
         state = [self._variable(owner, *v) for v in roles.state.values()]

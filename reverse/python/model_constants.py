@@ -72,8 +72,10 @@ def enumerations_of(module: Scope) -> dict[str, m.Expression]:
             continue
         if [text_of(b).removeprefix("enum.") for b in named(bases)] != ["IntEnum"]:
             continue
-        name = text_of(field(node, "name"))
-        for statement in named(field(node, "body")):
+        name, body = text_of(field(node, "name")), named(field(node, "body"))
+        if any(s.type in ("function_definition", "decorated_definition") for s in body):
+            continue  # which may compare otherwise
+        for statement in body:
             inner = named(statement)[0] if statement.type == "expression_statement" else None
             if inner is None or inner.type != "assignment" or not _is_new(module, name):
                 continue

@@ -13,7 +13,7 @@ from tree_sitter import Node
 from rebsync.names import graph_name
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Findings, Unread
-from rebsync.reverse.python.model_constants import is_quiet
+from rebsync.reverse.python.model_constants import constants_of, is_quiet
 from rebsync.reverse.python.model_helpers import is_transparent
 from rebsync.reverse.python.model_parameters import declared_by, parameter_read
 from rebsync.reverse.python.model_roles import OFFERING, Roles
@@ -67,7 +67,7 @@ class Plumbing:
     """One class with what its functions are for.
 
     `fields` are those of messages, by their types; of those that another package has, as in ROS 2,
-    only the order of what is passed on can be looked at.
+    only the order of what is passed on can be looked at. `above` are the classes above.
     """
 
     roles: Roles
@@ -75,6 +75,7 @@ class Plumbing:
     findings: Findings
     code: PyCode
     silent: Silent
+    above: Sequence[Scope]
 
     def check(self) -> None:
         """Lists what a class does besides."""
@@ -89,6 +90,8 @@ class Plumbing:
             if odd := [d for d in odd if not is_transparent(self.code, owner.module, d)]:
                 why = f'nobody knows what "@{odd[0]}" makes of it'
                 self._list(owner.py, function.node, why, function.name)
+        for node, why in self._overridden():
+            self._list(owner.py, node, why, "")
         for statement in named(field(owner.node, "body")):
             if statement.type in _IN_CLASS or _is_text(statement) or self._is_constant(statement):
                 continue
@@ -101,6 +104,14 @@ class Plumbing:
         roles, name = self.roles, function.name
         called = re.search(rf"\bself\.{name}\s*\(", text_of(roles.owner.node))
         return called is None and not any(name in r for r in (roles.handlers, roles.sends))
+
+    def _overridden(self) -> Iterator[tuple[Node, str]]:
+        """The constants that functions above use by the value of a class above."""
+        owner, own = self.roles.owner, constants_of(self.roles.owner)
+        for above in self.above:
+            for name in sorted(own.keys() & constants_of(above).keys()):
+                why = f'this counts in functions of "{above.name}" as well, in place of its own'
+                yield owner.names[name][0].node, why
 
     def _is_constant(self, statement: Node) -> bool:
         """Whether it names a constant that no instance has another value for."""

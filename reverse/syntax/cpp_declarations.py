@@ -81,6 +81,15 @@ class CppFunction:
         """The parameters' types as text, which tells overloads apart."""
         return tuple(_STD.sub("", "".join(text_of(p.type).split())) for p in self.parameters)
 
+    @property
+    def gives_place(self) -> bool:
+        """Whether it returns a reference or a pointer."""
+        declarator = self.node.child_by_field_name("declarator")
+        return declarator is not None and declarator.type in (
+            "reference_declarator",
+            "pointer_declarator",
+        )
+
 
 @dataclass(frozen=True, slots=True)
 class CppField:

@@ -8,7 +8,9 @@ import pytest
 
 from rebsync.grammars.parser import parse_model
 from rebsync.printing import print_model
+from rebsync.reverse.recovery import extract
 from rebsync.source import Source
+from tests.forward.compiling import CASES, case_files
 from tests.reverse.python.laws import extracted, python_files
 
 MODEL = """\
@@ -136,3 +138,14 @@ def test_what_it_cannot_show_is_listed(files: dict[str, str], name: str) -> None
     old, new, place = LISTED[name]
     found = extracted(edited(files, old, new))
     assert any(f.text.startswith(place) for f in found.findings), found.findings
+
+
+def test_a_constant_that_another_hides_is_told() -> None:
+    """Functions of a class above use the constant of the class that the object is of."""
+    files = case_files(CASES / "inheritance.rebeca", "ros1-py")
+    for name, above, value in (("car", "Vehicle", 2), ("truck", "Car", 3)):
+        path, head = f"src/inheritance/{name}.py", f"class {name.capitalize()}({above}):\n"
+        assert head in files[path]
+        files[path] = files[path].replace(head, f"{head}    LOWEST = {value}\n")
+        found = extract({p: Source(p, text) for p, text in files.items()}).findings
+        assert [f.text for f in found] == ["LOWEST = 3"] * (name == "truck")
