@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
 from rebsync.records import dataclass
 from rebsync.roundtrip.attested import is_attested
-from rebsync.roundtrip.digests import Standing, is_base_whole, is_text_of, standing
+from rebsync.roundtrip.digests import Standing, edited_base, is_base_whole, is_text_of, standing
 from rebsync.roundtrip.manifest import BASE, BASE_MODEL
 from rebsync.roundtrip.model_file import model_of, moved_model
 from rebsync.roundtrip.packages import Kept
-from rebsync.roundtrip.recorded import Record, read_record, recorded_base, told_in_step
+from rebsync.roundtrip.recorded import Record, read_record, told_in_step
 from rebsync.roundtrip.settings import changed_settings
 from rebsync.source import NOWHERE, Source
-from rebsync.terminal import encoded
 
 if TYPE_CHECKING:
     from rebsync.roundtrip.accepted import Entry
@@ -114,9 +113,9 @@ def _about_records(kept: Kept, model: str, record: Record) -> tuple[Findings, ..
 
 
 def _about_base(kept: Kept, record: Record) -> tuple[Findings, ...]:
-    """A base that is missing or not as recorded: without it nobody knows who has moved."""
+    """A base model that is missing or not as recorded: without it nobody knows who has moved."""
     if is_base_whole(kept, record):
-        return tuple(_edited_base(kept, record))
+        return ()
     message = "the model as of the last time in step is missing, or not as recorded"
     hint = "`rebsync generate` writes it anew, once model and code are in step"
     found = Diagnostic("RS964", NOWHERE, message, hint, severity=Severity.WARNING)
@@ -124,13 +123,15 @@ def _about_base(kept: Kept, record: Record) -> tuple[Findings, ...]:
 
 
 def _edited_base(kept: Kept, record: Record) -> Iterator[Findings]:
-    """The texts that were generated, as far as somebody has edited what is kept of them."""
-    for name, text in recorded_base(kept.root, BASE).items():
-        if not is_text_of(encoded(text), record.files.get(name, "")):
-            message = "this is kept as it was generated, and has been edited"
-            hint = "`rebsync generate` writes it anew, once model and code are in step"
-            found = Diagnostic("RS964", NOWHERE, message, hint, severity=Severity.WARNING)
-            yield Findings(Source(f"{kept.root}/{BASE}{name}", ""), (found,))
+    """The texts that were generated, as far as somebody has edited what is kept of them.
+
+    They count where code and model are compared: as long as neither has changed, nothing does.
+    """
+    for name in edited_base(kept, record):
+        message = "this is kept as it was generated, and has been edited"
+        hint = "`rebsync generate` writes it anew, once model and code are in step"
+        found = Diagnostic("RS964", NOWHERE, message, hint, severity=Severity.WARNING)
+        yield Findings(Source(f"{kept.root}/{BASE}{name}", ""), (found,))
 
 
 def _refuse_dialect(kept: Kept, record: Record | None) -> None:
@@ -170,7 +171,8 @@ def finish(begun: Begun, depth: str) -> Checked:
             unknown += odd
             drift = replace(drift, differences=(*drift.differences, *changes))
         drift = undetermined(drift) if unknown else drift
-        findings = (*_about_records(kept, model, record), *findings, *unknown)
+        records = (*_about_records(kept, model, record), *_edited_base(kept, record))
+        findings = (*records, *findings, *unknown)
         return _as_sync_says(Checked(kept, model, record, now, drift, findings), record)
     return Checked(kept, model, record, now, drift, findings)
 

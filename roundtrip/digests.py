@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator
+from contextlib import suppress
 
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import BOM, operating_on, read_bytes
+from rebsync.folder import LARGEST, Folder, content_of
 from rebsync.records import dataclass
 from rebsync.reverse.files.packages import Listing, is_read
 from rebsync.reverse.files.python_files import may_be_script
 from rebsync.reverse.files.stores import Disk, contents, join
-from rebsync.roundtrip.manifest import BASE_MODEL
+from rebsync.roundtrip.manifest import BASE, BASE_MODEL
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
 from rebsync.roundtrip.units import both_at, listing_of
@@ -101,6 +103,17 @@ def is_base_whole(kept: Kept, record: Record) -> bool:
         return is_text_of(read_bytes(f"{kept.root}/{BASE_MODEL}"), record.digest)
     except RebsyncError:
         return False
+
+
+def edited_base(kept: Kept, record: Record) -> list[str]:
+    """The files of which the texts that were generated last time are kept, but no longer so."""
+    found = []
+    with operating_on(f"{kept.root}/{BASE}"), Folder(kept.root) as package:
+        for name, digest in record.files.items():
+            with suppress(FileNotFoundError, NotADirectoryError):
+                if not is_text_of(content_of(package.open(BASE + name), LARGEST), digest):
+                    found.append(name)
+    return found
 
 
 def digest_of(data: bytes) -> str:

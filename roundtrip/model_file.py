@@ -97,7 +97,8 @@ def _siblings(folder: str, model: str) -> Iterator[tuple[str, str]]:
 
 def moved_model(kept: Kept, record: Record, model: str) -> tuple[Findings, ...]:
     """A note where a model was found, but not where the manifest says."""
-    if kept.model is not None or is_recorded(kept.root, record, model):
+    tried = next(filter(os.path.lexists, _tried(kept.root, record)), None)
+    if kept.model is not None or tried == model or is_recorded(kept.root, record, model):
         return ()
     message = f"its model is {model}, which its manifest does not say"
     hint = f"`rebsync sync {kept.root}` records that"

@@ -467,6 +467,11 @@ def damaged_half() -> None:
     path.write_text(path.read_text()[:700])
 
 
+def edited_with_its_base() -> None:
+    replace("patrol/.rebsync/base/src/robot.cpp", "delay(1)", "delay(2)")
+    replace(SOURCE, "delay(1)", "delay(3)")
+
+
 WRONG: dict[str, tuple[Callable[[], object], int, str]] = {
     "manifest gone": (Path("patrol/.rebsync/manifest.json").unlink, 2, "manifest.json: RS961"),
     "all records gone": (lambda: shutil.rmtree("patrol/.rebsync"), 2, "RS960"),
@@ -497,8 +502,8 @@ WRONG: dict[str, tuple[Callable[[], object], int, str]] = {
     "base gone": (Path("patrol/.rebsync/base.rebeca").unlink, 1, "base.rebeca: RS964"),
     "base damaged": (put("patrol/.rebsync/base.rebeca", "<<"), 1, "base.rebeca: RS964"),
     "base of the code edited": (
-        lambda: replace("patrol/.rebsync/base/src/robot.cpp", "delay(1)", "delay(2)"),
-        1,
+        edited_with_its_base,
+        4,
         "base/src/robot.cpp: RS964 this is kept as it was generated, and has been edited",
     ),
     "code gone": (Path(SOURCE).unlink, 4, "RS941"),
