@@ -103,6 +103,7 @@ class Bodies:
             lambda e, types: kind_of(e, types.get, names.results),
             reader.expressions.cuts.of,
             reader.expressions.cuts.rounded,
+            reader.expressions.cuts.called,
         )
         for _, start, end, why in beyond(body, result, source.path, known):
             span = Span(start, end)
@@ -111,19 +112,18 @@ class Bodies:
             self.findings.unreadable(source, unread, reader.within)
 
     def _passed_types(self, owner: Scope) -> Mapping[str, Sequence[m.Type | None]]:
-        """What functions, and servers to which a class sends, take: of several the narrowest."""
+        """What functions of the code take, those that send as well; of several the narrowest."""
         if id(owner) not in self.passed:
             found: dict[str, Sequence[m.Type | None]] = {}
             names = self.names(owner)
             for above in self.line(owner):
                 for function in self.roles(above).functions.values():
-                    name = names.functions.get(function.name)
-                    if name is not None:
-                        _narrow(found, name, [t for _, t in self._taken(above, function)])
-            for helper in names.helpers.values():
-                _narrow(found, helper.name, [t for _, t in self._taken(owner, helper.function)])
-            for sends in names.sends.values():
-                _narrow(found, sends.server, sends.types)
+                    if function.name in names.functions:
+                        types = [t for _, t in self._taken(above, function)]
+                        _narrow(found, function.name, types)
+            for name, helper in names.helpers.items():
+                found[name] = [t for _, t in self._taken(owner, helper.function)]
+            found |= {name: sends.types for name, sends in names.sends.items()}
             self.passed[id(owner)] = found
         return self.passed[id(owner)]
 

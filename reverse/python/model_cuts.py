@@ -29,10 +29,19 @@ class Cut:
 
 @dataclass(eq=False, slots=True)
 class Cuts:
-    """The expressions of a body that are cut, and those that are rounded, by their ids."""
+    """The expressions of a body that are cut, and those that are rounded, by their ids.
+
+    `called` has the functions of the code that calls and sends of the model are: of overloads one.
+    """
 
     of: dict[int, Cut] = field(default_factory=dict)
     rounded: dict[int, m.Expression] = field(default_factory=dict)
+    called: dict[int, tuple[m.Expression, str]] = field(default_factory=dict)
+
+    def passing(self, call: m.Expression, function: str) -> m.Expression:
+        """A call or send, which is one of a function of the code."""
+        self.called[id(call)] = call, function
+        return call
 
     def converted(self, format_: str, read: m.Expression, *, update: bool = False) -> m.Expression:
         """What a format makes of an expression; of a variable, if it is an update (`int32.add`)."""
@@ -63,4 +72,6 @@ class Cuts:
             return replace(read, inner=self._rounded(read.inner))
         copied = replace(read)
         self.rounded[id(copied)] = copied
+        if (cut := self.of.get(id(read))) is not None:
+            self.of[id(copied)] = replace(cut, expression=copied)
         return copied

@@ -367,7 +367,8 @@ class Expressions:
         helper = self.names.helpers.get(called)
         if helper is not None:
             given = helper.given(self, node, arguments)
-            return m.Call(None, helper.name, given, span=self.py.span(node))
+            call = m.Call(None, helper.name, given, span=self.py.span(node))
+            return self.cuts.passing(call, called)
         drawn = builtins.drawn(self, node, called, arguments)
         found = drawn or builtins.of_python(self, node, called, arguments)
         if found is None:
@@ -382,14 +383,15 @@ class Expressions:
         span = self.py.span(node)
         sends = self.names.sends.get(name)
         if sends is not None and holder == "self":
-            return sent(self, node, sends, arguments)
+            return self.cuts.passing(sent(self, node, sends, arguments), name)
         function = self.names.functions.get(name)
         if function is None:
             raise self.unread(node, f'the model has no function "{called}"')
         if holder == "self" and name in self.names.servers:
             raise self.unread(node, "this serves a message at once; the model only sends them")
         target = m.Super(span) if holder == "super()" else None
-        return m.Call(target, function, tuple(map(self.read, arguments)), span=span)
+        given = tuple(map(self.read, arguments))
+        return self.cuts.passing(m.Call(target, function, given, span=span), name)
 
 
 _SAME = {"is": "==", "is not": "!="}

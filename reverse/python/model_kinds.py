@@ -83,6 +83,8 @@ def real_type(
             return "double" if text[-1] in "dD" else "float"
         case m.Cast(type_):
             return type_.name if type_.name in _FLOATING else None
+        case m.Binary(operator) if operator in _TESTS:
+            return None
         case m.Conditional(_, one, other) | m.Binary(_, one, other):
             types = {of(one), of(other)}
             return "double" if "double" in types else "float" if "float" in types else None

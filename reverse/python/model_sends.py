@@ -58,14 +58,9 @@ def _posted(reader: Expressions, node: Node, arguments: list[Node]) -> m.Express
     if not all(value.type in _LATE for value in values):
         raise reader.unread(node, "this is evaluated when it is served: send it by `send_self_...`")
     times, span = idioms.times(reader, arguments[1]), reader.py.span(node)
-    return m.Call(
-        m.Self(span),
-        server,
-        tuple(map(reader.read, values)),
-        times.get("after"),
-        times.get("deadline"),
-        span,
-    )
+    given = tuple(map(reader.read, values))
+    call = m.Call(m.Self(span), server, given, times.get("after"), times.get("deadline"), span)
+    return reader.cuts.passing(call, handler.removeprefix("self."))
 
 
 def sent(reader: Expressions, node: Node, sends: Sends, arguments: list[Node]) -> m.Expression:

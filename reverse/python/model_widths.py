@@ -45,6 +45,7 @@ class Known:
     kind: Callable[[m.Expression, Mapping[str, m.Type]], m.Type | None]
     cuts: Mapping[int, Cut]
     rounded: Collection[int]
+    called: Mapping[int, tuple[m.Expression, str]]
 
 
 def beyond(body: m.Block, result: m.Type, path: str, known: Known) -> list[Mark]:
@@ -155,7 +156,16 @@ class _Widths:
     def _given(self, value: m.Expression, type_: m.Type | None) -> None:
         """A value that is stored, passed or returned as one of a type."""
         name = type_.name if type_ is not None else ""
-        is_cut = id(bare(value)) in self.known.cuts or id(bare(value)) in self.known.rounded
+        inner = bare(value)
+        is_cut = id(inner) in self.known.cuts or id(inner) in self.known.rounded
+        if isinstance(inner, m.Conditional) and not is_cut:
+            around = self.at
+            self.at = inner.span if inner.span != NOWHERE else around
+            self.used(inner.condition, INT32)
+            self._given(inner.then, type_)
+            self._given(inner.otherwise, type_)
+            self.at = around
+            return
         wanted = INTEGERS.get(name, _EXACT if name == "float" and not is_cut else INT32)
         self.used(value, wanted)
         if name in INTEGERS and self._is_real(value) and not is_cut:
@@ -214,8 +224,9 @@ class _Widths:
                     self.used(array, None)
             case m.Cast(type_, operand):
                 self.used(operand, None if type_.name in INTEGERS else INT32)
-            case m.Call(target, name, arguments, after, deadline):
-                types = self.known.taken.get(name, ())
+            case m.Call(target, _, arguments, after, deadline):
+                _, function = self.known.called.get(id(expression), (expression, ""))
+                types = self.known.taken.get(function, ())
                 for argument, of in zip_longest(arguments, types[: len(arguments)]):
                     self._given(argument, of)
                 for time in (after, deadline):
@@ -256,7 +267,8 @@ class _Widths:
             self._given(value, type_)
             return
         real = self._real_type(m.Binary("+", target, value))
-        self._operands(operator[:-1], (value,), cut, real)
+        is_rounded = id(whole) in self.known.rounded  # the function rounds its operand as well
+        self._operands(operator[:-1], (value,), cut, "double" if is_rounded else real)
         is_cut = cut is not None and wanted.includes(cut.bounds)
         if not is_cut and real is None and not self._is_truth(target):
             self._need(whole, wanted, _uncut(wanted))
@@ -281,6 +293,8 @@ class _Widths:
         cut = self.known.cuts.get(id(expression))
         if cut is not None and wanted.includes(cut.bounds):
             return False
+        if wanted == _EXACT and id(expression) in self.known.rounded:
+            return False
         match expression:
             case m.IntLiteral(value):
                 return not wanted.includes(exactly(value))
@@ -300,7 +314,10 @@ class _Widths:
     def _values(self, expression: m.Expression) -> Interval:
         """The values of what is stored somewhere, or given by a function; none that matter else."""
         place = bare(expression.target) if isinstance(expression, m.Assign) else expression
-        type_ = self._type_of(place) or self.known.kind(place, self.types)
+        type_ = self._type_of(place)
+        if type_ is None and isinstance(place, m.Call):
+            type_ = self.known.results.get(place.name)
+        type_ = type_ or self.known.kind(place, self.types)
         return INTEGERS.get(type_.name, _DISTANCES) if type_ is not None else INT32
 
     def _type_of(self, place: m.Expression) -> m.Type | None:
