@@ -215,7 +215,8 @@ class _Widths:
             case m.Unary(operator, operand):
                 self.used(operand, None if operator in _SIGNS else INT32)
             case m.Binary(operator, left, right):
-                self._operands(operator, (left, right), cut, self._real_type(expression))
+                real = self._real_type(m.Binary("+", left, right))
+                self._operands(operator, (left, right), cut, real)
                 if operator not in _TESTS and self._real_type(expression) == "float":
                     self._round(expression)
             case m.Index(array, index):
