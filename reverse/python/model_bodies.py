@@ -6,7 +6,7 @@ those of each class that calls them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import field as with_default
 from dataclasses import replace
 
@@ -286,12 +286,17 @@ class Bodies:
             silent=self._silent(owner),
         )
 
-    def _silent(self, owner: Scope) -> Silent:
-        """What of a class only people are told."""
+    def only_told(self, owner: Scope) -> Collection[str]:
+        """The members with parameters of the node's own that only people are told."""
+        own = self.roles(owner).own
+        return self._silent(owner, own).texts & own.keys() if own else ()
+
+    def _silent(self, owner: Scope, own: Collection[str] = ()) -> Silent:
+        """What of a class only people are told, the members of `own` among it if they are that."""
         line = self.line(owner)
         each = [self.roles(above) for above in line]
         taken = {n for r in each for n in (*r.state, *r.known, *r.env, *r.publishers)}
-        return silent_in(line, self.roles(owner).functions, taken)
+        return silent_in(line, self.roles(owner).functions, taken.difference(own))
 
 
 def result_of(function: Scope, variables: Callable[[str], m.Type | None]) -> m.Type | None:

@@ -79,6 +79,8 @@ class Classes:
                 self.roles[id(owner)].own.clear()
         own = {o.name for o in self._owners}
         self._types = frozenset({*self.messages, *_messages_of(self._owners), *own})
+        for owner in self._owners:
+            self.roles[id(owner)].leave_out(self._bodies.only_told(owner))
 
     @cached_property
     def _bodies(self) -> Bodies:
@@ -200,7 +202,7 @@ class Classes:
         extends = [class_name(c.name) for c in bases if self._has_mailbox(c)]
         return m.ReactiveClass(
             class_name(owner.name),
-            self._queue_length(owner),
+            roles.queue_length or 1,
             tuple(members),
             not roles.is_executable,
             extends[0] if extends else None,
@@ -223,9 +225,6 @@ class Classes:
         functions = self._of(owner).functions
         is_plain = not (owner.attributes or _is_marked(owner) or self._has_mailbox(owner))
         return bool(functions) and is_plain and not any(map(_is_abstract, functions.values()))
-
-    def _queue_length(self, owner: Scope) -> int:
-        return self._of(owner).queue_length or 1
 
     def _shown(self, owner: Scope) -> Iterator[m.Annotation]:
         """The annotations of the markers; without markers, those that the set-up shows."""

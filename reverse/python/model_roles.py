@@ -104,6 +104,11 @@ class Roles:
     on_bridge: bool = False
     queue_length: int | None = None
 
+    def leave_out(self, members: Collection[str]) -> None:
+        """Takes members with parameters of the node's own out of the model."""
+        for name in members:
+            del self.own[name], self.state[name]
+
     def served_by(self, shim: str) -> str | None:
         """The server whose messages a shim takes in."""
         return self.by_shim.get(shim)

@@ -82,10 +82,6 @@ def test_a_fact_is_said_in_plain_words(old: set[str], new: set[str], wanted: str
     assert _change("parameter", old, new) == wanted
 
 
-def test_a_range_is_said_as_it_is() -> None:
-    assert _change("range", set(), {"never below zero"}) == "is never below zero"
-
-
 def test_of_a_function_only_what_is_otherwise_is_said() -> None:
     assert _change("receiving", {"a; b"}, {"a; c"}) == "is with c; it was with b"
     assert _change("receiving", {"a; b"}, {"a"}) == "is without b"

@@ -276,7 +276,9 @@ def test_a_model_that_is_a_link_out_of_the_repository(
 
 _READS = {
     ("patrol.property", "verify"),
+    ("patrol.property", "sync"),
     ("patrol.property", "--verify"),
+    ("rebsync.toml", "verify"),
     ("rebsync.toml", "sync"),
     ("rebsync.toml", "generate"),
     ("rebsync.toml", "--verify"),
