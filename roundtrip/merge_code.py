@@ -12,7 +12,7 @@ from rebsync.records import dataclass
 from rebsync.roundtrip.markers import user_blocks, with_user_blocks
 from rebsync.roundtrip.merge_files import renamed_files
 from rebsync.roundtrip.merge_models import Favour
-from rebsync.roundtrip.text_merge import merged_text
+from rebsync.roundtrip.merge_source import merged_source
 from rebsync.source import NOWHERE, Source
 
 _STAND_IN = re.compile(r"(?:.*/)?\w+_stand_in(?:\.cpp|\.py)?")
@@ -97,7 +97,7 @@ def _file(
         if favour is Favour.CODE:
             return ours, None
         return _refusal(path, "this file is generated no more, and it was edited by hand")
-    merged = merged_text(ours, base or "", theirs, LABELS, favour.value)
+    merged = merged_source(name, (ours, base or "", theirs), LABELS, favour.value)
     stages = Stages(base or "", ours, theirs) if merged.conflicts else None
     return merged.text, stages
 
@@ -109,7 +109,7 @@ def _renamed(
     source = source_below(root, name)
     ours = source.text if source is not None else base
     base, theirs = (_with_line_ends(text, ours) for text in (base, theirs))
-    merged = merged_text(ours, base, theirs, LABELS, favour.value)
+    merged = merged_source(name, (ours, base, theirs), LABELS, favour.value)
     return merged.text, Stages(base, ours, theirs) if merged.conflicts else None
 
 
@@ -157,5 +157,5 @@ def _ancestors(
         elif new is None or new == before.get(path):
             yield path, old
         else:
-            merged = merged_text(old, before.get(path, ""), new, LABELS)
+            merged = merged_source(path, (old, before.get(path, ""), new), LABELS)
             yield path, new if merged.conflicts else merged.text

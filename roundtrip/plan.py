@@ -12,7 +12,7 @@ from rebsync.patches import patch
 from rebsync.records import dataclass
 from rebsync.roundtrip.manifest import BASE, FOLDER
 from rebsync.roundtrip.markers import user_blocks, with_user_blocks
-from rebsync.roundtrip.text_merge import merged_text
+from rebsync.roundtrip.merge_source import merged_source
 
 _CRLF = "\r\n"
 
@@ -108,7 +108,8 @@ def _merged(path: str, old: str, base: str | None, text: str) -> Step:
         theirs, last = (
             with_user_blocks(each.replace(*ends) if ends[0] else each, own) for each in (text, base)
         )
-        merged = merged_text(old, last, theirs, ("as edited", "as generated now"))
+        labels = ("as edited", "as generated now")
+        merged = merged_source(path, (old, last, theirs), labels)
         if not merged.conflicts:
             return Step(path, Action.MERGE, old, merged.text, new)
     return Step(path, Action.CONFLICT, old, new)

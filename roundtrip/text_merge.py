@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator, Sequence
 from difflib import SequenceMatcher
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -57,6 +57,12 @@ def decided(text: str, labels: tuple[str, str], first: bool) -> str:
     return "".join(out)
 
 
+def agreed_lines(merged: MergedText, labels: tuple[str, str]) -> int:
+    """How many lines of a merged text are not in conflict."""
+    sides = sum(decided(merged.text, labels, first).count("\n") for first in (True, False))
+    return sides - (merged.text.count("\n") - 3 * merged.conflicts)
+
+
 def both_sides(ours: str, theirs: str, our_label: str, their_label: str) -> str:
     """A text with both sides wherever two texts differ."""
     first, second = (text.splitlines(keepends=True) for text in (ours, theirs))
@@ -93,7 +99,8 @@ def merged_lines(ours: str, base: str, theirs: str, labels: tuple[str, str]) -> 
     lines = [text.splitlines(keepends=True) for text in (ours, base, theirs)]
     out: list[str] = []
     conflicts = 0
-    for mine, old, new in _parts(*lines):
+    for places in aligned(*lines):
+        mine, old, new = (text[place] for text, place in zip(lines, places, strict=True))
         if mine == new or new == old:
             out += mine
         elif mine == old:
@@ -104,25 +111,30 @@ def merged_lines(ours: str, base: str, theirs: str, labels: tuple[str, str]) -> 
     return MergedText("".join(out), conflicts)
 
 
-def _parts(
-    ours: list[str], base: list[str], theirs: list[str]
-) -> Iterator[tuple[list[str], list[str], list[str]]]:
-    """Parts of three texts that belong together: in turn what all share, and what they do not."""
+def aligned(
+    ours: Sequence[Hashable], base: Sequence[Hashable], theirs: Sequence[Hashable]
+) -> Iterator[tuple[slice, slice, slice]]:
+    """Parts of three sequences that belong together: what all share, in turn with what not."""
     first, second = _places(base, ours), _places(base, theirs)
-    at = [0, 0, 0]
-    for line in range(len(base)):
-        if line not in first or line not in second:
+    at = (0, 0, 0)
+    for element in range(len(base)):
+        if element not in first or element not in second:
             continue
-        to = [first[line], line, second[line]]
+        to = (first[element], element, second[element])
         if to != at:
-            yield ours[at[0] : to[0]], base[at[1] : to[1]], theirs[at[2] : to[2]]
-        yield [base[line]], [base[line]], [base[line]]
-        at = [n + 1 for n in to]
-    yield ours[at[0] :], base[at[1] :], theirs[at[2] :]
+            yield _slices(at, to)
+        at = (to[0] + 1, to[1] + 1, to[2] + 1)
+        yield _slices(to, at)
+    yield _slices(at, (len(ours), len(base), len(theirs)))
 
 
-def _places(base: list[str], text: list[str]) -> dict[int, int]:
-    """For lines of the base those of the text that are the same lines."""
+def _slices(start: tuple[int, int, int], end: tuple[int, int, int]) -> tuple[slice, slice, slice]:
+    first, second, third = (slice(*each) for each in zip(start, end, strict=True))
+    return first, second, third
+
+
+def _places(base: Sequence[Hashable], text: Sequence[Hashable]) -> dict[int, int]:
+    """For elements of the base those of the other that are the same."""
     blocks = SequenceMatcher(None, base, text, autojunk=False).get_matching_blocks()
     return {i + k: j + k for i, j, size in blocks for k in range(size)}
 

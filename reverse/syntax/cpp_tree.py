@@ -130,6 +130,13 @@ def parse(source: Source) -> Cpp:
     return Cpp(source, root, plain, wide, tuple(deep), frozenset(inverted), filled)
 
 
+def parse_as_it_is(source: Source) -> Cpp:
+    """The tree of a file, in which nothing is mended or left out."""
+    data = source.text.encode("utf-8", "surrogatepass")
+    root = _parser().parse(data).root_node
+    return Cpp(source, root, Plain(data), byte_places(source.text, data))
+
+
 def _double_braces(data: bytes) -> Iterator[int]:
     """The space between `{ {` where this is no list of values behind a sign."""
     for found in _DOUBLE_BRACES.finditer(data):

@@ -18,7 +18,7 @@ from rebsync.config import Config
 from rebsync.diagnostics import RebsyncError
 from rebsync.roundtrip.generated import generated
 from rebsync.roundtrip.merge_code import LABELS
-from rebsync.roundtrip.text_merge import merged_text
+from rebsync.roundtrip.merge_source import merged_source
 from rebsync.source import Source
 from tests.reverse.test_edits import BY_NAME
 from tests.roundtrip.edits.trial import HERE, Case, Trial, cases
@@ -87,7 +87,7 @@ def main() -> None:
     given = parser.parse_args()
     counted: Counter[str] = Counter()
     for each in merges(given.seed, given.count):
-        merged = merged_text(each.ours, each.base, each.theirs, LABELS)
+        merged = merged_source(each.path, (each.ours, each.base, each.theirs), LABELS)
         counted["merges"] += 1
         counted["in conflict"] += bool(merged.conflicts)
         if given.shown and merged.conflicts:
