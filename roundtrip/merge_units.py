@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from difflib import SequenceMatcher
 from typing import TypeAlias
 
 from rebsync.records import dataclass
@@ -107,7 +108,7 @@ class _Merge:
             if order is None:
                 yield merged_text(ours.text, base.text, theirs.text, self.labels)
             elif len(base.tokens) == 1 and ours.tokens == base.tokens == theirs.tokens:
-                merged.add(base.tokens[0])
+                merged |= {token for token in base.tokens if token[0]}
                 yield merged_unit(ours.units[0], base.units[0], theirs.units[0], self.labels)
             else:
                 for token, unit in order:
@@ -131,9 +132,9 @@ class _Merge:
             return _listed(ours)
         if ours.tokens == base.tokens:
             return _listed(theirs)
-        if not all(key for part in (ours, base, theirs) for key, _ in part.tokens):
-            return None
-        return _with_additions(ours, base, theirs)
+        if all(key for part in (ours, base, theirs) for key, _ in part.tokens):
+            return _with_additions(ours, base, theirs)
+        return _with_edits(ours, base, theirs)
 
     def _is_disputed(self, ours: _Part, base: _Part, theirs: _Part) -> bool:
         """Whether one side has changed or renamed what the other has renamed or left out."""
@@ -168,6 +169,27 @@ def _with_additions(ours: _Part, base: _Part, theirs: _Part) -> list[tuple[Token
             is_next = bool(unit.names and found and found[-1][1].names)
             found.append((token, replace(unit, text=_gap(unit.text)[1]) if is_next else unit))
     return found
+
+
+def _with_edits(ours: _Part, base: _Part, theirs: _Part) -> list[tuple[Token, Unit]] | None:
+    """The units of the base with the edits of both, which may touch; None where they overlap."""
+    found: list[tuple[Token, Unit]] = []
+    at, last = 0, (-1, -1)
+    edits = (*_edits(base, ours), *_edits(base, theirs))
+    for start, end, units in sorted(edits, key=lambda edit: edit[:2]):
+        if start < at or (start, end) == last:
+            return None
+        found += [*_listed(base)[at:start], *units]
+        at, last = end, (start, end)
+    return [*found, *_listed(base)[at:]]
+
+
+def _edits(base: _Part, side: _Part) -> Iterator[tuple[int, int, list[tuple[Token, Unit]]]]:
+    """Runs of units of the base with what a side has instead; either may be empty."""
+    codes = SequenceMatcher(None, base.tokens, side.tokens, autojunk=False).get_opcodes()
+    for tag, start, end, first, last in codes:
+        if tag != "equal":
+            yield start, end, _listed(side)[first:last]
 
 
 def _by_kept(part: _Part, kept: set[Token]) -> dict[Token | None, list[tuple[Token, Unit]]]:

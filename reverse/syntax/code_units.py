@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from enum import Enum
 
 from rebsync.records import dataclass
 
@@ -20,6 +21,14 @@ class Unit:
     text: str
     inside: tuple[Unit, ...] = ()
     names: frozenset[str] = frozenset()
+
+
+class Scope(Enum):
+    """What the lines of a body are units by."""
+
+    DECLARATIONS = "declarations"
+    SET_UP = "set-up"  # the statements of a constructor: assigned members are declarations
+    STATEMENTS = "statements"  # none has a key
 
 
 NO_UNIT = Unit("", "")

@@ -7,13 +7,14 @@ from collections.abc import Iterator, Sequence
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.syntax.code_units import Unit, lines_of, unit_with_body
+from rebsync.reverse.syntax.code_units import Scope, Unit, lines_of, unit_with_body
 from rebsync.reverse.syntax.cpp_declarations import TYPES, CppFunction, declared_name, function_of
 from rebsync.reverse.syntax.cpp_tree import Cpp, parse_as_it_is, text_of
+from rebsync.reverse.syntax.unparsed import errors_in
 from rebsync.source import Source
 
 _CLASSES = TYPES - {"enum_specifier"}
-_BODIES = frozenset({"declaration_list", "field_declaration_list"})
+_BODIES = frozenset({"declaration_list", "field_declaration_list", "compound_statement"})
 _ELSE = frozenset({"preproc_else", "preproc_elif", "preproc_elifdef"})
 
 
@@ -21,7 +22,7 @@ def cpp_units(text: str) -> Unit | None:
     """A file as one unit; None where it does not parse."""
     lines = lines_of(text)
     cpp = parse_as_it_is(Source("-", text))
-    if lines is None or cpp.root.has_error:
+    if lines is None or (cpp.root.has_error and any(errors_in(cpp))):
         return None
     return _Reader(cpp, lines).whole("", 0, _Body(cpp.root.children, 0, len(lines), ""), len(lines))
 
@@ -34,6 +35,7 @@ class _Body:
     start: int
     end: int
     owner: str
+    scope: Scope = Scope.DECLARATIONS
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,7 +54,7 @@ class _Reader:
         at = body.start
         for group in _by_lines(_within(body)):
             code = [n for n in group if n.type not in ("comment", ";")]
-            node = code[0] if len(code) == 1 else None
+            node = code[0] if len(code) == 1 and body.scope is not Scope.STATEMENTS else None
             until = _end(group[-1])
             if node is not None and node.type == "preproc_include" and group[0] is not node:
                 yield Unit("", self._text(at, node.start_point.row))
@@ -75,7 +77,7 @@ class _Reader:
         return self.whole(key, start, body, end)
 
     def _body(self, node: Node, owner: str) -> _Body | None:
-        """What has units of its own: the body of a namespace, class, constructor or `#ifdef`."""
+        """What has units of its own: the body of a namespace, class, function or `#ifdef`."""
         if node.type == "preproc_ifdef":
             if any(child.type in _ELSE for child in node.children):
                 return None
@@ -83,15 +85,15 @@ class _Reader:
                 node.children[2:-1], _end(node.children[1]), _row(node.children[-1]), owner
             )
         body = node.child_by_field_name("body")
+        if body is None or body.type not in _BODIES:
+            return None
+        nodes, start, end = body.children[1:-1], _row(body) + 1, _end(body) - 1
         function = function_of(self.cpp, node, owner)
         if function is not None:
-            if function.name != function.owner or function.body is None:
-                return None
-            body = function.body
-        elif body is None or body.type not in _BODIES:
-            return None
-        name = _field(node, "name") if node.type in _CLASSES else owner
-        return _Body(body.children[1:-1], _row(body) + 1, _end(body) - 1, name)
+            is_set_up = function.name == function.owner
+            scope = Scope.SET_UP if is_set_up else Scope.STATEMENTS
+            return _Body(nodes, start, end, owner, scope)
+        return _Body(nodes, start, end, _field(node, "name") if node.type in _CLASSES else owner)
 
     def _key(self, node: Node, owner: str) -> str:
         function = function_of(self.cpp, node, owner)

@@ -38,7 +38,7 @@ def unparsed(cpp: Cpp) -> Iterator[Finding]:
             Grade.UNREADABLE, cpp.source, span, why, "give parts of it names of their own"
         )
     if cpp.root.has_error:
-        yield from (_error(cpp, node) for node in _errors(cpp))
+        yield from (_error(cpp, node) for node in errors_in(cpp))
     if has_alternatives(cpp.source.text):
         yield from _alternatives(cpp)
 
@@ -46,7 +46,7 @@ def unparsed(cpp: Cpp) -> Iterator[Finding]:
 # --- what is no C++ -----------------------------------------------------------------------------
 
 
-def _errors(cpp: Cpp) -> Iterator[Node]:
+def errors_in(cpp: Cpp) -> Iterator[Node]:
     """The outermost nodes that say that the text is no C++, one for each line."""
     waiting = [cpp.root]
     lines = set[int]()

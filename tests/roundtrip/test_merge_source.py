@@ -62,19 +62,22 @@ KINDS = {
         "method": "    def {0}(self) -> None:\n        first({1})\n        same()\n\n",
         "member": "        self.{0} = {1}\n",
         "import from": "from far import {0}\n",
+        "statement": "        {0}({1})\n",
     },
     "cpp": {
         "import": "#include <{0}>\n",
         "method": "void C::{0}() {{\n  first({1});\n  same();\n}}\n\n",
         "member": "  {0}_ = {1};\n",
         "declaration": "  int {0}_{{{1}}};  // {1}\n",
+        "statement": "  {0}({1});\n",
     },
 }
 PARTS = {
     "python": "{import}{import from}\n\nclass C:\n    def __init__(self) -> None:\n{member}"
-    "        start()\n\n{method}    # the end\n",
+    "        start()\n\n    def run(self) -> None:\n        pass\n{statement}\n"
+    "{method}    # the end\n",
     "cpp": "{import}\nclass C {{\n public:\n{declaration}}};\n\n"
-    "C::C() {{\n{member}  start();\n}}\n\n{method}// the end\n",
+    "C::C() {{\n{member}  start();\n}}\n\nvoid C::run() {{\n{statement}}}\n\n{method}// the end\n",
 }
 File = dict[str, list[tuple[str, int]]]
 
