@@ -46,12 +46,13 @@ def merged_code(
     theirs: Mapping[str, str],
     favour: Favour,
     moved: Mapping[str, str],
+    recorded: Mapping[str, str],
 ) -> MergedCode:
     """The files of a package with what is generated now for today's model.
 
     `base` is what would be generated for what the files say now, so that only what the model has
     changed is different from it; the files are as people have left them, some of them `moved` to
-    another path.
+    another path. `recorded` was generated last time.
     """
     texts: dict[str, str | None] = {}
     conflicts: dict[str, Stages] = {}
@@ -65,7 +66,8 @@ def merged_code(
         if base.get(path) == theirs.get(path):
             continue
         here = moved.get(path, path)
-        merged = _file(root, here, base.get(path), theirs.get(path), favour)
+        last = recorded.get(path)
+        merged = _file(root, here, base.get(path), theirs.get(path), last, favour)
         match merged:
             case Findings():
                 refused.append(merged)
@@ -79,7 +81,12 @@ def merged_code(
 
 
 def _file(
-    root: str, name: str, base: str | None, theirs: str | None, favour: Favour
+    root: str,
+    name: str,
+    base: str | None,
+    theirs: str | None,
+    recorded: str | None,
+    favour: Favour,
 ) -> tuple[str, Stages | None] | Findings | None:
     """The text of one file, its conflict if there is one; None where it goes."""
     path, source = Path(root, name), source_below(root, name)
@@ -97,7 +104,10 @@ def _file(
         if favour is Favour.CODE:
             return ours, None
         return _refusal(path, "this file is generated no more, and it was edited by hand")
-    merged = merged_source(name, (ours, base or "", theirs), LABELS, favour.value)
+    texts = (ours, base or "", theirs)
+    if ours == _as_here(recorded, ours) and merged_source(name, texts, LABELS).conflicts:
+        return theirs, None  # what the code has changed elsewhere is not in it yet
+    merged = merged_source(name, texts, LABELS, favour.value)
     stages = Stages(base or "", ours, theirs) if merged.conflicts else None
     return merged.text, stages
 

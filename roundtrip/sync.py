@@ -214,7 +214,7 @@ class _Syncing:
         of_code = before if is_as_base else self._generated(told, options)
         last = ancestors(recorded, before, of_code)
         moved = moved_files(self.checked.standing, self.record)
-        merged = merged_code(self.checked.kept.root, last, now, self.favour, moved)
+        merged = merged_code(self.checked.kept.root, last, now, self.favour, moved, recorded)
         findings = tuple(f for f in self.checked.findings if not _is_settled(f))
         if merged.refused:
             return Sync(self.checked, findings=findings, refused=merged.refused)

@@ -110,3 +110,16 @@ def _gone(old: str, new: str) -> int:
 def _most(edit: dict[str, Any], text: str) -> int:
     """How many lines of a model an edit may change: those that it is in as it is written."""
     return sum(text.count(old) * (old.count("\n") + 1) for old, *_ in edit["model"])
+
+
+def test_files_that_nobody_has_edited_are_in_no_conflict(here: Path) -> None:
+    model, root = _made("experiment1", here)
+    code = root / "src/r_1.cpp"
+    code.write_text(code.read_text().replace("    sendSelfWaitForCharge();\n", ""))
+    model.write_text(model.read_text().replace("(25, 1);", "(25, 1);\n  R_1 twin():(30, 1);"))
+    assert main(["sync", "."]) == 0
+    assert _is_in_step(root)
+    told = (root / "README.md").read_text()
+    assert "| `/twin/waitForCharge` | `R1WaitForCharge` | twin |" in told
+    assert "node_robot1 -- " in told
+    assert '-- "waitForCharge" -->' not in told
