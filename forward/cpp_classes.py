@@ -9,7 +9,7 @@ from rebsync.forward.cpp_expressions import CppExpressions
 from rebsync.forward.cpp_names import class_names
 from rebsync.forward.cpp_statements import CppStatements
 from rebsync.forward.cpp_words import CppWords
-from rebsync.forward.effects import hoisted, read_declarations
+from rebsync.forward.hoisting import hoisted, read_declarations
 from rebsync.forward.remarks import Remarks
 from rebsync.forward.sends import bodies
 from rebsync.forward.sensors import samplers

@@ -16,13 +16,13 @@ from rebsync.forward.cpp_operands import (
     when,
 )
 from rebsync.forward.cpp_types import LOWEST, cpp_type, stored_type
-from rebsync.forward.effects import conflicting, writes_to
 from rebsync.forward.sends import Send, ToAny, ToKnown, ToSelf, send_of
 from rebsync.forward.topics import Topics
 from rebsync.names import graph_name
 from rebsync.records import dataclass
 from rebsync.static import Analysis
 from rebsync.static.constants import constant
+from rebsync.static.effects import assigns_apart, conflicting
 from rebsync.static.symbols import (
     BuiltinSymbol,
     EnvSymbol,
@@ -226,7 +226,7 @@ class CppExpressions:
         target, value = expression.target, expression.value
         type_ = self.type_of(target) or m.Type("int")
         operator = expression.operator
-        if writes_to(target, value, self.analysis):
+        if assigns_apart(expression, self.analysis):
             return self._assign_in_order(expression, type_)
         if operator == "=":
             return f"{self.text(target)} = {self.stored(value, type_)}"

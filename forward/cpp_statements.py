@@ -8,7 +8,7 @@ from dataclasses import replace
 from rebsync import model as m
 from rebsync.forward.cpp_expressions import CppExpressions
 from rebsync.forward.cpp_types import cpp_type
-from rebsync.forward.effects import crossing_locals, read_declarations
+from rebsync.forward.hoisting import crossing_locals, read_declarations
 from rebsync.forward.remarks import Remarks
 from rebsync.printing import print_line
 from rebsync.records import dataclass

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from rebsync.forward.effects import hoisted
+from rebsync.forward.hoisting import hoisted
 from rebsync.forward.py_class import PyClass
 from rebsync.forward.py_expressions import PyExpressions
 from rebsync.forward.py_names import class_names

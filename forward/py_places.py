@@ -6,9 +6,9 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from rebsync import model as m
-from rebsync.forward.effects import writes_to
 from rebsync.forward.py_operators import ATOM
 from rebsync.forward.py_types import py_format
+from rebsync.static.effects import assigns_apart
 from rebsync.static.types import INT
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ def is_in_order(e: PyExpressions, expression: m.Assign) -> bool:
     """Whether Python's order, the value before the target's index, is as good as the model's."""
     if not isinstance(bare(expression.target), m.Index):
         return True
-    return not writes_to(expression.target, expression.value, e.analysis)
+    return not assigns_apart(expression, e.analysis)
 
 
 def compound(e: PyExpressions, expression: m.Assign, target: str) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 
 from rebsync import model as m
-from rebsync.forward.effects import crossing_locals
+from rebsync.forward.hoisting import crossing_locals
 from rebsync.forward.py_expressions import PyExpressions
 from rebsync.forward.py_layout import INDENT
 from rebsync.forward.py_operators import ATOM, UNARY

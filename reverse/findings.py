@@ -6,6 +6,7 @@ from collections import Counter
 from dataclasses import field
 from enum import Enum
 
+from rebsync.model import Expression
 from rebsync.records import dataclass
 from rebsync.source import Source, Span
 
@@ -35,6 +36,15 @@ class Finding:
         return " ".join(self.source.slice(self.span).split())
 
 
+@dataclass(frozen=True, slots=True)
+class Ordered:
+    """An expression of a body that may depend on the order in which its parts are evaluated."""
+
+    source: Source
+    within: str
+    expression: Expression
+
+
 class Unread(Exception):
     """A piece of code that has no meaning in the model; caught where a statement is read."""
 
@@ -53,20 +63,22 @@ class Findings:
     statements: Counter[str] = field(default_factory=Counter)
     # Members that get values that the model cannot know: with these outside more can be read.
     open_members: set[str] = field(default_factory=set)
+    ordered: list[Ordered] = field(default_factory=list)
 
-    def mark(self) -> tuple[int, Counter[str], set[str]]:
+    def mark(self) -> tuple[int, int, Counter[str], set[str]]:
         """What there is, to go back to."""
-        return len(self.all), Counter(self.statements), set(self.open_members)
+        return len(self.all), len(self.ordered), Counter(self.statements), set(self.open_members)
 
-    def back_to(self, marked: tuple[int, Counter[str], set[str]]) -> None:
+    def back_to(self, marked: tuple[int, int, Counter[str], set[str]]) -> None:
         """Forgets what came since: it is read again."""
-        count, statements, members = marked
-        del self.all[count:]
+        count, ordered, statements, members = marked
+        del self.all[count:], self.ordered[ordered:]
         self.statements, self.open_members = Counter(statements), set(members)
 
     def take(self, others: Findings) -> None:
         """Adds what was found elsewhere."""
         self.all += others.all
+        self.ordered += others.ordered
         self.statements.update(others.statements)
         self.open_members |= others.open_members
 

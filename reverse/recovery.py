@@ -14,6 +14,7 @@ from rebsync.names import TAKEN_NODES, graph_name, uncarry
 from rebsync.package import Value
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED_GLOBALS
+from rebsync.reverse.analysis.evaluation_order import out_of_order
 from rebsync.reverse.bodies.cpp_types import class_name, type_of
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.bodies.written import annotation
@@ -141,6 +142,7 @@ def extract(
         nodes = nodes.beside(python.nodes.classes, python.nodes.rebecs)
     made = _System(code, classes, read, launch if only is None else None, started, python)
     main = _main(made, nodes, only is not None and len(files) > 1)
+    findings.all += out_of_order((*read, *nodes.classes), findings.ordered)
     of_people = tuple(marked_lacking(c, findings.all) for c in nodes.classes)
     model = m.Model(tuple(made.heads() if read else ()), (*read, *of_people), main)
     statements = tuple(findings.statements.items())

@@ -98,7 +98,7 @@ def in_order(reader: CppExpressions, function: Node) -> m.Expression:
         ):
             inner = computed.inner if isinstance(computed, m.Paren) else computed
             if isinstance(inner, m.Binary):
-                return m.Assign(f"{inner.operator}=", target, value, reader.cpp.span(function))
+                return m.Assign(f"{inner.operator}=", target, value, read.span)
     return read
 
 

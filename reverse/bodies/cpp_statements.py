@@ -9,6 +9,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
+from rebsync.reverse.analysis.evaluation_order import note_body
 from rebsync.reverse.bodies import (
     cpp_control,
     cpp_counts,
@@ -77,21 +78,20 @@ class CppStatements:
 
     def _read_again(self, nodes: Sequence[Node]) -> tuple[m.Statement, ...]:
         """Reads until it is known which locals get values that the model cannot know."""
-        scope, listed = self.scope, len(self.findings.all)
-        counted = self.findings.statements[self.within]
+        scope, marked = self.scope, self.findings.mark()
         while True:
             read = tuple(self.statements(nodes))
             if not self.shared.again:
                 broken = broken_locals(read, self.shared.wide, self.scope) - scope.overflowing
                 if not broken:
                     self.scope.wide.update(self.shared.wide)
+                    note_body(self.findings, self.cpp.source, self.within, read)
                     return tidied(read, self.shared.made)
                 scope = replace(scope, overflowing=scope.overflowing | broken)
             self.scope, self.before = scope, []
             self.own.clear()
             self.shared.clear()
-            del self.findings.all[listed:]
-            self.findings.statements[self.within] = counted
+            self.findings.back_to(marked)
 
     def _known(
         self, node: Node, known: Sequence[m.Statement | Stores | Node]

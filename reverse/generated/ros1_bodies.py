@@ -10,6 +10,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
+from rebsync.reverse.analysis.evaluation_order import note_body
 from rebsync.reverse.bodies.cpp_expressions import CppExpressions
 from rebsync.reverse.bodies.cpp_references import is_made
 from rebsync.reverse.bodies.cpp_statements import CppStatements
@@ -215,6 +216,7 @@ def _checked(reader: CppStatements, body: Node) -> m.Block:
     """A body; the elements that may not be there are listed."""
     scope = reader.scope
     read = reader.block(body)
+    note_body(reader.findings, reader.cpp.source, reader.within, read.statements)
     for unread in out_of_range(read, reader.shared, scope):
         reader.findings.unreadable(reader.cpp.source, unread, reader.within)
     return read

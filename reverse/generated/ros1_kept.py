@@ -70,8 +70,10 @@ def read_with(
         key = keys.of(owner)
         known = memory.recall(key, sources)
         if known is None:
+            noted = len(classes.findings.ordered)
             known = _read(classes, owner)
-            memory.keep(key, known, sources)
+            if len(classes.findings.ordered) == noted:  # these are of the tree that was just read
+                memory.keep(key, known, sources)
         found.append(known.read)
         classes.findings.all += known.findings
         classes.findings.statements.update(dict(known.statements))
@@ -87,6 +89,7 @@ def _read(classes: Classes, owner: CppClass) -> ClassRead:
         read = classes.read_one(owner)
     finally:
         classes.findings = every
+    every.ordered += own.ordered
     counted = tuple(own.statements.items())
     return ClassRead(read, tuple(own.all), counted, frozenset(own.open_members))
 

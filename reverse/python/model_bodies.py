@@ -6,7 +6,7 @@ those of each class that calls them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import field as with_default
 from dataclasses import replace
 
@@ -30,7 +30,7 @@ from rebsync.reverse.python.model_helpers import (
 from rebsync.reverse.python.model_kinds import kind_of, literal_kind
 from rebsync.reverse.python.model_overloads import resolved
 from rebsync.reverse.python.model_roles import Roles, Sends, plain_name, servers_of
-from rebsync.reverse.python.model_silent import Silent, silent_in
+from rebsync.reverse.python.model_silent import silent_in
 from rebsync.reverse.python.model_statements import Statements
 from rebsync.reverse.python.model_types import passed_on, type_of
 from rebsync.reverse.python.model_widths import Known, beyond, hint_of
@@ -283,20 +283,8 @@ class Bodies:
             descriptors=descriptors,
             handlers=handlers,
             fillings=fillings,
-            silent=self._silent(owner),
+            silent=silent_in(self.line(owner), [*map(self.roles, self.line(owner))]),
         )
-
-    def only_told(self, owner: Scope) -> Collection[str]:
-        """The members with parameters of the node's own that only people are told."""
-        own = self.roles(owner).own
-        return self._silent(owner, own).texts & own.keys() if own else ()
-
-    def _silent(self, owner: Scope, own: Collection[str] = ()) -> Silent:
-        """What of a class only people are told, the members of `own` among it if they are that."""
-        line = self.line(owner)
-        each = [self.roles(above) for above in line]
-        taken = {n for r in each for n in (*r.state, *r.known, *r.env, *r.publishers)}
-        return silent_in(line, self.roles(owner).functions, taken.difference(own))
 
 
 def result_of(function: Scope, variables: Callable[[str], m.Type | None]) -> m.Type | None:

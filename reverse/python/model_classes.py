@@ -21,6 +21,7 @@ from rebsync.reverse.python.model_bodies import Bodies
 from rebsync.reverse.python.model_overloads import families
 from rebsync.reverse.python.model_plumbing import Plumbing, odd_at_top
 from rebsync.reverse.python.model_roles import EnvUse, Roles, plain_name, roles_of
+from rebsync.reverse.python.model_silent import silent_in
 from rebsync.reverse.python.model_types import class_name, markers_above
 from rebsync.reverse.python.py_index import PyCode, Scope, classes_in
 from rebsync.reverse.python.py_lookup import lineage
@@ -75,12 +76,13 @@ class Classes:
             if id(o) in reached or _is_marked(o) or (reached and self._is_only_declared(o))
         ]
         for owner in self._owners:
+            roles, line = self._of(owner), self.line(owner)
             if not self._is_alone(owner):
-                self.roles[id(owner)].own.clear()
+                roles.own.clear()
+            elif roles.own:
+                roles.leave_out(silent_in(line, [*map(self._of, line)], roles.own).texts)
         own = {o.name for o in self._owners}
         self._types = frozenset({*self.messages, *_messages_of(self._owners), *own})
-        for owner in self._owners:
-            self.roles[id(owner)].leave_out(self._bodies.only_told(owner))
 
     @cached_property
     def _bodies(self) -> Bodies:
@@ -362,12 +364,10 @@ def _messages_of(owners: list[Scope]) -> Iterator[str]:
     """The message types that the modules of some classes import."""
     for module in {id(o.module): o.module for o in owners}.values():
         for name, bindings in module.names.items():
-            if any(_brings_messages(b.node) for b in bindings if b.how == "import"):
+            nodes = (b.node for b in bindings if b.how == "import")
+            modules = (text_of(n.child_by_field_name("module_name") or n) for n in nodes)
+            if any(module.endswith(".msg") for module in modules):
                 yield name
-
-
-def _brings_messages(node: Node) -> bool:
-    return text_of(node.child_by_field_name("module_name") or node).endswith(".msg")
 
 
 def _once(line: list[Scope]) -> list[Scope]:

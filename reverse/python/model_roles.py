@@ -105,8 +105,8 @@ class Roles:
     queue_length: int | None = None
 
     def leave_out(self, members: Collection[str]) -> None:
-        """Takes members with parameters of the node's own out of the model."""
-        for name in members:
+        """Takes those with parameters of the node's own among some members out of the model."""
+        for name in self.own.keys() & members:
             del self.own[name], self.state[name]
 
     def served_by(self, shim: str) -> str | None:

@@ -15,6 +15,7 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.python.log_words import HARMLESS
 from rebsync.reverse.python.model_logs import only_logs
+from rebsync.reverse.python.model_roles import Roles
 from rebsync.reverse.python.model_types import call_parts, string_value
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import Scope
@@ -120,14 +121,13 @@ class Silent:
 NOTHING = Silent()
 
 
-def silent_in(
-    line: Sequence[Scope], functions: Mapping[str, Scope], taken: Collection[str]
-) -> Silent:
-    """The silent members of a class, the first of a line with those above it.
+def silent_in(line: Sequence[Scope], roles: Sequence[Roles], own: Collection[str] = ()) -> Silent:
+    """The silent members of a class, the first of a line with those above it, and their roles.
 
-    They are among what the constructor, of its `functions`, makes; those in `taken` are others.
+    They are among what its constructor makes, and none that has a role, but for those of `own`.
     """
-    owner = line[0]
+    owner, functions = line[0], roles[0].functions
+    taken = {n for r in roles for n in (*r.state, *r.known, *r.env, *r.publishers)}.difference(own)
     members = {name: value for name, value in _made(functions) if name not in taken}
     makers = frozenset(_makers(owner.module))
     found = Silent(

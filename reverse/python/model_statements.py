@@ -12,6 +12,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reserved import PYTHON_RESERVED, uncarry_local
+from rebsync.reverse.analysis.evaluation_order import note_store
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python import model_idioms as idioms
@@ -55,6 +56,10 @@ class Statements:
     def block(self, nodes: list[Node], span_of: Node) -> m.Block:
         """The statements of a suite."""
         return m.Block(tuple(self._all(nodes)), span=self.expressions.py.span(span_of))
+
+    def in_order(self, store: m.Expression) -> None:
+        """Lists an assignment if its value has to be known after what it stores into."""
+        note_store(self.findings, self.expressions.py.source, self.within, store)
 
     def local(self, name: str) -> str:
         """The model's name of a local variable or parameter."""
@@ -227,6 +232,7 @@ class Statements:
             return [self.implied_local(name, value, node)]
         target = self.expressions.read(left)
         changed = self.expressions.stored(target, left, value, node, statement=True)
+        self.in_order(changed)
         return [m.ExpressionStatement(changed, span=span)]
 
     def _declared(self, name: str, type_: m.Type, value: Node, node: Node) -> m.Local:

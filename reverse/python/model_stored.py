@@ -98,6 +98,7 @@ def _stored(reader: Statements, left: Node, value: Node, node: Node) -> list[m.S
         return [reader.implied_local(name, value, node)]
     target = reader.expressions.read(left)
     stored = reader.expressions.stored(target, left, value, node, statement=True)
+    reader.in_order(stored)
     return [m.ExpressionStatement(stored, span=reader.expressions.py.span(node))]
 
 
@@ -105,8 +106,9 @@ def _given(reader: Statements, left: Node, value: m.Expression, node: Node) -> l
     """A value of the model that is stored."""
     name, span = text_of(left), reader.expressions.py.span(node)
     if left.type != "identifier" or name in reader.expressions.locals:
-        target = reader.expressions.read(left)
-        return [m.ExpressionStatement(m.Assign("=", target, value, span), span=span)]
+        stored = m.Assign("=", reader.expressions.read(left), value, span)
+        reader.in_order(stored)
+        return [m.ExpressionStatement(stored, span=span)]
     type_ = reader.expressions.kind(value)
     if type_ is None:
         raise reader.expressions.unread(node, f'say the type of "{name}" where it is first set')

@@ -1,0 +1,122 @@
+"""Code that is not evaluated in the order of the model is listed; what is generated never is."""
+
+from __future__ import annotations
+
+import pytest
+
+from rebsync.config import TARGETS, Config
+from tests.forward.compiling import generated
+from tests.reverse.laws import extracted
+
+MODEL = """\
+reactiveclass Base(5) {
+  statevars { int count; int level; }
+  Base() { }
+  int low() { return level; }
+  int rate() { return 1; }
+  msgsrv work() { STATEMENT_OF_BASE }
+}
+reactiveclass G extends Base(5) {
+  statevars { int[4] queue; int head; }
+  G() { self.go(0); }
+  int rate() { count = count + 1; return count; }
+  int take() { count = count + 1; return count; }
+  int peek() { return count; }
+  int later() { self.go(1) after(2); return 1; }
+  msgsrv go(int a) { STATEMENT }
+  msgsrv put(int a, int b) { level = a + b; self.put(8, 9) after(1); }
+}
+main { G g():(); }
+"""
+OPEN = {  # statements of the model, and what says them in C++ but for the order
+    "self.put(take(), take());": "sendSelfPut(take(), take());",
+    "self.put(count, take());": "sendSelfPut(count_, take());",
+    "self.put(later(), later());": "sendSelfPut(later(), later());",
+    "self.put(count, rate());": "sendSelfPut(count_, rate());",
+    "head = count - take();": "head_ = count_ - take();",
+    "head = a++ - a;": "head_ = a++ - a;",
+    "head = head++;": "head_ = head_++;",
+    "count += take();": "count_ += take();",
+    "queue[count] = take();": "queue_.at(count_) = take();",
+    "queue[head] = head++;": "queue_.at(head_) = head_++;",
+    "queue[head] += later();": "queue_.at(head_) += later();",
+    "if (take() > count) { head = 1; }": "if (take() > count_) {\n    head_ = 1;\n  }",
+}
+IN_ORDER = {  # the same where the order makes no difference
+    "self.put(level, take());": "sendSelfPut(level_, take());",
+    "self.put(a, take());": "sendSelfPut(a, take());",
+    "self.put(peek(), low());": "sendSelfPut(peek(), low());",
+    "self.put(count, peek());": "sendSelfPut(count_, peek());",
+    "head = level - take();": "head_ = level_ - take();",
+    "head = a++ - head;": "head_ = a++ - head_;",
+    "count = take();": "count_ = take();",
+    "level += take();": "level_ += take();",
+    "queue[0] = take();": "queue_[0] = take();",
+    "queue[head] = peek();": "queue_.at(head_) = peek();",
+    "if (take() > 1 && count > 2) { head = 1; }": (
+        "if (take() > 1 && count_ > 2) {\n    head_ = 1;\n  }"
+    ),
+}
+STORES = {  # in Python the order of the value and of what it is stored into
+    "queue[count] = take();": ("self._queue[self._count] = self.take()", True),
+    "queue[head] = rate();": ("self._queue[self._head] = self.rate()", True),
+    "queue[head] += later();": (
+        "self._queue[self._head] = int32.add(self._queue[self._head], self.later())",
+        True,
+    ),
+    "queue[0] = take();": ("self._queue[0] = self.take()", False),
+    "queue[head] = peek();": ("self._queue[self._head] = self.peek()", False),
+    "self.put(count, take());": ("self.send_self_put(self._count, self.take())", False),
+}
+PLAIN = "head = 77;"
+
+
+def _package(target: str, statement: str, of_base: str = "") -> dict[str, str]:
+    text = MODEL.replace("STATEMENT_OF_BASE", of_base).replace("STATEMENT", statement)
+    return generated(text, "g", Config(target=target))
+
+
+def _edited(target: str, old: str, new: str) -> dict[str, str]:
+    """A package with one line of G written otherwise."""
+    files = _package(target, PLAIN)
+    assert sum(old in text for text in files.values()) == 1
+    return {path: text.replace(old, new) for path, text in files.items()}
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_what_is_generated_has_the_order_of_the_model(target: str) -> None:
+    for statement in (*OPEN, *IN_ORDER):
+        found = extracted(_package(target, statement))
+        assert [(f.text, f.why) for f in found.findings] == [], statement
+
+
+@pytest.mark.parametrize("target", ["ros1-cpp", "ros2-cpp"])
+def test_cpp_that_leaves_the_order_open_is_listed(target: str) -> None:
+    for code in OPEN.values():
+        found = extracted(_edited(target, "  head_ = 77;", f"  {code}"))
+        assert ["order" in f.why for f in found.findings] == [True], code
+
+
+@pytest.mark.parametrize("target", ["ros1-cpp", "ros2-cpp"])
+def test_cpp_where_the_order_makes_no_difference_is_exact(target: str) -> None:
+    for code in IN_ORDER.values():
+        found = extracted(_edited(target, "  head_ = 77;", f"  {code}"))
+        assert [(f.text, f.why) for f in found.findings] == [], code
+
+
+@pytest.mark.parametrize("target", ["ros1-py", "ros2-py"])
+@pytest.mark.parametrize(("code", "is_listed"), STORES.values())
+def test_python_finds_what_it_stores_into_late(target: str, code: str, is_listed: bool) -> None:
+    found = extracted(_edited(target, "self._head = 77", code))
+    assert ["order" in f.why for f in found.findings] == [True] * is_listed, found.findings
+
+
+def test_a_function_that_another_class_overrides_may_act() -> None:
+    files = _package("ros1-cpp", PLAIN, "level = rate() - count;")
+    source = files["src/base.cpp"]
+    assert "const auto op1_ = rate(); const auto op2_ = count_;" in source
+    assert extracted(files).findings == ()
+    files["src/base.cpp"] = source.replace(
+        source[source.index("level_ = [&]") :].partition("\n")[0], "level_ = rate() - count_;"
+    )
+    assert ["order" in f.why for f in extracted(files).findings] == [True]
