@@ -105,12 +105,14 @@ def state_types(code: Code, owner: CppClass) -> Iterator[str]:
 def enumerators(code: Code) -> dict[str, int]:
     """The constants of enumerations by their names, alone and after the enumeration's.
 
-    Not where there are several of a name with different values.
+    Not where there are several of a name with different values, or a constant of that name.
     """
     values: dict[str, set[int | None]] = {}
+    constants = {name for _, name in code.constants}
     for name, all_of in code.enumerators.items():
         for each in all_of:
-            for prefix in {"", f"{each.enum}::", f"{each.scope}::"} - {"::"}:
+            alone = {""} if name not in constants else set[str]()
+            for prefix in alone | {f"{each.enum}::", f"{each.scope}::"} - {"::"}:
                 values.setdefault(f"{prefix}{name}", set()).add(each.value)
     return {n: v for n, vs in values.items() for v in vs if len(vs) == 1 and v is not None}
 

@@ -17,7 +17,9 @@ _LITERALS = frozenset({"integer", "float", "true", "false"})
 _OPERATORS = {"+": add, "-": sub, "*": mul, "//": floordiv}
 _FROZEN = frozenset({"dataclass(frozen=True)", "dataclasses.dataclass(frozen=True)"})
 _TUPLES = frozenset({"NamedTuple", "typing.NamedTuple"})
-_PLAIN_BASES = frozenset({"object", "IntEnum", "enum.IntEnum", "ABC", "abc.ABC"})
+_ENUMERATIONS = frozenset({"IntEnum", "enum.IntEnum"})
+_PLAIN_BASES = frozenset({"object", "ABC", "abc.ABC"}) | _ENUMERATIONS
+_FUNCTIONS = frozenset({"function_definition", "decorated_definition"})
 _LARGEST = 2**31 - 1
 _DEEPEST = 4  # modules that import a constant from each other
 
@@ -67,13 +69,12 @@ def enumerations_of(module: Scope) -> dict[str, m.Expression]:
     """The members of the module's enumerations of integers, `Command.STOP`, as what they are."""
     found: dict[str, m.Expression] = {}
     for node in named(module.node):
-        bases = node.child_by_field_name("superclasses")
-        if node.type != "class_definition" or bases is None:
-            continue
-        if [text_of(b).removeprefix("enum.") for b in named(bases)] != ["IntEnum"]:
+        if node.type != "class_definition" or [*map(text_of, _bases(node))] not in [
+            [e] for e in _ENUMERATIONS
+        ]:
             continue
         name, body = text_of(field(node, "name")), named(field(node, "body"))
-        if any(s.type in ("function_definition", "decorated_definition") for s in body):
+        if any(s.type in _FUNCTIONS for s in body):
             continue  # which may compare otherwise
         for statement in body:
             inner = named(statement)[0] if statement.type == "expression_statement" else None
@@ -86,10 +87,22 @@ def enumerations_of(module: Scope) -> dict[str, m.Expression]:
     return found
 
 
-def _is_plain(code: PyCode, module: Scope, node: Node, depth: int = 0) -> bool:
-    """Whether the constants of a class are what they are bound to, as they are not in an `Enum`."""
-    bases = node.child_by_field_name("superclasses")
-    for base in named(bases) if bases is not None else ():
+def _is_plain(code: PyCode, module: Scope, node: Node) -> bool:
+    """Whether the constants of a class are what they are bound to, as they are not in an `Enum`.
+
+    Those of an enumeration of integers with functions may compare otherwise.
+    """
+    line = list(_line(code, module, node))
+    known = [each for each in line if each is not None]
+    is_enumeration = any(text_of(b) in _ENUMERATIONS for n in known for b in _bases(n))
+    has_functions = any(s.type in _FUNCTIONS for n in known for s in named(field(n, "body")))
+    return len(known) == len(line) and not (is_enumeration and has_functions)
+
+
+def _line(code: PyCode, module: Scope, node: Node, depth: int = 0) -> Iterator[Node | None]:
+    """A class and those above it; None for one that is not known."""
+    yield node
+    for base in _bases(node):
         name = text_of(base)
         if name in _PLAIN_BASES:
             continue
@@ -98,12 +111,15 @@ def _is_plain(code: PyCode, module: Scope, node: Node, depth: int = 0) -> bool:
         if len(bindings) == 1 and bindings[0].node.type == "import_from_statement":
             found = module_named(code, module_of(bindings[0].node), module)
             bindings, source = (found.names.get(name, []), found) if found else ([], module)
-        is_class = len(bindings) == 1 and bindings[0].node.type == "class_definition"
-        if not is_class or depth > _DEEPEST:
-            return False
-        if not _is_plain(code, source, bindings[0].node, depth + 1):
-            return False
-    return True
+        if len(bindings) == 1 and bindings[0].node.type == "class_definition" and depth <= _DEEPEST:
+            yield from _line(code, source, bindings[0].node, depth + 1)
+        else:
+            yield None
+
+
+def _bases(node: Node) -> list[Node]:
+    bases = node.child_by_field_name("superclasses")
+    return named(bases) if bases is not None else []
 
 
 def is_quiet(scope: Scope, statement: Node) -> bool:

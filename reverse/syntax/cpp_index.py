@@ -69,7 +69,8 @@ class Code:
 
     `classes` has the first class of each name; `all_classes` has all of them, those inside of
     classes too. `statics` are static members with the values that stand outside of their class;
-    `macros` those that take something.
+    `macros` those that take something. `constants` go by file and name, whatever their scope, and
+    `disagreeing` are those that a file defines in several ways.
     """
 
     files: list[Cpp] = field(default_factory=list)
@@ -81,6 +82,7 @@ class Code:
     classes: dict[str, CppClass] = field(default_factory=dict)
     definitions: dict[tuple[str, str], list[CppFunction]] = field(default_factory=dict)
     constants: dict[tuple[str, str], tuple[Cpp, Node]] = field(default_factory=dict)
+    disagreeing: set[tuple[str, str]] = field(default_factory=set)
     macros: dict[str, list[Node]] = field(default_factory=dict)
     _types: dict[int, tuple[str, ...]] = field(default_factory=dict)
     _visible: dict[str, dict[str, tuple[Cpp, Node]]] = field(default_factory=dict)
@@ -115,6 +117,7 @@ class Code:
         _append(self.macros, one.macros)
         _append(self.definitions, one.definitions)
         self.constants |= one.constants
+        self.disagreeing |= one.disagreeing
         for name, class_ in one.classes.items():
             self.classes.setdefault(name, class_)
         for key, static in one.statics.items():
@@ -174,24 +177,36 @@ class Code:
 
     def constant(self, cpp: Cpp, name: str) -> tuple[Cpp, Node] | None:
         """The value of a constant of a file."""
-        return self.constants.get((cpp.source.path, name))
+        key = cpp.source.path, name
+        return self.constants.get(key) if key not in self.disagreeing else None
 
     def constants_for(self, cpp: Cpp) -> dict[str, tuple[Cpp, Node]]:
-        """The constants that a file can name: its own, and those of headers that agree on them."""
+        """The constants that a file can name: what it and the headers define in one way only.
+
+        Which scope's another one would be is not looked at.
+        """
         if cpp.source.path not in self._visible:
             self._visible[cpp.source.path] = self._constants_for(cpp)
         return self._visible[cpp.source.path]
 
     def _constants_for(self, cpp: Cpp) -> dict[str, tuple[Cpp, Node]]:
         found: dict[str, tuple[Cpp, Node]] = {}
-        differing = set()
+        differing = set(self.enumerators)
         for (path, name), value in self.constants.items():
-            if path.endswith(_HEADERS):
+            if path.endswith(_HEADERS) or path == cpp.source.path:
                 before = found.setdefault(name, value)
-                if text_of(before[1]) != text_of(value[1]):
+                is_one = text_of(before[1]) == text_of(value[1])
+                if not is_one or (path, name) in self.disagreeing:
                     differing.add(name)
-        own = {n: v for (path, n), v in self.constants.items() if path == cpp.source.path}
-        return {n: v for n, v in found.items() if n not in differing} | own
+        return {n: v for n, v in found.items() if n not in differing}
+
+    def _agreed(self) -> dict[tuple[str, str], tuple[Cpp, Node]]:
+        return {k: v for k, v in self.constants.items() if k not in self.disagreeing}
+
+    def _add_constant(self, cpp: Cpp, name: Node, value: tuple[Cpp, Node]) -> None:
+        key = cpp.source.path, text_of(name)
+        if text_of(self.constants.setdefault(key, value)[1]) != text_of(value[1]):
+            self.disagreeing.add(key)
 
     def _defined(self, declared: CppFunction) -> CppFunction | None:
         if declared.body is not None:
@@ -254,7 +269,7 @@ class Code:
                 continue
             elif not self._add_nested(cpp, member, own) and is_constant(cpp, member):
                 for declarator, value in valued(member):
-                    self.constants[cpp.source.path, text_of(declarator)] = cpp, value
+                    self._add_constant(cpp, declarator, (cpp, value))
                 others += plain_fields(cpp, member, with_values(member))
             else:
                 declared = with_values(member)
@@ -294,7 +309,7 @@ class Code:
             if child.type != "enumerator":
                 continue
             if (given := child.child_by_field_name("value")) is not None:
-                next_ = KnownNumbers(self.enumerators, self.constants, cpp).of(given)
+                next_ = KnownNumbers(self.enumerators, self._agreed(), cpp).of(given)
             own = text_of(part(child, "name"))
             read = CppEnumerator(own, text_of(name) if name else "", scope, next_, cpp, child)
             self.enumerators.setdefault(own, []).append(read)
@@ -328,7 +343,7 @@ class Code:
             if declarator.type == "init_declarator":
                 value, declarator = part(declarator, "value"), part(declarator, "declarator")
                 if constant:
-                    self.constants[cpp.source.path, text_of(declarator)] = cpp, value
+                    self._add_constant(cpp, declarator, (cpp, value))
             if declarator.type == "qualified_identifier" and value is not None:
                 self._add_static(cpp, node, declarator, value)
                 continue
@@ -358,7 +373,7 @@ class Code:
             return
         declarator = part(declaration, "declarator")
         if (value := declarator.child_by_field_name("value")) is not None:
-            self.constants[cpp.source.path, text_of(name)] = inside, value
+            self._add_constant(cpp, name, (inside, value))
 
 
 def _append(to: dict[_K, list[_V]], more: dict[_K, list[_V]]) -> None:
