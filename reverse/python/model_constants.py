@@ -69,9 +69,8 @@ def enumerations_of(module: Scope) -> dict[str, m.Expression]:
     """The members of the module's enumerations of integers, `Command.STOP`, as what they are."""
     found: dict[str, m.Expression] = {}
     for node in named(module.node):
-        if node.type != "class_definition" or [*map(text_of, _bases(node))] not in [
-            [e] for e in _ENUMERATIONS
-        ]:
+        bases = {text_of(b) for b in _bases(node)}
+        if node.type != "class_definition" or not bases or not bases <= _ENUMERATIONS:
             continue
         name, body = text_of(field(node, "name")), named(field(node, "body"))
         if any(s.type in _FUNCTIONS for s in body):
