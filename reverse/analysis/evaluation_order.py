@@ -8,7 +8,7 @@ the methods that are called decide: that is known when all classes have been rea
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from rebsync import model as m
 from rebsync.reverse.findings import Finding, Findings, Grade, Ordered
@@ -18,12 +18,13 @@ from rebsync.static.effects import assigns_apart, conflicting
 
 _WHY = "the model evaluates this in an order that the code does not have"
 _HINT = "say it in two statements"
+_OPERATIONS = (m.Binary, m.Assign, m.Call)
 
 
 def note_body(findings: Findings, source: Source, within: str, body: Sequence[m.Statement]) -> None:
     """Keeps in mind what of a body of C++ may depend on the order in which it is evaluated."""
     for node in (n for statement in body for n in m.walk(statement)):
-        if isinstance(node, m.Binary | m.Assign | m.Call):
+        if isinstance(node, _OPERATIONS):
             parts = [p for p in _parts(node) if p.span != node.span]
             if any(map(_may_act, parts)) and not all(_is_apart(p.span, node.span) for p in parts):
                 findings.ordered.append(Ordered(source, within, node))
@@ -45,11 +46,20 @@ def out_of_order(
     """What was noted in the bodies of the classes of a model, and does depend on the order."""
     if noted:
         model = m.Model((), classes, None)
-        analysis, known = analyse(model, fragment=True), {id(n) for n in m.walk(model)}
+        analysis = analyse(model, fragment=True)
+        known = {id(n): n for n in m.walk(model) if isinstance(n, _OPERATIONS)}
         for each in noted:
-            if id(each.expression) not in known or _depends(each.expression, analysis):
+            is_known = id(each.expression) in known
+            meant = [each.expression] if is_known else _alike(each.expression, known.values())
+            if not meant or any(_depends(one, analysis) for one in meant):
                 span = each.expression.span
                 yield Finding(Grade.UNREADABLE, each.source, span, _WHY, _HINT, each.within)
+
+
+def _alike(expression: m.Expression, among: Iterable[m.Expression]) -> Sequence[m.Expression]:
+    """What stands in the model for an expression that was put together anew."""
+    kind, span = type(expression), expression.span
+    return [each for each in among if type(each) is kind and each.span == span]
 
 
 def _depends(expression: m.Expression, analysis: Analysis) -> bool:

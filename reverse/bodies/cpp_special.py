@@ -10,7 +10,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_mailbox, cpp_messages, cpp_plain_locals, cpp_timers
-from rebsync.reverse.bodies.building import bare, negated
+from rebsync.reverse.bodies.building import bare, is_calm, negated
 from rebsync.reverse.bodies.cpp_conversions import as_boolean, as_number, converted_to, place_of
 from rebsync.reverse.bodies.cpp_effects import Effects, Touches, touching
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
@@ -147,6 +147,8 @@ def _called(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
         return _statement(reader, node, m.Call(None, "assertion", (m.BoolLiteral(False),)))
     if name in ASSERTS and name not in reader.scope.functions:
         condition = _checked(reader, named(part(node, "arguments"))[0])
+        if not is_calm(condition):
+            raise reader.unread(node, "a build without assertions does not do this")
         checked = m.Call(None, "assertion", (as_boolean(reader.scope, condition),))
         return _statement(reader, node, checked)
     arguments = named(part(node, "arguments"))

@@ -85,8 +85,9 @@ class CppStatements:
                 broken = broken_locals(read, self.shared.wide, self.scope) - scope.overflowing
                 if not broken:
                     self.scope.wide.update(self.shared.wide)
+                    read = tidied(read, self.shared.made)
                     note_body(self.findings, self.cpp.source, self.within, read)
-                    return tidied(read, self.shared.made)
+                    return read
                 scope = replace(scope, overflowing=scope.overflowing | broken)
             self.scope, self.before = scope, []
             self.own.clear()
@@ -119,8 +120,7 @@ class CppStatements:
             local = bool(markers) and any(text.startswith("local ") for text in markers)
             comments = []
             self.findings.statements[self.within] += 1
-            users = cpp_users.block_after(self, markers, users)
-            if users is not None and not self.scope.open:
+            if (users := cpp_users.block_after(self, markers, users)) and not self.scope.open:
                 yield from self._of_user(node, users)
             else:
                 yield from self._unless_outside(node, annotations, local)

@@ -21,7 +21,9 @@ from rebsync.reverse.generated.ros1_free import passed_by_reference
 from rebsync.reverse.generated.ros1_names import declared_type
 from rebsync.reverse.generated.ros1_roles import Taken, parameters_of
 from rebsync.reverse.generated.ros1_timers import Timer, sent_later, with_rearming
-from rebsync.reverse.syntax.cpp_index import Code, CppField, CppFunction, CppParameter
+from rebsync.reverse.generated.sensors import list_unseen
+from rebsync.reverse.syntax.cpp_calls import CppCall
+from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppField, CppFunction, CppParameter
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 
 _BY_VALUE = "pass it by value"
@@ -33,13 +35,14 @@ _USERS = "rebsync: user"  # what stands in such a block is nobody else's
 class Bodies:
     """Reads functions and lambdas of one class; `scope` is what they can name.
 
-    `by_hand` makes of that what people's own code can name.
+    `by_hand` makes of that what people's own code can name. `sensors` are the bodies that ask one.
     """
 
     code: Code
     scope: Scope
     findings: Findings
     by_hand: Callable[[Scope], Scope]
+    sensors: frozenset[str] = frozenset()
 
     def parameters(self, function: CppFunction) -> tuple[m.Parameter, ...]:
         """The parameters; what the model cannot pass is listed."""
@@ -66,20 +69,23 @@ class Bodies:
         parameter = function.parameters[index].node.child_by_field_name("declarator")
         if parameter is None or parameter.type != "reference_declarator" or not function.body:
             return False
-        calls = self.code.calls_of(function)
-        if any(isinstance(self.scope.functions.get(c.name), Called) for c in calls):
-            members = set(self.scope.members)
-        else:
-            members = self.scope.members.keys() & set(_WORD.findall(text_of(function.body)))
-        every = (f for c in self.code.lineage(function.owner) for f in self.code.functions_of(c))
+        family = [c for c in self.code.classes.values() if self._is_related(c, function.owner)]
+        members = {f.name for c in family for f in c.fields}
+        if not any(_is_called(self.scope, c) for c in self.code.calls_of(function)):
+            members &= set(_WORD.findall(text_of(function.body)))
         given = (
             call.arguments[index]
-            for caller in every
+            for caller in (f for c in family for f in self.code.functions_of(c))
             for call in self.code.calls_of(caller)
             if call.name == function.name and index < len(call.arguments)
         )
         places = (text_of(each) for each in given if not is_made(self.scope, each))
         return any(members & set(_WORD.findall(place)) for place in places)
+
+    def _is_related(self, one: CppClass, name: str) -> bool:
+        """Whether a class is the one of a name, or above or below it."""
+        lineage = {c.name for c in self.code.lineage(one.name)}
+        return name in lineage or one.name in {c.name for c in self.code.lineage(name)}
 
     def _given_name(self, function: CppFunction, parameter: CppParameter) -> str:
         """The model's name of a parameter: another one where it would hide a member in use."""
@@ -106,7 +112,10 @@ class Bodies:
                 for p in function.parameters
             }
         )
-        return self._read(function.cpp, inside, function.body, within)
+        read = self._read(function.cpp, inside, function.body, within)
+        if within in self.sensors:
+            list_unseen(read, within, function.cpp.source, self.findings)
+        return read
 
     def _read(self, cpp: Cpp, inside: Scope, body: Node, within: str) -> m.Block:
         """A body as generated code says it, or else, if it is exact, as people's code says it."""
@@ -210,6 +219,10 @@ class Bodies:
                 cell = m.Index(m.Name(name), m.IntLiteral(index))
                 yield m.ExpressionStatement(m.Assign("=", cell, reader.read(element)), (), span)
         untested(reader.subscripts)
+
+
+def _is_called(scope: Scope, call: CppCall) -> bool:
+    return isinstance(scope.functions.get(call.name), Called)
 
 
 def _checked(reader: CppStatements, body: Node) -> m.Block:

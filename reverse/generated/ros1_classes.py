@@ -33,7 +33,7 @@ from rebsync.reverse.generated.ros1_annotations import (
 from rebsync.reverse.generated.ros1_bodies import Bodies
 from rebsync.reverse.generated.ros1_free import free_beside
 from rebsync.reverse.generated.ros1_hand import acts, as_by_hand, is_passive, only_logs, stands_in
-from rebsync.reverse.generated.ros1_inherited import only_forwards
+from rebsync.reverse.generated.ros1_inherited import is_declared, list_hiding, only_forwards
 from rebsync.reverse.generated.ros1_meanings import Meaning, in_files_of, other_meanings
 from rebsync.reverse.generated.ros1_names import (
     declared_type,
@@ -194,7 +194,7 @@ class Classes:
         known: list[m.Declaration] = []
         state: list[m.Declaration] = []
         for member in owner.fields:
-            if runtime_of(member) or member.name in roles.globals:
+            if runtime_of(member) or member.name in roles.globals.keys() | roles.odd_globals:
                 continue
             type_ = declared_type(self.code, member.type)
             if type_ is None:
@@ -219,7 +219,7 @@ class Classes:
         plain = roles.shims | roles.passing | set(roles.sends) | set(roles.odd_sends)
         if function.name in _PLUMBING or function.name in plain:
             return False
-        if function.pure and not self._declares(owner, function):
+        if function.pure and not is_declared(self.code, owner, function, self._has_mailbox):
             return False
         if self._is_by_hand(owner, function):
             return False
@@ -230,18 +230,6 @@ class Classes:
         if self._served(owner, function) is not None or not self._has_mailbox(owner):
             return False
         return only_logs(function) or stands_in(self.code, owner, function)
-
-    def _declares(self, owner: CppClass, function: CppFunction) -> bool:
-        """Whether the model declares an abstract function here, not only an interface above."""
-        names = {f"msgsrv {owner.name}.", f"method {owner.name}."}
-        if any(marker.startswith(n) for n in names for marker in function.markers):
-            return not any(
-                f.name == function.name and f.types == function.types
-                for c in self.code.lineage(owner.name)[1:]
-                if not self._has_mailbox(c)
-                for f in c.functions
-            )
-        return True
 
     def _served(self, owner: CppClass, function: CppFunction) -> str | None:
         """The server whose messages a function serves, here or in a class above."""
@@ -300,6 +288,7 @@ class Classes:
 
     def _method(self, owner: CppClass, function: CppFunction) -> m.Method:
         bodies, name = self._bodies(owner), plain_name(function, self.types)
+        list_hiding(self.code, owner, function, self.findings)
         result = declared_type(self.code, function.result) if function.result is not None else None
         return m.Method(
             result or m.Type("void"),
@@ -337,7 +326,8 @@ class Classes:
 
     def _bodies(self, owner: CppClass) -> Bodies:
         by_hand = partial(as_by_hand, self.code, owner)
-        return Bodies(self.code, self.scope(owner), self.findings, by_hand)
+        sensors = frozenset(f"{owner.name}.{name}" for name in self.roles[owner.name].sensors)
+        return Bodies(self.code, self.scope(owner), self.findings, by_hand, sensors)
 
     # --- names ----------------------------------------------------------------------------------
 

@@ -86,12 +86,13 @@ class Roles:
     """Of one class alone: by function what it serves or sends, by member what that stands for.
 
     `handlers` and `messages` give the server's name in the model, `globals` the entry of the
-    parameter server and the default, `annotations` those that the set-up of a server shows; of
-    overloads that take equally many arguments the first one's first. `topics` are those of shims
-    by their names, `offers` as what those of shims are offered, `wired` the calls
-    that make them and publishers of the rebec; `own` are parameters of the node that state
-    variables get, `reading` the statements that do that; `passing` are callbacks of timers that
-    only post a message; `odd_sends` what functions that send do besides.
+    parameter server and the default, `odd_globals` are members that get more than that,
+    `annotations` those that the set-up of a server shows; of overloads that take equally many
+    arguments the first one's first. `topics` are those of shims by their names, `offers` as what
+    those of shims are offered, `wired` the calls that make them and publishers of the rebec; `own`
+    are parameters of the node that state variables get, `reading` the statements that do that;
+    `passing` are callbacks of timers that only post a message; `odd_sends` what functions that send
+    do besides.
     """
 
     handlers: dict[str, str] = field(default_factory=dict)
@@ -102,6 +103,7 @@ class Roles:
     publishers: dict[str, Advertised] = field(default_factory=dict)
     known: dict[str, str] = field(default_factory=dict)
     globals: dict[str, tuple[str, Node]] = field(default_factory=dict)
+    odd_globals: set[str] = field(default_factory=set)
     constants: set[str] = field(default_factory=set)
     annotations: dict[Overload, list[tuple[m.Annotation, ...]]] = field(default_factory=dict)
     on_bridge: bool = False
@@ -129,6 +131,9 @@ def roles_of(code: Code, owner: CppClass) -> Roles:
     for function in functions:
         if function.name == owner.name:
             _wired(roles, function, {f.name: text_of(f.type) for f in owner.fields})
+    for member in owner.fields:
+        if any(marker.startswith("statevar ") for marker in member.markers):
+            roles.odd_globals.discard(member.name)
     roles.own, roles.reading = own_parameters(code, owner)
     for constructor in (*owner.functions, *functions):
         if constructor.name == owner.name:
@@ -224,6 +229,8 @@ def _wired(roles: Roles, constructor: CppFunction, types: Mapping[str, str]) -> 
         for call in calls_in(value):
             if call.name not in READS or (read is not None and call.node == read.node):
                 _member(roles, member, call)
+            elif call.on == "global" or any(map(_is_constant, call.arguments[:1])):
+                roles.odd_globals.add(member)
     for member, value in assigned_in(constructor.body):
         declared = call_of(value)
         if declared is not None and (array := declared_array(declared)) is not None:
@@ -236,6 +243,10 @@ def _wired(roles: Roles, constructor: CppFunction, types: Mapping[str, str]) -> 
                 member = text_of(call.arguments[2])
                 values = dict(assigned_in(constructor.body))
                 roles.globals[member] = key, values.get(member, call.node)
+
+
+def _is_constant(key: Node) -> bool:
+    return constant_of_model(string_of(key) or "") is not None
 
 
 def _says(function: CppFunction, word: bytes) -> bool:

@@ -17,6 +17,7 @@ from rebsync.intervals import INT32, INTEGERS
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.sensors import list_unseen
 from rebsync.reverse.python.model_constants import constants_in, constants_of, enumerations_of
 from rebsync.reverse.python.model_expressions import Expressions, Names
 from rebsync.reverse.python.model_filled import Filling, fillings_of
@@ -86,6 +87,8 @@ class Bodies:
         self.findings.statements[within] += 0
         found = reader.block(body_of(function), field(function.node, "body"))
         self._list_beyond(owner, function, reader, found)
+        if self.served(owner, function) in self.roles(owner).sensors:
+            list_unseen(found, within, function.py.source, self.findings)
         return found
 
     def _list_beyond(

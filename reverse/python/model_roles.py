@@ -99,6 +99,7 @@ class Roles:
     topics: dict[str, str] = with_default(default_factory=dict)
     offers: dict[str, m.Annotation] = with_default(default_factory=dict)
     sensors: set[str] = with_default(default_factory=set)
+    constructed: bool = False  # while the set-up is read: the model's constructor has run
     has_mailbox: bool = False
     has_drive: bool = False
     on_bridge: bool = False
@@ -203,6 +204,7 @@ def _wired(roles: Roles, function: Scope) -> None:
 def _called(roles: Roles, call: Node) -> None:
     """`self._wire(4, NO_PRIORITY)` says how long the queue is."""
     function, arguments = call_parts(call) or ("", [])
+    roles.constructed |= function == "self._mailbox.construct"
     lengths = [int(text_of(a)) for a in arguments if text_of(a).isdecimal()]
     if function.endswith("._wire") and lengths and text_of(arguments[0]) != "queue_length":
         roles.queue_length = lengths[0]
@@ -260,7 +262,7 @@ def _variable(
     roles.stored[attribute] += not is_unset(value)
     if is_unset(value) or literal_type(value) is not None:
         roles.state[attribute] = name, type_, statement
-        if not is_unset(value):
+        if not (is_unset(value) or roles.constructed):
             roles.initial.append((attribute, value))
     elif read is not None and read.is_own and read.key.startswith("knownrebecs/"):
         known = original(read.key.partition("/")[2])

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_idioms as idioms
@@ -246,6 +247,8 @@ def asserted(reader: Statements, node: Node) -> m.Statement:
     """`assert e, "text"`: what must hold, told as one of the model's assertions."""
     parts, span = named(node), reader.expressions.py.span(node)
     given: list[m.Expression] = [reader.expressions.condition(parts[0])]
+    if not is_calm(given[0]):
+        raise reader.expressions.unread(node, "Python without assertions does not do this")
     if len(parts) > 1 and string_value(parts[1]) is not None:
         is_formatted = any(c.type == "interpolation" for c in parts[1].children)
         given += [] if is_formatted else [reader.expressions.read(parts[1])]
