@@ -13,6 +13,7 @@ from rebsync.roundtrip.markers import user_blocks, with_user_blocks
 from rebsync.roundtrip.merge_files import renamed_files
 from rebsync.roundtrip.merge_models import Favour
 from rebsync.roundtrip.merge_source import merged_source
+from rebsync.roundtrip.text_merge import MergedText
 from rebsync.source import NOWHERE, Source
 
 _STAND_IN = re.compile(r"(?:.*/)?\w+_stand_in(?:\.cpp|\.py)?")
@@ -104,12 +105,23 @@ def _file(
         if favour is Favour.CODE:
             return ours, None
         return _refusal(path, "this file is generated no more, and it was edited by hand")
-    texts = (ours, base or "", theirs)
-    if ours == _as_here(recorded, ours) and merged_source(name, texts, LABELS).conflicts:
-        return theirs, None  # what the code has changed elsewhere is not in it yet
-    merged = merged_source(name, texts, LABELS, favour.value)
+    is_edited = ours != _as_here(recorded, ours)
+    merged = merged_file(name, (ours, base or "", theirs), is_edited, favour)
     stages = Stages(base or "", ours, theirs) if merged.conflicts else None
     return merged.text, stages
+
+
+def merged_file(
+    name: str, texts: tuple[str, str, str], is_edited: bool, favour: Favour = Favour.MARKERS
+) -> MergedText:
+    """The merge of a file, `texts` being ours, the base and theirs.
+
+    One that nobody has edited is generated anew rather than in conflict: then it lacks what the
+    code has changed elsewhere, and theirs has that.
+    """
+    if not is_edited and merged_source(name, texts, LABELS).conflicts:
+        return MergedText(texts[2])
+    return merged_source(name, texts, LABELS, favour.value)
 
 
 def _renamed(

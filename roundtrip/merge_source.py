@@ -11,6 +11,7 @@ from rebsync.roundtrip.text_merge import MergedText, agreed_lines, decided, merg
 
 _CPP = (".cpp", ".cc", ".cxx", ".h", ".hh", ".hpp", ".hxx")
 _Sides: TypeAlias = "tuple[Unit, Unit, Unit]"
+_Reader: TypeAlias = "Callable[[str], Unit | None]"
 
 
 def merged_source(
@@ -33,12 +34,9 @@ def merged_source(
 def _merged(path: str, texts: tuple[str, str, str], labels: tuple[str, str]) -> MergedText:
     by_lines = merged_text(*texts, labels)
     reader = _reader(path, texts[0]) if by_lines.text not in texts else None
-    if reader is None:
+    sides = _sides(texts, reader) if reader is not None else None
+    if reader is None or sides is None:
         return by_lines
-    units = [reader(text) for text in texts]
-    if units[0] is None or units[1] is None or units[2] is None:
-        return by_lines
-    sides = (units[0], units[1], units[2])
     if not by_lines.conflicts and _is_whole(reader(by_lines.text), sides):
         return by_lines
     from rebsync.roundtrip.merge_units import merged_unit
@@ -50,10 +48,15 @@ def _merged(path: str, texts: tuple[str, str, str], labels: tuple[str, str]) -> 
     return by_units if _is_sound(by_units, sides, labels, reader) else by_lines
 
 
-Reader: TypeAlias = "Callable[[str], Unit | None]"
+def _sides(texts: tuple[str, str, str], reader: _Reader) -> _Sides | None:
+    """The units of three texts; None where one of them does not parse."""
+    if (ours := reader(texts[0])) is None or (base := reader(texts[1])) is None:
+        return None
+    theirs = reader(texts[2])
+    return (ours, base, theirs) if theirs is not None else None
 
 
-def _reader(path: str, text: str) -> Reader | None:
+def _reader(path: str, text: str) -> _Reader | None:
     """What finds the units of a file in its language; None for other files."""
     if path.endswith(_CPP):
         from rebsync.reverse.syntax.cpp_units import cpp_units
@@ -85,7 +88,7 @@ def _declared(unit: Unit, path: str = "") -> Iterator[str]:
 # --- nothing is lost, nothing is doubled --------------------------------------------------------
 
 
-def _is_sound(merged: MergedText, sides: _Sides, labels: tuple[str, str], reader: Reader) -> bool:
+def _is_sound(merged: MergedText, sides: _Sides, labels: tuple[str, str], reader: _Reader) -> bool:
     """Whether a text has all of both sides, once, and parses, with either side of a conflict."""
     ours, base, theirs = (Counter(_said(side)) for side in sides)
     if not merged.conflicts:

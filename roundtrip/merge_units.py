@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
-from difflib import SequenceMatcher
-from typing import TypeAlias
 
 from rebsync.records import dataclass
 from rebsync.reverse.syntax.code_units import NO_UNIT, Unit
+from rebsync.roundtrip.merge_order import (
+    Ordered,
+    Part,
+    Token,
+    listed,
+    split_gap,
+    with_additions,
+    with_edits,
+)
 from rebsync.roundtrip.text_merge import MergedText, aligned, merged_lines, merged_text
-
-Units: TypeAlias = Sequence[Unit]
-Token: TypeAlias = tuple[str, str]
 
 
 def merged_unit(ours: Unit, base: Unit, theirs: Unit, labels: tuple[str, str]) -> MergedText:
@@ -30,7 +33,7 @@ def merged_unit(ours: Unit, base: Unit, theirs: Unit, labels: tuple[str, str]) -
 
 def _leaf(ours: Unit, base: Unit, theirs: Unit, labels: tuple[str, str]) -> MergedText:
     """Lines without units; the empty ones above them are no reason for a conflict."""
-    (gap, mine), (old_gap, old), (new_gap, new) = (_gap(u.text) for u in (ours, base, theirs))
+    (gap, mine), (old_gap, old), (new_gap, new) = (split_gap(u.text) for u in (ours, base, theirs))
     gap = new_gap if gap == old_gap else gap
     # git takes a text that was not there before for one of lines without "\r"
     merged = (merged_text if old else merged_lines)(mine, old, new, labels)
@@ -40,16 +43,6 @@ def _leaf(ours: Unit, base: Unit, theirs: Unit, labels: tuple[str, str]) -> Merg
         joined = merged_imports(mine, old, new)
         merged = merged if joined is None else MergedText(joined)
     return MergedText(gap + merged.text, merged.conflicts)
-
-
-def _gap(text: str) -> tuple[str, str]:
-    """The empty lines with which a text begins, and the rest."""
-    at = 0
-    for line in text.splitlines(keepends=True):
-        if line.strip():
-            break
-        at += len(line)
-    return text[:at], text[at:]
 
 
 def _joined(parts: Iterable[MergedText]) -> MergedText:
@@ -66,24 +59,12 @@ class _Body:
     units: tuple[Unit, ...]
 
     @classmethod
-    def of(cls, units: Units) -> _Body:
+    def of(cls, units: Sequence[Unit]) -> _Body:
         keys = Counter(unit.key for unit in units)
         tokens = tuple(
-            (u.key, "") if u.key and keys[u.key] == 1 else ("", _gap(u.text)[1]) for u in units
+            (u.key, "") if u.key and keys[u.key] == 1 else ("", split_gap(u.text)[1]) for u in units
         )
         return cls(tokens, {t: u for t, u in zip(tokens, units, strict=True) if t[0]}, tuple(units))
-
-
-@dataclass(frozen=True, slots=True)
-class _Part:
-    """Some units of a body that stand together."""
-
-    tokens: tuple[Token, ...]
-    units: Units
-
-    @property
-    def text(self) -> str:
-        return "".join(unit.text for unit in self.units)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -101,7 +82,7 @@ class _Merge:
         merged: set[Token] = set()
         for places in aligned(*(body.tokens for body in bodies)):
             ours, base, theirs = (
-                _Part(body.tokens[place], body.units[place])
+                Part(body.tokens[place], body.units[place])
                 for body, place in zip(bodies, places, strict=True)
             )
             order = self._order(ours, base, theirs)
@@ -124,21 +105,21 @@ class _Merge:
         # what one side has left out is as the other had it
         return MergedText("") if old is not None else MergedText(unit.text)
 
-    def _order(self, ours: _Part, base: _Part, theirs: _Part) -> list[tuple[Token, Unit]] | None:
+    def _order(self, ours: Part, base: Part, theirs: Part) -> Ordered | None:
         """The units of a part in their order; None where both sides are to be compared by lines."""
         if self._is_disputed(ours, base, theirs):
             return None
         if theirs.tokens in (base.tokens, ours.tokens):
-            return _listed(ours)
+            return listed(ours)
         if ours.tokens == base.tokens:
-            return _listed(theirs)
+            return listed(theirs)
         if all(key for part in (ours, base, theirs) for key, _ in part.tokens):
-            return _with_additions(ours, base, theirs)
-        return _with_edits(ours, base, theirs)
+            return with_additions(ours, base, theirs)
+        return with_edits(ours, base, theirs)
 
-    def _is_disputed(self, ours: _Part, base: _Part, theirs: _Part) -> bool:
+    def _is_disputed(self, ours: Part, base: Part, theirs: Part) -> bool:
         """Whether one side has changed or renamed what the other has renamed or left out."""
-        for token, unit in _listed(base):
+        for token, unit in listed(base):
             mine, new = (b.by_token.get(token) for b in (self.ours, self.theirs))
             if not token[0] or (mine is not None and new is not None):
                 continue
@@ -148,57 +129,3 @@ class _Merge:
             if left is None and ours.tokens != theirs.tokens and {*ours.tokens, *theirs.tokens}:
                 return True
         return False
-
-
-def _listed(part: _Part) -> list[tuple[Token, Unit]]:
-    return list(zip(part.tokens, part.units, strict=True))
-
-
-def _with_additions(ours: _Part, base: _Part, theirs: _Part) -> list[tuple[Token, Unit]] | None:
-    """What both have kept, and behind each what either has added; None where they stand apart."""
-    kept = {*ours.tokens} & {*base.tokens} & {*theirs.tokens}
-    mine, new = _by_kept(ours, kept), _by_kept(theirs, kept)
-    if list(mine) != list(new):
-        return None
-    found: list[tuple[Token, Unit]] = []
-    for before in mine:
-        found += mine[before]
-        for token, unit in new[before]:
-            if token == before:
-                continue
-            is_next = bool(unit.names and found and found[-1][1].names)
-            found.append((token, replace(unit, text=_gap(unit.text)[1]) if is_next else unit))
-    return found
-
-
-def _with_edits(ours: _Part, base: _Part, theirs: _Part) -> list[tuple[Token, Unit]] | None:
-    """The units of the base with the edits of both, which may touch; None where they overlap."""
-    found: list[tuple[Token, Unit]] = []
-    at, last = 0, (-1, -1)
-    edits = (*_edits(base, ours), *_edits(base, theirs))
-    for start, end, units in sorted(edits, key=lambda edit: edit[:2]):
-        if start < at or (start, end) == last:
-            return None
-        found += [*_listed(base)[at:start], *units]
-        at, last = end, (start, end)
-    return [*found, *_listed(base)[at:]]
-
-
-def _edits(base: _Part, side: _Part) -> Iterator[tuple[int, int, list[tuple[Token, Unit]]]]:
-    """Runs of units of the base with what a side has instead; either may be empty."""
-    codes = SequenceMatcher(None, base.tokens, side.tokens, autojunk=False).get_opcodes()
-    for tag, start, end, first, last in codes:
-        if tag != "equal":
-            yield start, end, _listed(side)[first:last]
-
-
-def _by_kept(part: _Part, kept: set[Token]) -> dict[Token | None, list[tuple[Token, Unit]]]:
-    """The units of a part by that which both have kept, and which they stand behind."""
-    found: dict[Token | None, list[tuple[Token, Unit]]] = {None: []}
-    at: Token | None = None
-    for token, unit in _listed(part):
-        if token in kept:
-            at = token
-            found[at] = []
-        found[at].append((token, unit))
-    return found

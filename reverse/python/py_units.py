@@ -21,7 +21,7 @@ def py_units(text: str) -> Unit | None:
     lines = lines_of(text)
     if lines is None or not _is_python(text):
         return None
-    with suppress(cst.ParserSyntaxError):
+    with suppress(cst.ParserSyntaxError, RecursionError):
         module = cst.parse_module(text)
         reader = _Reader(module, lines)
         head = len(module.header)

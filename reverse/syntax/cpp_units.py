@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 
 from tree_sitter import Node
 
@@ -24,7 +25,10 @@ def cpp_units(text: str) -> Unit | None:
     cpp = parse_as_it_is(Source("-", text))
     if lines is None or (cpp.root.has_error and any(errors_in(cpp))):
         return None
-    return _Reader(cpp, lines).whole("", 0, _Body(cpp.root.children, 0, len(lines), ""), len(lines))
+    body = _Body(cpp.root.children, 0, len(lines), "")
+    with suppress(RecursionError):
+        return _Reader(cpp, lines).whole("", 0, body, len(lines))
+    return None
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,8 +17,8 @@ from random import Random
 from rebsync.config import Config
 from rebsync.diagnostics import RebsyncError
 from rebsync.roundtrip.generated import generated
-from rebsync.roundtrip.merge_code import LABELS
-from rebsync.roundtrip.merge_source import merged_source
+from rebsync.roundtrip.merge_code import LABELS, merged_file
+from rebsync.roundtrip.text_merge import merged_text
 from rebsync.source import Source
 from tests.reverse.test_edits import BY_NAME
 from tests.roundtrip.edits.trial import HERE, Case, Trial, cases
@@ -36,6 +36,7 @@ class Merge:
     ours: str
     base: str
     theirs: str
+    is_edited: bool
 
 
 @cache
@@ -76,7 +77,7 @@ def _of(case: Case, rng: Random) -> Iterator[Merge]:
     for path in sorted(base.keys() & now.keys() & edited.keys()):
         texts = edited[path], base[path], now[path]
         if len(set(texts)) == 3:
-            yield Merge(str(case), path, *texts)
+            yield Merge(str(case), path, *texts, edited[path] != before.get(path))
 
 
 def main() -> None:
@@ -87,8 +88,10 @@ def main() -> None:
     given = parser.parse_args()
     counted: Counter[str] = Counter()
     for each in merges(given.seed, given.count):
-        merged = merged_source(each.path, (each.ours, each.base, each.theirs), LABELS)
+        texts = (each.ours, each.base, each.theirs)
+        merged = merged_file(each.path, texts, each.is_edited)
         counted["merges"] += 1
+        counted["in conflict line by line"] += bool(merged_text(*texts, LABELS).conflicts)
         counted["in conflict"] += bool(merged.conflicts)
         if given.shown and merged.conflicts:
             print(f"--- {each.case} {each.path}\n{_marked(merged.text)}")

@@ -54,6 +54,20 @@ def test_merges(language: str, name: str, end: str) -> None:
         assert set(decision.text.split(end)) < set(merged.text.split(end))
 
 
+@pytest.mark.parametrize(
+    ("path", "text"),
+    [
+        ("a.py", "x = " + "a + " * 900 + "a\n"),
+        ("a.py", "if a:\n    pass\n" + "elif b:\n    pass\n" * 1500),
+        ("a.cpp", "namespace a {\n" * 2000 + "}\n" * 2000),
+    ],
+    ids=["sum", "elif", "namespaces"],
+)
+def test_what_nests_deep_is_merged_line_by_line(path: str, text: str) -> None:
+    texts = (f"a = 1;\n{text}", f"\n{text}", f"a = 2;\n{text}")
+    assert merged_source(path, texts, LABELS) == merged_text(*texts, LABELS)
+
+
 # --- laws ---------------------------------------------------------------------------------------
 
 NAMES = st.sampled_from([f"n{i}" for i in range(9)])
