@@ -22,7 +22,7 @@ from rebsync.names import graph_name
 from rebsync.records import dataclass
 from rebsync.static import Analysis
 from rebsync.static.constants import constant
-from rebsync.static.effects import assigns_apart, conflicting
+from rebsync.static.effects import assigns_apart, conflicting, indices_of
 from rebsync.static.symbols import (
     BuiltinSymbol,
     EnvSymbol,
@@ -174,13 +174,23 @@ class CppExpressions:
                 return self.names.local(name.name)
 
     def _index(self, expression: m.Index) -> str:
-        array = self.text(expression.target)
+        indices = indices_of(expression)
+        if not conflicting(indices, self.analysis):
+            return self._element(expression, [self.text(i) for i in indices])
+        values = [self.text(i) for i in indices]
+        place = self._element(expression, [f"op{i}_" for i in range(1, len(values) + 1)])
+        return self._in_order(values, place).replace("[&] {", "[&]() -> auto& {", 1)
+
+    def _element(self, expression: m.Expression, indices: Sequence[str]) -> str:
+        """An element of an array, or of an array in one, by the text of its indices."""
+        if not isinstance(expression, m.Index):
+            return self.text(expression)
+        array = self._element(expression.target, indices[:-1])
         type_ = self.type_of(expression.target)
         value = constant(expression.index)
         length = type_.dimensions[0] if type_ is not None and type_.dimensions else 0
-        if isinstance(value, int) and 0 <= value < length:
-            return f"{array}[{self.text(expression.index)}]"
-        return f"{array}.at({self.text(expression.index)})"
+        is_there = isinstance(value, int) and 0 <= value < length
+        return f"{array}[{indices[-1]}]" if is_there else f"{array}.at({indices[-1]})"
 
     def _cast(self, type_: m.Type, operand: m.Expression) -> str:
         if type_.name in self.class_types:

@@ -73,6 +73,13 @@ def conflicting(operands: Sequence[Expression], analysis: Analysis) -> bool:
     return False
 
 
+def indices_of(element: Expression) -> list[Expression]:
+    """The indices of an element of an array, or of an array in one: of `a[i][j]` both."""
+    if not isinstance(element, Index):
+        return []
+    return [*indices_of(element.target), element.index]
+
+
 def assigns_apart(assign: Assign, analysis: Analysis) -> bool:
     """Whether it matters that an assignment's target is found, and read, before its value."""
     target, value = assign.target, assign.value

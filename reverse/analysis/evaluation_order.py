@@ -14,11 +14,11 @@ from rebsync import model as m
 from rebsync.reverse.findings import Finding, Findings, Grade, Ordered
 from rebsync.source import NOWHERE, Source, Span
 from rebsync.static import Analysis, analyse
-from rebsync.static.effects import assigns_apart, conflicting
+from rebsync.static.effects import assigns_apart, conflicting, indices_of
 
 _WHY = "the model evaluates this in an order that the code does not have"
 _HINT = "say it in two statements"
-_OPERATIONS = (m.Binary, m.Assign, m.Call)
+_OPERATIONS = (m.Binary, m.Assign, m.Call, m.Index)
 
 
 def note_body(findings: Findings, source: Source, within: str, body: Sequence[m.Statement]) -> None:
@@ -77,6 +77,8 @@ def _parts(expression: m.Expression) -> tuple[m.Expression, ...]:
             return left, right
         case m.Assign(_, target, value):
             return target, value
+        case m.Index():
+            return tuple(indices_of(expression))
         case m.Call(target, _, arguments, after, deadline):
             every = (target, *arguments, after, deadline)
             return tuple(each for each in every if each is not None)
