@@ -93,13 +93,6 @@ class Odd:
     finding: Findings
 
 
-def odd_wiring(
-    kept: Kept, record: Record, now: Standing, of_code: Comparison
-) -> tuple[Findings, ...]:
-    """The places where nodes are not joined as they were when the code was generated."""
-    return tuple(odd.finding for odd in odd_facts(kept, record, now, of_code))
-
-
 def odd_facts(kept: Kept, record: Record, now: Standing, of_code: Comparison) -> tuple[Odd, ...]:
     """The facts that are not as they were when the code was generated."""
     touched = [n for n in {*now.changed, *now.missing} & record.files.keys() if _is_wiring(n)]
