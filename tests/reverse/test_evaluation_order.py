@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterable
+
 import pytest
 
 from rebsync.config import TARGETS, Config
@@ -23,8 +25,8 @@ reactiveclass G extends Base(5) {
   int take() { count = count + 1; return count; }
   int peek() { return count; }
   int later() { self.go(1) after(2); return 1; }
-  msgsrv go(int a) { STATEMENT }
-  msgsrv put(int a, int b) { level = a + b; self.put(8, 9) after(1); }
+  msgsrv go(int a) { }
+SERVERS  msgsrv put(int a, int b) { level = a + b; self.put(8, 9) after(1); }
 }
 main { G g():(); }
 """
@@ -71,51 +73,49 @@ STORES = {  # in Python the order of the value and of what it is stored into
     "queue[head] = peek();": ("self._queue[self._head] = self.peek()", False),
     "self.put(count, take());": ("self.send_self_put(self._count, self.take())", False),
 }
-PLAIN = "head = 77;"
 
 
-def _package(target: str, statement: str, of_base: str = "") -> dict[str, str]:
-    text = MODEL.replace("STATEMENT_OF_BASE", of_base).replace("STATEMENT", statement)
+def _package(target: str, statements: Iterable[str], of_base: str = "") -> dict[str, str]:
+    """A package with a server for each statement: s0, s1, ..."""
+    servers = (f"  msgsrv s{i}(int a) {{ {each} }}\n" for i, each in enumerate(statements))
+    text = MODEL.replace("SERVERS", "".join(servers)).replace("STATEMENT_OF_BASE", of_base)
     return generated(text, "g", Config(target=target))
 
 
-def _edited(target: str, old: str, new: str) -> dict[str, str]:
-    """A package with one line of G written otherwise."""
-    files = _package(target, PLAIN)
-    assert sum(old in text for text in files.values()) == 1
-    return {path: text.replace(old, new) for path, text in files.items()}
+def _listed(target: str, plain: str, code: Collection[str]) -> list[bool]:
+    """Whether the order is told of, for lines of code written by hand into a server each."""
+    files = _package(target, [f"head = {1000 + i};" for i in range(len(code))])
+    for number, line in enumerate(code):
+        old = plain.format(1000 + number)
+        assert sum(old in text for text in files.values()) == 1
+        files = {path: text.replace(old, line) for path, text in files.items()}
+    found = extracted(files).findings
+    assert all("order" in f.why for f in found), found
+    return [f"G.s{i}" in {f.within for f in found} for i in range(len(code))]
 
 
 @pytest.mark.parametrize("target", TARGETS)
 def test_what_is_generated_has_the_order_of_the_model(target: str) -> None:
-    for statement in (*OPEN, *IN_ORDER):
-        found = extracted(_package(target, statement))
-        assert [(f.text, f.why) for f in found.findings] == [], statement
+    found = extracted(_package(target, [*OPEN, *IN_ORDER, *STORES]))
+    assert [(f.text, f.why) for f in found.findings] == []
 
 
 @pytest.mark.parametrize("target", ["ros1-cpp", "ros2-cpp"])
 def test_cpp_that_leaves_the_order_open_is_listed(target: str) -> None:
-    for code in OPEN.values():
-        found = extracted(_edited(target, "  head_ = 77;", f"  {code}"))
-        assert {"order" in f.why for f in found.findings} == {True}, code
-
-
-@pytest.mark.parametrize("target", ["ros1-cpp", "ros2-cpp"])
-def test_cpp_where_the_order_makes_no_difference_is_exact(target: str) -> None:
-    for code in IN_ORDER.values():
-        found = extracted(_edited(target, "  head_ = 77;", f"  {code}"))
-        assert [(f.text, f.why) for f in found.findings] == [], code
+    code = [*OPEN.values(), *IN_ORDER.values()]
+    listed = _listed(target, "head_ = {};", code)
+    assert dict(zip(code, listed, strict=True)) == {c: c in OPEN.values() for c in code}
 
 
 @pytest.mark.parametrize("target", ["ros1-py", "ros2-py"])
-@pytest.mark.parametrize(("code", "is_listed"), STORES.values())
-def test_python_finds_what_it_stores_into_late(target: str, code: str, is_listed: bool) -> None:
-    found = extracted(_edited(target, "self._head = 77", code))
-    assert ["order" in f.why for f in found.findings] == [True] * is_listed, found.findings
+def test_python_finds_what_it_stores_into_late(target: str) -> None:
+    listed = _listed(target, "self._head = {}", [code for code, _ in STORES.values()])
+    wanted = dict(STORES.values())
+    assert dict(zip(wanted, listed, strict=True)) == wanted
 
 
 def test_a_function_that_another_class_overrides_may_act() -> None:
-    files = _package("ros1-cpp", PLAIN, "level = rate() - count;")
+    files = _package("ros1-cpp", [], "level = rate() - count;")
     source = files["src/base.cpp"]
     assert "const auto op1_ = rate(); const auto op2_ = count_;" in source
     assert extracted(files).findings == ()
