@@ -137,6 +137,8 @@ def _template(
         if name == "as":
             operand = reader.operand(arguments[0], precedence.CAST)
             return m.Cast(m.Type(class_name(text_of(types[0]))), operand, reader.cpp.span(node))
+    if isinstance(known := reader.scope.functions.get(name), Inline):
+        return reader.inlined(node, known, arguments)
     why = f'the model has no function "{name}"'
     return _other(reader, node, text_of(function), arguments, why)
 

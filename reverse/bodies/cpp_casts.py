@@ -10,7 +10,7 @@ from rebsync import model as m
 from rebsync import precedence
 from rebsync.reverse.bodies.building import bare, tight
 from rebsync.reverse.bodies.cpp_conversions import as_number, converted_to, type_in
-from rebsync.reverse.bodies.cpp_types import carried, type_of
+from rebsync.reverse.bodies.cpp_types import type_of
 from rebsync.reverse.bodies.cpp_widths import check_stored, place_of
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.syntax.cpp_tree import text_of
@@ -25,7 +25,7 @@ def cast(reader: CppExpressions, to: Node, operand: Node, node: Node) -> m.Expre
     plain = type_of(to)
     if plain is not None and not plain.dimensions and not reader.scope.open:
         return m.Cast(plain, reader.operand(operand, precedence.CAST), reader.cpp.span(node))
-    kept = carried(to, reader.scope.enums)
+    kept = reader.scope.carried(to)
     if kept is None or kept.type.dimensions:
         raise reader.unread(node, f'the model has no type "{text_of(to)}"')
     if kept.type == BOOLEAN:

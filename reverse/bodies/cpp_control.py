@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies import cpp_locals, cpp_plain_locals, cpp_special
+from rebsync.reverse.bodies import cpp_locals, cpp_loops, cpp_plain_locals, cpp_special
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.scope import Outside, Record, Variable
 from rebsync.reverse.bodies.written import annotations_in
@@ -68,7 +68,7 @@ def counted(reader: CppStatements, node: Node, annotations: tuple[m.Annotation, 
     elif first is not None:
         initial = tuple(_listed(reader, first))
     tested = node.child_by_field_name("condition")
-    condition = reader.loop_condition(tested) if tested is not None else None
+    condition = cpp_loops.condition_of(reader, tested) if tested is not None else None
     update = node.child_by_field_name("update")
     updates = tuple(_listed(reader, update)) if update is not None else ()
     body = reader.branch(part(node, "body"))

@@ -10,7 +10,14 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync import precedence
 from rebsync.records import dataclass
-from rebsync.reverse.bodies import cpp_called, cpp_casts, cpp_idioms, cpp_mailbox, cpp_widths
+from rebsync.reverse.bodies import (
+    cpp_algorithms,
+    cpp_called,
+    cpp_casts,
+    cpp_idioms,
+    cpp_mailbox,
+    cpp_widths,
+)
 from rebsync.reverse.bodies.building import binary, is_calm, is_place, tight
 from rebsync.reverse.bodies.cpp_conversions import (
     alternatives,
@@ -84,7 +91,7 @@ class CppExpressions:
             case "parenthesized_expression":
                 return m.Paren(self.read(self.only(node)), self.cpp.span(node))
             case "field_expression" | "pointer_expression":
-                return self._field(node)
+                return cpp_algorithms.dereferenced(self, node) or self._field(node)
             case "subscript_expression":
                 return self.index(node, named(part(node, "indices")))
             case "unary_expression":

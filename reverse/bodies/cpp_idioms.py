@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.bodies import cpp_algorithms, cpp_atomics
 from rebsync.reverse.bodies.building import binary, cast, chosen, is_calm, tight
 from rebsync.reverse.bodies.cpp_conversions import as_number, operands, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_literals import lower
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_time import is_for_ros2, time_called, to_seconds
-from rebsync.reverse.bodies.cpp_types import carried
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.cpp_widths import check_whole, check_wide_call
 from rebsync.reverse.bodies.scope import Called, Record, Variable
@@ -92,10 +92,12 @@ def call(
             return reader.calls(node, None, plain, arguments)
         case "sqrt", 1:
             return reader.calls(node, None, plain, arguments)
+    if (found := cpp_algorithms.call(reader, node, plain, arguments)) is not None:
+        return found
     if (limit := _LIMIT.match(name)) is not None and count == 0:
         least = limit[1] in ("min", "lowest")
         return whole(_LEAST if least else 2**31 - 1, span) if least or limit[1] == "max" else None
-    kept = carried(_function(node), reader.scope.enums) if count == 1 else None
+    kept = reader.scope.carried(_function(node)) if count == 1 else None
     if kept is not None and not name.startswith(("ros::", "rclcpp::")):
         return reader.cast(_function(node), arguments[0], node)
     return time_called(reader, node, name, list(arguments))
@@ -181,7 +183,9 @@ def drawn(reader: CppExpressions, node: Node, sides: Sequence[Node]) -> m.Expres
 def member_call(
     reader: CppExpressions, node: Node, target: Node, name: str, arguments: Sequence[Node]
 ) -> m.Expression | None:
-    """The call of a function of an array, a time or a node handle."""
+    """The call of a function of an array, an atomic object, a time or a node handle."""
+    if (held := cpp_atomics.call(reader, node, target, name, arguments)) is not None:
+        return held
     if arguments:
         return None
     if name == "toSec" or (name == "seconds" and _asks_now(target) and is_for_ros2(reader)):
@@ -197,7 +201,7 @@ def member_call(
         return None
     if not meaning.type.dimensions:
         match name:
-            case "load" | "get":
+            case "get":
                 return reader.read(target)
             case "isZero":
                 return binary("==", reader.read(target), m.IntLiteral(0))

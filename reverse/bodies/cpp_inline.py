@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -10,12 +9,12 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies import cpp_idioms
+from rebsync.reverse.bodies import cpp_aliases, cpp_captures, cpp_idioms
 from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_messages import declare, given, is_pointer, message_type, zero_of
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
-from rebsync.reverse.bodies.cpp_types import carried
+from rebsync.reverse.bodies.cpp_returns import without_returns
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.cpp_widths import place_of
 from rebsync.reverse.bodies.known_functions import is_matrix
@@ -39,8 +38,6 @@ if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_statements import CppStatements
 
 _DEEPEST = 8
-# What a lambda may hold: references, and the object; a copy may be older than the call.
-_CAPTURES = re.compile(r"(?:=, this)?|(?:&\w*|this)(?:\s*,\s*(?:&\w+|this))*")
 _GUARDED = frozenset({"conditional_expression", "while_statement", "for_statement", "do_statement"})
 
 
@@ -48,7 +45,7 @@ def inlined(
     reader: CppStatements, node: Node, function: Inline | Lambda, arguments: Sequence[Node]
 ) -> Meaning | None:
     """Puts the statements of a function before the one that is read; what the call gives."""
-    inside, body, parameters, result = _entered(reader, function)
+    inside, body, parameters, result = _entered(reader, node, function, arguments)
     key = body.start_byte, inside.cpp.source.path
     if key in reader.shared.running or len(reader.shared.running) >= _DEEPEST:
         raise reader.unread(node, "a function that calls itself has no end here")
@@ -100,7 +97,7 @@ def _value(inside: CppStatements, node: Node, result: Node | None) -> Meaning:
     text = text_of(result) if result is not None else "auto"
     if message_type(inside.scope, text) is not None:
         return given(inside, node)[0]
-    kept = carried(result, inside.scope.enums) if result is not None else None
+    kept = inside.scope.carried(result) if result is not None else None
     if kept is None and text not in ("auto", "const auto"):
         raise Unknown(inside.cpp.span(node), "the model cannot know what this gives")
     place = place_of("", kept) if kept is not None else Variable("")
@@ -109,7 +106,7 @@ def _value(inside: CppStatements, node: Node, result: Node | None) -> Meaning:
 
 
 def _entered(
-    reader: CppStatements, function: Inline | Lambda
+    reader: CppStatements, call: Node, function: Inline | Lambda, arguments: Sequence[Node]
 ) -> tuple[CppStatements, Node, Sequence[CppParameter], Node | None]:
     """A reader for the body of a function, the body, its parameters and the type of its result."""
     match function:
@@ -117,16 +114,16 @@ def _entered(
             if called.body is None:
                 raise reader.unread(called.node, "this function has no body here")
             known = reader.scope.constants if constants is None else constants
-            scope = replace(reader.scope, locals={}, constants=known)
+            types = cpp_aliases.instantiated(reader, call, called, arguments)
+            scope = replace(reader.scope, locals={}, constants=known, aliases=types)
             inside = reader.inside(called.cpp, scope, frozenset())
             return inside, called.body, called.parameters, called.result
-        case Lambda(node, kept):
-            captures = text_of(part(node, "captures")).strip("[] ")
-            if _CAPTURES.fullmatch(captures) is None:
-                raise reader.unread(node, f"what [{captures}] keeps may change before the call")
+        case Lambda(node, kept, own):
+            cpp_captures.check(reader, function)
             if kept is None:
                 return _of_member(reader, node)
-            around = {n: x for n, x in kept.locals.items() if n in reader.scope.locals}
+            visible = reader.scope.locals.keys() | own
+            around = {n: x for n, x in kept.locals.items() if n in visible}
             inside = reader.inside(reader.cpp, replace(kept, locals=around), reader.own)
             declarator = node.child_by_field_name("declarator")
             return inside, part(node, "body"), _parameters(declarator), _trailing(declarator)
@@ -221,7 +218,7 @@ def _bound(
         if isinstance(place, m.Index) and constant_of(place.index) is not None:
             inside.meaning(name, place)
             return
-    kept = carried(parameter.type, reader.scope.enums)
+    kept = inside.scope.carried(parameter.type)
     if (refers and not constant) or kept is None:
         effects = Effects(reader.cpp, reader.scope)
         effects.check(argument)
@@ -238,7 +235,7 @@ def _left_out(
     """A parameter that a call leaves out."""
     if not parameter.name:
         return
-    kept = carried(parameter.type, reader.scope.enums)
+    kept = inside.scope.carried(parameter.type)
     if kept is None or kept.type.dimensions:
         raise reader.unread(node, "what is left out of this call is no value of the model")
     place = place_of(parameter.name, kept)
@@ -319,7 +316,7 @@ def _result(
         reader.scope = before
         inside.returns = record if isinstance(record, Record) else None
         return record
-    kept = carried(result, reader.scope.enums)
+    kept = inside.scope.carried(result)
     if kept is None:
         inside.returns = Outside()
         return Outside()
@@ -335,62 +332,3 @@ def _returned(body: Node) -> Iterator[Node]:
             yield current
         elif current.type != "lambda_expression":
             waiting += current.named_children
-
-
-def without_returns(
-    reader: CppStatements,
-    node: Node,
-    statements: Sequence[m.Statement],
-    result: m.Expression | None,
-) -> tuple[m.Statement, ...]:
-    """The same without leaving: what follows a return stands in the other branch."""
-    done: list[m.Statement] = []
-    for index, statement in enumerate(statements):
-        rest = statements[index + 1 :]
-        if not _leaves(statement):
-            done.append(statement)
-            continue
-        match statement:
-            case m.Return(value):
-                if value is not None and result is not None:
-                    done.append(m.ExpressionStatement(m.Assign("=", result, value)))
-            case m.Block(inner):
-                done += without_returns(reader, node, (*inner, *rest), result)
-            case m.If(condition, then, otherwise, annotations, span):
-                ways = [
-                    m.Block(without_returns(reader, node, (*_inner(way), *rest), result))
-                    for way in (then, otherwise)
-                ]
-                last = ways[1] if ways[1].statements else None
-                done.append(m.If(condition, ways[0], last, annotations, span))
-            case _:
-                raise reader.unread(node, "a return in a loop has no place in another body")
-        break
-    return tuple(done)
-
-
-def _inner(statement: m.Statement | None) -> tuple[m.Statement, ...]:
-    match statement:
-        case None:
-            return ()
-        case m.Block(statements):
-            return statements
-        case _:
-            return (statement,)
-
-
-def _leaves(statement: m.Statement) -> bool:
-    waiting = [statement]
-    while waiting:
-        match waiting.pop():
-            case m.Return():
-                return True
-            case m.Block(statements):
-                waiting += statements
-            case m.If(_, then, otherwise):
-                waiting += [then] if otherwise is None else [then, otherwise]
-            case m.While(body=body) | m.For(body=body):
-                waiting.append(body)
-            case m.Switch(_, cases):
-                waiting += [s for c in cases for s in c.statements]
-    return False

@@ -11,17 +11,17 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies import cpp_bindings, cpp_messages, cpp_plain_locals
+from rebsync.reverse.bodies import cpp_bindings, cpp_captures, cpp_messages, cpp_plain_locals
 from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_effects import Effects, Touches
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_references import is_made, stays
 from rebsync.reverse.bodies.cpp_roots import specifiers_of
-from rebsync.reverse.bodies.cpp_types import Carried, carried
+from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.cpp_widths import place_of, wide_of
 from rebsync.reverse.bodies.known_functions import is_matrix, type_takes_values
-from rebsync.reverse.bodies.scope import Itself, Lambda, Meaning, Outside, Record, Variable
+from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Variable
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_tree import markers_in, named, part, text_of
 from rebsync.static.constants import constant
@@ -115,7 +115,7 @@ def _static(reader: CppStatements, declared: _Declared) -> None:
 
 
 def _hidden(reader: CppStatements, declared: _Declared) -> Outside:
-    kept = carried(declared.type, reader.scope.enums)
+    kept = reader.scope.carried(declared.type)
     return Outside(kept.type if kept is not None else None, indexed=is_matrix(declared.text))
 
 
@@ -178,7 +178,7 @@ def _declared(reader: CppStatements, declared: _Declared) -> Iterator[m.Statemen
         yield from _inferred(reader, declared, value)
         return
     array = _array(reader, declared)
-    kept = array or carried(declared.type, reader.scope.enums)
+    kept = array or reader.scope.carried(declared.type)
     if kept is None:
         raise reader.unread(declared.node, f'the model has no type "{declared.text}"')
     if (kept.bits or kept.wide) and not reader.scope.open:
@@ -230,7 +230,7 @@ def _typed(
 def _array(reader: CppStatements, declared: _Declared) -> Carried | None:
     """The array that `int a[3]` or a vector of fixed size is."""
     if declared.kind == "array_declarator":
-        inner = carried(declared.type, reader.scope.enums)
+        inner = reader.scope.carried(declared.type)
         if inner is None or declared.length is None:
             raise reader.unread(declared.node, "the length of this array is not known")
         return replace(inner, type=m.Type(inner.type.name, (_length(reader, declared.length),)))
@@ -241,7 +241,7 @@ def _array(reader: CppStatements, declared: _Declared) -> Carried | None:
         raise reader.unread(declared.node, "the length of this vector changes")
     values = named(declared.value)
     (inner_node,) = named(part(_template(declared.type), "arguments"))
-    inner = carried(inner_node, reader.scope.enums)
+    inner = reader.scope.carried(inner_node)
     if inner is None or not values:
         return None
     if declared.value.type == "initializer_list":
@@ -279,7 +279,9 @@ def _inferred(
     if value is None:
         raise reader.unread(declared.node, "the type of this is not written")
     if value.type == "lambda_expression":
-        reader.meaning(declared.name, Lambda(value, reader.scope))
+        held, needed = cpp_captures.declared(reader, value)
+        reader.meaning(declared.name, held)
+        yield from needed
         return
     if (type_ := _message_of(reader, value)) is not None:
         pointer = _is_made_pointer(reader, value)
@@ -365,7 +367,7 @@ def _called_or_made(reader: CppStatements, declared: _Declared) -> Iterator[m.St
     """`int k(other);`, which the grammar takes for a function: an object made from names."""
     declarator = declared.node
     arguments = [text_of(c) for c in named(part(declarator, "parameters"))]
-    kept = carried(declared.type, reader.scope.enums)
+    kept = reader.scope.carried(declared.type)
     meanings = [reader.scope.meaning(a) for a in arguments]
     if kept is not None and len(meanings) == 1 and isinstance(meanings[0], Variable):
         local = place_of(reader.fresh(declared.name), kept)

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.bodies import cpp_special
 from rebsync.reverse.bodies.building import binary, negated
 from rebsync.reverse.bodies.cpp_conversions import place_of, type_in
-from rebsync.reverse.bodies.cpp_types import carried
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.types import BOOLEAN
@@ -55,7 +56,7 @@ def range_loop(
 def _listed(reader: CppStatements, node: Node, over: Node) -> tuple[m.Expression, m.Statement]:
     """The array that holds the values of `for (int x : {1, 2, 3})`."""
     values = named(over)
-    kept = carried(part(node, "type"), reader.scope.enums)
+    kept = reader.scope.carried(part(node, "type"))
     of = kept.type if kept is not None else m.Type("int")
     wide = kept.wide if kept is not None else 0
     local = Variable(reader.fresh("values"), m.Type(of.name, (len(values),)), wide=wide)
@@ -75,7 +76,7 @@ def _element(
     if declarator.type != "identifier":
         raise reader.unread(declarator, "the model has no such element")
     name = text_of(declarator)
-    kept = carried(part(node, "type"), reader.scope.enums)
+    kept = reader.scope.carried(part(node, "type"))
     wide = place_of(reader.scope, element).wide
     local = Variable(reader.fresh(name), of, wide=wide)
     if kept is not None:
@@ -99,7 +100,7 @@ def do_loop(
     if once:
         yield m.Block(block.statements, annotations, span)
         return
-    ends = negated(reader.loop_condition(condition))
+    ends = negated(condition_of(reader, condition))
     last = m.If(ends, m.Block((m.Break(),)), None)
     yield m.While(m.BoolLiteral(True), m.Block((*block.statements, last)), annotations, span)
 
@@ -114,7 +115,7 @@ def _first_time(
     body = reader.branch(part(node, "body"))
     reader.scope = outside
     name = m.Name(first.name)
-    again = binary("||", name, reader.loop_condition(part(node, "condition")))
+    again = binary("||", name, condition_of(reader, part(node, "condition")))
     initial = m.Declaration(BOOLEAN, (m.Declarator(first.name, m.BoolLiteral(True)),))
     done = m.Assign("=", name, m.BoolLiteral(False))
     return m.For(initial, again, (done,), body, annotations, reader.cpp.span(node))
@@ -136,3 +137,14 @@ def _breaks(node: Node) -> bool:
         return False
     others = (*_APART, "switch_statement")
     return any(_breaks(c) for c in named(node) if c.type not in others)
+
+
+def condition_of(reader: CppStatements, node: Node) -> m.Expression:
+    """The condition of a loop, which the model must know."""
+    value = node if node.type != "condition_clause" else part(node, "value")
+    while reader.scope.open and value.type == "parenthesized_expression":
+        value = reader.expressions.only(value)
+    if value.type == "declaration":
+        raise reader.unread(node, "the model has no declarations in conditions")
+    read = replace(reader.expressions, findings=None, inlines=None).condition(value)
+    return cpp_special.without_ok(read) if reader.scope.open else read

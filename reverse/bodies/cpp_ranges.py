@@ -22,7 +22,7 @@ from rebsync.intervals import (
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_conversions import variable_of
 from rebsync.reverse.bodies.cpp_places import resolve
-from rebsync.reverse.bodies.cpp_types import Carried, carried
+from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.scope import Called, Inline, Lambda, Scope, Variable
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.static.constants import constant
@@ -181,7 +181,7 @@ def _constant(scope: Scope, name: str) -> Ranged | None:
             above = node.parent
             while above is not None and above.type not in ("declaration", "field_declaration"):
                 above = above.parent
-            kept = carried(part(above, "type"), scope.enums) if above is not None else None
+            kept = scope.carried(part(above, "type")) if above is not None else None
             whole = _of_type(kept) if kept is not None else None
             return as_type(found, whole.bits) if found is not None and whole is not None else found
     return None
@@ -232,7 +232,7 @@ def _either(then: Ranged | None, otherwise: Ranged | None) -> Ranged | None:
 
 
 def _cast(cpp: Cpp, scope: Scope, to: Node, values: Sequence[Node]) -> Ranged | None:
-    kept = carried(to, scope.enums)
+    kept = scope.carried(to)
     whole = _of_type(kept) if kept is not None else None
     found = range_of(cpp, scope, values[0]) if len(values) == 1 else None
     if whole is None or found is None:
@@ -259,11 +259,13 @@ def _called(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
     types = part(function, "arguments") if function.type == "template_function" else None
     if plain in ("static_cast", "narrow_cast", "boost::numeric_cast") and types is not None:
         return _cast(cpp, scope, named(types)[0], arguments)
-    kept = carried(function, scope.enums) if len(arguments) == 1 else None
+    kept = scope.carried(function) if len(arguments) == 1 else None
     if kept is not None:
         return _cast(cpp, scope, function, arguments)
     if plain.rpartition("::")[2] in _SIZES:
         return Ranged(64, unsigned(31))
+    if plain == "std::count":
+        return Ranged(63, unsigned(31))
     if plain in _SAME and len(arguments) == 1:
         found = range_of(cpp, scope, arguments[0])
         return all_of(found.bits) if found is not None else None
@@ -300,7 +302,7 @@ def _result(scope: Scope, name: str) -> Ranged | None:
 
 
 def _of_result(scope: Scope, result: Node) -> Ranged | None:
-    kept = carried(result, scope.enums)
+    kept = scope.carried(result)
     return _of_type(kept) if kept is not None else _of_lambda(text_of(result))
 
 

@@ -11,6 +11,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.evaluation_order import note_body
 from rebsync.reverse.bodies import (
+    cpp_aliases,
     cpp_control,
     cpp_counts,
     cpp_inline,
@@ -23,7 +24,6 @@ from rebsync.reverse.bodies import (
 from rebsync.reverse.bodies.building import bare, cell, is_calm, is_effect
 from rebsync.reverse.bodies.cpp_effects import Effects, Touches, touching
 from rebsync.reverse.bodies.cpp_expressions import MOVE, CppExpressions
-from rebsync.reverse.bodies.cpp_kinds import NOTHING
 from rebsync.reverse.bodies.cpp_unknowns import Demote
 from rebsync.reverse.bodies.made_locals import tidied
 from rebsync.reverse.bodies.scope import Inline, Lambda, Meaning, Scope, Stores, Variable
@@ -153,8 +153,10 @@ class CppStatements:
 
     def _is_outside(self, node: Node) -> bool:
         """Whether a statement that people wrote touches nothing of the model."""
+        if cpp_aliases.declares_nothing(self, node):
+            return True
         if not self.scope.open or node.type == "declaration":
-            return node.type in NOTHING
+            return False
         if (at := self._touching) and node.start_byte <= at[0] and at[1] <= node.end_byte:
             return False
         touches = touching(self.cpp, self.scope, node)
@@ -230,7 +232,7 @@ class CppStatements:
             case "if_statement":
                 yield from cpp_control.branches(self, node, annotations)
             case "while_statement":
-                condition = self.loop_condition(part(node, "condition"))
+                condition = cpp_loops.condition_of(self, part(node, "condition"))
                 yield m.While(condition, self.branch(part(node, "body")), annotations, span)
             case "for_statement":
                 yield cpp_control.counted(self, node, annotations)
@@ -380,16 +382,6 @@ class CppStatements:
         yield m.Local(declaration, annotations, self.cpp.span(node))
 
     # --- control --------------------------------------------------------------------------------
-
-    def loop_condition(self, node: Node) -> m.Expression:
-        """The condition of a loop, which the model must know."""
-        value = node if node.type != "condition_clause" else part(node, "value")
-        while self.scope.open and value.type == "parenthesized_expression":
-            value = self.expressions.only(value)
-        if value.type == "declaration":
-            raise self.unread(node, "the model has no declarations in conditions")
-        read = replace(self.expressions, findings=None, inlines=None).condition(value)
-        return cpp_special.without_ok(read) if self.scope.open else read
 
     def branch(self, node: Node) -> m.Block:
         """The body of a branch or loop, in braces or not."""

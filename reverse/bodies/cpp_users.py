@@ -49,21 +49,22 @@ def only_logs(reader: CppStatements, node: Node) -> bool:
 
     Raises `Unread` where that does more to the model than to look at it.
     """
-    if reader.scope.open or not _only_logs(node):
+    if reader.scope.open or not is_logging(node):
         return False
     Effects(reader.cpp, reader.scope).check(node)
     return True
 
 
-def _only_logs(node: Node) -> bool:
+def is_logging(node: Node) -> bool:
+    """Whether a statement does nothing but to log, by how it is written."""
     match node.type:
         case "if_statement":
             ways = [part(node, "consequence")]
             if (other := node.child_by_field_name("alternative")) is not None:
                 ways += named(other)
-            return all(map(_only_logs, ways))
+            return all(map(is_logging, ways))
         case "compound_statement":
-            return bool(named(node)) and all(map(_only_logs, named(node)))
+            return bool(named(node)) and all(map(is_logging, named(node)))
         case "expression_statement" if named(node):
             inner = named(node)[0]
             if inner.type == "call_expression":

@@ -16,9 +16,10 @@ from rebsync.model import Expression, Name, Statement, Type
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED, uncarry_local
 from rebsync.reverse.bodies.calm import Calm
+from rebsync.reverse.bodies.cpp_types import Carried, carried
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_index import CppFunction
-from rebsync.reverse.syntax.cpp_tree import Cpp
+from rebsync.reverse.syntax.cpp_tree import Cpp, part, text_of
 
 WIDE = 32  # bits without the sign, from which on numbers hold more than the model's `int`
 
@@ -135,11 +136,13 @@ class TimerOf:
 class Lambda:
     """A local that holds a function: its body reads what the names around it stood for.
 
-    A member that does has none of these: `scope` is None.
+    A member that does has none of these: `scope` is None. `own` are the names that it makes itself:
+    `[n = e]`.
     """
 
     node: Node
     scope: Scope | None
+    own: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
@@ -283,6 +286,9 @@ class Scope:
     # Of enumerations the values by name (`RED`, `Color::RED`), and the names of the types.
     enumerators: Mapping[str, int] = field(default_factory=dict)
     enums: frozenset[str] = frozenset()
+    # What the model keeps of types that the code names itself, if it does: aliases of this body,
+    # and the types that the parameters of a template stand for.
+    aliases: Mapping[str, Carried | None] = field(default_factory=dict)
     # The fields of message types (`std_msgs/Int32`) by their paths; None where the model has no
     # such type.
     messages: Mapping[str, Mapping[str, Type | None]] = field(default_factory=dict)
@@ -320,6 +326,13 @@ class Scope:
     calls: dict[int, CppCall] = field(default_factory=dict, compare=False, repr=False)
     # The definitions of macros with parameters, by their names.
     macros: Mapping[str, Sequence[Node]] = field(default_factory=dict, compare=False, repr=False)
+
+    def carried(self, node: Node) -> Carried | None:
+        """What the model keeps of a type, or None if it has nothing like it."""
+        while node.type == "type_descriptor":
+            node = part(node, "type")
+        name = text_of(node) if node.type.endswith("identifier") else ""
+        return self.aliases[name] if name in self.aliases else carried(node, self.enums)
 
     def width(self, type_: str, path: str) -> int:
         """The width of a field of a message type; 0 where it is that of the model's type."""

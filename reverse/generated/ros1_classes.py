@@ -31,11 +31,12 @@ from rebsync.reverse.generated.ros1_annotations import (
     server_annotations,
 )
 from rebsync.reverse.generated.ros1_bodies import Bodies
-from rebsync.reverse.generated.ros1_free import free_beside
 from rebsync.reverse.generated.ros1_hand import acts, as_by_hand, is_passive, only_logs, stands_in
 from rebsync.reverse.generated.ros1_inherited import is_declared, list_hiding, only_forwards
 from rebsync.reverse.generated.ros1_meanings import Meaning, in_files_of, other_meanings
+from rebsync.reverse.generated.ros1_mixins import functions_beside, without_mixins
 from rebsync.reverse.generated.ros1_names import (
+    called,
     declared_type,
     enumerators,
     is_given,
@@ -91,6 +92,7 @@ class Classes:
         if all("Mailbox" not in cpp.source.text for cpp in self.code.files):
             self.roles = {name: Roles() for name in self.code.classes}
             return  # nothing here is generated
+        self.code = without_mixins(self.code)
         self.meanings = other_meanings(self.code)
         for owner in self.code.classes.values():
             self.roles[owner.name] = roles_of(self.code, owner)
@@ -167,7 +169,7 @@ class Classes:
         ]
         members += self._lambdas(owner)
         members += [self._method(owner, f) for f in functions if self._served(owner, f) is None]
-        members += [self._method(owner, f) for f in free_beside(self.code, owner)]
+        members += [self._method(owner, f) for f in functions_beside(self.code, owner)]
         extends = [b for b in owner.bases if self._is_reactive(b)]
         return m.ReactiveClass(
             class_name(owner.name),
@@ -194,7 +196,8 @@ class Classes:
         known: list[m.Declaration] = []
         state: list[m.Declaration] = []
         for member in owner.fields:
-            if runtime_of(member) or member.name in roles.globals.keys() | roles.odd_globals:
+            odd = roles.odd_globals | roles.silent
+            if runtime_of(member) or member.name in roles.globals.keys() | odd:
                 continue
             type_ = declared_type(self.code, member.type)
             if type_ is None:
@@ -342,13 +345,9 @@ class Classes:
             return runtime
         if (advertised := roles.publishers.get(member.name)) is not None:
             return publisher(advertised, self.served, self.messages)
-        if declared_type(self.code, member.type) is None:
+        if declared_type(self.code, member.type) is None or member.name in roles.silent:
             return Outside(reaches=acts(text_of(member.type)))
         return Variable(variable_name(roles, member), declared_type(self.code, member.type))
-
-    def _called(self, function: CppFunction) -> Called:
-        result = declared_type(self.code, function.result) if function.result is not None else None
-        return Called(plain_name(function, self.types), returns=result, function=function)
 
     def _scope(self, owner: CppClass) -> Scope:
         members: dict[str, Member] = {}
@@ -365,15 +364,16 @@ class Classes:
                 elif served is not None:
                     functions[function.name] = Called(served, server=True)
                 elif self._is_of_model(above, function):
-                    functions[function.name] = self._called(function)
+                    functions[function.name] = called(self.code, function, self.types)
                     callable_.add(function.name)
                 elif only_logs(function) and self._is_by_hand(above, function):
                     functions.setdefault(function.name, Ignored())
                 else:
                     functions.setdefault(function.name, Around())
             callable_ |= roles.constants | set(roles.sends)
-        functions |= (free := {f.name: self._called(f) for f in free_beside(self.code, owner)})
-        callable_ |= free.keys()
+        for function in functions_beside(self.code, owner):
+            functions[function.name] = called(self.code, function, self.types)
+            callable_.add(function.name)
         bases = {c.name: class_name(c.name) for c in self.code.lineage(owner.name)[1:]}
         timers = {t.call.node.id: server_of_timer(t, n) for t, n in self._timed_servers(owner)}
         return Scope(

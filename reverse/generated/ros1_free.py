@@ -2,46 +2,54 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from types import MappingProxyType
 
 from rebsync.reserved import RUNTIME_FUNCTIONS
 from rebsync.reverse.bodies.cpp_types import type_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 
+_NONE: Mapping[str, CppFunction] = MappingProxyType({})
 _LIBRARIES = frozenset({"std", "ros", "rclcpp", "boost", "tf2", "Eigen"})
 
 
-def free_functions(code: Code, bodies: Iterable[CppFunction]) -> Iterator[CppFunction]:
+def free_functions(
+    code: Code, bodies: Iterable[CppFunction], helpers: Mapping[str, CppFunction] = _NONE
+) -> Iterator[CppFunction]:
     """Those that these functions call, and those that these call, with types of the model.
 
-    Not where there are several of a name: which one is meant depends on the types.
+    `helpers` are further functions that are called by their names alone. Not where there are
+    several of a name: which one is meant depends on the types.
     """
     seen: set[str] = set()
     waiting = list(bodies)
     while waiting:
         for call in code.calls_of(waiting.pop(0)):
             space, _, name = call.name.rpartition("::")
-            found = code.definitions.get(("", name), [])
+            found = [helpers[name]] if name in helpers else code.definitions.get(("", name), [])
             if call.target is not None or name in seen or len(found) != 1:
                 continue
             (function,) = found
             is_library = space.partition("::")[0] in _LIBRARIES
-            if name not in RUNTIME_FUNCTIONS and not is_library and _is_method(function):
+            if name not in RUNTIME_FUNCTIONS and not is_library and is_method(function):
                 seen.add(name)
                 waiting.append(function)
                 yield function
 
 
-def free_beside(code: Code, owner: CppClass) -> list[CppFunction]:
+def free_beside(
+    code: Code, owner: CppClass, helpers: Mapping[str, CppFunction] = _NONE
+) -> list[CppFunction]:
     """The free functions that the functions of a class call, not those of its ancestors."""
     above = [f for c in code.lineage(owner.name)[1:] for f in code.functions_of(c)]
-    known = {f.name for f in free_functions(code, above)}
+    known = {f.name for f in free_functions(code, above, helpers)}
     known |= {f.name for c in code.lineage(owner.name) for f in c.functions}
-    own = free_functions(code, code.functions_of(owner))
+    own = free_functions(code, code.functions_of(owner), helpers)
     return [f for f in own if f.name not in known]
 
 
-def _is_method(function: CppFunction) -> bool:
+def is_method(function: CppFunction) -> bool:
+    """Whether a function can be a local method of the model."""
     return has_plain_types(function) and not list(passed_by_reference(function))
 
 

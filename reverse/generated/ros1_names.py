@@ -11,7 +11,7 @@ from rebsync.model import Type
 from rebsync.names import carry, free_name, uncarry
 from rebsync.reserved import RESERVED, RESERVED_GLOBALS, RUNTIME_MEMBERS
 from rebsync.reverse.bodies.cpp_types import type_of
-from rebsync.reverse.bodies.scope import Runtime
+from rebsync.reverse.bodies.scope import Called, Runtime
 from rebsync.reverse.generated.own_parameters import Stored
 from rebsync.reverse.generated.ros1_roles import Roles
 from rebsync.reverse.generated.ros2_words import message_name
@@ -77,6 +77,12 @@ def plain_name(function: CppFunction, types: Collection[str]) -> str:
         if apart or carry(name, reserved) == function.name:
             return name
     return uncarry(function.name, reserved)
+
+
+def called(code: Code, function: CppFunction, types: Collection[str]) -> Called:
+    """A function that is a local method, with the type of its result."""
+    result = declared_type(code, function.result) if function.result is not None else None
+    return Called(plain_name(function, types), returns=result, function=function)
 
 
 def is_interface(owner: CppClass, alone: bool) -> bool:

@@ -21,6 +21,7 @@ from rebsync.reverse.generated.own_parameters import OwnParameter
 from rebsync.reverse.generated.parameters import READS, read_by
 from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_parameters import own_parameters
+from rebsync.reverse.generated.ros1_silent import only_logged
 from rebsync.reverse.generated.ros2_words import (
     constant_of_model,
     declared_array,
@@ -90,9 +91,9 @@ class Roles:
     `annotations` those that the set-up of a server shows; of overloads that take equally many
     arguments the first one's first. `topics` are those of shims by their names, `offers` as what
     those of shims are offered, `wired` the calls that make them and publishers of the rebec; `own`
-    are parameters of the node that state variables get, `reading` the statements that do that;
-    `passing` are callbacks of timers that only post a message; `odd_sends` what functions that send
-    do besides.
+    are parameters of the node that state variables get, `reading` the statements that do that,
+    `silent` the variables of them that are only logged; `passing` are callbacks of timers that only
+    post a message; `odd_sends` what functions that send do besides.
     """
 
     handlers: dict[str, str] = field(default_factory=dict)
@@ -114,6 +115,7 @@ class Roles:
     wired: set[int] = field(default_factory=set)
     own: dict[str, OwnParameter] = field(default_factory=dict)
     reading: set[int] = field(default_factory=set)
+    silent: set[str] = field(default_factory=set)
     passing: set[str] = field(default_factory=set)
     queue_length: int | None = None
 
@@ -135,6 +137,8 @@ def roles_of(code: Code, owner: CppClass) -> Roles:
         if any(marker.startswith("statevar ") for marker in member.markers):
             roles.odd_globals.discard(member.name)
     roles.own, roles.reading = own_parameters(code, owner)
+    roles.silent = only_logged(code, owner, roles.own, roles.reading)
+    roles.own = {n: p for n, p in roles.own.items() if n not in roles.silent}
     for constructor in (*owner.functions, *functions):
         if constructor.name == owner.name:
             roles.queue_length = _queue_length(constructor) or roles.queue_length

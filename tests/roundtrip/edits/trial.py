@@ -25,7 +25,10 @@ else:
     import tomli as tomllib
 
 HERE = Path(__file__).parent
-FILES = ("python.toml", "rclcpp.toml", "cpp.toml", "mixed.toml", "harmless.toml")
+FILES = (
+    *("python.toml", "rclcpp.toml", "cpp.toml", "mixed.toml"),
+    *("harmless.toml", "library.toml"),
+)
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 
 # A later change of the model of each example, in code that few of the edits touch.

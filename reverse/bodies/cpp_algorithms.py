@@ -1,0 +1,107 @@
+"""Algorithms of the standard library over all elements of an array of the model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import reduce
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.bodies.building import binary, chosen, is_calm
+from rebsync.reverse.bodies.cpp_conversions import operands, type_in
+from rebsync.reverse.bodies.cpp_places import resolve
+from rebsync.reverse.bodies.cpp_widths import check_whole, wide_of
+from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.syntax.cpp_calls import call_of
+from rebsync.reverse.syntax.cpp_tree import text_of
+from rebsync.static.types import INT, is_integer
+
+if TYPE_CHECKING:
+    from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+
+_EXTREMES = {"std::max_element": ">", "std::min_element": "<"}
+_BEGINS, _ENDS = ("begin", "cbegin"), ("end", "cend")
+_MOST = 4  # elements of which a choice is written: each one more doubles what is to be said
+_LONGEST = 32  # elements that are added up, or counted
+
+
+def dereferenced(reader: CppExpressions, node: Node) -> m.Expression | None:
+    """`*std::max_element(a.begin(), a.end())` over a whole array; None for another `*e`."""
+    argument = node.child_by_field_name("argument")
+    call_ = call_of(argument) if argument is not None else None
+    if call_ is None or call_.name not in _EXTREMES or text_of(node).startswith("&"):
+        return None
+    elements = _elements(reader, call_.arguments, _MOST)
+    if elements is None:
+        return None
+    sign = _EXTREMES[call_.name]
+    return reduce(lambda most, x: chosen(binary(sign, x, most), x, most), elements)
+
+
+def call(
+    reader: CppExpressions, node: Node, name: str, arguments: Sequence[Node]
+) -> m.Expression | None:
+    """What `std::accumulate` or `std::count` gives for a whole array; None for other calls."""
+    if name not in ("accumulate", "count") or len(arguments) != 3:
+        return None
+    elements = _elements(reader, arguments[:2], _LONGEST)
+    if elements is None:
+        return None
+    check_whole(reader, arguments[2])
+    value = reader.read(arguments[2])
+    if name == "accumulate":
+        return _sum(reader, arguments[2], value, elements)
+    if not is_calm(value):
+        return None
+    tests = (binary(*operands(reader.scope, "==", x, value)) for x in elements)
+    ones = [m.Paren(chosen(t, m.IntLiteral(1), m.IntLiteral(0))) for t in tests]
+    return _added(ones)
+
+
+def _added(summands: Sequence[m.Expression]) -> m.Expression:
+    first, *others = summands
+    return reduce(lambda left, right: binary("+", left, right), others, first)
+
+
+def _sum(
+    reader: CppExpressions, node: Node, start: m.Expression, elements: Sequence[m.Expression]
+) -> m.Expression | None:
+    """All of them added to what the sum begins with, whose type the sum has."""
+    literal = isinstance(start, m.IntLiteral)
+    types = {type_in(reader.scope, x) for x in elements}
+    of = INT if literal else type_in(reader.scope, start)
+    whole = all(t is not None and is_integer(t) for t in types)
+    if of != INT or not whole or not is_calm(start) or wide_of(reader, node):
+        return None
+    return _added(elements if start == m.IntLiteral(0) else (start, *elements))
+
+
+def _elements(
+    reader: CppExpressions, bounds: Sequence[Node], most: int
+) -> list[m.Expression] | None:
+    """The elements from one iterator to another: all of one array of numbers, and not too many."""
+    arrays = [_end(node, ends) for node, ends in zip(bounds, (_BEGINS, _ENDS), strict=False)]
+    if len(bounds) != 2 or None in arrays or len({text_of(a) for a in arrays if a}) != 1:
+        return None
+    (array, *_) = (a for a in arrays if a is not None)
+    place = resolve(reader.scope, array)
+    if not isinstance(place, Variable) or place.type is None or place.bits or place.wide:
+        return None
+    if len(place.type.dimensions) != 1 or not 0 < place.type.dimensions[0] <= most:
+        return None
+    target = reader.read(array)
+    return [m.Index(target, m.IntLiteral(i)) for i in range(place.type.dimensions[0])]
+
+
+def _end(node: Node, names: Sequence[str]) -> Node | None:
+    """The array whose first element, or whose end, an iterator is: `a.begin()`, `std::begin(a)`."""
+    found = call_of(node)
+    if found is None:
+        return None
+    if found.target is not None and not found.arguments and found.name in names:
+        return found.target
+    if found.target is None and len(found.arguments) == 1:
+        return found.arguments[0] if found.name in {f"std::{n}" for n in names} else None
+    return None

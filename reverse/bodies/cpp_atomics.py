@@ -1,0 +1,46 @@
+"""Functions of `std::atomic` objects as what they do in the one thread that serves a rebec.
+
+What another thread does to such an object is listed where that thread is begun.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.bodies.building import binary
+from rebsync.reverse.bodies.cpp_conversions import operands
+from rebsync.reverse.bodies.cpp_places import resolve
+from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.syntax.cpp_tree import text_of
+
+if TYPE_CHECKING:
+    from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+
+_ORDER = ("std::memory_order", "memory_order")
+_ADDS = {"fetch_add": "+", "fetch_sub": "-"}
+
+
+def call(
+    reader: CppExpressions, node: Node, target: Node, name: str, arguments: Sequence[Node]
+) -> m.Expression | None:
+    """`x.load()`, and as statements `x.store(e)`, `x.fetch_add(e)`; None for other calls."""
+    given = [a for a in arguments if not text_of(a).startswith(_ORDER)]
+    place = resolve(reader.scope, target)
+    if not isinstance(place, Variable) or place.type is None or place.type.dimensions:
+        return None
+    if name == "load" and not given:
+        return reader.read(target)
+    is_statement = node.parent is not None and node.parent.type == "expression_statement"
+    if len(given) != 1 or not is_statement:
+        return None
+    span, written = reader.cpp.span(node), reader.read(target)
+    if name == "store":
+        return m.Assign("=", written, reader.stored(given[0], place), span)
+    if name in _ADDS:
+        sides = operands(reader.scope, _ADDS[name], written, reader.read(given[0]))
+        return m.Assign("=", written, binary(*sides), span)
+    return None
