@@ -19,6 +19,7 @@ from rebsync.reverse.bodies.cpp_types import class_name, type_of
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.build.built import unbuilt
+from rebsync.reverse.build.field_order import in_order
 from rebsync.reverse.build.manifests import name_in
 from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.files.packages import CODE
@@ -105,8 +106,9 @@ def extract(
     started = programs(code, files)
     system = system_of(files, package, asked, started)
     launch = system.launch if system is not None else None
-    listed, messages = Findings(), own_messages(files)
-    in_python = _in_python(files, listed, messages)
+    listed, declared = Findings(), own_messages(files)
+    in_python = _in_python(files, listed, declared)
+    messages = in_order(declared, in_python.orders() if in_python is not None else ())
     types = {t.rpartition("/")[2]: tuple(f.values()) for t, f in messages.items()}
     served = Served(in_python.classes.families() if in_python is not None else {}, types)
     classes = Classes(code, findings, messages, _unit_of_time(launch), served)
@@ -181,8 +183,7 @@ def _in_python(
         return None
     from rebsync.reverse.python.recovery import PythonCode
 
-    fields = {t.rpartition("/")[2]: tuple(f) for t, f in messages.items()}
-    return PythonCode.of(sources, findings, fields)
+    return PythonCode.of(sources, findings, messages)
 
 
 def _python(
@@ -197,11 +198,11 @@ def _python(
     in_cpp: Classes,
 ) -> PythonPart:
     """What the files of Python say; what of them is not in the model is listed."""
-    from rebsync.reverse.python.recovery import read_python
+    from rebsync.reverse.python.recovery import fields_by_name, read_python
 
     names = {name for p in programs for name in (p.name, p.stem)}
     names = names.union(*executables(files).values())
-    served = in_cpp.served
+    code.classes.messages, served = fields_by_name(in_cpp.messages), in_cpp.served
     return read_python(code, findings, only, files, package, launch, beside, names, served)
 
 

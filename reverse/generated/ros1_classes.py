@@ -32,6 +32,7 @@ from rebsync.reverse.generated.ros1_annotations import (
 )
 from rebsync.reverse.generated.ros1_bodies import Bodies
 from rebsync.reverse.generated.ros1_hand import acts, as_by_hand, is_passive, only_logs, stands_in
+from rebsync.reverse.generated.ros1_handed import as_handed_on
 from rebsync.reverse.generated.ros1_inherited import is_declared, list_hiding, only_forwards
 from rebsync.reverse.generated.ros1_meanings import Meaning, in_files_of, other_meanings
 from rebsync.reverse.generated.ros1_mixins import functions_beside, without_mixins
@@ -39,6 +40,7 @@ from rebsync.reverse.generated.ros1_names import (
     called,
     declared_type,
     enumerators,
+    has_mailbox,
     is_given,
     is_interface,
     plain_name,
@@ -87,7 +89,6 @@ class Classes:
     _scopes: dict[str, Scope] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self.fields = {t.rpartition("/")[2]: f for t, f in self.messages.items()}
         self.types = frozenset(self.code.classes)
         if all("Mailbox" not in cpp.source.text for cpp in self.code.files):
             self.roles = {name: Roles() for name in self.code.classes}
@@ -96,6 +97,9 @@ class Classes:
         self.meanings = other_meanings(self.code)
         for owner in self.code.classes.values():
             self.roles[owner.name] = roles_of(self.code, owner)
+        ordered = as_handed_on(self.code, self.messages, self.served, self.roles)
+        self.messages, self.served = ordered
+        self.fields = {t.rpartition("/")[2]: f for t, f in self.messages.items()}
         self.types |= {carry(name, NO_CLASSES) for name in self.served.classes}  # of Python
         self.served = self.served.joined(families_of(self.code, self.roles))
         for owner in self.code.classes.values():
@@ -113,22 +117,18 @@ class Classes:
     def chosen(self, wanted: set[str] | None = None) -> Iterator[CppClass]:
         """The classes of the model among those of the code, or those of them that are wanted."""
         for owner in self.code.classes.values():
-            of_model = self._has_mailbox(owner) or is_interface(owner, alone=not self.timers)
+            of_model = has_mailbox(self.code, owner) or is_interface(owner, alone=not self.timers)
             if of_model and (wanted is None or owner.name in wanted):
                 yield owner
 
     def read_one(self, owner: CppClass) -> m.ReactiveClass | m.Interface:
         """One of them; what cannot be read is listed."""
-        return self._reactive(owner) if self._has_mailbox(owner) else self._interface(owner)
-
-    def _has_mailbox(self, owner: CppClass) -> bool:
-        fields = (f for c in self.code.lineage(owner.name) for f in c.fields)
-        return any(text_of(f.type) == "Mailbox" for f in fields)
+        return self._reactive(owner) if has_mailbox(self.code, owner) else self._interface(owner)
 
     def _timed(self, owner: CppClass) -> Iterator[Timer]:
         """The timers of a class; their callbacks are servers, unless they only post a message."""
         roles = self.roles[owner.name]
-        for timer in timers_of(self.code, owner, roles) if self._has_mailbox(owner) else ():
+        for timer in timers_of(self.code, owner, roles) if has_mailbox(self.code, owner) else ():
             if timer.callback and timer.one_shot and timer.posts is not None:
                 roles.passing.add(timer.callback)
             elif timer.callback:
@@ -183,7 +183,7 @@ class Classes:
         )
 
     def _is_reactive(self, name: str) -> bool:
-        return name in self.code.classes and self._has_mailbox(self.code.classes[name])
+        return name in self.code.classes and has_mailbox(self.code, self.code.classes[name])
 
     def _is_abstract(self, owner: CppClass) -> bool:
         """Whether no node is of this class: then it does not say what its state is."""
@@ -222,7 +222,7 @@ class Classes:
         plain = roles.shims | roles.passing | set(roles.sends) | set(roles.odd_sends)
         if function.name in _PLUMBING or function.name in plain:
             return False
-        if function.pure and not is_declared(self.code, owner, function, self._has_mailbox):
+        if function.pure and not is_declared(self.code, owner, function, partial(has_mailbox, self.code)):
             return False
         if self._is_by_hand(owner, function):
             return False
@@ -230,7 +230,7 @@ class Classes:
 
     def _is_by_hand(self, owner: CppClass, function: CppFunction) -> bool:
         """Whether a function that people added is none of the model, whatever calls it."""
-        if self._served(owner, function) is not None or not self._has_mailbox(owner):
+        if self._served(owner, function) is not None or not has_mailbox(self.code, owner):
             return False
         return only_logs(function) or stands_in(self.code, owner, function)
 
@@ -240,7 +240,7 @@ class Classes:
             server = self.roles[above.name].handlers.get(function.name)
             if server is not None:
                 return server
-            if not self._has_mailbox(above) and any(
+            if not has_mailbox(self.code, above) and any(
                 f.name == function.name for f in above.functions
             ):
                 return plain_name(function, self.types)
@@ -260,7 +260,7 @@ class Classes:
             name,
             parameters,
             body,
-            function.pure and self._has_mailbox(owner),
+            function.pure and has_mailbox(self.code, owner),
             tuple(server_annotations(self.code, self.roles, owner, function, name)),
             function.cpp.span(function.node),
         )

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from rebsync.reserved import RUNTIME_FUNCTIONS
 from rebsync.reverse.generated.ros1_free import free_beside, is_method
-from rebsync.reverse.generated.ros1_names import is_given
+from rebsync.reverse.generated.ros1_names import has_mailbox, is_given
 from rebsync.reverse.syntax.cpp_declarations import unscoped
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction, function_of
 from rebsync.reverse.syntax.cpp_tree import named, text_of
@@ -48,8 +48,7 @@ def _helpers_of(code: Code, owner: CppClass) -> Iterator[CppFunction]:
 
 def _mixins_of(code: Code, owner: CppClass) -> Iterator[str]:
     """The bases of a class of generated code that have no state, by their names."""
-    fields = (f for c in code.lineage(owner.name) for f in c.fields)
-    if not any(text_of(f.type) == "Mailbox" for f in fields):
+    if not has_mailbox(code, owner):
         return
     for clause in owner.node.named_children:
         for base in clause.named_children if clause.type == "base_class_clause" else ():

@@ -85,6 +85,12 @@ def called(code: Code, function: CppFunction, types: Collection[str]) -> Called:
     return Called(plain_name(function, types), returns=result, function=function)
 
 
+def has_mailbox(code: Code, owner: CppClass) -> bool:
+    """Whether a class, or one above it, is a reactive class: it serves messages."""
+    fields = (f for c in code.lineage(owner.name) for f in c.fields)
+    return any(text_of(f.type) == "Mailbox" for f in fields)
+
+
 def is_interface(owner: CppClass, alone: bool) -> bool:
     """Whether a class only says what its heirs can do.
 

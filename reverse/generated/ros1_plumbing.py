@@ -16,6 +16,7 @@ from tree_sitter import Node
 from rebsync.model import Type
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.parameters import READS
+from rebsync.reverse.generated.ros1_handed import handed_on
 from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_names import declared_type
 from rebsync.reverse.generated.ros1_roles import (
@@ -361,19 +362,7 @@ def _is_question(call: CppCall) -> bool:
 
 def _hands_fields_on(taken: Taken, order: Collection[str] | None) -> bool:
     """Whether a handler gets the fields; a lambda that is the handler takes what it wants."""
-    called = call_in(taken.call.arguments[-1])
-    if taken.handler is None or called is None:
-        return taken.handler is None
-    passed = [_field(a, taken.message.name) for a in called[1]]
-    if None in passed or len(set(passed)) != len(passed):
-        return False
-    return order is None or passed == list(order)
-
-
-def _field(argument: Node, message: str) -> str | None:
-    """The field of `msg->x`, `msg->x != 0` or `unflatten<T>(msg->x)`."""
-    text = "".join(text_of(argument).split()).removesuffix("!=0")
-    if text.startswith("unflatten<") and text.endswith(")"):
-        text = text[text.rindex("(") + 1 : -1]
-    name = text.removeprefix(f"{message}->")
-    return name if name != text and name.isidentifier() else None
+    if taken.handler is None:
+        return True
+    passed = handed_on(taken)
+    return passed is not None and (order is None or passed == list(order))

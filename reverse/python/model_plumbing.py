@@ -16,7 +16,7 @@ from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python.model_constants import constants_of, is_quiet
 from rebsync.reverse.python.model_helpers import is_transparent
 from rebsync.reverse.python.model_parameters import declared_by, parameter_read
-from rebsync.reverse.python.model_roles import OFFERING, Roles
+from rebsync.reverse.python.model_roles import OFFERING, Roles, field_read
 from rebsync.reverse.python.model_silent import Silent
 from rebsync.reverse.python.model_types import (
     call_parts,
@@ -216,7 +216,7 @@ class Plumbing:
         if type_ is None or text_of(arguments[1]) != f"{message}.timing":
             return False
         _, values = passed_on(arguments[4]) or ("", [])
-        given = [_field_read(v, message) for v in values]
+        given = [field_read(v, message) for v in values]
         wanted = self.fields.get(text_of(type_))
         if wanted is not None:
             return given == list(wanted)
@@ -290,13 +290,6 @@ def _posts(arguments: list[Node], passed: list[str]) -> bool:
         return False
     _, values = passed_on(arguments[3]) or ("", [])
     return [text_of(v) for v in values] == passed
-
-
-def _field_read(node: Node, message: str) -> str:
-    """The field of a message that a value is: as it is, as a rebec's name, or as an array."""
-    inside = call_parts(node)
-    plain = inside[1][0] if inside is not None and inside[1] else node
-    return text_of(plain).removeprefix(f"{message}.")
 
 
 def _is_of_state(statement: Node) -> bool:

@@ -18,6 +18,7 @@ from rebsync.names import carry, original, uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import OWN_TOPICS, PYTHON_FUNCTIONS, PYTHON_MEMBERS
 from rebsync.reverse.bodies.overloads import Signature
+from rebsync.reverse.build.field_order import are_named
 from rebsync.reverse.generated.own_parameters import OwnParameter, only_once
 from rebsync.reverse.python.model_parameters import ParameterRead, declared_by, parameter_read
 from rebsync.reverse.python.model_types import (
@@ -91,6 +92,8 @@ class Roles:
     sends: dict[str, Sends] = with_default(default_factory=dict)
     handler_names: dict[str, str] = with_default(default_factory=dict)
     by_shim: dict[str, str] = with_default(default_factory=dict)
+    # The fields of messages in the order in which shims hand them on.
+    orders: list[tuple[str, tuple[str, ...]]] = with_default(default_factory=list)
     shims: set[str] = with_default(default_factory=set)
     arguments: dict[str, str] = with_default(default_factory=dict)
     own: dict[str, tuple[OwnParameter, Node]] = with_default(default_factory=dict)
@@ -313,7 +316,8 @@ def _received(
     servers: dict[str, tuple[str, tuple[m.Annotation, ...]]],
 ) -> None:
     server, annotations = servers.get(text_of(arguments[0]), ("", ()))
-    handler = (passed_on(arguments[4]) or ("", []))[0].removeprefix("self.")
+    handler, values = passed_on(arguments[4]) or ("", [])
+    handler = handler.removeprefix("self.")
     if not server or not handler.isidentifier():
         return
     roles.shims.add(function.name)
@@ -331,6 +335,17 @@ def _received(
     message = parameter.child_by_field_name("type")
     if message is not None:
         roles.messages[text_of(message)] = server
+        given, serves = function.parameters[-1].name, roles.functions.get(handler)
+        fields = tuple(field_read(v, given) for v in values)
+        if serves is not None and are_named(fields, [p.name for p in serves.parameters[1:]]):
+            roles.orders.append((text_of(message), fields))
+
+
+def field_read(node: Node, message: str) -> str:
+    """The field of a message that a value is: as it is, as a rebec's name, or as an array."""
+    inside = call_parts(node)
+    plain = inside[1][0] if inside is not None and inside[1] else node
+    return text_of(plain).removeprefix(f"{message}.")
 
 
 def _published(roles: Roles, function: Scope, publisher: Node, passed: list[str]) -> None:

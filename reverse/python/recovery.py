@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import field as with_default
 from functools import partial
 
@@ -108,13 +108,25 @@ class PythonCode:
     def of(
         sources: Mapping[str, Source],
         findings: Findings,
-        messages: Mapping[str, Sequence[str]] | None = None,
+        messages: Mapping[str, Collection[str]] | None = None,
     ) -> PythonCode:
         """Parses them; `messages` are the fields of the package's message types."""
         trees = [parse(source) for _, source in sorted(sources.items())]
         findings.all += [f for py in trees for f in unparsed(py)]
         code = PyCode.of(trees)
-        return PythonCode(sources, code, Values(code), Classes(code, findings, messages or {}))
+        return PythonCode(
+            sources, code, Values(code), Classes(code, findings, fields_by_name(messages or {}))
+        )
+
+    def orders(self) -> Iterator[tuple[str, tuple[str, ...]]]:
+        """The fields of message types in the orders in which generated code hands them on."""
+        for roles in self.classes.roles.values():
+            yield from roles.orders
+
+
+def fields_by_name(messages: Mapping[str, Collection[str]]) -> dict[str, tuple[str, ...]]:
+    """The fields of message types by their names without the package."""
+    return {type_.rpartition("/")[2]: tuple(fields) for type_, fields in messages.items()}
 
 
 def read_python(
