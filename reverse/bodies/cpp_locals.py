@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.records import dataclass
 from rebsync.reverse.bodies import cpp_bindings, cpp_captures, cpp_messages, cpp_plain_locals
 from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_conversions import type_in
+from rebsync.reverse.bodies.cpp_declared import Declared, number_of, only_value, taken_apart
 from rebsync.reverse.bodies.cpp_effects import Effects, Touches
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_references import is_made, stays
@@ -35,20 +35,6 @@ _RESIZES = ("push_back", "emplace_back", "resize", "insert", "erase", "clear", "
 _REFERS = ("reference_declarator", "pointer_declarator")
 
 
-@dataclass(frozen=True, slots=True)
-class _Declared:
-    """One declarator of a declaration, taken apart."""
-
-    node: Node
-    type: Node
-    name: str
-    kind: str
-    value: Node | None
-    length: Node | None
-    constant: bool
-    text: str  # of the type
-
-
 def declarations(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
     """The locals of a declaration; what the model has nothing like is outside from here on."""
     type_ = part(node, "type")
@@ -60,12 +46,15 @@ def declarations(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
     kept_elsewhere = "static" in words
     constant_ = "const" in words or "constexpr" in words
     for declarator in node.children_by_field_name("declarator"):
-        declared = _taken_apart(declarator, type_, text, constant_)
+        declared = taken_apart(declarator, type_, text, constant_)
         if declared.kind == "reference_declarator" and declared.value is None:
             why = "this looks like a declaration, but it is none"
             raise reader.unread(node, why, "put it in parentheses")
         if kept_elsewhere and not declared.constant:
             _static(reader, declared)
+            continue
+        if kept_elsewhere and (number := number_of(reader, declared)) is not None:
+            reader.meaning(declared.name, number)
             continue
         try:
             yield from _declared(reader, declared)
@@ -82,29 +71,14 @@ def tested(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
         raise reader.unread(node, "the model has no pointers and references")
     type_ = part(node, "type")
     text, name = text_of(type_), text_of(declarator)
-    declared = _Declared(node, type_, name, "identifier", value, None, False, text)
+    declared = Declared(node, type_, name, "identifier", value, None, False, text)
     try:
         yield from _declared(reader, declared)
     except Unread as unread:
         _outside(reader, declared, unread)
 
 
-def _taken_apart(declarator: Node, type_: Node, text: str, constant_: bool) -> _Declared:
-    value, target = None, declarator
-    if declarator.type == "init_declarator":
-        target, value = part(declarator, "declarator"), part(declarator, "value")
-    kind, length = target.type, None
-    while target.type not in ("identifier", "structured_binding_declarator", "operator_name"):
-        if target.type == "array_declarator":
-            length = target.child_by_field_name("size")
-        inner = target.child_by_field_name("declarator")
-        if inner is None and not named(target):
-            break
-        target = inner if inner is not None else named(target)[-1]
-    return _Declared(declarator, type_, text_of(target), kind, value, length, constant_, text)
-
-
-def _static(reader: CppStatements, declared: _Declared) -> None:
+def _static(reader: CppStatements, declared: Declared) -> None:
     """A local that keeps its value: a state variable, or a value that nobody knows."""
     if isinstance(reader.scope.members.get(declared.name), Variable | Record):
         return
@@ -114,12 +88,12 @@ def _static(reader: CppStatements, declared: _Declared) -> None:
     reader.meaning(declared.name, _hidden(reader, declared))
 
 
-def _hidden(reader: CppStatements, declared: _Declared) -> Outside:
+def _hidden(reader: CppStatements, declared: Declared) -> Outside:
     kept = reader.scope.carried(declared.type)
     return Outside(kept.type if kept is not None else None, indexed=is_matrix(declared.text))
 
 
-def _outside(reader: CppStatements, declared: _Declared, unread: Unread) -> None:
+def _outside(reader: CppStatements, declared: Declared, unread: Unread) -> None:
     """A local of which the model knows no value: only what sets it may matter."""
     try:
         if declared.value is not None:
@@ -138,7 +112,7 @@ def _outside(reader: CppStatements, declared: _Declared, unread: Unread) -> None
     reader.meaning(declared.name, _hidden(reader, declared))
 
 
-def _check_value(reader: CppStatements, effects: Effects, declared: _Declared) -> None:
+def _check_value(reader: CppStatements, effects: Effects, declared: Declared) -> None:
     value = declared.value
     assert value is not None
     meaning = resolve(reader.scope, value)
@@ -154,10 +128,10 @@ def _check_value(reader: CppStatements, effects: Effects, declared: _Declared) -
         effects.check(value)
 
 
-def _declared(reader: CppStatements, declared: _Declared) -> Iterator[m.Statement]:
+def _declared(reader: CppStatements, declared: Declared) -> Iterator[m.Statement]:
     if declared.name in reader.shared.demoted:
         raise reader.unread(declared.node, "the model cannot know its values")
-    value = _only_value(declared)
+    value = only_value(declared)
     if value is not None and is_this(value) and (declared.kind in _REFERS or _is_auto(declared)):
         reader.meaning(declared.name, Itself())
         return
@@ -186,28 +160,20 @@ def _declared(reader: CppStatements, declared: _Declared) -> Iterator[m.Statemen
     yield from _typed(reader, declared, kept, value)
 
 
-def _copies(declared: _Declared) -> bool:
+def _copies(declared: Declared) -> bool:
     """Whether a declaration makes variables of its own."""
     return declared.kind not in _REFERS
 
 
-def _is_auto(declared: _Declared) -> bool:
+def _is_auto(declared: Declared) -> bool:
     return declared.text in ("auto", "const auto") or declared.type.type.startswith("placeholder")
-
-
-def _only_value(declared: _Declared) -> Node | None:
-    """The initial value: `= e`, `(e)` or `{e}`."""
-    value = declared.value
-    if value is not None and value.type == "argument_list":
-        return named(value)[0] if len(named(value)) == 1 else None
-    return value
 
 
 # --- kinds of locals ----------------------------------------------------------------------------
 
 
 def _typed(
-    reader: CppStatements, declared: _Declared, kept: Carried, value: Node | None
+    reader: CppStatements, declared: Declared, kept: Carried, value: Node | None
 ) -> Iterator[m.Statement]:
     local = place_of(reader.fresh(declared.name), kept)
     initial: m.Initializer | None = None
@@ -227,7 +193,7 @@ def _typed(
     yield reader.local(declared.node, local, initial)
 
 
-def _array(reader: CppStatements, declared: _Declared) -> Carried | None:
+def _array(reader: CppStatements, declared: Declared) -> Carried | None:
     """The array that `int a[3]` or a vector of fixed size is."""
     if declared.kind == "array_declarator":
         inner = reader.scope.carried(declared.type)
@@ -265,7 +231,7 @@ def _length(reader: CppStatements, node: Node) -> int:
 
 
 def _message(
-    reader: CppStatements, declared: _Declared, type_: str, value: Node | None
+    reader: CppStatements, declared: Declared, type_: str, value: Node | None
 ) -> Iterator[m.Statement]:
     pointer = cpp_messages.is_pointer(declared.text)
     if value is not None and value.type in ("null", "initializer_list"):
@@ -274,7 +240,7 @@ def _message(
 
 
 def _inferred(
-    reader: CppStatements, declared: _Declared, value: Node | None
+    reader: CppStatements, declared: Declared, value: Node | None
 ) -> Iterator[m.Statement]:
     if value is None:
         raise reader.unread(declared.node, "the type of this is not written")
@@ -337,7 +303,7 @@ def _is_made_pointer(reader: CppStatements, value: Node) -> bool:
 
 
 def _reference(
-    reader: CppStatements, declared: _Declared, value: Node | None
+    reader: CppStatements, declared: Declared, value: Node | None
 ) -> Iterator[m.Statement]:
     """`auto& x = member_;`: another name of a place."""
     if value is None:
@@ -363,7 +329,7 @@ def _reference(
     raise reader.unread(declared.node, "the model has no pointers and references")
 
 
-def _called_or_made(reader: CppStatements, declared: _Declared) -> Iterator[m.Statement]:
+def _called_or_made(reader: CppStatements, declared: Declared) -> Iterator[m.Statement]:
     """`int k(other);`, which the grammar takes for a function: an object made from names."""
     declarator = declared.node
     arguments = [text_of(c) for c in named(part(declarator, "parameters"))]

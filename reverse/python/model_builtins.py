@@ -37,6 +37,10 @@ def of_python(
     match called, arguments:
         case ("any" | "all" | "sum", [given]):
             return grouped(node, _folded(reader, node, called, given))
+        case "sum", [given, start] if is_plain(start):
+            first = reader.read(start)
+            _assert_whole(reader, node, first)
+            return grouped(node, _folded(reader, node, called, given, first))
         case ("min" | "max", [given]):
             values = _certain(reader, given, called)
             return grouped(node, _extreme(reader, node, called, values))
@@ -199,11 +203,16 @@ def _rows(reader: Expressions, node: Node, width: int) -> list[tuple[m.Expressio
 # --- values -------------------------------------------------------------------------------------
 
 
-def _folded(reader: Expressions, node: Node, called: str, given: Node) -> m.Expression:
-    """`any`, `all` and `sum` of some elements."""
+def _folded(
+    reader: Expressions,
+    node: Node,
+    called: str,
+    given: Node,
+    found: m.Expression | None = None,
+) -> m.Expression:
+    """`any`, `all` and `sum` of some elements, `found` before them."""
     if given.type == "list_comprehension" and called != "sum":
         raise reader.unread(node, "leave out the brackets: then it ends with the first that counts")
-    found: m.Expression | None = None
     for value, condition in _elements(reader, given, called):
         each = _counted(reader, node, called, value, condition)
         found = each if found is None else binary(_TESTS.get(called, "+"), found, each)

@@ -241,16 +241,36 @@ def names_in(node: Node) -> set[str]:
     return {name for each in named(node) for name in names_in(each)}
 
 
-def cases(reader: Expressions, node: Node) -> Iterator[tuple[list[m.Expression], Node]]:
-    """The values of each case of a `match` (none: all others), and the block of it."""
+def cases(
+    reader: Expressions, node: Node
+) -> Iterator[tuple[list[m.Expression], tuple[str, Node | None], Node]]:
+    """The values of each case of a `match` (none: all others), its guard, and the block of it.
+
+    With the guard comes the name that the case gives the value, if it does.
+    """
     subjects = [c for c in named(node) if c.type not in ("block", "case_clause")]
     if len(subjects) != 1 or not is_plain(subjects[0]):
         raise reader.unread(node, "what this compares more than once is to be in a variable first")
     for clause in named(field(node, "body")):
         patterns = [c for c in named(clause) if c.type == "case_pattern"]
-        if clause.child_by_field_name("guard") is not None or len(patterns) != 1:
+        guard, block = clause.child_by_field_name("guard"), field(clause, "consequence")
+        if len(patterns) != 1:
             raise reader.unread(clause, "the model has no such case")
-        yield list(_values(reader, patterns[0])), field(clause, "consequence")
+        test = named(guard)[0] if guard is not None else None
+        name = text_of(patterns[0])
+        if test is None or not name.isidentifier() or name in ("_", "True", "False", "None"):
+            yield list(_values(reader, patterns[0])), ("", test), block
+        elif _lasts(reader, subjects[0], name, block):
+            yield [], (name, test), block
+        else:
+            raise reader.unread(clause, "this name is not that of what is compared all the time")
+
+
+def _lasts(reader: Expressions, subject: Node, name: str, block: Node) -> bool:
+    """Whether a name has the value of a local throughout a block, and is no other's."""
+    stored = stored_in(block)
+    is_free = name not in reader.locals and name not in reader.names.constants
+    return is_free and subject.type == "identifier" and not stored & {name, text_of(subject)}
 
 
 def _values(reader: Expressions, pattern: Node) -> Iterator[m.Expression]:

@@ -216,12 +216,12 @@ def match(reader: Statements, node: Node) -> list[m.Statement]:
     """`match` as the chain of conditions that it is."""
     subject = next(c for c in named(node) if c.type not in ("block", "case_clause"))
     branches: list[tuple[m.Expression | None, m.Block]] = []
-    for values, block in idioms.cases(reader.expressions, node):
+    for values, guard, block in idioms.cases(reader.expressions, node):
         asked: m.Expression | None = None
         for value in values:
             each = binary("==", reader.expressions.read(subject), value)
             asked = each if asked is None else m.Binary("||", asked, each)
-        branches.append((asked, reader.branch(block)))
+        branches.append(_guarded(reader, subject, asked, guard, block))
     found: m.Statement | None = None
     for asked, body in reversed(branches):
         if asked is None and found is None:
@@ -231,3 +231,27 @@ def match(reader: Statements, node: Node) -> list[m.Statement]:
         else:
             found = m.If(asked, body, found, span=reader.expressions.py.span(node))
     return [found] if found is not None else []
+
+
+def _guarded(
+    reader: Statements,
+    subject: Node,
+    asked: m.Expression | None,
+    guard: tuple[str, Node | None],
+    block: Node,
+) -> tuple[m.Expression | None, m.Block]:
+    """The condition of a case with that behind its `if`, and what the case does."""
+    name, test = guard
+    if test is None:
+        return asked, reader.branch(block)
+    if not builtins.is_calm(test):
+        raise reader.expressions.unread(test, "what this does may count for the cases behind it")
+    bound = reader.expressions.bound
+    if name:
+        bound[name] = reader.expressions.read(subject)
+    try:
+        condition = reader.expressions.condition(test)
+        whole = condition if asked is None else binary("&&", asked, condition)
+        return whole, reader.branch(block)
+    finally:
+        bound.pop(name, None)

@@ -30,6 +30,7 @@ from rebsync.reverse.python.model_types import (
     without_parentheses,
 )
 from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.statements import UNREADABLE
 
 _AGAIN = re.compile(r"(.+?)__\d+\Z")
 _HOISTED = "local "
@@ -88,7 +89,7 @@ class Statements:
                 read = self._with_annotations(node, sent)
             except Unread as unread:
                 self.findings.unreadable(self.expressions.py.source, unread, self.within)
-                read = []
+                read = [m.Empty((m.Annotation(UNREADABLE),), self.expressions.py.span(node))]
             self.findings.statements[self.within] += 1
             found += read
         return iter(found)
