@@ -20,6 +20,7 @@ from rebsync.reserved import OWN_TOPICS, PYTHON_FUNCTIONS, PYTHON_MEMBERS
 from rebsync.reverse.bodies.overloads import Signature
 from rebsync.reverse.build.field_order import are_named
 from rebsync.reverse.generated.own_parameters import OwnParameter, only_once
+from rebsync.reverse.python.model_logs import only_describes
 from rebsync.reverse.python.model_parameters import ParameterRead, declared_by, parameter_read
 from rebsync.reverse.python.model_types import (
     call_parts,
@@ -137,7 +138,7 @@ def roles_of(code: PyCode, owner: Scope) -> Roles:
         for binding in bindings:
             if binding.how == "scope":
                 scope = code.scope_of(binding.node, owner.py)
-                if scope.kind == FUNCTION:
+                if scope.kind == FUNCTION and not only_describes(scope, owner.names):
                     roles.functions[scope.name] = scope
     for name in ("__init__", "_wire"):
         if name in roles.functions:

@@ -27,7 +27,7 @@ else:
 HERE = Path(__file__).parent
 FILES = (
     *("python.toml", "rclcpp.toml", "cpp.toml", "mixed.toml"),
-    *("harmless.toml", "library.toml", "match.toml"),
+    *("harmless.toml", "library.toml", "forms.toml"),
 )
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 
