@@ -222,7 +222,9 @@ class Classes:
         plain = roles.shims | roles.passing | set(roles.sends) | set(roles.odd_sends)
         if function.name in _PLUMBING or function.name in plain:
             return False
-        if function.pure and not is_declared(self.code, owner, function, partial(has_mailbox, self.code)):
+        if function.pure and not is_declared(
+            self.code, owner, function, partial(has_mailbox, self.code)
+        ):
             return False
         if self._is_by_hand(owner, function):
             return False
