@@ -20,7 +20,7 @@ _NAMES = {
         " Refused StateVars"
     ),
     "rebsync.reverse.files.packages": "Listing",
-    "rebsync.reverse.findings": "Finding Grade",
+    "rebsync.reverse.findings": "Finding Grade Ordered",
     "rebsync.reverse.generated.ros1_kept": "ClassRead",
     "rebsync.roundtrip.checked": "Checked",
     "rebsync.roundtrip.class_memory": "Entry",

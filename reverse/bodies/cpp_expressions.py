@@ -19,6 +19,7 @@ from rebsync.reverse.bodies import (
     cpp_widths,
 )
 from rebsync.reverse.bodies.building import binary, is_calm, is_place, tight
+from rebsync.reverse.bodies.cpp_constants import of_constant
 from rebsync.reverse.bodies.cpp_conversions import (
     alternatives,
     as_number,
@@ -235,7 +236,7 @@ class CppExpressions:
                 if is_bare_macro(cpp, value, node):
                     raise self.unread(node, "what stands beside this macro may bind tighter")
                 scope = self.scope.without_constant(spelled)
-                return replace(self, cpp=cpp, scope=scope, inlines=None).read(value)
+                return of_constant(replace(self, cpp=cpp, scope=scope, inlines=None), value)
         if (known := cpp_idioms.constant_named(name, span)) is not None:
             return known
         if self.scope.open:

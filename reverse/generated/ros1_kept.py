@@ -18,7 +18,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.findings import Finding, Findings
+from rebsync.reverse.findings import Finding, Findings, Ordered
 from rebsync.reverse.generated.ros1_classes import Classes
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
@@ -42,6 +42,7 @@ class ClassRead:
     findings: tuple[Finding, ...]
     statements: tuple[tuple[str, int], ...]
     open_members: frozenset[str]
+    ordered: tuple[Ordered, ...] = ()
 
 
 class Memory(Protocol):
@@ -70,14 +71,13 @@ def read_with(
         key = keys.of(owner)
         known = memory.recall(key, sources)
         if known is None:
-            noted = len(classes.findings.ordered)
             known = _read(classes, owner)
-            if len(classes.findings.ordered) == noted:  # these are of the tree that was just read
-                memory.keep(key, known, sources)
+            memory.keep(key, known, sources)
         found.append(known.read)
         classes.findings.all += known.findings
         classes.findings.statements.update(dict(known.statements))
         classes.findings.open_members |= known.open_members
+        classes.findings.ordered += known.ordered
     return tuple(found)
 
 
@@ -89,9 +89,9 @@ def _read(classes: Classes, owner: CppClass) -> ClassRead:
         read = classes.read_one(owner)
     finally:
         classes.findings = every
-    every.ordered += own.ordered
     counted = tuple(own.statements.items())
-    return ClassRead(read, tuple(own.all), counted, frozenset(own.open_members))
+    ordered, members = tuple(own.ordered), frozenset(own.open_members)
+    return ClassRead(read, tuple(own.all), counted, members, ordered)
 
 
 # --- keys ---------------------------------------------------------------------------------------

@@ -1,0 +1,73 @@
+"""Named constants of C++: what their types make of the values that stand behind them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.bodies.building import bare
+from rebsync.reverse.bodies.cpp_conversions import type_in
+from rebsync.reverse.bodies.cpp_types import Carried, carried, is_time
+from rebsync.static.constants import constant
+from rebsync.static.types import BOOLEAN, BYTE, DOUBLE, INT, SHORT, is_integer
+
+if TYPE_CHECKING:
+    from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+
+_BITS = {BYTE: 7, SHORT: 15, INT: 31}
+_EXACT = 2**24  # whole numbers up to here are numbers of a `float`
+
+
+def of_constant(reader: CppExpressions, value: Node) -> m.Expression:
+    """What a constant is whose value is written so; `reader` can name what the value can.
+
+    Unread: its type holds another number, or the model has no number of that type.
+    """
+    type_ = _declared(value)
+    kept = carried(type_, reader.scope.enums) if type_ is not None and not is_time(type_) else None
+    if kept is None or kept.type.dimensions:
+        return reader.read(value)
+    if kept.type == BOOLEAN:
+        return reader.condition(value)
+    read = reader.read(value)
+    made = _whole(reader, read, kept) if is_integer(kept.type) else _decimal(reader, read, kept)
+    if made is None:
+        raise reader.unread(value, "the constant's type makes another number of this")
+    return made
+
+
+def _whole(reader: CppExpressions, read: m.Expression, kept: Carried) -> m.Expression | None:
+    number, of = constant(read), type_in(reader.scope, read)
+    if number is None:
+        return read if of == kept.type == INT and not kept.bits else None
+    unsigned = kept.bits or kept.wide in (32, 64)
+    high = 2 ** (kept.bits or _BITS[kept.type]) - 1
+    low = 0 if unsigned else -high - 1
+    is_kept = isinstance(number, int) and not isinstance(number, bool) and low <= number <= high
+    return read if is_kept else None
+
+
+def _decimal(reader: CppExpressions, read: m.Expression, kept: Carried) -> m.Expression | None:
+    of, number = type_in(reader.scope, read), constant(read)
+    if of == kept.type:
+        return read
+    if isinstance(number, int) and not isinstance(number, bool) and abs(number) <= _EXACT:
+        literal = m.FloatLiteral(f"{abs(number)}.0{'d' if kept.type == DOUBLE else ''}", read.span)
+        return literal if number >= 0 else m.Unary("-", literal, read.span)
+    match bare(read):
+        case m.FloatLiteral(text) if kept.type != DOUBLE:
+            return m.FloatLiteral(text.rstrip("dD"), read.span)
+        case _:
+            return None
+
+
+def _declared(value: Node) -> Node | None:
+    """The type that the declaration of a constant names; None for a macro and for `auto`."""
+    above = value.parent
+    while above is not None and above.type not in ("declaration", "field_declaration"):
+        above = above.parent
+    type_ = above.child_by_field_name("type") if above is not None else None
+    is_named = type_ is not None and type_.type != "placeholder_type_specifier"
+    return type_ if is_named else None
