@@ -68,6 +68,15 @@ def test_only_what_an_edit_touches_is_read_again(
     assert told(again) == told(extract(files))
 
 
+def test_an_order_that_is_open_is_told_again() -> None:
+    files = changed(BODY, lambda text: text.replace("bay_ = load_bay;", "bay_ = cell_++ + cell_;"))
+    memory = Counting()
+    first = extract(files, memory=memory)
+    assert ["order" in f.why for f in first.findings] == [True]
+    assert told(extract(files, memory=memory)) == told(first)
+    assert memory.read == 3
+
+
 @pytest.mark.parametrize("example", ["warehouse", "experiment2"])
 def test_random_edits_are_read_as_without_a_memory(example: str) -> None:
     assert list(differing(example, 12, 1)) == []
