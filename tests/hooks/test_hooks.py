@@ -172,10 +172,7 @@ DRIFT = {
         "rebec robot2: argument",
     ),
     "yaml": (edit("patrol/config/params.yaml", "e: 2", "e: 3"), "env e: initial value"),
-    "msg": (
-        edit("patrol/msg/RobotHear.msg", "int32 place\nint32 speed", "int32 speed\nint32 place"),
-        "patrol:",
-    ),
+    "msg": (edit("patrol/msg/RobotHear.msg", "int32 speed", "int16 speed"), "type of speed"),
     "manifest": (edit("patrol/.rebsync/manifest.json", "{", "<"), "RS962"),
     "header": (edit("patrol/include/patrol/mailbox.h", "alarm_;", "alarm_; int more_;"), "RS956"),
 }
