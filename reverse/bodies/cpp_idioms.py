@@ -24,10 +24,10 @@ from rebsync.reverse.bodies.scope import Called, Record, Variable
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.rclcpp_vocabulary import HELD
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
-from rebsync.reverse.syntax.cpp_tree import named, text_of
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.source import Span
 from rebsync.static.constants import constant
-from rebsync.static.types import DOUBLE, is_floating, is_integer
+from rebsync.static.types import DOUBLE, INT, is_floating, is_integer
 
 if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_expressions import CppExpressions
@@ -70,6 +70,7 @@ def call(
     if plain in ("pow", "sqrt", "floor", "ceil", "round", "trunc"):
         for argument in arguments:
             check_whole(reader, argument)
+    _check_explicit(reader, node, arguments)
     match plain, count:
         case "ros::ok" | "rclcpp::ok", 0:
             return m.BoolLiteral(True, span)
@@ -101,6 +102,24 @@ def call(
     if kept is not None and not name.startswith(("ros::", "rclcpp::")):
         return reader.cast(_function(node), arguments[0], node)
     return time_called(reader, node, name, list(arguments))
+
+
+def _check_explicit(reader: CppExpressions, node: Node, arguments: Sequence[Node]) -> None:
+    """Raises where `std::min<int8_t>(a, b)` makes other numbers of what it is given."""
+    function = _function(node)
+    while function.type == "qualified_identifier":
+        function = part(function, "name")
+    types = named(part(function, "arguments")) if function.type == "template_function" else []
+    lists = (named(a) if a.type == "initializer_list" else [a] for a in arguments)
+    values = [value for each in lists for value in each] if types else []
+    for kept in map(reader.scope.carried, types):
+        if kept is None or kept.wide:
+            continue
+        for argument in values:
+            of = type_in(reader.scope, reader.read(argument))
+            is_same = of == kept.type or (of is not None and is_integer(of) and kept.type == INT)
+            if kept.bits or not is_same:
+                raise reader.unread(argument, "this is converted before it is used")
 
 
 def _function(node: Node) -> Node:

@@ -10,7 +10,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_aliases, cpp_captures, cpp_idioms
-from rebsync.reverse.bodies.building import is_calm
+from rebsync.reverse.bodies.building import bare, is_calm, is_effect
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_messages import declare, given, is_pointer, message_type, zero_of
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
@@ -73,6 +73,15 @@ def inlined(
     if len(reader.before) > needed:
         _check_place(reader, node)
     return found
+
+
+def dropped(reader: CppStatements, node: Node, given: Meaning | None) -> Iterator[m.Statement]:
+    """What is left of a value that a function gives and nobody takes: what it changes."""
+    if isinstance(given, m.Expression):
+        if is_effect(given):
+            yield m.ExpressionStatement(bare(given), (), reader.cpp.span(node))
+        elif not is_calm(given):
+            raise reader.unread(node, "what this changes stands within an expression")
 
 
 def _depth(node: Node) -> int:

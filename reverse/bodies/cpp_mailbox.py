@@ -150,4 +150,11 @@ def times(reader: CppExpressions, node: Node) -> dict[str, m.Expression]:
         return {}
     if text_of(name) not in ("after", "deadline") or len(arguments) != 1:
         raise reader.unread(node, "this is no time of a send")
+    if name == function and not _is_of_runtime(reader, text_of(name)):
+        raise reader.unread(node, f'"{text_of(name)}" is another function here')
     return found | {text_of(name): reader.read(arguments[0])}
+
+
+def _is_of_runtime(reader: CppExpressions, name: str) -> bool:
+    """Whether nothing nearer has the name of a function of the run-time part."""
+    return reader.scope.meaning(name) is None and name not in reader.scope.functions

@@ -9,7 +9,13 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies import cpp_mailbox, cpp_messages, cpp_plain_locals, cpp_timers
+from rebsync.reverse.bodies import (
+    cpp_inline,
+    cpp_mailbox,
+    cpp_messages,
+    cpp_plain_locals,
+    cpp_timers,
+)
 from rebsync.reverse.bodies.building import bare, is_calm, negated
 from rebsync.reverse.bodies.cpp_conversions import as_boolean, as_number, converted_to, place_of
 from rebsync.reverse.bodies.cpp_effects import Effects, Touches, touching
@@ -153,8 +159,7 @@ def _called(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
         return _statement(reader, node, checked)
     arguments = named(part(node, "arguments"))
     if (inline := _inline(reader, function, len(arguments))) is not None:
-        reader.inlined(node, inline, arguments)
-        return iter(())
+        return cpp_inline.dropped(reader, node, reader.inlined(node, inline, arguments))
     if (timer := _timer(reader, node)) is not None:
         return _starts(reader, node, timer)
     if (stored := _from_seconds(reader, node)) is not None:

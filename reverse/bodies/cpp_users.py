@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
+from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_plain_locals import declared_names
 from rebsync.reverse.bodies.known_functions import CONSOLE, LOGGING, STREAMS
@@ -88,6 +89,9 @@ def is_log(reader: CppStatements, statement: Node, node: Node) -> bool:
     name = text_of(function)
     own = reader.scope.functions.get(name)
     if name == "unused":
+        given = [a for a in named(part(node, "arguments")) if a.type != "identifier"]
+        if not all(is_calm(reader.expressions.read(a)) for a in given):
+            raise reader.unread(statement, "this does something, whatever becomes of its value")
         return True
     if isinstance(own, Ignored) and not reader.scope.open:
         Effects(reader.cpp, reader.scope).check(part(node, "arguments"))
