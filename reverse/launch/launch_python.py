@@ -8,6 +8,7 @@ run.
 from __future__ import annotations
 
 import ast
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 
 from rebsync.reverse.launch.launch_python_values import PythonValues, called, keywords
@@ -52,18 +53,52 @@ def actions_of(source: Source) -> tuple[Action, ...] | Unknown:
 
 
 def _bound(tree: ast.Module) -> Mapping[str, ast.expr]:
-    """The values of names that are bound once."""
-    found: dict[str, ast.expr | None] = {}
+    """The values of names that are bound once, and that nothing changes later."""
+    found: dict[str, list[ast.expr]] = {}
+    stored: Counter[str] = Counter()
+    waiting: list[str] = []
     for node in ast.walk(tree):
+        waiting += _changed(node)
         match node:
             case ast.Assign(targets=[ast.Name(id=name)], value=value):
-                found[name] = None if name in found else value
+                found.setdefault(name, []).append(value)
             case ast.Name(id=name, ctx=ast.Store()):
-                # what a loop, a `with` or an unpacking sets is no value that stands here
-                found.setdefault(name, None)
-            case ast.AugAssign(target=ast.Name(id=name)):
-                found[name] = None
-    return {name: value for name, value in found.items() if value is not None}
+                stored[name] += 1  # by a loop, a `with` or an unpacking as well
+    changed: set[str] = set()
+    while waiting:
+        if (name := waiting.pop()) not in changed:
+            changed.add(name)
+            waiting += [n for value in found.get(name, ()) for n in _names_in(value)]
+    return {n: values[0] for n, values in found.items() if stored[n] == 1 and n not in changed}
+
+
+_CHANGES = frozenset(
+    {
+        *("append", "clear", "extend", "insert", "pop", "popitem", "remove", "reverse"),
+        *("setdefault", "sort", "update"),
+    }
+)
+
+
+def _changed(node: ast.AST) -> list[str]:
+    """The names of which a statement or a call may change what they stand for, or a part of it."""
+    match node:
+        case ast.Subscript(ctx=ast.Store() | ast.Del()) | ast.Attribute(ctx=ast.Store()):
+            return _names_in(node.value)
+        case ast.AugAssign(target=changed):
+            return _names_in(changed)
+        case ast.Expr(value=ast.Call(func=ast.Attribute(attr="add_action"))):
+            return []
+        case ast.Expr(value=ast.Call() as call):
+            return _names_in(call)
+        case ast.Call(func=ast.Attribute(value=changed, attr=name)) if name in _CHANGES:
+            return _names_in(changed)
+        case _:
+            return []
+
+
+def _names_in(node: ast.AST) -> list[str]:
+    return [n.id for n in ast.walk(node) if isinstance(n, ast.Name)]
 
 
 def _is_settings(words: Words) -> bool:
