@@ -19,6 +19,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.files.python_files import is_python
 from rebsync.reverse.launch.launch_files_ros2 import read_ros2_launch
 from rebsync.roundtrip import wiring_ros2
+from rebsync.roundtrip.wiring_texts import conditions, joined, space, squeezed
 from rebsync.source import Source, Span
 
 PROGRAM, PLAYED, TYPE, SPACE = "program", "played sensor", "type of a node", "space of parameters"
@@ -28,7 +29,6 @@ _PACKAGE = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
 
 Facts: TypeAlias = "dict[tuple[str, str, str], list[Fact]]"
 
-_LAYOUT = re.compile(r" ?([^\w \"]) ?")
 _STARTED = re.compile(r"\bmailbox_\s*\.\s*start\s*\(\s*\)")
 _SHOWS = re.compile(r"\bmailbox_\s*\.\s*onServed\s*\(")
 _HASH = re.compile(r"#[^\n]*")
@@ -152,7 +152,7 @@ def _of_file(name: str, source: Source, package: str) -> Iterable[Fact]:
     is_launch = name.endswith(".launch")
     text = (_REMARK if is_launch else _COMMENT).sub(lambda m: " " * len(m[0]), source.text)
     if not is_launch:
-        text = _BROKEN.sub(_joined, text)
+        text = _BROKEN.sub(joined, text)
     if is_launch:
         return _launched(source, text, package)
     program = Path(name).stem
@@ -177,10 +177,10 @@ def _joints(source: Source, text: str) -> Iterator[Fact]:
         server = _server_of(text, m.end(), servers)
         yield Fact("subscription", owner[1], server, f"{m[1]} {m[2]}", source, Span(*m.span()))
     for m in _ADVERTISED.finditer(text):
-        value = _squeezed(m[2])
+        value = squeezed(m[2])
         yield Fact("publisher", owner[1], m[1], value, source, Span(*m.span()))
     for m in _OFFERED.finditer(text):
-        yield Fact("service", owner[1], m[1], _squeezed(m[2]), source, Span(*m.span()))
+        yield Fact("service", owner[1], m[1], squeezed(m[2]), source, Span(*m.span()))
 
 
 def _made(program: str, source: Source, text: str) -> Iterator[Fact]:
@@ -217,29 +217,28 @@ def _launched(source: Source, text: str, package: str) -> Iterator[Fact]:
 
     Remaps outside of nodes, which all that follow have, are those of no node.
     """
-    node = ""
-    spaces = list[str]()
+    node, groups = "", list[dict[str, str]]()
     for m in _TAG.finditer(text):
         end, tag, rest, closed = m.groups()
         given = {a[1]: a[2] if a[2] is not None else a[3] for a in _ATTRIBUTE.finditer(rest)}
         span = Span(*m.span())
         is_absolute = given.get("name", "").startswith("/")  # whatever it is in
         if tag in ("param", "rosparam") and not (end or node or is_absolute):
-            yield Fact(SPACE, "", str(m.start()), "/".join(filter(None, spaces)), source, span)
+            yield Fact(SPACE, "", str(m.start()), space(groups), source, span)
         match tag:
             case "group" if end:
-                spaces = spaces[:-1]
+                groups = groups[:-1]
             case "group" if not closed:
-                spaces.append(given.get("ns", ""))
+                groups.append(given)
             case "node" if not end:
                 name = given.get("name", "")
                 node = "" if closed else name
                 if given.get("pkg") == package:
                     given["pkg"] = OWN
-                given["ns"] = "/".join(filter(None, (*spaces, given.get("ns"))))
+                given["if"], given["ns"] = conditions([*groups, given]), space([*groups, given])
                 if not _may_rename(given.get("args", "")):
                     given.pop("args", None)
-                for key in ("pkg", "respawn", "ns", "args"):
+                for key in ("pkg", "respawn", "ns", "args", "if"):
                     yield Fact("node", name, key, given.get(key) or NOT_GIVEN, source, span)
                 yield Fact(TYPE, name, "", given.get("type", ""), source, span)
             case "node":
@@ -252,7 +251,7 @@ def _launched(source: Source, text: str, package: str) -> Iterator[Fact]:
             case "remap":
                 yield Fact("remap", node, given.get("from", ""), given.get("to", ""), source, span)
             case "rosparam" if not end and not closed and "param" in given:
-                value = _squeezed(text[m.end() : text.find("</rosparam>", m.end())])
+                value = squeezed(text[m.end() : text.find("</rosparam>", m.end())])
                 yield Fact("parameter", "", given["param"], value, source, span)
             case "rosparam" if given.get("command") == "load":
                 value = given.get("file", "").rpartition("/")[2]
@@ -358,7 +357,7 @@ def _programs(source: Source) -> Iterator[Fact]:
     commands = _HASH.sub(lambda m: " " * len(m[0]), source.text)
     for m in _COMPILED.finditer(commands):
         for option in _OPTION.findall(m[1] or m[2] or m[3] or ""):
-            yield Fact("compiler option", "", _squeezed(option), "given", source, Span(*m.span()))
+            yield Fact("compiler option", "", squeezed(option), "given", source, Span(*m.span()))
     for m in _DEFINED.finditer(commands):
         for word in sorted({*m[1].split()} - _SCOPES):
             option = f"-D{word.removeprefix('-D')}"
@@ -381,20 +380,8 @@ def _programs(source: Source) -> Iterator[Fact]:
         command, target, rest = m.groups()
         target, span = named.get(target, target), Span(*m.span(2))
         if command == "set_target_properties":
-            yield Fact("name of a program", target, "", _squeezed(rest), source, span)
+            yield Fact("name of a program", target, "", squeezed(rest), source, span)
             continue
         for path in rest.split():
             name = path.rpartition("/")[2]
             yield Fact("source of a program", target, name, "there", source, span)
-
-
-def _joined(found: re.Match[str]) -> str:
-    """A name or literal in one piece; what follows it keeps its place."""
-    whole = found[0]
-    parts = re.split(r"\s*::\s*", whole) if whole[0] != '"' else re.split(r'"\s*"', whole)
-    return ("::" if whole[0] != '"' else "").join(parts).ljust(len(whole))
-
-
-def _squeezed(text: str) -> str:
-    """A text without layout."""
-    return _LAYOUT.sub(r"\1", " ".join(text.split()))

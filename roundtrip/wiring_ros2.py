@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TypeAlias
 
+from rebsync.reverse.launch.launch_python import bound_once
 from rebsync.source import Source, Span
 
 # Kind, owner, name and value of a fact, and where it is.
@@ -30,7 +31,15 @@ _LIBRARY = re.compile(r"\badd_library\s*\(\s*(\S+)\s+([^)]*)\)")
 _HASH = re.compile(r"#[^\n]*")
 _WHOLE = frozenset({"int", "int64_t", "std::int64_t", "long"})
 # What decides how a node runs, or what it is told beside the model's; `output` only shows.
-_KEYWORDS = ("respawn", "arguments", "ros_arguments", "prefix", "additional_env", "env")
+_KEYWORDS = (
+    "respawn",
+    "arguments",
+    "ros_arguments",
+    "prefix",
+    "additional_env",
+    "env",
+    "condition",
+)
 _ACTIONS = frozenset({"ComposableNode", "LifecycleNode", "Node"})
 
 
@@ -72,11 +81,14 @@ def of_launch(source: Source) -> Iterator[Told]:
         tree = ast.parse(source.text)
     except (SyntaxError, ValueError):
         return  # what cannot be read, extraction lists
-    names = _bound(tree)
+    names = bound_once(tree)
     for call in (n for n in ast.walk(tree) if isinstance(n, ast.Call)):
+        given = {k.arg: k.value for k in call.keywords if k.arg is not None}
+        if _called(call) == "GroupAction" and "condition" in given:
+            value = ast.unparse(given["condition"])
+            yield "group of nodes", "", value, "there", source, _span(source, call)
         if _called(call) not in _ACTIONS:
             continue
-        given = {k.arg: k.value for k in call.keywords if k.arg is not None}
         name = given.get("name")
         node = str(name.value) if isinstance(name, ast.Constant) else ""
         span = _span(source, call)
@@ -126,16 +138,6 @@ def _files(value: ast.expr | None, names: Mapping[str, ast.expr]) -> Iterable[st
             texts = [n for n in ast.walk(source) if isinstance(n, ast.Constant)]
             last = max(texts, key=lambda n: (n.lineno, n.col_offset), default=None)
             yield Path(str(last.value)).name if last is not None else ast.unparse(source)
-
-
-def _bound(tree: ast.Module) -> Mapping[str, ast.expr]:
-    """The values of names that are bound once."""
-    found: dict[str, ast.expr | None] = {}
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
-            name = node.targets[0].id
-            found[name] = None if name in found else node.value
-    return {name: value for name, value in found.items() if value is not None}
 
 
 def _resolved(value: ast.expr | None, names: Mapping[str, ast.expr]) -> ast.expr | None:

@@ -49,10 +49,10 @@ def actions_of(source: Source) -> tuple[Action, ...] | Unknown:
     except (SyntaxError, ValueError, RecursionError) as error:
         why = f"this is no Python that can be read: {error}"
         return Unknown("the launch file", why, source, Span(0, 0))
-    return tuple(_File(tree, PythonValues(source, _bound(tree))).actions())
+    return tuple(_File(tree, PythonValues(source, bound_once(tree))).actions())
 
 
-def _bound(tree: ast.Module) -> Mapping[str, ast.expr]:
+def bound_once(tree: ast.Module) -> Mapping[str, ast.expr]:
     """The values of names that are bound once, and that nothing changes later."""
     found: dict[str, list[ast.expr]] = {}
     stored: Counter[str] = Counter()
