@@ -32,6 +32,9 @@ _HASH = re.compile(r"#[^\n]*")
 _WHOLE = frozenset({"int", "int64_t", "std::int64_t", "long"})
 # What decides how a node runs, or what it is told beside the model's; `output` only shows.
 _KEYWORDS = (
+    *("respawn", "arguments", "ros_arguments", "prefix"),
+    *("additional_env", "env", "condition"),
+)
     "respawn",
     "arguments",
     "ros_arguments",

@@ -113,12 +113,12 @@ def _check_explicit(reader: CppExpressions, node: Node, arguments: Sequence[Node
     lists = (named(a) if a.type == "initializer_list" else [a] for a in arguments)
     values = [value for each in lists for value in each] if types else []
     for kept in map(reader.scope.carried, types):
-        if kept is None or kept.wide:
+        if kept is None or (kept.wide and reader.scope.open):  # that is `check_wide_call`'s
             continue
         for argument in values:
             of = type_in(reader.scope, reader.read(argument))
             is_same = of == kept.type or (of is not None and is_integer(of) and kept.type == INT)
-            if kept.bits or not is_same:
+            if kept.bits or kept.wide or not is_same:
                 raise reader.unread(argument, "this is converted before it is used")
 
 

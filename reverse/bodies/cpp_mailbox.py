@@ -82,6 +82,9 @@ def _class_named(reader: CppExpressions, node: Node) -> str:
 
 def in_order(reader: CppExpressions, function: Node) -> m.Expression:
     """`[&] { const auto op1_ = a; return f(op1_); }()`: operands in the order of the model."""
+    captured = named(part(function, "captures"))
+    if any(c.type == "lambda_capture_initializer" for c in captured):
+        raise reader.unread(function, "what this function holds is not in the model")
     at, values = reader, []
     *stores, result = named(part(function, "body"))
     for store in stores:
