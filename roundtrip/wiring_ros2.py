@@ -35,14 +35,6 @@ _KEYWORDS = (
     *("respawn", "arguments", "ros_arguments", "prefix"),
     *("additional_env", "env", "condition"),
 )
-    "respawn",
-    "arguments",
-    "ros_arguments",
-    "prefix",
-    "additional_env",
-    "env",
-    "condition",
-)
 _ACTIONS = frozenset({"ComposableNode", "LifecycleNode", "Node"})
 
 
