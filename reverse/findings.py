@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import field
 from enum import Enum
+from typing import TYPE_CHECKING
 
-from rebsync.model import Expression
 from rebsync.records import dataclass
 from rebsync.source import Source, Span
+
+if TYPE_CHECKING:
+    from rebsync.model import Expression
 
 
 class Grade(Enum):
