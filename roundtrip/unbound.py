@@ -1,0 +1,66 @@
+"""Names that changed code uses and that nothing there binds: it cannot be built, or run."""
+
+from __future__ import annotations
+
+import builtins
+import re
+import symtable
+from collections.abc import Iterable, Iterator
+
+from rebsync.source import Source, Span
+
+_INCLUDES = re.compile(r'^[ \t]*#[ \t]*include[ \t]*[<"]([^">\n]+)[">]', re.MULTILINE)
+_OF_MODULES = frozenset({"__builtins__", "__file__", "__name__", "__path__", "__spec__"})
+_BINDS = (symtable.Symbol.is_assigned, symtable.Symbol.is_imported, symtable.Symbol.is_namespace)
+
+
+def unbound_names(source: Source) -> Iterator[tuple[Span, str]]:
+    """The names that a module of Python uses and that neither it nor Python defines.
+
+    SyntaxError, ValueError, RecursionError: Python does not take the module.
+    """
+    whole = symtable.symtable(source.text, source.path, "exec")
+    tables = list(_below(whole))
+    if re.search(r"^\s*from\s+\S+\s+import\s*\(?\s*\*", source.text, re.MULTILINE):
+        return  # which names that binds is not known here
+    bound = {s.get_name() for s in whole.get_symbols() if any(is_(s) for is_ in _BINDS)}
+    bound |= {
+        s.get_name()
+        for table in tables
+        for s in table.get_symbols()
+        if s.is_declared_global() and s.is_assigned()
+    }
+    known = bound | {*dir(builtins), *_OF_MODULES}
+    used = {s.get_name() for t in (whole, *tables) for s in t.get_symbols() if _is_global(s, t)}
+    for name in sorted(used - known):
+        found = re.search(rf"\b{re.escape(name)}\b", source.text)
+        start = found.start() if found is not None else 0
+        yield Span(start, start + len(name)), name
+
+
+def _below(table: symtable.SymbolTable) -> Iterator[symtable.SymbolTable]:
+    for child in table.get_children():
+        if child.get_type() in ("class", "function"):
+            yield child
+            yield from _below(child)
+
+
+def _is_global(symbol: symtable.Symbol, table: symtable.SymbolTable) -> bool:
+    return symbol.is_referenced() and (symbol.is_global() or table.get_type() == "module")
+
+
+def lost_includes(before: Source, now: Source, others: Iterable[Source]) -> Iterator[str]:
+    """The headers that C++ names and no longer includes, nor does a header of the package."""
+    lost = set(_INCLUDES.findall(before.text)) - set(_INCLUDES.findall(now.text))
+    if lost := {path for path in lost if _is_named(path, now.text)}:
+        elsewhere = {path for other in others for path in _INCLUDES.findall(other.text)}
+        yield from sorted(lost - elsewhere)
+
+
+def _is_named(path: str, text: str) -> bool:
+    """Whether a text has the name of a header of a package, or that of its type."""
+    folder, _, name = path.rpartition("/")
+    stem = name.partition(".")[0]
+    names = {stem, "".join(part.capitalize() for part in stem.split("_"))}
+    code = _INCLUDES.sub("", text)
+    return bool(folder) and any(re.search(rf"\b{re.escape(n)}\b", code) for n in names)
