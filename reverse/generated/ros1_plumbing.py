@@ -62,6 +62,12 @@ def check_plumbing(
     for cpp, node in odd_priorities(code, roles):
         why = "a server has kNoPriority, priority(number) or globalPriority(number)"
         findings.unreadable(cpp.source, Unread(cpp.span(node), why), owner.name)
+    descriptors = [text_of(taken.call.arguments[0]) for taken in roles.taken]
+    for taken, descriptor in zip(roles.taken, descriptors, strict=True):
+        if descriptors.count(descriptor) > 1:
+            cpp, why = taken.function.cpp, "messages of two servers are received as those of one"
+            unread = Unread(cpp.span(taken.call.arguments[0]), why)
+            findings.unreadable(cpp.source, unread, owner.name)
     for member in owner.fields:
         storage = (c.text for c in member.node.children if c.type == "storage_class_specifier")
         if b"static" in storage and declared_type(code, member.type) is not None:
