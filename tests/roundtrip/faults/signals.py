@@ -29,8 +29,9 @@ def statuses(number: signal.Signals) -> tuple[int, ...]:
 
 
 def _heed() -> None:
-    """Ends on Ctrl-C even if what has started the tests does not, as in the background."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    """Ends by a signal even if what has started the tests does not, as in the background."""
+    for number in ENDING:
+        signal.signal(number, signal.SIG_DFL)
 
 
 def started(folder: Path) -> subprocess.Popen[str]:

@@ -97,6 +97,7 @@ class Field:
 
 cli.rebsync.main = lambda *_, **__: type("Made", (), {{"field": Field()}})
 signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGTERM, signal.SIG_DFL)  # what has started the tests may not heed it
 sys.exit(cli.main())
 """
 
