@@ -26,7 +26,7 @@ def note_body(findings: Findings, source: Source, within: str, body: Sequence[m.
     for node in (n for statement in body for n in m.walk(statement)):
         if isinstance(node, _OPERATIONS):
             parts = [p for p in _parts(node) if p.span != node.span]
-            if any(map(_may_act, parts)) and not all(_is_apart(p.span, node.span) for p in parts):
+            if any(map(_may_act, parts)) and not all(_is_apart(p, node.span) for p in parts):
                 findings.ordered.append(Ordered(source, within, node))
 
 
@@ -95,7 +95,10 @@ def _may_act(expression: m.Expression) -> bool:
     )
 
 
-def _is_apart(part: Span, whole: Span) -> bool:
+def _is_apart(part: m.Expression, whole: Span) -> bool:
     """Whether a part is evaluated elsewhere than where it counts, by a statement of its own."""
-    is_inside = whole.start <= part.start and part.end <= whole.end
-    return NOWHERE not in (part, whole) and not is_inside
+    made = (n for n in m.walk(part) if not isinstance(n, m.Paren))  # which may be put around it
+    places = [n.span for n in made if n.span != NOWHERE]
+    if whole == NOWHERE or not places:
+        return not _may_act(part)
+    return not any(whole.start <= place.start and place.end <= whole.end for place in places)

@@ -307,7 +307,9 @@ class _Widths:
                 return not wanted.includes(self._values(target))
             case m.Binary(operator) if operator in _TESTS:
                 return False
-            case m.Binary() | m.Unary("+" | "-" | "~" | "++" | "--") | m.Conditional():
+            case m.Unary("+", operand):
+                return self._may_be_other(bare(operand), wanted)
+            case m.Binary() | m.Unary("-" | "~" | "++" | "--") | m.Conditional():
                 return not (self._is_real(expression) or self._is_truth(expression))
             case _:
                 return False
