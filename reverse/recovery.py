@@ -43,7 +43,6 @@ from rebsync.reverse.generated.ros1_names import stored_in, variable_name
 from rebsync.reverse.generated.ros2_words import made_in
 from rebsync.reverse.graph import Graph
 from rebsync.reverse.launch.launched import Launch, LaunchedNode
-from rebsync.reverse.launch.misdirected import list_misdirected
 from rebsync.reverse.launch.parameters import Parameter
 from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_joined import Joined, Part
@@ -303,11 +302,11 @@ class _System:
         """The rebecs that the launch file starts; None without one."""
         if self.launch is None:
             return None
-        nodes = self.launch.nodes
-        return m.Main(tuple(r for n in nodes if (r := self._rebec(n, nodes)) is not None))
+        return m.Main(tuple(r for n in self.launch.nodes if (r := self._rebec(n)) is not None))
 
-    def _rebec(self, node: LaunchedNode, nodes: Sequence[LaunchedNode]) -> m.Rebec | None:
-        if (started := self._started(node)) is None or not isinstance(node.name, str):
+    def _rebec(self, node: LaunchedNode) -> m.Rebec | None:
+        started = self._started(node)
+        if started is None or not isinstance(node.name, str):
             return None
         type_, keys = started
         declared = self._lineage(type_)
@@ -322,7 +321,6 @@ class _System:
             for d in declaration.declarators
         ]
         bindings = [self._bound(node, f"knownrebecs/{graph_name(k)}") for k in known]
-        list_misdirected(node, known, nodes, self.classes.findings, type_)
         constructors = [c for c in declared[0].members if isinstance(c, m.Constructor)]
         own = self._stored(type_)
         count = len(keys) + len(own)
