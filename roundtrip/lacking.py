@@ -17,7 +17,7 @@ from rebsync.roundtrip.digests import Standing
 from rebsync.roundtrip.manifest import BASE
 from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
-from rebsync.roundtrip.unbound import lost_includes, unbound_names
+from rebsync.roundtrip.unbound import unbound_names
 from rebsync.roundtrip.units import folders_of
 from rebsync.source import NOWHERE, Source, Span
 
@@ -27,8 +27,6 @@ if TYPE_CHECKING:
 _BUILD = "CMakeLists.txt"
 _READ = frozenset({_BUILD, MANIFEST, SETUP})
 _STATE = "State.msg"
-_HEADERS = (".h", ".hpp", ".hh", ".hxx")
-_CPP = (*_HEADERS, ".cpp", ".cc", ".cxx")
 _HINT = "put it back, or take out by hand all that belongs to it"
 
 
@@ -39,7 +37,6 @@ def lacking(kept: Kept, record: Record, now: Standing) -> tuple[Findings, ...]:
         *_fields(kept, record, now),
         *_packages(kept, record, now),
         *_refused(now),
-        *_includes(kept, record, now),
     )
 
 
@@ -61,17 +58,6 @@ def _refused(now: Standing) -> Iterator[Findings]:
             line = source.start_of(min(getattr(error, "lineno", None) or 1, last))
             message = f"Python does not take this: {getattr(error, 'msg', error)}"
             yield _finding(source, Span(line, line + 1), message)
-
-
-def _includes(kept: Kept, record: Record, now: Standing) -> Iterator[Findings]:
-    """The headers that code no longer includes, and still needs."""
-    for name in now.changed:
-        if name.endswith(_CPP):
-            for before, source in _sides(kept, record, now, name):
-                headers = (s for n, s in _codes(now) if n != name and n.endswith(_HEADERS))
-                for path in lost_includes(before, source, headers):
-                    message = f"this no longer includes {path}, and names what that declares"
-                    yield _finding(source, Span(0, 1), message)
 
 
 def _code(path: str) -> Source | None:

@@ -1,15 +1,14 @@
-"""Names that changed code uses and that nothing there binds: it cannot be built, or run."""
+"""Names that a module of Python uses and that nothing there binds: it cannot run."""
 
 from __future__ import annotations
 
 import builtins
 import re
 import symtable
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 from rebsync.source import Source, Span
 
-_INCLUDES = re.compile(r'^[ \t]*#[ \t]*include[ \t]*[<"]([^">\n]+)[">]', re.MULTILINE)
 _OF_MODULES = frozenset({"__builtins__", "__file__", "__name__", "__path__", "__spec__"})
 _BINDS = (symtable.Symbol.is_assigned, symtable.Symbol.is_imported, symtable.Symbol.is_namespace)
 
@@ -47,20 +46,3 @@ def _below(table: symtable.SymbolTable) -> Iterator[symtable.SymbolTable]:
 
 def _is_global(symbol: symtable.Symbol, table: symtable.SymbolTable) -> bool:
     return symbol.is_referenced() and (symbol.is_global() or table.get_type() == "module")
-
-
-def lost_includes(before: Source, now: Source, others: Iterable[Source]) -> Iterator[str]:
-    """The headers that C++ names and no longer includes, nor does a header of the package."""
-    lost = set(_INCLUDES.findall(before.text)) - set(_INCLUDES.findall(now.text))
-    if lost := {path for path in lost if _is_named(path, now.text)}:
-        elsewhere = {path for other in others for path in _INCLUDES.findall(other.text)}
-        yield from sorted(lost - elsewhere)
-
-
-def _is_named(path: str, text: str) -> bool:
-    """Whether a text has the name of a header of a package, or that of its type."""
-    folder, _, name = path.rpartition("/")
-    stem = name.partition(".")[0]
-    names = {stem, "".join(part.capitalize() for part in stem.split("_"))}
-    code = _INCLUDES.sub("", text)
-    return bool(folder) and any(re.search(rf"\b{re.escape(n)}\b", code) for n in names)
