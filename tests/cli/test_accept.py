@@ -17,7 +17,7 @@ SCHEMA = json.loads((ROOT / "docs/check.schema.json").read_text(encoding="utf-8"
 CPP, PYTHON = "patrol/src/robot.cpp", "patrol/src/patrol/robot.py"
 UNKNOWN = {
     "ros1-cpp": (CPP, "  on_ = n > 3;", "  on_ = vendor::decide(n);"),
-    "ros1-py": (PYTHON, "self._on = n > 3", "self._on = n > 3; vendor.decide(n)"),
+    "ros1-py": (PYTHON, "self._on = n > 3", "self._on = n > 3; self.vendor.decide(n)"),
 }
 REASON = 'says the same, "n > 3", by the board\'s own table'
 
