@@ -309,6 +309,8 @@ class _Widths:
                 return False
             case m.Unary("+", operand):
                 return self._may_be_other(bare(operand), wanted)
+            case m.Unary("~", operand) if wanted.low == -wanted.high - 1:  # as many below 0
+                return self._may_be_other(bare(operand), wanted)
             case m.Binary() | m.Unary("-" | "~" | "++" | "--") | m.Conditional():
                 return not (self._is_real(expression) or self._is_truth(expression))
             case _:
