@@ -23,6 +23,7 @@ from rebsync.reverse.bodies.building import bare
 from rebsync.reverse.python.model_cuts import Cut
 from rebsync.reverse.python.model_kinds import real_type
 from rebsync.source import NOWHERE, Span
+from rebsync.static.constants import constant
 
 _SUMS = frozenset({"+", "-", "*", "&", "|", "^"})
 _SIGNS = frozenset({"+", "-", "~"})
@@ -311,6 +312,10 @@ class _Widths:
                 return self._may_be_other(bare(operand), wanted)
             case m.Unary("~", operand) if wanted.low == -wanted.high - 1:  # as many below 0
                 return self._may_be_other(bare(operand), wanted)
+            case m.Binary("+", left, right) if constant(left) == 0:
+                return self._may_be_other(bare(right), wanted)
+            case m.Binary("+" | "-", left, right) if constant(right) == 0:
+                return self._may_be_other(bare(left), wanted)
             case m.Binary() | m.Unary("-" | "~" | "++" | "--") | m.Conditional():
                 return not (self._is_real(expression) or self._is_truth(expression))
             case _:
