@@ -13,10 +13,12 @@ from rebsync.records import dataclass
 from rebsync.reverse.files.packages import Listing, is_read
 from rebsync.reverse.files.python_files import may_be_script
 from rebsync.reverse.files.stores import Disk, contents, join
+from rebsync.roundtrip.kept import Kept
 from rebsync.roundtrip.manifest import BASE, BASE_MODEL
-from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
 from rebsync.roundtrip.units import both_at, listing_of
+
+NOT_EXECUTABLE = "not executable: "  # before the digest of a generated program that has lost it
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,12 +61,16 @@ def standing(kept: Kept, record: Record | None) -> Standing:
             digests[name] = f"unreadable: {data}"
             changed.append(name)
             continue
-        digest = digests[name] = digest_of(data)
+        digest = digest_of(data)
+        if name in wanted and data.startswith(b"#!") and name not in listing.programs:
+            digest = f"{NOT_EXECUTABLE}{digest}"
+        digests[name] = digest
         known = wanted.get(name, "")
-        if digest != known and not is_text_of(data, known):
+        is_as_known = digest == known or is_text_of(data, known)
+        if not is_as_known or digest.startswith(NOT_EXECUTABLE):
             changed.append(name)
     lost = (name for name in wanted if name not in digests)
-    missing = [name for name in lost if _counts(name) or _is_lost_marker(listing, name)]
+    missing = [name for name in lost if is_of_model(name) or _is_lost_marker(listing, name)]
     return Standing(listing, digests, tuple(changed), tuple(missing))
 
 
@@ -81,7 +87,7 @@ def _contents(listing: Listing) -> Iterator[tuple[str, bytes | str]]:
             yield name, data
 
 
-def _counts(name: str) -> bool:
+def is_of_model(name: str) -> bool:
     """Whether a file that was generated is one that a model is read from."""
     parts = name.split("/")
     if any(part.startswith(".") for part in parts):

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from rebsync.diagnostics import Findings
 from rebsync.files import read_bytes
 from rebsync.records import dataclass
 from rebsync.roundtrip.difference import Comparison, Depth
 from rebsync.roundtrip.digests import Standing, digest_of, is_text_of
 from rebsync.roundtrip.extraction_cache import keep, kept, key_of
+from rebsync.roundtrip.kept import Kept
 from rebsync.roundtrip.manifest import BASE_MODEL
-from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.verdict import Drift, judge
 
 
 @dataclass(frozen=True, slots=True)
 class Judged:
-    """The verdict, what the code has changed (None without a base), and what is not exact."""
+    """The verdict, what the code has changed (None without a base), and what is not exact.
+
+    Bodies that are written otherwise than the model's and do the same are among the findings.
+    """
 
     drift: Drift
     of_code: Comparison | None
@@ -47,15 +52,11 @@ def _judged(
     """`same` says that the model has not changed."""
     from rebsync.roundtrip.differences import compare
     from rebsync.roundtrip.models import code_given, model_given
+    from rebsync.roundtrip.rewritten import compared_with_code, told
 
     today = model_given(model)
     code = code_given(package, now)
-    apart = compare(today, code.given, depth)
-    if base is None:
-        return Judged(judge(apart, None, None), None, code.findings)
-    if same:
-        return Judged(judge(apart, Comparison(()), apart), apart, code.findings)
-    before = model_given(f"{package.root}/{BASE_MODEL}")
-    of_code = compare(before, code.given, depth)
-    drift = judge(apart, compare(before, today, depth), of_code)
-    return Judged(drift, of_code, code.findings)
+    before = today if same else model_given(f"{package.root}/{BASE_MODEL}") if base else None
+    found = compared_with_code(today, code.given, before, partial(compare, depth=depth), depth)
+    drift = judge(found.apart, found.of_model, found.of_code)
+    return Judged(drift, found.of_code, (*code.findings, *told(found.written)))

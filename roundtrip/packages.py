@@ -9,70 +9,15 @@ from dataclasses import replace
 from pathlib import Path
 
 from rebsync.diagnostics import RebsyncError
-from rebsync.files import STANDARD_INPUT, leading_out, operating_on, os_mistake
-from rebsync.records import dataclass
+from rebsync.files import STANDARD_INPUT, operating_on, os_mistake
+from rebsync.roundtrip.kept import SKIPPED, SUFFIX, Kept
 from rebsync.roundtrip.manifest import FOLDER
 from rebsync.trees import (
-    is_within,
-    leads_out,
     repository,
-    repository_of_link,
     tree_of,
-    tree_of_code,
 )
 
-SUFFIX = ".rebeca"
 SETTINGS = "rebsync.toml"
-SKIPPED = frozenset({"node_modules", "__pycache__"})
-
-
-@dataclass(frozen=True, slots=True)
-class Kept:
-    """A package with a model; `model` is its path where a user or settings say it.
-
-    `tree` is the real directory that holds all that belongs together: a repository, or else what
-    is around the package. `named` is the directory that a user named, or that of the file.
-    """
-
-    root: str
-    tree: str
-    model: str | None = None
-    named: str | None = None
-
-    def holds(self, real: str) -> bool:
-        """Whether a real path is of what belongs together, so that the package may speak of it."""
-        if is_within(real, self.tree):
-            return True
-        if repository(self.tree) is not None:
-            return False
-        # Without a repository the user says what belongs together: by name, or by going there.
-        chosen = (self.named or os.curdir, os.curdir)
-        return any(is_within(real, os.path.realpath(path)) for path in chosen)
-
-    @property
-    def tree_of_code(self) -> str:
-        """The real directory in which its code may be behind links."""
-        return tree_of_code(self.root, self.named or self.root)
-
-    def to_write(self) -> str:
-        """The real directory of the package, to write to.
-
-        RebsyncError: it is a link, and leads out of where the user has said that packages are.
-        """
-        real = os.path.realpath(self.root)
-        link = self.root.rstrip(os.sep)
-        chosen = {self.named or os.curdir, os.curdir}
-        is_out = os.path.islink(link) and all(  # noqa: PTH114
-            leads_out(link, real, path) and not self._is_around(link, path) for path in chosen
-        )
-        if is_out:
-            raise leading_out(link, f"`rebsync sync {real}` writes there")
-        return real
-
-    def _is_around(self, link: str, path: str) -> bool:
-        """Whether a user has named what is in the package itself, where there is no repository."""
-        is_free = repository_of_link(link) is None
-        return is_free and is_within(os.path.realpath(path), os.path.realpath(link))
 
 
 def find(paths: Iterable[str], model: str | None = None) -> Iterator[Kept]:

@@ -6,46 +6,23 @@ of the system. Layout and comments do not count, nor does another name of the pa
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterable, Iterator
-from functools import partial
-from itertools import zip_longest
+from collections.abc import Iterator
 
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.files import read_source
-from rebsync.records import dataclass
-from rebsync.reserved import RUNTIME_HEADERS
+from rebsync.reverse.scaffold.facts import package_name
+from rebsync.reverse.scaffold.python_trees import MODULE
+from rebsync.reverse.scaffold.runtime_cpp import HEADER, first_cpp_difference, may_be_cpp_runtime
+from rebsync.reverse.scaffold.runtime_python import PYTHON, first_difference, is_python_runtime
+from rebsync.reverse.scaffold.stand_ins import STAND_IN, plays_on
 from rebsync.roundtrip.digests import Standing
+from rebsync.roundtrip.kept import Kept
 from rebsync.roundtrip.manifest import BASE
-from rebsync.roundtrip.markers import TOKEN
-from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
-from rebsync.roundtrip.runtime_python import MODULE, PYTHON, first_difference, is_python_runtime
 from rebsync.roundtrip.units import manifest_of
-from rebsync.roundtrip.wiring_facts import MAIN, package_name
 from rebsync.source import NOWHERE, Source, Span
 
-_HEADER = re.compile(rf"include/[^/]+/(?:{'|'.join(RUNTIME_HEADERS)})\.h(?:pp)?\Z")
-_STAND_IN = re.compile(r"src/\w+_stand_in\.cpp\Z")
-_PROGRAM = re.compile(r"src/\w+_node\.cpp\Z")
-_INCLUDE = re.compile(
-    r'^[ \t]*#[ \t]*(?:include[ \t]*(?:<[^>\n]*>|("[^"\n]*"))|pragma once\b)', re.M
-)
-_OWN_NAME = re.compile(r'#include "(\w+)/|#ifndef (\w+)_\w+_H\b|#ifndef (\w+)__\w+_HPP_')
-# The end of a literal that would take what follows it for a part of its last character.
-_OPEN_ESCAPE = re.compile(r'\\(?:x[0-9a-fA-F]+|[0-7]{1,2})"\Z')
-# What a rebec is made of, extraction reads.
-_REBEC = re.compile(r"::\w+rebec\(node[,)]|.*(?:node\.param|readArray)\(")
-_LOGS = ("ROS_", "RCLCPP_", "printf(", "std::cout", "std::cerr")
 _HINT = "take the edit back, or tell of it in the model; `rebsync generate --diff` shows it"
-
-
-@dataclass(frozen=True, slots=True)
-class _Piece:
-    """A token, or a statement without its layout, and its place."""
-
-    text: str
-    span: Span
 
 
 def edited(kept: Kept, record: Record | None, now: Standing) -> tuple[Findings, ...]:
@@ -63,15 +40,14 @@ def edited(kept: Kept, record: Record | None, now: Standing) -> tuple[Findings, 
 
 def _may_be(name: str) -> bool:
     """Whether a generated file may be of the run-time part, or a program."""
-    patterns = (_HEADER, _STAND_IN, _PROGRAM, PYTHON)
-    return any(pattern.match(name) for pattern in patterns)
+    return may_be_cpp_runtime(name) or PYTHON.match(name) is not None
 
 
 def _edited(kept: Kept, now: Standing, name: str, own: frozenset[str]) -> Iterator[Findings]:
     """The place where a file is not as it was generated; `own` are the names of the package."""
     path = now.listing.files.get(name) or _moved(now, name)
     if path is None:
-        if _HEADER.match(name) or MODULE.match(name) or _is_python_program(kept, name):
+        if HEADER.match(name) or MODULE.match(name) or _is_python_program(kept, name):
             message = "generated code that the rest needs is gone"
             yield _finding(Source(f"{kept.root}/{name}", ""), NOWHERE, message)
         return
@@ -101,13 +77,13 @@ def _is_python_program(kept: Kept, name: str) -> bool:
 
 def _difference(name: str, base: Source, source: Source, own: frozenset[str]) -> Span | None:
     """Where a file is not as it was generated, if no model describes it."""
-    if PYTHON.match(name):
+    is_python = PYTHON.match(name) is not None
+    if STAND_IN.fullmatch(name) and plays_on(base.text, source.text, is_python=is_python):
+        return None
+    if is_python:
         is_described = not is_python_runtime(name, base.text)
         return None if is_described else first_difference(base, source, own)
-    if not _HEADER.match(name) and not MAIN.search(base.text):
-        return None  # a class with such a name
-    cut = partial(_statements if _PROGRAM.match(name) else _tokens, own=own)
-    return _first_difference(base, source, cut)
+    return first_cpp_difference(name, base, source, own)
 
 
 def _finding(source: Source, span: Span, message: str) -> Findings:
@@ -119,65 +95,3 @@ def _moved(now: Standing, name: str) -> str | None:
     last = name.rpartition("/")[2]
     same = [p for n, p in now.listing.files.items() if n.rpartition("/")[2] == last]
     return same[0] if len(same) == 1 else None
-
-
-def _first_difference(
-    base: Source, source: Source, cut: Callable[[Source], Iterator[_Piece]]
-) -> Span | None:
-    """Where a text is not as another, the names of their packages apart."""
-    last = len(source.text.rstrip())
-    for old, new in zip_longest(cut(base), cut(source)):
-        if old is None or new is None or old.text != new.text:
-            return new.span if new is not None else Span(max(last - 1, 0), last)
-    return None
-
-
-def _tokens(source: Source, own: frozenset[str]) -> Iterator[_Piece]:
-    """The tokens of a text: first its own headers, in whatever order; those of libraries, none."""
-    found = _OWN_NAME.search(source.text)
-    every = {*own, *filter(None, found.groups() if found else ())}
-    names = {form for n in every for form in (n.lower(), n.upper())}
-    headers = [_Piece(m[1] or "", Span(*m.span())) for m in _INCLUDE.finditer(source.text)]
-    rest = _INCLUDE.sub(lambda m: " " * len(m[0]), source.text)
-    tokens = [_Piece(m[0], Span(*m.span())) for m in TOKEN.finditer(rest)]
-    tokens = [t for t in tokens if not t.text.startswith(("//", "/*"))]
-    headers = sorted((h for h in headers if h.text), key=lambda h: h.text.rpartition("/")[2])
-    for piece in (*headers, *_with_whole_literals(tokens)):
-        text = piece.text
-        for name in names:
-            text = text.replace(name, "")
-        yield _Piece(text, piece.span)
-
-
-def _with_whole_literals(tokens: Iterable[_Piece]) -> Iterator[_Piece]:
-    """The tokens, with literals side by side as the one that they are to a compiler."""
-    last: _Piece | None = None
-    for token in tokens:
-        if last is not None and _continues(last.text, token.text):
-            last = _Piece(last.text[:-1] + token.text[1:], last.span.to(token.span))
-            continue
-        if last is not None:
-            yield last
-        last = token
-    if last is not None:
-        yield last
-
-
-def _continues(literal: str, other: str) -> bool:
-    are_both = literal[0] == '"' == other[0] and len(literal) > 1 and len(other) > 1
-    return are_both and _OPEN_ESCAPE.search(literal) is None
-
-
-def _statements(source: Source, own: frozenset[str]) -> Iterator[_Piece]:
-    """The statements of a program but for what it logs, and what it makes its rebec of."""
-    held: list[_Piece] = []
-    depth = 0
-    for token in _tokens(source, own):
-        held.append(token)
-        depth += (token.text in ("(", "[")) - (token.text in (")", "]"))
-        if depth == 0 and token.text in (";", "{", "}"):
-            text = "".join(piece.text for piece in held)
-            if not text.startswith(_LOGS) and not _REBEC.match(text):
-                yield _Piece(text, Span(held[0].span.start, token.span.end))
-            held = []
-    yield from held

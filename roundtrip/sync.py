@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping
-from dataclasses import field, replace
+from dataclasses import replace
 from pathlib import Path
 
 from rebsync import model as m
@@ -39,48 +39,15 @@ from rebsync.roundtrip.recorded import (
     recorded_base,
     with_accepted,
 )
+from rebsync.roundtrip.rewritten import compared_with_code, without_rewritten
 from rebsync.roundtrip.sides import Given
 from rebsync.roundtrip.sync_records import with_what_holds
+from rebsync.roundtrip.sync_result import Sync
 from rebsync.roundtrip.verdict import Mover
 from rebsync.source import NOWHERE, Source
 from rebsync.terminal import encoded
 
 _SETTLED = ("RS955", "RS964", "RS965")  # what is put right by writing the records
-
-
-@dataclass(frozen=True, slots=True)
-class Sync:
-    """What is to be written so that a package and its model are in step.
-
-    `model_text`, that of the `properties` beside it and `texts` are those that change (None: the
-    file goes), `records` all of `.rebsync/`. `conflicts` are left to decide, by path from the
-    package or `""` for the model; then both sides are in the texts, between markers. With `refused`
-    nothing is to be written.
-    `findings` are places of the code that are not known exactly.
-    """
-
-    checked: Checked
-    model_text: str | None = None
-    texts: dict[str, str | None] = field(default_factory=dict)
-    records: dict[str, str | None] = field(default_factory=dict)
-    conflicts: dict[str, Stages] = field(default_factory=dict)
-    findings: tuple[Findings, ...] = ()
-    refused: tuple[Findings, ...] = ()
-    is_undetermined: bool = False
-    properties: str | None = None
-
-    @property
-    def changes(self) -> bool:
-        """Whether a model or code is to change."""
-        return bool(self.beside) or bool(self.texts)
-
-    @property
-    def beside(self) -> dict[str, str]:
-        """The texts that change outside of the package, by their paths."""
-        told = {self.checked.model: self.model_text}
-        if (path := properties_beside(self.checked.model)) is not None:
-            told[path] = self.properties
-        return {path: text for path, text in told.items() if text is not None}
 
 
 def synced(checked: Checked, favour: Favour) -> Sync:
@@ -126,7 +93,7 @@ class _Syncing:
             causes = (*filter(is_of_file, self.checked.findings), *gone.files())
             return Sync(self.checked, refused=causes or refused, is_undetermined=True)
         merged = merged_model(base, today, code.given, self.favour, self.compared)
-        told = self._of_code(base or today, code.given)
+        told = self._of_code(base or today, today, code.given)
         if merged.conflicts:
             return self._left_open(base, today, merged.text, told)
         source = Source(today.source.path, merged.text)
@@ -143,9 +110,10 @@ class _Syncing:
         is_same = is_text_of(encoded(today.source.text), self.record.digest)
         return today if is_same else None
 
-    def _of_code(self, base: Given, code: Given) -> Given:
+    def _of_code(self, base: Given, today: Given, code: Given) -> Given:
         """The model of last time with all that the code has changed."""
-        text = as_code_says(base, code, self.compared(base, code))
+        found = compared_with_code(today, code, base, self.compared)
+        text = as_code_says(base, code, found.of_code or found.apart)
         if text == base.source.text:
             return base
         source = Source(base.source.path, text)
@@ -232,7 +200,7 @@ class _Syncing:
         if sync.texts:
             again = read_with(self.checked.standing.listing, sync.texts)
             code, findings = again.given, (*filter(_is_of_records, findings), *again.findings)
-        proof = compare(model, code)
+        proof, _ = without_rewritten(compare(model, code), model, code)
         unread = {d.element for d in before.differences if isinstance(d, Undetermined)}
         if wrong := tuple(wrongly_merged(proof, unread, "take one side with --conflict")):
             return Sync(self.checked, findings=findings, refused=wrong)
@@ -337,7 +305,7 @@ def _config_of(record: Record) -> Config:
 
 def _is_settled(found: Findings) -> bool:
     """Whether a finding is about what is put right by this."""
-    return all(d.code in _SETTLED for d in found.diagnostics)
+    return all(d.code in (*_SETTLED, "RS970") for d in found.diagnostics)
 
 
 def _is_of_records(found: Findings) -> bool:

@@ -14,14 +14,14 @@ from rebsync.diagnostics import Findings, RebsyncError
 from rebsync.files import BOM, read_bytes
 from rebsync.folder import Folder
 from rebsync.roundtrip.digests import Standing, digest_of, standing
+from rebsync.roundtrip.kept import Kept
 from rebsync.roundtrip.manifest import BASE, MANIFEST
-from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record, read_record, told_in_step, with_accepted
 from rebsync.source import Source
 from rebsync.terminal import encoded
 
 if TYPE_CHECKING:
-    from rebsync.roundtrip.sync import Sync
+    from rebsync.roundtrip.sync_result import Sync
     from rebsync.roundtrip.wiring import Odd
 
 _NAME = re.compile(r"\w+")
@@ -86,9 +86,9 @@ def _is_edited(sync: Sync) -> bool:
 def _as_will_be(sync: Sync) -> Iterator[Kept]:
     """The package as it is going to be, in a directory for the time being."""
     own = Path(sync.checked.kept.root)
-    odd = sync.checked.standing.listing.odd
-    listed = sync.checked.standing.listing.files.items()
-    files = {name: read_bytes(path) for name, path in listed if name not in odd}
+    listing = sync.checked.standing.listing
+    listed = listing.files.items()
+    files = {name: read_bytes(path) for name, path in listed if name not in listing.odd}
     generated = sync.checked.record.files if sync.checked.record is not None else {}
     for name in generated.keys() - files.keys():
         with suppress(RebsyncError):  # what nothing is read from may be gone
@@ -104,6 +104,8 @@ def _as_will_be(sync: Sync) -> Iterator[Kept]:
             path = root / name
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(data)
+            if name in listing.programs or name not in listing.files:
+                path.chmod(0o755)
         yield Kept(str(root), folder, sync.checked.model)
 
 
@@ -126,12 +128,19 @@ def _odd(
             left.append(odd.finding)
         else:
             accepted.add(odd.finding.diagnostics[0].message)
+    if accepted:  # which keeps no lost message from being told
+        by_then = replace(record, accepted=frozenset(accepted))
+        again = odd_facts(kept, by_then, now, Comparison(()))
+        left += [o.finding for o in again if o.is_lost and o.finding not in left]
     return sorted(accepted), left
 
 
 def _is_needed(odd: Odd, kept: Kept, now: Standing) -> bool:
-    """Whether nodes wait for others, or choose among them, by a list that lacks one."""
-    if not (odd.before or odd.now)[0].name.startswith(_LISTS):
+    """Whether messages are lost, or nodes wait for others, or choose, by a list that lacks one."""
+    facts = *odd.before, *odd.now
+    if not facts:
+        return True  # somebody sends what nobody takes in, or what others take in
+    if not facts[0].name.startswith(_LISTS):
         return False
     from rebsync.roundtrip.models import code_given
 

@@ -15,8 +15,9 @@ from rebsync.roundtrip.attested import attest
 from rebsync.roundtrip.manifest import BASE_MODEL, FOLDER, MANIFEST
 from rebsync.roundtrip.merge_code import Stages
 from rebsync.roundtrip.model_file import remember
-from rebsync.roundtrip.sync import Sync, relative
+from rebsync.roundtrip.sync import relative
 from rebsync.roundtrip.sync_records import marked
+from rebsync.roundtrip.sync_result import Sync
 from rebsync.source import Source
 from rebsync.stamps import Stamps
 from rebsync.writing import real_path, replace_tree

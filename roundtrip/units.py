@@ -40,6 +40,7 @@ def listing_of(
         whole.odd |= {n: w for n, w in odd.items() if n.partition("/")[0] in folders}
         linked = {f"{prefix}{name}": path for name, path in listing.linked.items()}
         whole.linked |= {n: p for n, p in linked.items() if n in whole.files}
+        whole.programs |= {f"{prefix}{n}" for n in listing.programs} & whole.files.keys()
         whole.size += listing.size
     return whole
 

@@ -13,6 +13,18 @@ from itertools import chain
 
 from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.records import dataclass
+from rebsync.reverse.scaffold.fact import (
+    CLOCK,
+    CONSTANT,
+    NOT_GIVEN,
+    PLAYED,
+    PROGRAM,
+    SPACE,
+    TYPE,
+    Fact,
+    Facts,
+)
+from rebsync.reverse.scaffold.facts import facts_of, package_name
 from rebsync.roundtrip.difference import (
     Added,
     Aspect,
@@ -24,24 +36,13 @@ from rebsync.roundtrip.difference import (
     Renamed,
 )
 from rebsync.roundtrip.digests import Standing
+from rebsync.roundtrip.kept import Kept
 from rebsync.roundtrip.manifest import BASE
-from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
 from rebsync.roundtrip.units import manifest_of
-from rebsync.roundtrip.wiring_facts import (
-    CLOCK,
-    CONSTANT,
-    NOT_GIVEN,
-    PLAYED,
-    PROGRAM,
-    SPACE,
-    TYPE,
-    Fact,
-    Facts,
-    facts_of,
-    package_name,
-)
-from rebsync.roundtrip.wiring_names import TOPICS, Joined, is_about, joined, replaced
+from rebsync.roundtrip.wiring_defaults import is_always_given
+from rebsync.roundtrip.wiring_fields import hand_on_alike, is_told_of
+from rebsync.roundtrip.wiring_names import TOPICS, Joined, is_about, joined, leads_in, replaced
 from rebsync.source import NOWHERE, Source
 
 _WIRED = (
@@ -86,11 +87,15 @@ _SETTINGS = {
 
 @dataclass(frozen=True, slots=True)
 class Odd:
-    """Facts of one key that are not as they were; one of the two may be missing."""
+    """Facts of one key that are not as they were; one of the two may be missing.
+
+    Without any, nodes are joined otherwise all the same: `is_lost` says that messages get lost.
+    """
 
     before: tuple[Fact, ...]
     now: tuple[Fact, ...]
     finding: Findings
+    is_lost: bool = False
 
 
 def odd_facts(kept: Kept, record: Record, now: Standing, of_code: Comparison) -> tuple[Odd, ...]:
@@ -111,7 +116,7 @@ def odd_facts(kept: Kept, record: Record, now: Standing, of_code: Comparison) ->
     base, free = replaced(facts_of(old_paths, old), today)
     sides = joined(base, free), joined(today, free)
     files = frozenset(name.rpartition("/")[2] for name in listed)
-    excuses = _Excuses(base, today, _groups(of_code), files, *sides)
+    excuses = _Excuses(base, today, of_code, _groups(of_code), files, *sides)
     keys = [*base, *(k for k in today if k not in base)]
     found = [
         odd
@@ -119,7 +124,8 @@ def odd_facts(kept: Kept, record: Record, now: Standing, of_code: Comparison) ->
         if not excuses.hold(key)
         and (odd := _odd(kept, base.get(key, []), today.get(key, []))) is not None
     ]
-    is_told = any(f.kind in ("remap", *TOPICS) for odd in found for f in (*odd.before, *odd.now))
+    told = (o for o in found if o.finding.diagnostics[0].message not in record.accepted)
+    is_told = any(f.kind in ("remap", *TOPICS) for odd in told for f in (*odd.before, *odd.now))
     return (*found, *(() if is_told else _unseen(kept, excuses)))
 
 
@@ -151,9 +157,11 @@ def _odd(kept: Kept, before: list[Fact], now: list[Fact]) -> Odd | None:
 def _is_missed(fact: Fact) -> bool:
     """Whether extraction tells that something is gone.
 
-    In Python it knows a server by the function that receives, whatever this one listens to.
+    It knows a server by what a class sends itself as well, whatever the class listens to; in Python
+    by the function that receives.
     """
-    is_heard = fact.kind in ("subscription", "sensor") and not fact.source.path.endswith(".cpp")
+    is_cpp = fact.source.path.endswith(".cpp")
+    is_heard = fact.kind == "subscription" or (fact.kind == "sensor" and not is_cpp)
     return fact.kind in _MISSED and not is_heard
 
 
@@ -206,7 +214,8 @@ def _unseen(kept: Kept, excuses: _Excuses) -> Iterator[Odd]:
     """What is joined otherwise, though no fact that was there before is another."""
     if excuses.groups or excuses.before is None or excuses.now is None:
         return
-    if (what := excuses.before.lacks(excuses.now)) is not None:
+    lost = excuses.before.loses(excuses.now)
+    if (what := lost or excuses.before.gains(excuses.now)) is not None:
         message = f"nodes are joined otherwise: {what}"
         hint = "look at the names of topics in the code and in the launch file"
         new = (f for key, facts in excuses.today.items() if key not in excuses.base for f in facts)
@@ -214,7 +223,7 @@ def _unseen(kept: Kept, excuses: _Excuses) -> Iterator[Odd]:
         source = remap.source if remap is not None else Source(kept.root, "")
         span = remap.span if remap is not None else NOWHERE
         diagnostic = Diagnostic("RS956", span, message, hint)
-        yield Odd((), (), Findings(source, (diagnostic,)))
+        yield Odd((), (), Findings(source, (diagnostic,)), lost is not None)
 
 
 def _inside(kept: Kept, fact: Fact) -> str:
@@ -228,12 +237,14 @@ def _inside(kept: Kept, fact: Fact) -> str:
 class _Excuses:
     """Why facts may be otherwise.
 
-    `groups` are the classes and kinds whose wiring has to follow a change of the code, `files` the
-    names of all files. `before` and `now` are None where it is not known who is joined with whom.
+    `of_code` is what the code has changed, `groups` are the classes and kinds whose wiring has to
+    follow that, `files` the names of all files. `before` and `now` are None where it is not known
+    who is joined with whom.
     """
 
     base: Facts
     today: Facts
+    of_code: Comparison
     groups: frozenset[str]
     files: frozenset[str]
     before: Joined | None
@@ -248,6 +259,8 @@ class _Excuses:
             return True
         if self._has_moved(first) or self._is_renamed(key) or self._follows(first):
             return True
+        if first.kind == "default" and is_always_given(self.base, self.today, key):
+            return True
         if first.kind == "import" and key not in self.today:
             return not self._is_named(first)
         if first.kind == "parameters" and key not in self.base:
@@ -257,7 +270,9 @@ class _Excuses:
         if first.kind == "node" and first.name == CLOCK:
             return self._are_by_one_clock
         if first.kind == "field":
-            return self._types(self.base, first.owner) == self._types(self.today, first.owner)
+            return is_told_of(first, self.base, self.today, self.of_code)
+        if first.kind in ("receiving", "sending"):
+            return hand_on_alike(self.base[key], self.today.get(key, ()), self.today)
         return (first.kind == "remap" or first.kind in TOPICS) and self._same_are_joined(key)
 
     @property
@@ -281,11 +296,6 @@ class _Excuses:
     @property
     def _nodes(self) -> frozenset[str]:
         return frozenset(owner for kind, owner, _ in self.base if kind == TYPE)
-
-    def _types(self, facts: Facts, message: str) -> list[str]:
-        """The types of a message's fields in their order; extraction tells if names do not fit."""
-        owned = (found for (kind, m, _), found in facts.items() if (kind, m) == ("field", message))
-        return [fact.value for found in owned for fact in found]
 
     def _has_moved(self, fact: Fact) -> bool:
         """Whether a fact is about a file that is somewhere else, or called otherwise."""
@@ -351,8 +361,12 @@ class _Excuses:
         """Whether all are joined as they were, whatever topics are called."""
         if self.before is None or self.now is None or not self.now.is_as(self.before):
             return False
-        if len({fact.value for fact in self.today.get(key, ())}) > 1:
+        now = self.today.get(key, ())
+        if len({fact.value for fact in now}) > 1:
             return False  # which of them counts depends on their order
+        is_new = key[0] == "remap" and key[1] and key not in self.base
+        if is_new and any(leads_in(self.now, self.today, fact) for fact in now):
+            return False
         shapes = ({_shape(f) for f in facts.get(key, ())} for facts in (self.base, self.today))
         return key[0] == "remap" or len(set(map(frozenset, shapes))) == 1
 

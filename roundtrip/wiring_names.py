@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from rebsync.records import dataclass
-from rebsync.roundtrip.wiring_facts import NOT_GIVEN, PLAYED, PROGRAM, TYPE, Fact, Facts
+from rebsync.reverse.scaffold.fact import NOT_GIVEN, PLAYED, PROGRAM, TYPE, Fact, Facts
 
 _INSTANCES = ("parameter", "", "mailbox/instances")
 _LISTED = re.compile(r"(\w+):\[([^\]]*)\]")
@@ -60,12 +60,15 @@ class Joined:
         """Whether the same ends are joined, and the names of the others are the same."""
         return (self.pairs, self.alone) == (other.pairs, other.alone)
 
-    def lacks(self, other: Joined) -> str | None:
-        """What of messages between nodes is no longer joined as it is here, if anything."""
-        before, now = self._messages(), other._messages()
-        for one, to in sorted(before - now, key=str):
+    def loses(self, other: Joined) -> str | None:
+        """What of messages between nodes that arrive here does not there, if anything."""
+        for one, to in sorted(self._messages() - other._messages(), key=str):
             return f"what {one.node} sends to {to.name} of {to.node} does not get there"
-        for one, to in sorted(now - before, key=str):
+        return None
+
+    def gains(self, other: Joined) -> str | None:
+        """What of messages between nodes arrives there only, if anything."""
+        for one, to in sorted(other._messages() - self._messages(), key=str):
             return f"what {one.node} sends as {one.message} also gets to {to.name} of {to.node}"
         return None
 
@@ -117,10 +120,21 @@ def is_about(joined: Joined | None, facts: Facts, remap: Fact) -> bool:
     """Whether a remap is of a topic, or to a topic, by which nodes of the package are joined."""
     if joined is None or not remap.owner:
         return joined is None or _common(remap) in joined.names
+    node = _Node(facts, remap.owner)
     try:
-        return _Node(facts, remap.owner).resolved(remap.name) in joined.names
+        return any(node.resolved(name) in joined.names for name in (remap.name, remap.value))
     except _Unknown:
         return True
+
+
+def leads_in(joined: Joined, facts: Facts, remap: Fact) -> bool:
+    """Whether a remap gives a topic of something else the name of one of the package."""
+    node = _Node(facts, remap.owner)
+    try:
+        old, new = node.resolved(remap.name), node.resolved(remap.value)
+    except _Unknown:
+        return True
+    return old not in joined.names and new in joined.names
 
 
 def _common(remap: Fact) -> str:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 
+from rebsync.reverse.scaffold.fact import NOT_GIVEN, Fact
 from rebsync.roundtrip.difference import Aspect, Changed, Depth, Element, Place
 from rebsync.roundtrip.sides import Given, Item, Side, side
 from rebsync.roundtrip.wiring import Odd
-from rebsync.roundtrip.wiring_facts import NOT_GIVEN, Fact
 
 _STRING = re.compile(r'"([^"]*)"')
 

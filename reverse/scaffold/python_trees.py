@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 
+from rebsync.reserved import RUNTIME_HEADERS
 from rebsync.reverse.python.log_words import HARMLESS, LOGS
 from rebsync.source import Source, Span
+
+# The modules of the run-time part.
+MODULE = re.compile(rf"(?:.*/)?(?:__init__|{'|'.join(RUNTIME_HEADERS)})\.py\Z")
 
 
 def tree_of(source: Source) -> ast.Module | None:
@@ -116,3 +121,40 @@ def bindings(tree: ast.Module) -> dict[str, tuple[str, ast.stmt]]:
             case _:
                 pass
     return found
+
+
+def one_by_one(function: ast.FunctionDef) -> ast.FunctionDef:
+    """A function that sends, with the fields of its message set one by one, as it is generated."""
+    if "when" not in [a.arg for a in function.args.args]:
+        return function
+    body: list[ast.stmt] = []
+    for statement in function.body:
+        match statement:
+            case ast.Assign([ast.Name(variable)], ast.Call(message, [], [_, *_] as fields)):
+                body += _set(variable, message, fields, statement)
+            case ast.Expr(
+                ast.Call(
+                    ast.Attribute(_, "publish") as of, [by, ast.Call(message, [], fields), when]
+                )
+            ):
+                body += _set("msg", message, fields, statement)
+                call = ast.Call(of, [by, ast.Name("msg", ast.Load()), when], [])
+                body.append(ast.copy_location(ast.Expr(call), statement))
+            case _:
+                body.append(statement)
+    made = ast.FunctionDef(
+        function.name, function.args, body, function.decorator_list, function.returns
+    )
+    return ast.copy_location(made, function)
+
+
+def _set(
+    variable: str, message: ast.expr, fields: list[ast.keyword], at: ast.stmt
+) -> Iterator[ast.stmt]:
+    """The statements that make a message and set its fields."""
+    made = ast.Assign([ast.Name(variable, ast.Store())], ast.Call(message, [], []))
+    yield ast.fix_missing_locations(ast.copy_location(made, at))
+    for each in fields:
+        place = ast.Attribute(ast.Name(variable, ast.Load()), each.arg or "**", ast.Store())
+        one = ast.copy_location(ast.Assign([place], each.value), at)
+        yield ast.fix_missing_locations(one)

@@ -1,0 +1,119 @@
+"""The facts of a CMakeLists.txt: programs and their sources, options, what is installed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+
+from rebsync.reverse.build.cmake_text import Argument, Block, Command, Item, read_cmake
+from rebsync.reverse.scaffold.fact import Fact
+from rebsync.reverse.scaffold.texts import squeezed
+from rebsync.source import Source, Span
+
+_OPTION = re.compile(r"(?:^|[\s\"])((?:-D|-U|-f|-include)\s*[^\s\"]+)")
+_SCOPES = frozenset({"PRIVATE", "PUBLIC", "INTERFACE"})
+_DEFINING = "COMPILE_DEFINITIONS"
+_MESSAGES = frozenset({"rosidl_generate_interfaces", "add_message_files"})
+_SCRIPT = re.compile(r"scripts/(\w+)")
+_MESSAGE = re.compile(r"(?:.*/)?(\w+)\.msg")
+
+
+def facts_of_build(source: Source) -> Iterator[Fact]:
+    """The facts of a file, whatever conditions its commands are under."""
+    commands = list(_commands(read_cmake(source).items))
+    names = dict(filter(None, map(_named, commands)))
+    for command in commands:
+        words = [argument.text for argument in command.arguments]
+        for fact in (*_compiled(command, words), *_made(command, words, names)):
+            kind, owner, name, value, span = fact
+            yield Fact(kind, owner, name, value, source, span)
+
+
+_Told = tuple[str, str, str, str, Span]
+
+
+def _commands(items: Iterable[Item]) -> Iterator[Command]:
+    for item in items:
+        match item:
+            case Block(head, body, others):
+                yield head
+                yield from _commands(body)
+                for branch, inside in others:
+                    yield branch
+                    yield from _commands(inside)
+            case Command():
+                yield item
+
+
+def _named(command: Command) -> tuple[str, str] | None:
+    """A target and the name that its program gets."""
+    words = [argument.text for argument in command.arguments]
+    if command.name != "set_target_properties" or "OUTPUT_NAME" not in words[:-1]:
+        return None
+    return words[0], words[words.index("OUTPUT_NAME") + 1]
+
+
+def _compiled(command: Command, words: Sequence[str]) -> Iterator[_Told]:
+    """The options of the compiler that change what code means."""
+    for option in _OPTION.findall(" ".join(words)):
+        yield "compiler option", "", squeezed(option), "given", command.span
+    defined: Sequence[str] = ()
+    match command.name:
+        case "add_compile_definitions":
+            defined = words
+        case "target_compile_definitions":
+            defined = words[1:]
+        case _ if _DEFINING in words:
+            defined = words[words.index(_DEFINING) + 1 :]
+    for word in sorted({*defined} - _SCOPES):
+        option = f"-D{word.removeprefix('-D')}"
+        yield "compiler option", "", option, "given", command.span
+
+
+def _made(command: Command, words: Sequence[str], names: dict[str, str]) -> Iterator[_Told]:
+    """What is built, and what is installed."""
+    span = command.span
+    match command.name:
+        case "add_executable" if words:
+            target = names.get(words[0], words[0])
+            for path in words[1:]:
+                at = command.arguments[0].span
+                yield "source of a program", target, path.rpartition("/")[2], "there", at
+        case "add_library" if words:
+            for path in (w.rpartition("/")[2] for w in words[1:]):
+                if "." in path:
+                    at = command.arguments[0].span
+                    yield "source of a program", words[0], path, "there", at
+        case "set_target_properties" if words:
+            target = names.get(words[0], words[0])
+            shown = (f'"{w}"' if w == "" else w for w in words[1:])
+            yield "name of a program", target, "", squeezed(" ".join(shown)), span
+        case "install" | "catkin_install_python":
+            yield from _installed(command.arguments, names)
+        case "generate_messages":
+            yield "code of the messages", "", "", "generated", span
+        case "catkin_python_setup":
+            yield "Python package", "", "", "built", span
+        case "rclcpp_components_register_nodes":
+            for name in (w.rpartition("::")[2] for w in words[1:]):
+                yield "component in the build", name, "", "there", span
+        case name if name in _MESSAGES:
+            for found in filter(None, map(_MESSAGE.fullmatch, words)):
+                yield "message", "", found[1], "generated", span
+        case _:
+            pass
+
+
+def _installed(arguments: Sequence[Argument], names: dict[str, str]) -> Iterator[_Told]:
+    """The programs and folders that one command installs."""
+    kind = ""
+    for argument in arguments:
+        text, span = argument.text, argument.span
+        if text.isupper():
+            kind = text
+        elif kind == "TARGETS":
+            yield "installed program", "", names.get(text, text), "there", span
+        elif kind == "DIRECTORY" and not text.startswith("include"):  # no node needs headers there
+            yield "installed folder", "", text.strip("/"), "there", span
+        elif (script := _SCRIPT.fullmatch(text)) is not None:
+            yield "installed program", "", script[1], "there", span

@@ -1,0 +1,80 @@
+"""The facts that join generated nodes: topics, remaps, fields of messages, programs.
+
+They are read from each file alone, whatever the model says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from contextlib import suppress
+from functools import lru_cache
+from pathlib import Path
+
+from rebsync.diagnostics import RebsyncError
+from rebsync.files import BOM, read_bytes, read_source
+from rebsync.reverse.files.python_files import is_python
+from rebsync.reverse.launch.xml_tree import text_below
+from rebsync.reverse.scaffold.build_file import facts_of_build
+from rebsync.reverse.scaffold.cpp import facts_in_cpp
+from rebsync.reverse.scaffold.fact import Fact, Facts
+from rebsync.reverse.scaffold.launch_python import facts_of_python_launch
+from rebsync.reverse.scaffold.launch_xml import facts_of_launch
+from rebsync.reverse.scaffold.settings import (
+    facts_of_message,
+    facts_of_other_package,
+    facts_of_parameters,
+    facts_of_setup,
+)
+from rebsync.source import Source
+
+
+def package_name(path: str) -> str:
+    """The name of a package by its `package.xml`; empty where that does not tell."""
+    with suppress(RebsyncError):
+        return (text_below(read_source(path), "name") or "").strip()
+    return ""
+
+
+def facts_of(paths: Mapping[str, str], package: str = "") -> Facts:
+    """The facts in files of a package of that name, by their keys; `paths` are by names inside."""
+    found: Facts = {}
+    for name, path in sorted(paths.items()):
+        with suppress(RebsyncError):  # what cannot be read, extraction lists
+            source = Source(path, _text(read_bytes(path)))
+            for fact in _told(name, source, package):
+                found.setdefault(fact.key, []).append(fact)
+    return found
+
+
+@lru_cache(maxsize=256)  # most texts are there as they were and as they are, and asked for again
+def _told(name: str, source: Source, package: str) -> tuple[Fact, ...]:
+    return tuple(_of_file(name, source, package))
+
+
+def _text(data: bytes) -> str:
+    """The text of a file; an odd byte, which extraction lists, changes only what it is in."""
+    return data.removeprefix(BOM).decode("utf-8", "replace").replace("\r\n", "\n")
+
+
+def _of_file(name: str, source: Source, package: str) -> Iterable[Fact]:
+    match name.rpartition("/")[2]:
+        case last if last.endswith((".msg", ".srv", ".action")):
+            return facts_of_message(source, package)
+        case last if last.endswith(".yaml"):
+            return facts_of_parameters(source)
+        case last if last.endswith("package.xml"):
+            return facts_of_other_package(source, package)
+        case last if last.endswith(".cfg"):
+            return facts_of_setup(source)
+        case last if last.endswith(".txt"):
+            return facts_of_build(source)
+        case last if last.endswith(".launch.py"):
+            return facts_of_python_launch(source, package)
+        case last if last.endswith(".launch"):
+            return facts_of_launch(source, package)
+        case _ if is_python(name, source):
+            from rebsync.reverse.scaffold.python import facts_in_python
+
+            return facts_in_python(name, source, package)
+        case last:
+            return facts_in_cpp(Path(last).stem, source)

@@ -1,0 +1,171 @@
+"""The facts of a launch file in Python: what each node is started with."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+
+from rebsync.reverse.launch.launch_files_ros2 import read_ros2_launch
+from rebsync.reverse.launch.launch_python import bound_once
+from rebsync.reverse.scaffold.fact import (
+    CLOCK,
+    NOT_GIVEN,
+    OWN,
+    TYPE,
+    Fact,
+    has_bearing,
+    is_of_runtime,
+)
+from rebsync.reverse.scaffold.prefixes import is_harmless
+from rebsync.reverse.scaffold.texts import is_of_package
+from rebsync.source import Source, Span
+
+# What decides how a node runs, or what it is told beside the model's; `output` only shows.
+_KEYWORDS = (
+    *("respawn", "arguments", "ros_arguments", "prefix"),
+    *("additional_env", "env", "condition"),
+)
+_ACTIONS = frozenset({"ComposableNode", "LifecycleNode", "Node"})
+_CONFIGURING = frozenset({"DeclareLaunchArgument", "SetLaunchConfiguration"})
+
+
+def facts_of_python_launch(source: Source, package: str) -> Iterator[Fact]:
+    """What it starts, and what else it says of that."""
+    launch = read_ros2_launch(source, lambda _: None)
+    for unknown in launch.unknowns:
+        said = source.text[unknown.span.start : unknown.span.end]
+        if not is_of_package(said, package):
+            yield Fact("unknown", "", unknown.what, unknown.why, source, unknown.span)
+    for node in launch.nodes:
+        name = str(node.name)
+        of = OWN if node.package == package else str(node.package)
+        facts = {"pkg": of, "ns": str(node.namespace), "if": " ".join(node.only_if)}
+        for key, value in facts.items():
+            yield Fact("node", name, key, value or NOT_GIVEN, source, node.span)
+        yield Fact(TYPE, name, "", str(node.type), source, node.span)
+        for remap in node.remaps:
+            yield Fact("remap", name, remap.private, str(remap.target), source, remap.span)
+        clocks = [repr(p.value) for p in node.parameters if p.name == CLOCK]
+        yield Fact("node", name, CLOCK, (clocks or [NOT_GIVEN])[-1], source, node.span)
+        for given in node.parameters:
+            section = given.name.partition("/")[0]
+            is_constant = section == "env"  # whose value is read where parameters are
+            kind = "setting" if is_constant or has_bearing(given.name) else "parameter"
+            if is_constant or is_of_runtime(section):
+                yield Fact(kind, name, given.name, repr(given.value), source, given.span)
+    yield from _actions(source)
+
+
+def _actions(source: Source) -> Iterator[Fact]:
+    """What else a node is given, and its files of parameters."""
+    try:
+        tree = ast.parse(source.text)
+    except (SyntaxError, ValueError):
+        return  # what cannot be read, extraction lists
+    names = bound_once(tree)
+    for each in _prefixes(tree):
+        yield Fact("setting", "", "launch-prefix", "given", source, _span(source, each))
+    for call in (n for n in ast.walk(tree) if isinstance(n, ast.Call)):
+        given = {k.arg: k.value for k in call.keywords if k.arg is not None}
+        if _called(call) == "GroupAction" and "condition" in given:
+            value = ast.unparse(given["condition"])
+            yield Fact("group of nodes", "", value, "there", source, _span(source, call))
+        if _called(call) not in _ACTIONS:
+            continue
+        name = given.get("name")
+        node = str(name.value) if isinstance(name, ast.Constant) else ""
+        span = _span(source, call)
+        for key in _KEYWORDS:
+            value = _said(given[key], names) if key in given else "not given"
+            if key in given and _is_idle(key, given[key], names):
+                value = "not given"
+            yield Fact("node", node, key, value, source, span)
+        files = _files(given.get("parameters"), names)
+        told = " and ".join(files) or "none"
+        yield Fact("node", node, "parameter file", told, source, span)
+
+
+def _prefixes(tree: ast.Module) -> Iterator[ast.expr]:
+    """Where all nodes may be given a prefix: by its name, or an argument by a name that is made."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and _is_text(node, "launch-prefix"):
+            yield node
+        if isinstance(node, ast.Call) and _called(node) in _CONFIGURING:
+            given = (*node.args[:1], *(k.value for k in node.keywords if k.arg in ("name", None)))
+            yield from (each for each in given if not isinstance(each, ast.Constant))
+
+
+def _is_idle(key: str, value: ast.expr, names: Mapping[str, ast.expr]) -> bool:
+    """Whether what a node is given changes nothing of what it does."""
+    match key:
+        case "arguments":
+            return _only_logs(value)
+        case "prefix":
+            found = _resolved(value, names)
+            parts = found.elts if isinstance(found, ast.List | ast.Tuple) else [found]
+            texts = [p.value for p in parts if isinstance(p, ast.Constant)]
+            said = [text for text in texts if isinstance(text, str)]
+            return len(said) == len(parts) and is_harmless("".join(said))
+        case _:
+            return False
+
+
+def _only_logs(value: ast.expr) -> bool:
+    """Whether a node is only told what to log: `["--ros-args", "--log-level", "debug"]`."""
+    if not isinstance(value, ast.List | ast.Tuple):
+        return False
+    items = list(value.elts)
+    if items and _is_text(items[0], "--ros-args"):
+        items = items[1:]
+    pairs = list(zip(items[::2], items[1::2], strict=False))
+    return len(items) % 2 == 0 and all(
+        _is_text(option, "--log-level") and not isinstance(level, ast.Starred)
+        for option, level in pairs
+    )
+
+
+def _is_text(node: ast.expr, text: str) -> bool:
+    return isinstance(node, ast.Constant) and node.value == text
+
+
+def _said(value: ast.expr, names: Mapping[str, ast.expr]) -> str:
+    """What a node is given, but for the least severity that it logs."""
+    found = _resolved(value, names)
+    if not isinstance(found, ast.List | ast.Tuple):
+        return ast.unparse(value)
+    said = [ast.unparse(each) for each in found.elts]
+    level = said.index("'--log-level'") if "'--log-level'" in said else len(said)
+    return ", ".join(said[:level] + said[level + 2 :])
+
+
+def _files(value: ast.expr | None, names: Mapping[str, ast.expr]) -> Iterable[str]:
+    """The names of the files that parameters come from."""
+    listed = _resolved(value, names)
+    for item in listed.elts if isinstance(listed, ast.List | ast.Tuple) else []:
+        source = _resolved(item, names)
+        if source is not None and not isinstance(source, ast.Dict):
+            texts = [n for n in ast.walk(source) if isinstance(n, ast.Constant)]
+            last = max(texts, key=lambda n: (n.lineno, n.col_offset), default=None)
+            yield Path(str(last.value)).name if last is not None else ast.unparse(source)
+
+
+def _resolved(value: ast.expr | None, names: Mapping[str, ast.expr]) -> ast.expr | None:
+    for _ in names:
+        if isinstance(value, ast.Name):
+            value = names.get(value.id, value)
+    return value
+
+
+def _called(call: ast.Call) -> str:
+    match call.func:
+        case ast.Name(id=name) | ast.Attribute(attr=name):
+            return name
+        case _:
+            return ""
+
+
+def _span(source: Source, node: ast.expr) -> Span:
+    start = source.start_of(node.lineno) + node.col_offset
+    told = _called(node) if isinstance(node, ast.Call) else ast.unparse(node)
+    return Span(start, start + len(told))

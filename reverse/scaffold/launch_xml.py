@@ -1,0 +1,119 @@
+"""The facts of a launch file in XML: of each node its package, type, namespace and remaps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+from rebsync.records import dataclass
+from rebsync.reverse.launch.xml_tree import Element, read_xml
+from rebsync.reverse.scaffold.fact import NOT_GIVEN, OWN, SPACE, TYPE, Fact, has_bearing
+from rebsync.reverse.scaffold.prefixes import is_harmless
+from rebsync.reverse.scaffold.texts import conditions, is_of_package, space, squeezed
+from rebsync.reverse.unknowns import Unknown
+from rebsync.source import Source
+
+# The environment that has to do with what is shown only.
+_SHOWN = ("ROSCONSOLE_", "RCUTILS_", "ROS_LOG_DIR")
+
+
+def facts_of_launch(source: Source, package: str) -> Iterator[Fact]:
+    """The facts of a file; remaps outside of nodes, which all that follow have, are of no node."""
+    root = read_xml(source)
+    if not isinstance(root, Unknown):  # what cannot be read, extraction lists
+        yield from _Tags(source, package, frozenset(_nodes(root))).facts(root)
+
+
+def _nodes(element: Element) -> Iterator[str]:
+    """The names of the nodes in a tag."""
+    for each in element.elements():
+        if each.name == "node" and (name := each.attributes.get("name")) is not None:
+            yield name.value
+        yield from _nodes(each)
+
+
+@dataclass(frozen=True, slots=True)
+class _Tags:
+    """The tags in one place of a launch file: in the groups `around`, and in a node or in none.
+
+    `nodes` are the names of all nodes in the file.
+    """
+
+    source: Source
+    package: str
+    nodes: frozenset[str]
+    around: tuple[Mapping[str, str], ...] = ()
+    node: str = ""
+
+    def facts(self, element: Element) -> Iterator[Fact]:
+        """What a tag and those in it say."""
+        given = {name: attribute.value for name, attribute in element.attributes.items()}
+        yield from self._own(element, given)
+        inside = self
+        match element.name:
+            case "group":
+                inside = replace(self, around=(*self.around, given))
+            case "node":
+                inside = replace(self, node=given.get("name", ""))
+            case _:
+                pass
+        for each in element.elements():
+            yield from inside.facts(each)
+
+    def _own(self, element: Element, given: Mapping[str, str]) -> Iterator[Fact]:
+        name, value = given.get("name", ""), given.get("value", "")
+        is_absolute = name.startswith("/")  # whatever it is in
+        if element.name in ("param", "rosparam") and not (self.node or is_absolute):
+            yield self._fact(SPACE, "", str(element.span.start), space(self.around), element)
+        match element.name:
+            case "node":
+                yield from self._node(element, given)
+            case "env" if not name.startswith(_SHOWN):
+                yield self._fact("environment", self.node, name, value, element)
+            case "include" if not is_of_package(given.get("file", ""), self.package):
+                yield self._fact("launch file", "", given.get("file", ""), "included", element)
+            case "remap":
+                old, new = given.get("from", ""), given.get("to", "")
+                yield self._fact("remap", self.node, old, new, element)
+            case "rosparam" if self.node and not given.get("param", "").startswith("/"):
+                said = squeezed(element.text) or given.get("file", "")
+                yield self._fact("setting", self.node, given.get("param", ""), said, element)
+            case "rosparam" if element.text.strip() and "param" in given:
+                yield self._fact("parameter", "", given["param"], squeezed(element.text), element)
+            case "rosparam" if given.get("command") == "load":
+                loaded = given.get("file", "").rpartition("/")[2]
+                yield self._fact("parameter file", "", loaded, "loaded", element)
+            case "param" if has_bearing(name) and not (self.node and not is_absolute):
+                yield self._fact("setting", "", name.strip("/"), value, element)
+            case "param" if self._is_aside(name):
+                yield self._fact("setting", self.node, name, value, element)
+            case _:
+                pass
+
+    def _is_aside(self, name: str) -> bool:
+        """Whether a parameter may be another one than those that stand beside it are."""
+        if self.node:
+            return name.startswith("/")
+        return name.strip("/").partition("/")[0] in self.nodes
+
+    def _node(self, element: Element, given: Mapping[str, str]) -> Iterator[Fact]:
+        """What a node is, and what else than parameters and remaps it is started with."""
+        name, tags = given.get("name", ""), (*self.around, given)
+        told = {key: given.get(key, "") for key in ("pkg", "respawn", "args", "launch-prefix")}
+        if told["pkg"] == self.package:
+            told["pkg"] = OWN
+        if not _may_rename(told["args"]):
+            told["args"] = ""
+        if is_harmless(told["launch-prefix"]):
+            told["launch-prefix"] = ""
+        for key, value in {**told, "ns": space(tags), "if": conditions(tags)}.items():
+            yield self._fact("node", name, key, value or NOT_GIVEN, element)
+        yield self._fact(TYPE, name, "", given.get("type", ""), element)
+
+    def _fact(self, kind: str, owner: str, name: str, value: str, element: Element) -> Fact:
+        return Fact(kind, owner, name, value, self.source, element.span)
+
+
+def _may_rename(arguments: str) -> bool:
+    """Whether arguments of a program are more than what generated programs do not look at."""
+    return any(sign in arguments for sign in (":=", "$(", "__"))

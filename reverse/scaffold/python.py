@@ -1,0 +1,358 @@
+"""The facts that join nodes in Python, in the words of those of C++, and what sets nodes up.
+
+Extraction reads the bodies of the model, and which function serves or sends what. All else that a
+class does to that end is a fact here: a function that sends or receives, and each statement of the
+constructor.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import groupby
+from pathlib import Path
+
+from rebsync.names import uncarry
+from rebsync.records import dataclass
+from rebsync.reserved import NO_PYTHON_CLASSES
+from rebsync.reverse.scaffold.fact import PLAYED, PROGRAM, Fact, numbered
+from rebsync.reverse.scaffold.python_trees import (
+    MODULE,
+    bindings,
+    one_by_one,
+    plain,
+    said,
+    span_of,
+    tree_of,
+)
+from rebsync.source import Source
+
+_READS = frozenset({"rospy.get_param", "declared", "read_array", "declare_array"})
+_CONNECTING = {"subscribe": "subscribe", "subscribe_on_bridge": "subscribeOnBridge"}
+_UNSET = re.compile(r"(?:int|Byte|Short|Float|float|bool|Rebec)\(\)\Z|array\(")
+_FILLS = re.compile(r"_local\d+\.\w+ = \w+\Z")
+_OF_ROS = frozenset({"rospy", "rclpy"})
+_ENTRY = re.compile(r"\s*(\w+)\s*=\s*([\w.]+:\w+)\s*\Z")
+
+
+def facts_in_python(name: str, source: Source, package: str) -> Iterator[Fact]:
+    """The facts in a file of Python, of a package of that name."""
+    tree = None if MODULE.match(name) else tree_of(source)
+    if tree is None:
+        return  # it is of the run-time part, or extraction lists it
+    if name.rpartition("/")[2] == "setup.py":
+        yield from _entries(source, tree, package)
+        return
+    classes = [c for c in tree.body if isinstance(c, ast.ClassDef) and _is_node(c)]
+    found = [f for c in classes for f in _Class.of(source, tree, c).facts()]
+    if classes:
+        found += _imports(source, tree, classes[0], package)
+    else:
+        stem = Path(name).stem
+        found += _program(stem, source, tree)
+    yield from numbered(found)
+
+
+def _is_node(node: ast.ClassDef) -> bool:
+    """Whether it uses a mailbox that it does not make for others, as the run-time part does."""
+    functions = {f.name for f in node.body if isinstance(f, ast.FunctionDef)}
+    uses = (n for n in ast.walk(node) if isinstance(n, ast.Attribute) and n.attr == "_mailbox")
+    return bool(functions & {"__init__", "_wire"}) and any(uses) and "construct" in ast.dump(node)
+
+
+# --- classes ------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Class:
+    """A class of nodes; `servers` are the descriptors of its module, `handlers` whom they serve."""
+
+    source: Source
+    owner: str
+    node: ast.ClassDef
+    servers: Mapping[str, ast.Call]
+    handlers: Mapping[str, str]
+
+    @classmethod
+    def of(cls, source: Source, tree: ast.Module, node: ast.ClassDef) -> _Class:
+        servers = {
+            target.id: value
+            for statement in tree.body
+            if isinstance(statement, ast.Assign)
+            for target, value in [(statement.targets[0], statement.value)]
+            if isinstance(target, ast.Name) and isinstance(value, ast.Call) and _is_server(value)
+        }
+        named = cls(source, uncarry(node.name, NO_PYTHON_CLASSES), node, servers, {})
+        handlers = {
+            handler: named.server(call.args[0])
+            for call in _calls(node, "self._mailbox.receive")
+            if len(call.args) == 5 and (handler := _handler(call.args[4]))
+        }
+        return cls(source, named.owner, node, servers, handlers)
+
+    def server(self, node: ast.expr) -> str:
+        """The server that a descriptor stands for."""
+        call = self.servers.get(ast.unparse(node))
+        return str(ast.literal_eval(call.args[0])) if call is not None else ast.unparse(node)
+
+    def fact(self, kind: str, name: str, value: str, at: ast.AST) -> Fact:
+        return Fact(kind, self.owner, name, value, self.source, span_of(self.source, at))
+
+    def facts(self) -> Iterator[Fact]:
+        """All that the class does beside what is in the model."""
+        used = {n.id for n in ast.walk(self.node) if isinstance(n, ast.Name)}
+        for name, call in self.servers.items():
+            if name in used:
+                rest = ", ".join(plain(a) for a in (*call.args[1:], *call.keywords))
+                yield self.fact("priority", self.server(ast.Name(name)), rest, call)
+        for function in self.node.body:
+            if not isinstance(function, ast.FunctionDef):
+                continue
+            function = one_by_one(function)
+            if function.name in ("__init__", "_wire"):
+                for statement in said(function.body):
+                    yield from self._set_up(function, statement)
+            elif receiving := list(_calls(function, "self._mailbox.receive")):
+                name = self.server(receiving[0].args[0]) if receiving[0].args else ""
+                yield self.fact("receiving", name, self._plain(function), function)
+            elif sent := self._sent(function):
+                yield self.fact("sending", sent, self._plain(function), function)
+
+    def _sent(self, function: ast.FunctionDef) -> str:
+        """What a function sends, to whom; empty for one that does not send."""
+        if "when" not in [a.arg for a in function.args.args]:
+            return ""
+        for call in _calls(function, "self._mailbox.post"):
+            return f"self.{self.server(call.args[0])}" if call.args else ""
+        for call in _calls(function, "self._mailbox.publish"):
+            made = [
+                ast.unparse(n.value.func)
+                for n in function.body
+                if isinstance(n, ast.Assign) and isinstance(n.value, ast.Call)
+            ]
+            return f"{made[0] if made else ''} by {ast.unparse(call.args[0])}" if call.args else ""
+        return ""
+
+    def _plain(self, function: ast.FunctionDef) -> str:
+        """What a function says, whatever it and its parameters are called."""
+        names = {a.arg: f"_{i}" for i, a in enumerate(function.args.args) if i and a.arg != "when"}
+        stored = [n.id for n in ast.walk(function) if _is_stored(n) and isinstance(n, ast.Name)]
+        names |= {name: f"_local{i}" for i, name in enumerate(dict.fromkeys(stored))}
+        names |= {name: f"server_{self.server(ast.Name(name))}" for name in self.servers}
+        text = plain(function, names)
+        text = re.sub(r"\b(?:functools\.)?partial\((self\.\w+)(?:, )?", r"lambda: \1(", text)
+        for handler, server in self.handlers.items():
+            text = re.sub(rf"\bself\.{handler}\b(?=\(|\))", f"self.<{server}>", text)
+        text = re.sub(r"\blambda: (self\.[\w<>]+)\(\)", r"\1", text)
+        _, _, body = text.partition("\n    ")
+        defaults = [f"by default {plain(d)}" for d in function.args.defaults]
+        return "; ".join([*defaults, *_in_order(line.strip() for line in body.split("\n"))])
+
+    # --- set up ---------------------------------------------------------------------------------
+
+    def _set_up(self, function: ast.FunctionDef, statement: ast.stmt) -> Iterator[Fact]:
+        match statement:
+            case ast.Assign([ast.Attribute(ast.Name("self"), member)], value):
+                yield from self._member(member, value, statement)
+            case ast.AnnAssign(ast.Attribute(ast.Name("self"), member), _, value) if value:
+                yield from self._member(member, value, statement)
+            case ast.AnnAssign(ast.Name(argument), _, value) if value:
+                yield from self._member(argument, value, statement)
+            case ast.Expr(ast.Call() as call):
+                names = {name: f"_{i}" for i, name in enumerate(_arguments(function), 1)}
+                yield self.fact("set-up", ast.unparse(call.func), plain(call, names), statement)
+            case _:
+                return  # extraction lists what it does not know
+
+    def _member(self, member: str, value: ast.expr, at: ast.stmt) -> Iterator[Fact]:
+        called = ast.unparse(value.func) if isinstance(value, ast.Call) else ""
+        arguments = value.args if isinstance(value, ast.Call) else []
+        method = called.removeprefix("self._mailbox.")
+        if called == "Mailbox":
+            rest = [plain(a) for a in arguments if ast.unparse(a) not in ("node", "self")][1:]
+            yield self.fact("best priority", "", ", ".join(rest) or "none", at)
+        elif method != called:
+            yield from self._connected(member, method, arguments, at)
+        elif called == "Sensor":
+            topic = _text(arguments[-2]) if len(arguments) > 1 else ""
+            shown = plain(value).replace(repr(topic), "...")
+            yield self.fact("sensor", member.strip("_"), f'"{_private(topic)}"', at)
+            yield self.fact("set-up", member.strip("_"), shown, at)
+        elif (read := _parameter(value)) is not None:
+            key, default = read
+            yield self.fact("default", key, default, at)
+            shown = plain(_undescribed(value)).replace(f", {default}", ", ...", 1)
+            yield self.fact("set-up", key, shown, at)
+        elif not _UNSET.match(ast.unparse(value)):
+            yield self.fact("set-up", member.strip("_"), plain(value), at)
+
+    def _connected(
+        self, member: str, method: str, arguments: list[ast.expr], at: ast.stmt
+    ) -> Iterator[Fact]:
+        topic = _text(arguments[0]) if arguments else ""
+        message = plain(arguments[-1]) if arguments else ""
+        if method == "advertise" and len(arguments) == 2:
+            known = _private(topic).rpartition("/")[0]
+            word = "advertise" if _is_private(topic) else "advertise_elsewhere"
+            value = f'{word}<{message}>("{_private(topic)}")'
+            yield self.fact("publisher", f"{known} {message}", value, at)
+        elif method == "advertise_all" and len(arguments) == 3:
+            value = f'advertiseAll<{message}>("{topic}", "{_text(arguments[1])}")'
+            yield self.fact("publisher", message, value, at)
+        elif method in _CONNECTING and len(arguments) == 3:
+            shim = _handler(arguments[2])
+            on_bridge = method == "subscribe_on_bridge"
+            is_own = _is_private(topic) or on_bridge
+            word = _CONNECTING[method] if is_own else "subscribe_elsewhere"
+            value = f'{word} {plain(arguments[1])} "{_private(topic)}"'
+            yield self.fact("subscription", self._taken_by(shim), value, at)
+        else:
+            yield self.fact("set-up", member, f"{method}({', '.join(map(plain, arguments))})", at)
+
+    def _taken_by(self, shim: str) -> str:
+        """The server to whose messages a function listens."""
+        for function in self.node.body:
+            if isinstance(function, ast.FunctionDef) and function.name == shim:
+                for call in _calls(function, "self._mailbox.receive"):
+                    return self.server(call.args[0]) if call.args else shim
+        return shim
+
+
+# --- programs -----------------------------------------------------------------------------------
+
+
+def _program(stem: str, source: Source, tree: ast.Module) -> Iterator[Fact]:
+    """What a program makes a rebec of, or what sensors it plays."""
+    for node in ast.walk(tree):
+        match node:
+            case ast.Assign([ast.Name("rebec")], ast.Call(ast.Name(made), arguments)):
+                owner, span = uncarry(made, NO_PYTHON_CLASSES), span_of(source, node)
+                yield Fact(PROGRAM, stem, "", owner, source, span)
+                for read in filter(None, map(_parameter, arguments)):
+                    yield Fact("default", owner, *read, source, span)
+            case ast.Call(ast.Attribute(_, "create_publisher"), [_, topic, *_]) | ast.Call(
+                ast.Attribute(ast.Name("rospy"), "Publisher"), [topic, *_]
+            ):
+                name = _private(_text(topic))
+                yield Fact(PLAYED, stem, name, name, source, span_of(source, node))
+            case _:
+                pass
+
+
+def _entries(source: Source, tree: ast.Module, package: str) -> Iterator[Fact]:
+    """The programs that are installed, and the packages of Python."""
+    for node in ast.walk(tree):
+        match node:
+            case ast.Constant(str(text)) if (entry := _ENTRY.match(text)) is not None:
+                value = re.sub(rf"^{re.escape(package)}\.", "", entry[2])
+                span = span_of(source, node)
+                yield Fact("installed program", "", entry[1], value, source, span)
+            case ast.keyword("data_files", ast.List(listed)):
+                for each in listed:
+                    to, *files = each.elts if isinstance(each, ast.Tuple) else [each]
+                    name, text = plain(to), ", ".join(map(plain, files))
+                    yield Fact("installed file", "", name, text, source, span_of(source, each))
+            case ast.keyword("packages" | "package_dir" as name, value):
+                text = plain(value).replace(f"'{package}'", "package_name")
+                yield Fact("Python package", "", name, text, source, span_of(source, value))
+            case _:
+                pass
+
+
+def _imports(source: Source, tree: ast.Module, node: ast.ClassDef, package: str) -> Iterator[Fact]:
+    """What the names of the run-time part, of messages and of ROS stand for."""
+    owner = uncarry(node.name, NO_PYTHON_CLASSES)
+    for name, (of, statement) in bindings(tree).items():
+        head = of.partition(".")[0]
+        if head in _OF_ROS or head == package or head == f"{package}_interfaces":
+            inside = of.removeprefix(package)
+            yield Fact("import", owner, name, inside, source, span_of(source, statement))
+
+
+def _arguments(function: ast.FunctionDef) -> list[str]:
+    """What a constructor calls the model's arguments, passed to it or read by it."""
+    read = (s.target for s in function.body if isinstance(s, ast.AnnAssign))
+    own = [t.id for t in read if isinstance(t, ast.Name)]
+    return [a.arg for a in function.args.args[1:]] + own
+
+
+# --- parts --------------------------------------------------------------------------------------
+
+
+def _calls(node: ast.AST, name: str) -> Iterator[ast.Call]:
+    for each in ast.walk(node):
+        if isinstance(each, ast.Call) and ast.unparse(each.func) == name:
+            yield each
+
+
+def _in_order(lines: Iterable[str]) -> Iterator[str]:
+    """The lines of a function, those that only fill fields of its message in one order."""
+    for is_filling, group in groupby(lines, lambda line: bool(_FILLS.match(line))):
+        found = list(group)
+        yield from sorted(found) if is_filling else found
+
+
+def _is_server(value: ast.Call) -> bool:
+    match value:
+        case ast.Call(ast.Name("Server"), [ast.Constant(str()), *_]):
+            return True
+        case _:
+            return False
+
+
+def _is_stored(node: ast.AST) -> bool:
+    return isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
+
+
+def _handler(served: ast.expr) -> str:
+    match served:
+        case ast.Lambda(body=ast.Call(function)) | ast.Call(_, [function, *_]):
+            served = function
+        case ast.Lambda(body=body):
+            served = body
+        case _:
+            pass
+    return ast.unparse(served).removeprefix("self.")
+
+
+def _parameter(value: ast.expr) -> tuple[str, str] | None:
+    """The parameter that a value reads, wherever in it, and what stands in for it."""
+    if not isinstance(value, ast.Call):
+        return None
+    if ast.unparse(value.func) in _READS:
+        for number, argument in enumerate(value.args):
+            if isinstance(argument, ast.Constant) and isinstance(argument.value, str):
+                default = value.args[number + 1 : number + 2]
+                key = argument.value.replace(".", "/").lstrip("~")
+                return key, ast.unparse(default[0]) if default else ""
+    return next((r for a in value.args if (r := _parameter(a)) is not None), None)
+
+
+def _undescribed(value: ast.expr) -> ast.expr:
+    """A call without the description of the parameter that it declares."""
+    match value:
+        case ast.Call(ast.Name("declared" | "declared_array"), [*rest, ast.Constant(str())]):
+            return ast.Call(value.func, rest, value.keywords)
+        case ast.Call(of, [inner]):
+            return ast.Call(of, [_undescribed(inner)], value.keywords)
+        case _:
+            return value
+
+
+def _text(node: ast.expr) -> str:
+    """A text; code that is none as it is, which no topic is called."""
+    match node:
+        case ast.Constant(str(text)):
+            return text
+        case _:
+            return ast.unparse(node)
+
+
+def _is_private(topic: str) -> bool:
+    return topic.startswith(("~", "/"))
+
+
+def _private(topic: str) -> str:
+    """A topic below the node's own name without the sign of that."""
+    return topic.removeprefix("~").removeprefix("/") if topic.startswith("~") else topic

@@ -1,0 +1,112 @@
+"""Where generated C++ that no model describes is not as it was generated."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
+from itertools import zip_longest
+
+from rebsync.records import dataclass
+from rebsync.reserved import RUNTIME_HEADERS
+from rebsync.reverse.scaffold.cpp import MAIN
+from rebsync.source import Source, Span
+
+HEADER = re.compile(rf"include/[^/]+/(?:{'|'.join(RUNTIME_HEADERS)})\.h(?:pp)?\Z")
+_STAND_IN = re.compile(r"src/\w+_stand_in\.cpp\Z")
+_PROGRAM = re.compile(r"src/\w+_node\.cpp\Z")
+_INCLUDE = re.compile(
+    r'^[ \t]*#[ \t]*(?:include[ \t]*(?:<[^>\n]*>|("[^"\n]*"))|pragma once\b)', re.M
+)
+_OWN_NAME = re.compile(r'#include "(\w+)/|#ifndef (\w+)_\w+_H\b|#ifndef (\w+)__\w+_HPP_')
+# The end of a literal that would take what follows it for a part of its last character.
+_OPEN_ESCAPE = re.compile(r'\\(?:x[0-9a-fA-F]+|[0-7]{1,2})"\Z')
+# What a rebec is made of, extraction reads.
+_REBEC = re.compile(r"::\w+rebec\(node[,)]|.*(?:node\.param|readArray)\(")
+_LOGS = ("ROS_", "RCLCPP_", "printf(", "std::cout", "std::cerr")
+_TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"|\w+|\S', re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True)
+class _Piece:
+    """A token, or a statement without its layout, and its place."""
+
+    text: str
+    span: Span
+
+
+def may_be_cpp_runtime(name: str) -> bool:
+    """Whether a generated file may be of the run-time part, or a program."""
+    return any(pattern.match(name) for pattern in (HEADER, _STAND_IN, _PROGRAM))
+
+
+def first_cpp_difference(
+    name: str, base: Source, source: Source, own: frozenset[str]
+) -> Span | None:
+    """The first place that is another, if no model describes it; `own` names the package."""
+    if not HEADER.match(name) and not MAIN.search(base.text):
+        return None  # a class with such a name
+    cut = partial(_statements if _PROGRAM.match(name) else _tokens, own=own)
+    return _first_difference(base, source, cut)
+
+
+def _first_difference(
+    base: Source, source: Source, cut: Callable[[Source], Iterator[_Piece]]
+) -> Span | None:
+    """Where a text is not as another, the names of their packages apart."""
+    last = len(source.text.rstrip())
+    for old, new in zip_longest(cut(base), cut(source)):
+        if old is None or new is None or old.text != new.text:
+            return new.span if new is not None else Span(max(last - 1, 0), last)
+    return None
+
+
+def _tokens(source: Source, own: frozenset[str]) -> Iterator[_Piece]:
+    """The tokens of a text: first its own headers, in whatever order; those of libraries, none."""
+    found = _OWN_NAME.search(source.text)
+    every = {*own, *filter(None, found.groups() if found else ())}
+    names = {form for n in every for form in (n.lower(), n.upper())}
+    headers = [_Piece(m[1] or "", Span(*m.span())) for m in _INCLUDE.finditer(source.text)]
+    rest = _INCLUDE.sub(lambda m: " " * len(m[0]), source.text)
+    tokens = [_Piece(m[0], Span(*m.span())) for m in _TOKEN.finditer(rest)]
+    tokens = [t for t in tokens if not t.text.startswith(("//", "/*"))]
+    headers = sorted((h for h in headers if h.text), key=lambda h: h.text.rpartition("/")[2])
+    for piece in (*headers, *_with_whole_literals(tokens)):
+        text = piece.text
+        for name in names:
+            text = text.replace(name, "")
+        yield _Piece(text, piece.span)
+
+
+def _with_whole_literals(tokens: Iterable[_Piece]) -> Iterator[_Piece]:
+    """The tokens, with literals side by side as the one that they are to a compiler."""
+    last: _Piece | None = None
+    for token in tokens:
+        if last is not None and _continues(last.text, token.text):
+            last = _Piece(last.text[:-1] + token.text[1:], last.span.to(token.span))
+            continue
+        if last is not None:
+            yield last
+        last = token
+    if last is not None:
+        yield last
+
+
+def _continues(literal: str, other: str) -> bool:
+    are_both = literal[0] == '"' == other[0] and len(literal) > 1 and len(other) > 1
+    return are_both and _OPEN_ESCAPE.search(literal) is None
+
+
+def _statements(source: Source, own: frozenset[str]) -> Iterator[_Piece]:
+    """The statements of a program but for what it logs, and what it makes its rebec of."""
+    held: list[_Piece] = []
+    depth = 0
+    for token in _tokens(source, own):
+        held.append(token)
+        depth += (token.text in ("(", "[")) - (token.text in (")", "]"))
+        if depth == 0 and token.text in (";", "{", "}"):
+            text = "".join(piece.text for piece in held)
+            if not text.startswith(_LOGS) and not _REBEC.match(text):
+                yield _Piece(text, Span(held[0].span.start, token.span.end))
+            held = []
+    yield from held

@@ -1,0 +1,130 @@
+"""Where generated Python that no model describes is not as it was generated."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from itertools import zip_longest
+
+from rebsync.reverse.scaffold.python_trees import (
+    bindings,
+    said,
+    span_of,
+    tree_of,
+    without_types,
+)
+from rebsync.source import Source, Span
+
+_OTHERS = re.compile(r"(?:.*/)?(?:setup|\w+_sensors|\w+\.launch)\.py\Z")
+PYTHON = re.compile(r"(?:.*\.py|(?:.*/)?scripts/\w+)\Z")
+_CLASS = re.compile(r"^# rebsync: (?:reactiveclass|interface) ", re.M)
+_READS = re.compile(r"(?:rospy\.get_param|declared|read_array|declare_array)\(")
+_IMPORTS = (ast.Import, ast.ImportFrom)
+_TOLD = frozenset({"__version__", "__author__", "__license__", "__copyright__"})
+
+
+def is_python_runtime(name: str, generated: str) -> bool:
+    """Whether a generated file is one that no model describes; classes, extraction reads."""
+    if not PYTHON.match(name) or _OTHERS.match(name):
+        return False
+    return _CLASS.search(generated) is None
+
+
+def first_difference(base: Source, source: Source, own: frozenset[str]) -> Span | None:
+    """The first place that is another; `own` are the names of the package."""
+    old, new = tree_of(base), tree_of(source)
+    if old is None or new is None:
+        return None if base.text == source.text else Span(0, min(1, len(source.text)))
+    if (odd := _imported(old, new, own)) is not None:
+        return span_of(source, odd) if isinstance(odd, ast.stmt) else Span(0, 1)
+    old, new = without_types(old), without_types(new)
+    last = len(source.text.rstrip())
+    for one, other in zip_longest(_parts(old.body, own), _parts(new.body, own)):
+        if one is None or other is None or one[0] != other[0]:
+            return span_of(source, other[1]) if other is not None else Span(max(last - 1, 0), last)
+    return None
+
+
+def _imported(old: ast.Module, new: ast.Module, own: frozenset[str]) -> ast.stmt | bool | None:
+    """An import that brings something else; True where one is missing."""
+    before, now = bindings(old), bindings(new)
+    for name, (of, _) in before.items():
+        if name not in now:
+            return True
+        if _without(now[name][0], own) != _without(of, own):
+            return now[name][1]
+    used = {n.id for n in ast.walk(old) if isinstance(n, ast.Name)}
+    return next((now[name][1] for name in now if name not in before and name in used), None)
+
+
+def _without(text: str, own: frozenset[str]) -> str:
+    for name in own:
+        text = re.sub(rf"\b{re.escape(name)}(?=\b|_)", "", text)
+    return text
+
+
+def _is_told_to_people(statement: ast.stmt) -> bool:
+    """Whether it says who made a module, or which one it is."""
+    match statement:
+        case ast.Assign(targets=[ast.Name(id=name)], value=ast.Constant()):
+            return name in _TOLD
+        case _:
+            return False
+
+
+def _parts(body: list[ast.stmt], own: frozenset[str]) -> Iterator[tuple[str, ast.stmt]]:
+    """Each statement, what is inside of it apart, with its text."""
+    for statement in said(body):
+        if isinstance(statement, _IMPORTS) or _is_told_to_people(statement):
+            continue
+        inner = [getattr(statement, name, []) for name in ("body", "orelse", "finalbody")]
+        handlers = getattr(statement, "handlers", [])
+        if not any(inner) and not handlers:
+            text = "a rebec" if _makes_rebec(statement) else ast.unparse(statement)
+            yield _without(text, own), statement
+            continue
+        yield _without(_head(statement), own), statement
+        yield from _parts(inner[0], own)
+        for handler in handlers:
+            yield f"except {ast.unparse(handler.type) if handler.type else ''}", statement
+            yield from _parts(handler.body, own)
+        for name, each in zip(("else", "finally"), inner[1:], strict=True):
+            if each:
+                yield name, statement
+                yield from _parts(each, own)
+        yield "end", statement
+
+
+def _head(statement: ast.stmt) -> str:
+    """A statement without those inside of it."""
+    if isinstance(statement, ast.Try):
+        return "try"
+    fields = dict(ast.iter_fields(statement))
+    empty = {name: list[ast.stmt]() for name in fields if name in ("orelse", "finalbody")}
+    copied = type(statement)(**{**fields, **empty, "body": [ast.Pass()]})
+    return ast.unparse(ast.fix_missing_locations(copied))
+
+
+def _makes_rebec(statement: ast.stmt) -> bool:
+    """Whether it makes a rebec of parameters as they are, which extraction reads."""
+    match statement:
+        case ast.Assign([ast.Name("rebec")], ast.Call(ast.Name(), arguments, [])):
+            return all(_is_read(a) for a in arguments)
+        case _:
+            return False
+
+
+def _is_read(argument: ast.expr) -> bool:
+    match argument:
+        case ast.Name("node"):
+            return True
+        case ast.Call(function, [inner], []) if ast.unparse(function) in _FORMATS:
+            return _is_read(inner)
+        case ast.Call():
+            return _READS.match(ast.unparse(argument)) is not None
+        case _:
+            return False
+
+
+_FORMATS = frozenset({"int8", "int16", "int32", "float32", "float64", "boolean", "Rebec"})

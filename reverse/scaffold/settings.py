@@ -1,0 +1,78 @@
+"""The facts of files that only say values: messages, parameters, manifests, `setup.cfg`."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from rebsync.reverse.scaffold.fact import CONSTANT, OWN, Fact, has_bearing
+from rebsync.source import Source, Span
+
+_PACKAGE = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
+
+_ENTRY = re.compile(r"^([ \t]*)(\w+):[ \t]*([^\n#]*?)[ \t]*(?:#.*)?$", re.MULTILINE)
+# A section of parameters in ROS 2 that is not for all nodes.
+_ONE_NODE = re.compile(r"^(?!/\*\*:)([^\s#][^\n]*):[ \t]*\n[ \t]+ros__parameters:", re.MULTILINE)
+_TYPES = {
+    "a whole number": re.compile(r"[+-]?(?:0x[\da-fA-F]+|\d[\d_]*)"),
+    "a fraction": re.compile(r"[+-]?(?:\d+\.\d*|\.\d+)(?:[eE][+-]?\d+)?"),
+    "a truth": re.compile(r"true|false|yes|no|on|off", re.IGNORECASE),
+}
+# How many metres a cell has, no model says, as long as it has some.
+_METRES = "metres"
+_FOLDER = re.compile(r"^(script_dir|install_scripts)[ \t]*=[ \t]*(\S+)", re.MULTILINE)
+_STATE = re.compile(r"^string server\nstring arguments$", re.MULTILINE)
+_FIELD = re.compile(r"^[ \t]*([\w/\[\]]+)[ \t]+(\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
+
+
+def facts_of_message(source: Source, package: str) -> Iterator[Fact]:
+    message = Path(source.path).stem
+    if _STATE.search(source.text):
+        return  # what a node tells of itself, and no other takes
+    for m in _FIELD.finditer(source.text):
+        type_ = m[1].removeprefix(f"{package}/")
+        yield Fact("field", message, m[2], type_, source, Span(*m.span()))
+
+
+def facts_of_parameters(source: Source) -> Iterator[Fact]:
+    """What in the parameters has a bearing on what nodes do, but for the values of constants."""
+    section = ""
+    for m in _ONE_NODE.finditer(source.text):
+        yield Fact(
+            "parameters", "", m[1].strip("\"'"), "given for it alone", source, Span(*m.span(1))
+        )
+    for m in _ENTRY.finditer(source.text):
+        if m[3] and (not m[1] or section == "env"):
+            yield Fact(CONSTANT, "", m[2], _type_of(m[3]), source, Span(*m.span(2)))
+        if not m[1] or not m[3]:
+            section = m[2]
+        elif has_bearing(name := f"{section}/{m[2]}"):
+            value = _METRES if name == "drive/cell_size" and _is_length(m[3]) else m[3]
+            yield Fact("parameter", "", name, value, source, Span(*m.span(2)))
+
+
+def _is_length(value: str) -> bool:
+    """Whether a value is a length, as all of ROS read it."""
+    is_plain = _type_of(value) == "a fraction" and "e" not in value.lower()
+    return is_plain and 0 < float(value) < math.inf
+
+
+def _type_of(value: str) -> str:
+    """The type that a value has in YAML, as ROS tells them apart."""
+    return next((name for name, pattern in _TYPES.items() if pattern.fullmatch(value)), "a text")
+
+
+def facts_of_setup(source: Source) -> Iterator[Fact]:
+    """Where a `setup.cfg` has programs installed, from where launch files start them."""
+    for m in _FOLDER.finditer(source.text):
+        yield Fact("folder of programs", "", m[1], m[2], source, Span(*m.span()))
+
+
+def facts_of_other_package(source: Source, package: str) -> Iterator[Fact]:
+    """The name of a package of messages beside the one of the nodes, `package`."""
+    found = _PACKAGE.search(source.text)
+    if found is not None and package and found[1] != package:
+        value = found[1].replace(package, OWN)
+        yield Fact("name of the package", "", "messages", value, source, Span(*found.span(1)))
