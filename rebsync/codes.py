@@ -220,6 +220,7 @@ STEP = {
 }
 
 DIFFERENCES = {
+    "RS970": "a body that the code writes otherwise than the model, and that does the same",
     "RS971": "an element that only the second of two models has",
     "RS972": "an element that only the first of two models has",
     "RS973": "an element that has another name in the second of two models",

@@ -25,7 +25,6 @@ _PUSHES = [
     "ARRIVAL",
     "DEADLINE",
     "WAITING",
-    "CHOOSE",
     "CHOICE",
 ]
 _POPS = [
@@ -294,7 +293,6 @@ def _pushes() -> dict[str, _Statement]:
         "ARRIVAL": "wrap(m->clock + m->message[ARRIVAL])",
         "DEADLINE": "m->message[DUE] == NO_DEADLINE ? FOREVER : wrap(m->clock + m->message[DUE])",
         "WAITING": "wrap(m->elapsed - m->message[ARRIVAL])",
-        "CHOOSE": "choose(m, $A)",
     }
     return {name: _push(text) for name, text in texts.items()}
 

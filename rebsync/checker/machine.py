@@ -316,7 +316,6 @@ _MOVES: dict[str, Operation] = {
     "ARRIVAL": _push(lambda m, i: wrap(m.clock + m.message.arrival)),
     "DEADLINE": _push(lambda m, i: m.deadline()),
     "WAITING": _push(lambda m, i: wrap(m.elapsed - m.message.arrival)),
-    "CHOOSE": _push(lambda m, i: m.choose(i.a)),
     "CHOICE": _push(lambda m, i: i.constants[m.choose(len(i.constants))]),
 }
 

@@ -26,6 +26,9 @@ NO_DEADLINE = 2**62  # sorts after every deadline, and does not move with time
 class Instruction(NamedTuple):
     """One step of the stack machine: the name of the operation and its operands.
 
+    A CONST that stands for a constant of the model has its kind and name among the texts: `b` is
+    the number of that text plus 1. Of a TABLE that is `a`, and `b` the first element.
+
     The constants of a send are marks: whether its `after` is certainly more than 0, and whether
     the receiver is the rebec itself; those of a delay are empty unless it certainly takes time.
     """

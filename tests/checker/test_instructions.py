@@ -35,7 +35,7 @@ OF_WHOLE = ("NEG", "INV", "NOT", "BYTE", "SHORT", "REAL")
 OF_REAL = ("FNEG", "WHOLE", "SINGLE", "SQRT")
 
 
-def _operations() -> Iterator[tuple[str, tuple[Cell, ...]]]:
+def operations() -> Iterator[tuple[str, tuple[Cell, ...]]]:
     chance = random.Random(2026)
     for ops, values in (((*ON_WHOLE, *COMPARED), WHOLE), (ON_REAL, REAL)):
         pairs = list(product(values, values))
@@ -46,7 +46,7 @@ def _operations() -> Iterator[tuple[str, tuple[Cell, ...]]]:
         yield op, (value,)
 
 
-def _result(program: Program, op: str, operands: tuple[Cell, ...]) -> Cell:
+def result(program: Program, op: str, operands: tuple[Cell, ...]) -> Cell:
     """What the interpreter computes."""
     code = (*(Instruction("CONST", value) for value in operands), Instruction(op))
     body = replace(program.bodies[0], entry=0, end=len(code) + 1, parameters=(), frame=0)
@@ -60,13 +60,13 @@ def _result(program: Program, op: str, operands: tuple[Cell, ...]) -> Cell:
 def _checking(program: Program) -> tuple[Program, list[tuple[str, tuple[Cell, ...]]]]:
     """A program whose constructor asserts every result; its arguments are the operands, so that
     the C compiler computes nothing itself."""
-    operations = list(_operations())
+    drawn = list(operations())
     cells: list[Cell] = []
     code: list[Instruction] = []
-    for op, operands in operations:
+    for op, operands in drawn:
         code += [Instruction("LOCAL", len(cells) + i) for i in range(len(operands))]
         cells += operands
-        expected = Instruction("CONST", _result(program, op, operands))
+        expected = Instruction("CONST", result(program, op, operands))
         code += [Instruction(op), expected, Instruction("EQ"), Instruction("ASSERT", -1)]
     code.append(Instruction("RET"))
     parameter = Slot("operands", Type("int"), "int", 0, len(cells))
@@ -76,14 +76,14 @@ def _checking(program: Program) -> tuple[Program, list[tuple[str, tuple[Cell, ..
     rebec = replace(program.rebecs[0], constructor=0, arguments=tuple(cells))
     spans = program.spans[:1] * len(code)
     checking = replace(program, code=tuple(code), spans=spans, bodies=(body,), rebecs=(rebec,))
-    return checking, operations
+    return checking, drawn
 
 
 def test_c_computes_what_the_interpreter_computes() -> None:
     plain = System.of("reactiveclass A(2) { A() { } } main { A a():(); }").program
-    program, operations = _checking(plain)
+    program, drawn = _checking(plain)
     found = CompiledSearch(program, "core").run(Limits())
     failed = [event.cause for event in found.events if event.cause != "deadlock"]
     checks = [pc for pc, i in enumerate(program.code) if i.op == "ASSERT"]
-    assert [operations[checks.index(f.pc)] for f in failed] == []  # type: ignore[union-attr]
+    assert [drawn[checks.index(f.pc)] for f in failed] == []  # type: ignore[union-attr]
     assert found.states == 1

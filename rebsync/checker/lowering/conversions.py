@@ -42,6 +42,6 @@ def convert(source: Kind, target: Kind, e: Emitter) -> None:
         e.emit(target.upper())
 
 
-def constant(value: Value, kind: Kind, e: Emitter) -> None:
-    """Pushes a constant as a value of a kind."""
-    e.emit("CONST", stored(value, kind))
+def constant(value: Value, kind: Kind, e: Emitter, mark: int = 0) -> None:
+    """Pushes a constant as a value of a kind; `mark` says which one of the model it is."""
+    e.emit("CONST", stored(value, kind), mark)

@@ -108,6 +108,10 @@ class Emitter:
         """The number of a text."""
         return self.world.texts.setdefault(text, len(self.world.texts))
 
+    def mark(self, constant: str) -> int:
+        """What an instruction has that stands for a constant of the model: 0 for none."""
+        return self.text(constant) + 1 if constant else 0
+
     def allocate(self, size: int) -> int:
         """Cells of the frame, until the scope ends."""
         offset = self.free

@@ -148,6 +148,11 @@ def _option(option: Expression, kind: Kind, e: Emitter) -> int:
     return stored(found, kind)
 
 
+def _constant(type_: Type, name: str) -> str:
+    """A constant of the model, with the kind of its cells."""
+    return f"{kind_of(type_)} {name}"
+
+
 def as_kind(node: Expression, kind: Kind, e: Emitter) -> None:
     """Pushes the value of an expression as one of a kind; arrays keep theirs."""
     convert(value(node, e), kind, e)
@@ -207,7 +212,10 @@ def symbol_place(symbol: Symbol | None, e: Emitter) -> Place:
             return Place("LOCAL", slot.offset, slot.type)
         case EnvSymbol(_, type_, declaration):
             assert type_ is not None
-            return Place("TABLE", 0, type_, table=env_table(declaration, type_, e.world.analysis))
+            table = env_table(declaration, type_, e.world.analysis)
+            return Place(
+                "TABLE", 0, type_, table=table, constant=_constant(type_, declaration.name)
+            )
         case _:
             raise AssertionError(f"not a variable: {symbol}")
 
@@ -221,8 +229,8 @@ def _variable(node: Name | Member | Index, e: Emitter) -> Kind:
         case BuiltinSymbol(name):
             e.emit(_CLOCK[name])
             return "rebec" if name == "sender" else "int"
-        case EnvSymbol(_, type_, _, number) if number is not None and type_ is not None:
-            constant(number, kind_of(type_), e)
+        case EnvSymbol(name, type_, _, number) if number is not None and type_ is not None:
+            constant(number, kind_of(type_), e, e.mark(_constant(type_, name)))
             return kind_of(type_)
     with e.scope():
         found = place(node, e)

@@ -17,7 +17,8 @@ class Place:
     """Cells from `start` on, in the rebec's variables, the frame, or rebec number `rebec`.
 
     `offset` is the cell of the frame that holds a computed offset; "pushed" says that the offset
-    is on the stack; None that there is none. A `table` holds the constants of an env array.
+    is on the stack; None that there is none. A `table` holds the constants of an env array, and
+    `constant` says which one it is.
     """
 
     root: Literal["VAR", "LOCAL", "STATE", "TABLE"]
@@ -26,6 +27,7 @@ class Place:
     rebec: int = 0
     offset: int | Literal["pushed"] | None = None
     table: tuple[Cell, ...] = ()
+    constant: str = ""
 
     @property
     def kind(self) -> Kind:
@@ -78,7 +80,8 @@ def _push_cell(place: Place, cell: int, e: Emitter) -> None:
             case "STATE":
                 e.emit("STATE", place.rebec, start)
             case "TABLE":
-                e.emit("CONST", place.table[start])
+                mark = e.mark(place.constant and f"{place.constant}[{start}]")
+                e.emit("CONST", place.table[start], mark)
             case _:
                 e.emit(place.root, start)
         return
@@ -88,7 +91,7 @@ def _push_cell(place: Place, cell: int, e: Emitter) -> None:
         case "STATE":
             e.emit("STATEAT", place.rebec, start)
         case "TABLE":
-            e.emit("TABLE", 0, 0, place.table[start:])
+            e.emit("TABLE", e.mark(place.constant), start, place.table[start:])
         case _:
             e.emit(f"{place.root}AT", start)
 
