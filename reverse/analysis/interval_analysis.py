@@ -38,6 +38,8 @@ class IntervalAnalysis(IntervalValues):
         return all(self._statement(s) for s in statements)
 
     def _statement(self, statement: m.Statement) -> bool:
+        for annotation in statement.annotations:
+            self._all(annotation.arguments or ())
         match statement:
             case m.Block(statements):
                 return self._block(statements)

@@ -45,10 +45,12 @@ class IntervalValues:
     """The intervals of variables at one point of a body, and what is noted on the way there.
 
     `widths` are the bits of the numbers to be looked at, by name; `types` the types of other
-    variables; `known` what some names hold when a body starts, `always` what some hold at any time.
-    `state` are the state variables, `called` those that functions of the class may change. `needs`
-    has what must hold of expressions, by their ids. `wraps` says whether sums of the code wrap, and
-    `cuts` to which bounds some expressions are brought where they do not, by their ids.
+    variables, and by `self.x` those of state variables that others hide, of which nothing else is
+    known; `parameters` hide such from the start. `known` is what some names hold when a body
+    starts, `always` what some hold at any time. `state` are the state variables, `called` those
+    that functions of the class may change. `needs` has what must hold of expressions, by their
+    ids. `wraps` says whether sums of the code wrap, and `cuts` to which bounds some expressions are
+    brought where they do not, by their ids. `results` are the types of what functions give.
 
     `broken` are variables that may get another number than an `int` holds, `counted` those that
     only count up to one, `failed` the needs that may not hold. `stored` has all that variables of
@@ -65,6 +67,8 @@ class IntervalValues:
     needs: Mapping[int, Sequence[Need]] = field(default_factory=dict)
     wraps: bool = True
     cuts: Mapping[int, Interval] = field(default_factory=dict)
+    results: Mapping[str, m.Type] = field(default_factory=dict)
+    parameters: Collection[str] = ()
     broken: set[str] = field(default_factory=set)
     counted: set[str] = field(default_factory=set)
     failed: set[Mark] = field(default_factory=set)
@@ -75,6 +79,13 @@ class IntervalValues:
     _locals: dict[str, m.Type] = field(default_factory=dict)
 
     # --- variables ------------------------------------------------------------------------------
+
+    def _variable(self, place: m.Expression) -> str | None:
+        """The variable that a place is, or is an element of: `self.x` if something hides `x`."""
+        name = array_of(place)
+        if name is None or not (name in self._locals or name in self.parameters):
+            return name
+        return writes.own(name) if writes.is_own(place) else name
 
     def _of(self, name: str) -> Interval:
         return self._now[name] if name in self._now else self._at_start(name)
@@ -91,6 +102,8 @@ class IntervalValues:
         return self._of_type(name)
 
     def _of_type(self, name: str) -> Interval:
+        if name.startswith(writes.own("")):
+            return values_of(self.types[name]) if name in self.types else ANY
         return values_of(self._locals.get(name) or self.types.get(name))
 
     def _joined(self, name: str, other: Mapping[str, Interval]) -> Interval:
@@ -109,7 +122,8 @@ class IntervalValues:
             self._forget_name(name)
 
     def _forget_name(self, name: str) -> None:
-        self._now[name] = self._any(name)
+        for variable in (name, writes.own(name)):
+            self._now[variable] = self._any(variable)
 
     # --- what conditions say --------------------------------------------------------------------
 
@@ -137,7 +151,7 @@ class IntervalValues:
             return  # another number than that of the variable
         if not self.wraps and not self.cuts:
             left, right = writes.moved(left, right)
-        name = variable_of(left)
+        name = self._variable(left) if variable_of(left) is not None else None
         if name is None or self._is_real(left) or self._is_real(right):
             return
         values = compared(self._of(name), sign, self._seen(self._value(right)))
@@ -177,8 +191,8 @@ class IntervalValues:
                 return ANY
             case m.BoolLiteral() | m.InstanceOf():
                 return TRUTH
-            case m.Name(name) | m.Member(m.Self(), name):
-                return self._of(name)
+            case m.Name() | m.Member(m.Self()):
+                return self._of(self._variable(expression) or "")
             case m.Paren(inner):
                 return self._value(inner)
             case m.Assign(operator, target, value):
@@ -201,13 +215,13 @@ class IntervalValues:
                 note(self.indices, span, self._value(index))
                 if not is_calm(array):
                     self._value(array)
-                return self._of(array_of(array) or "")
-            case m.Call(target, _, arguments, after, deadline):
+                return self._of(self._variable(array) or "")
+            case m.Call(target, name, arguments, after, deadline):
                 self._all([] if target is None else [target])
                 self._all([e for e in (*arguments, after, deadline) if e is not None])
                 if writes.calls_own(expression):
                     self._forget_called()
-                return INT32
+                return values_of(self.results.get(name))
             case _:
                 return INT32
 
@@ -278,10 +292,8 @@ class IntervalValues:
         match bare(expression):
             case m.FloatLiteral() | m.Call(None, "pow" | "sqrt"):
                 return True
-            case m.Name(name) | m.Member(m.Self(), name):
-                return self._of_type(name) == ANY
-            case m.Index(array):
-                return self._of_type(array_of(array) or "") == ANY
+            case m.Name() | m.Member(m.Self()) | m.Index():
+                return self._of_type(self._variable(expression) or "") == ANY
             case m.Cast(type_):
                 return values_of(type_) == ANY
             case m.Unary(operator, operand):
@@ -304,7 +316,7 @@ class IntervalValues:
         self, whole: m.Expression, operator: str, target: m.Expression, value: m.Expression
     ) -> Interval:
         place = bare(target)
-        name = array_of(place)
+        name = self._variable(place)
         if isinstance(place, m.Index):
             self._value(place)
         earlier = self._of(name or "")

@@ -21,10 +21,24 @@ def variable_of(expression: m.Expression) -> str | None:
 
 def array_of(place: m.Expression) -> str | None:
     """The name of the variable that a place is, or is an element of."""
+    return variable_of(_whole(place))
+
+
+def is_own(place: m.Expression) -> bool:
+    """Whether a place is, or is in, a state variable by `self`, whatever hides its name."""
+    return isinstance(_whole(place), m.Member)
+
+
+def own(name: str) -> str:
+    """What stands for a state variable where something else has its name."""
+    return f"self.{name}"
+
+
+def _whole(place: m.Expression) -> m.Expression:
     whole = bare(place)
     while isinstance(whole, m.Index):
         whole = bare(whole.target)
-    return variable_of(whole)
+    return whole
 
 
 def written(node: m.Node) -> set[str]:

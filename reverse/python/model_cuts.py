@@ -13,6 +13,7 @@ from rebsync.intervals import INT32, INTEGERS, Interval
 from rebsync.records import dataclass
 
 _WIDTHS = {"int8": INTEGERS["byte"], "int16": INTEGERS["short"], "int32": INT32}
+_FUNCTIONS = {"/": "divide", "//": "divide", "%": "remainder"}
 _OPERATIONS = frozenset({"divide", "remainder", "shift_left", "shift_right"})
 
 
@@ -32,11 +33,13 @@ class Cuts:
     """The expressions of a body that are cut, and those that are rounded, by their ids.
 
     `called` has the functions of the code that calls and sends of the model are: of overloads one.
+    `floored` are the divisions that Python does its own way, by the last ids that they had.
     """
 
     of: dict[int, Cut] = field(default_factory=dict)
     rounded: dict[int, m.Expression] = field(default_factory=dict)
     called: dict[int, tuple[m.Expression, str]] = field(default_factory=dict)
+    floored: dict[int, m.Binary] = field(default_factory=dict)
 
     def passing(self, call: m.Expression, function: str) -> m.Expression:
         """A call or send, which is one of a function of the code."""
@@ -56,6 +59,11 @@ class Cuts:
             return read
         return self._marked(read, INT32, by_function=True)
 
+    def divided(self, read: m.Binary) -> m.Binary:
+        """A division of Python's own, which rounds to the lower number."""
+        self.floored[id(read)] = read
+        return read
+
     def _marked(self, read: m.Expression, bounds: Interval, *, by_function: bool) -> m.Expression:
         """A copy: what it is read from may stand elsewhere, where nothing cuts it."""
         if isinstance(read, m.Paren):
@@ -63,15 +71,26 @@ class Cuts:
             return replace(read, inner=inner)
         before = self.of.get(id(read))
         own = by_function or (before is not None and before.by_function)
-        copied = self._rounded(read) if id(read) in self.rounded else replace(read)
+        copied = self._rounded(read) if id(read) in self.rounded else self._copied(read)
         self.of[id(copied)] = Cut(copied, bounds, own)
         return copied
 
     def _rounded(self, read: m.Expression) -> m.Expression:
         if isinstance(read, m.Paren):
             return replace(read, inner=self._rounded(read.inner))
-        copied = replace(read)
+        copied = self._copied(read)
         self.rounded[id(copied)] = copied
         if (cut := self.of.get(id(read))) is not None:
             self.of[id(copied)] = replace(cut, expression=copied)
         return copied
+
+    def _copied(self, read: m.Expression) -> m.Expression:
+        copied = replace(read)
+        if isinstance(copied, m.Binary) and self.floored.pop(id(read), None) is not None:
+            self.floored[id(copied)] = copied
+        return copied
+
+
+def other_division(operator: str) -> str:
+    """Why a division of Python is none of the model."""
+    return f'"{operator}" of Python is not the model\'s, which is {_FUNCTIONS[operator]}(a, b)'

@@ -14,23 +14,22 @@ from dataclasses import field
 from itertools import zip_longest
 
 from rebsync import model as m
-from rebsync.intervals import INT32, INTEGERS, Interval, exactly
+from rebsync.intervals import INT32, INTEGERS, Interval
 from rebsync.records import dataclass
-from rebsync.reverse.analysis.interval_analysis import IntervalAnalysis
 from rebsync.reverse.analysis.needs import Mark, Need
-from rebsync.reverse.analysis.writes import array_of
+from rebsync.reverse.analysis.writes import array_of, is_own, own
 from rebsync.reverse.bodies.building import bare
-from rebsync.reverse.python.model_cuts import Cut
+from rebsync.reverse.python.model_cuts import Cut, other_division
 from rebsync.reverse.python.model_kinds import real_type
 from rebsync.source import NOWHERE, Span
-from rebsync.static.constants import constant
 
 _SUMS = frozenset({"+", "-", "*", "&", "|", "^"})
 _SIGNS = frozenset({"+", "-", "~"})
 _DISTANCES = Interval(0, 31)
 _TESTS = frozenset({"<", "<=", ">", ">=", "==", "!=", "&&", "||"})
 _EXACT = Interval(-(1 << 24), 1 << 24)  # the integers that 32 bits with a point hold
-_UNROUNDED = "not rounded to 32 bits"
+_OTHER = "not the number of the model"
+_UNROUNDED = f"{_OTHER}: not rounded to 32 bits"
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,24 +46,25 @@ class Known:
     cuts: Mapping[int, Cut]
     rounded: Collection[int]
     called: Mapping[int, tuple[m.Expression, str]]
+    floored: Mapping[int, m.Binary]
 
 
-def beyond(body: m.Block, result: m.Type, path: str, known: Known) -> list[Mark]:
-    """The integers of a body that may be others than those of the model: where, and why."""
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """What must hold of the integers of a body, and what does not whatever they are."""
+
+    needs: Mapping[int, Sequence[Need]]
+    told: Sequence[Mark]
+
+
+def wanted_of(body: m.Block, result: m.Type, path: str, known: Known) -> Wanted:
+    """What must hold of the integers of a body, so that they are those of the model."""
     widths = _Widths(known, path, result, dict(known.types))
     widths.block(body)
-    if not widths.needs:
-        return sorted(widths.told)
-    analysis = IntervalAnalysis(
-        {},
-        known.types,
-        called=set(known.types),
-        needs=widths.needs,
-        wraps=False,
-        cuts={key: cut.bounds for key, cut in known.cuts.items()},
-    )
-    analysis.body(body.statements)
-    return sorted({*widths.told, *analysis.failed})
+    for key, division in known.floored.items():
+        if key not in widths.divided:  # it became something else, which nothing is asked of
+            widths.tell(division, _floored(division))
+    return Wanted(widths.needs, widths.told)
 
 
 @dataclass(slots=True)
@@ -77,6 +77,7 @@ class _Widths:
     types: dict[str, m.Type]
     needs: dict[int, list[Need]] = field(default_factory=dict)
     told: list[Mark] = field(default_factory=list)
+    divided: set[int] = field(default_factory=set)
     at: Span = NOWHERE
 
     # --- statements -----------------------------------------------------------------------------
@@ -170,9 +171,9 @@ class _Widths:
         wanted = INTEGERS.get(name, _EXACT if name == "float" and not is_cut else INT32)
         self.used(value, wanted)
         if name in INTEGERS and self._is_real(value) and not is_cut:
-            self._tell(value, _uncut(wanted))
+            self.tell(value, _uncut(wanted))
         if name == "float" and self._real_type(value) == "double" and not is_cut:
-            self._tell(value, _UNROUNDED)
+            self.tell(value, _UNROUNDED)
 
     def used(self, expression: m.Expression, wanted: Interval | None) -> None:
         """An expression where a value within bounds is expected, or (None) one that may differ."""
@@ -217,6 +218,7 @@ class _Widths:
                 self.used(operand, None if operator in _SIGNS else INT32)
             case m.Binary(operator, left, right):
                 real = self._real_type(m.Binary("+", left, right))
+                self._divided(expression, left, right)
                 self._operands(operator, (left, right), cut, real)
                 if operator not in _TESTS and self._real_type(expression) == "float":
                     self._round(expression)
@@ -257,6 +259,13 @@ class _Widths:
                 bounds = goes_on if operator in _SUMS else whole
                 self.used(side, INT32 if is_rounded else bounds)
 
+    def _divided(self, whole: m.Binary, left: m.Expression, right: m.Expression) -> None:
+        """A division that rounds to the lower number: as to 0, where nothing is below that."""
+        if id(whole) in self.known.floored:
+            self.divided.add(id(whole))
+            self._need(left, Interval(0, INT32.high), _floored(whole))
+            self._need(right, Interval(1, INT32.high), _floored(whole))
+
     def _stored(
         self, whole: m.Expression, operator: str, target: m.Expression, value: m.Expression
     ) -> None:
@@ -275,7 +284,7 @@ class _Widths:
         if not is_cut and real is None and not self._is_truth(target):
             self._need(whole, wanted, _uncut(wanted))
         if self._real_type(target) == "float" and id(whole) not in self.known.rounded:
-            self._tell(whole, _UNROUNDED)
+            self.tell(whole, _UNROUNDED)
 
     # --- numbers with a point -------------------------------------------------------------------
 
@@ -283,7 +292,7 @@ class _Widths:
         """Tells of a number of 32 bits that is not rounded to these."""
         if id(expression) in self.known.rounded or self._real_type(expression) != "float":
             return
-        self._tell(expression, _UNROUNDED)
+        self.tell(expression, _UNROUNDED)
 
     def _real_type(self, expression: m.Expression) -> str | None:
         return real_type(expression, self._type_of, self.known.results)
@@ -291,48 +300,19 @@ class _Widths:
     # --- what may be other ----------------------------------------------------------------------
 
     def _may_be_other(self, expression: m.Expression, wanted: Interval) -> bool:
-        """Whether an expression is an integer that is not known to be within bounds."""
-        cut = self.known.cuts.get(id(expression))
-        if cut is not None and wanted.includes(cut.bounds):
-            return False
+        """Whether an expression is an integer, so that the analysis has to look at its bounds."""
         if wanted == _EXACT and id(expression) in self.known.rounded:
             return False
-        match expression:
-            case m.IntLiteral(value):
-                return not wanted.includes(exactly(value))
-            case m.Cast(type_):
-                return not wanted.includes(INTEGERS.get(type_.name, wanted))
-            case m.Name() | m.Member() | m.Index() | m.Assign() | m.Call():
-                return not wanted.includes(self._values(expression))
-            case m.Postfix(_, target):
-                return not wanted.includes(self._values(target))
-            case m.Binary(operator) if operator in _TESTS:
-                return False
-            case m.Unary("+", operand):
-                return self._may_be_other(bare(operand), wanted)
-            case m.Unary("~", operand) if wanted.low == -wanted.high - 1:  # as many below 0
-                return self._may_be_other(bare(operand), wanted)
-            case m.Binary("+", left, right) if constant(left) == 0:
-                return self._may_be_other(bare(right), wanted)
-            case m.Binary("+" | "-", left, right) if constant(right) == 0:
-                return self._may_be_other(bare(left), wanted)
-            case m.Binary() | m.Unary("-" | "~" | "++" | "--") | m.Conditional():
-                return not (self._is_real(expression) or self._is_truth(expression))
-            case _:
-                return False
-
-    def _values(self, expression: m.Expression) -> Interval:
-        """The values of what is stored somewhere, or given by a function; none that matter else."""
-        place = bare(expression.target) if isinstance(expression, m.Assign) else expression
-        type_ = self._type_of(place)
-        if type_ is None and isinstance(place, m.Call):
-            type_ = self.known.results.get(place.name)
-        type_ = type_ or self.known.kind(place, self.types)
-        return INTEGERS.get(type_.name, _DISTANCES) if type_ is not None else INT32
+        if self._is_real(expression):
+            return False
+        type_ = self._type_of(expression) or self.known.kind(expression, self.types)
+        return type_ is None or type_.name in INTEGERS
 
     def _type_of(self, place: m.Expression) -> m.Type | None:
         name = array_of(place)
-        return self.types.get(name) if name is not None else None
+        if name is None:
+            return None
+        return self.types.get(own(name) if is_own(place) else name)
 
     def _is_real(self, expression: m.Expression) -> bool:
         return self._real_type(expression) is not None
@@ -340,7 +320,7 @@ class _Widths:
     def _is_truth(self, expression: m.Expression) -> bool:
         return self.known.kind(expression, self.types) == m.Type("boolean")
 
-    def _tell(self, expression: m.Expression, why: str) -> None:
+    def tell(self, expression: m.Expression, why: str) -> None:
         span = getattr(bare(expression), "span", NOWHERE)
         span = span if span != NOWHERE else self.at
         self.told.append((self.path, span.start, span.end, why))
@@ -352,8 +332,14 @@ class _Widths:
 
 def _uncut(wanted: Interval) -> str:
     if wanted == _DISTANCES:
-        return "shifted by any distance"
-    return _UNROUNDED if wanted == _EXACT else f"not cut to {(wanted.high + 1).bit_length()} bits"
+        return f"{_OTHER}: shifted by any distance"
+    if wanted == _EXACT:
+        return _UNROUNDED
+    return f"{_OTHER}: not cut to {(wanted.high + 1).bit_length()} bits"
+
+
+def _floored(division: m.Binary) -> str:
+    return other_division("//" if division.operator == "/" else division.operator)
 
 
 def hint_of(text: str, why: str) -> str:

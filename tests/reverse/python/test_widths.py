@@ -31,6 +31,7 @@ reactiveclass A(5) {
   A() { self.go(1, 2); }
   msgsrv go(int k, byte small) { BODY }
   msgsrv take(byte c) { b = c; }
+  msgsrv any(int x, short y) { n = x; s = y; list[1] = x; }
   int twice(int x) { return x; }
 }
 main { A a(a):(); }
@@ -51,6 +52,10 @@ def test_fresh_code_wraps(name: str, target: str) -> None:
 # What is written in the body of `go(self, k: int, small: Byte)`, and what of it is told.
 BODIES = [
     (["self._n = self._n + 1"], ["self._n + 1"]),
+    (["self._n = 0 + self.twice(k)"], []),
+    (["self._b = 0 + small"], []),
+    (["self._b = ~small"], []),
+    (["self._b = -small"], ["-small"]),
     (["self._n += 1"], ["self._n += 1"]),
     (["self._n = int32(self._n + k - 3 * self._n)"], []),
     (["self._n = int32((self._n + 1) & 255)"], []),
@@ -152,6 +157,40 @@ def test_a_body(body: list[str], told: list[str], fresh: dict[str, Source]) -> N
     assert all(f.grade is Grade.UNREADABLE and f.within == "A.go" for f in findings)
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ("self._b = to_byte(b)", "self._b = b", ["b"]),
+        ("self._f = float32(f)", "self._f = f", ["f"]),
+        ("self._n = int32(self._n + n)", "self._n = self._n + n", ["self._n + n"]),
+        ("self._n = int32(self._n + n)", "self._n = n + 6", []),
+    ],
+)
+def test_state_variables_that_others_hide(
+    old: str, new: str, told: list[str], tmp_path: Path
+) -> None:
+    model = tmp_path / "hidden.rebeca"
+    model.write_text("""
+        reactiveclass A(5) {
+          statevars { byte b; float f; int n; }
+          A() { self.set(1, 2); }
+          msgsrv set(int b, int f) {
+            self.b = (byte) b;
+            self.f = f;
+            int n = 5;
+            self.n = self.n + n;
+          }
+        }
+        main { A a():(); }
+    """)
+    files = {path: Source(path, text) for path, text in case_files(model, "ros1-py").items()}
+    path = "src/hidden/a.py"
+    assert extract(files).findings == ()
+    assert files[path].text.count(old) == 1
+    edited = Source(path, files[path].text.replace(old, new))
+    assert [f.text for f in extract({**files, path: edited}).findings] == told
+
+
 @pytest.fixture(scope="module")
 def fresh(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Source]:
     model = tmp_path_factory.mktemp("model") / "widths.rebeca"
@@ -210,3 +249,12 @@ def _without_cuts(pattern: str, text: str) -> str:
 def _edited(before: str, now: str) -> list[int]:
     parts = [re.split(r"^    def m(?=\d+\()", text, flags=re.MULTILINE) for text in (before, now)]
     return [int(b.partition("(")[0]) for a, b in zip(*parts, strict=True) if a != b]
+
+
+def test_how_far_a_robot_moves_wraps_too() -> None:
+    files = _sources("moves", "ros1-py")
+    (path,) = (p for p in files if p.endswith("/bot.py"))
+    text = files[path].text
+    assert "-int32((self._dx + 1))" in text
+    files[path] = Source(path, text.replace("-int32((self._dx + 1))", "-(self._dx + 1)"))
+    assert [f for f in extract(files).findings if "not cut to 32 bits" in f.why]

@@ -1,0 +1,175 @@
+"""What the state variables of a class hold, whatever it is sent: class invariants by intervals.
+
+Inferred from all bodies together (Logozzo, "Automatic inference of class invariants", VMCAI 2004):
+a server starts where the constructor or a server has ended, and a function of the class may be
+called in the middle of any body. The class must be alone, and all that it does must be known.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import field
+from enum import Enum, auto
+
+from rebsync import model as m
+from rebsync.intervals import INT32, INTEGERS, Interval, exactly
+from rebsync.records import dataclass
+from rebsync.reverse.analysis.interval_analysis import IntervalAnalysis
+from rebsync.reverse.analysis.needs import Mark, Need
+from rebsync.reverse.analysis.writes import written
+
+_BITS = 63
+_PLAIN_ROUNDS = 3
+_MOST_ROUNDS = 40
+
+
+class Entry(Enum):
+    """When a body starts: before anything else, between two messages, or in another body."""
+
+    FIRST = auto()
+    BETWEEN = auto()
+    WITHIN = auto()
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """A body with the types of the names and of what functions give; the rest as the analysis has
+    it. It cuts the integers that `cuts` has, and those alone.
+    """
+
+    name: str
+    entry: Entry
+    statements: Sequence[m.Statement]
+    types: Mapping[str, m.Type]
+    parameters: Collection[str] = ()
+    results: Mapping[str, m.Type] = field(default_factory=dict)
+    cuts: Mapping[int, Interval] = field(default_factory=dict)
+    needs: Mapping[int, Sequence[Need]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class _Held:
+    """What state variables hold: at any time, and when a server starts."""
+
+    always: Mapping[str, Interval]
+    between: Mapping[str, Interval]
+
+    def widened(self, later: _Held, thresholds: Sequence[int]) -> _Held:
+        return _Held(
+            {n: self.always[n].widen(r, thresholds) for n, r in later.always.items()},
+            {n: self.between[n].widen(r, thresholds) for n, r in later.between.items()},
+        )
+
+
+def failed(
+    bodies: Sequence[Body],
+    state: Mapping[str, m.Type] | None,
+    constants: Mapping[str, Interval] | None = None,
+) -> set[Mark]:
+    """The needs of bodies that may not hold, where `constants` hold these values at any time.
+
+    `state` are the state variables of the class that has these bodies and no others, to be
+    followed through all of them; where these are not known (None) they may hold anything.
+    """
+    names = {name for name, type_ in (state or {}).items() if type_.name in INTEGERS}
+    names -= _hidden(bodies)
+    fixed = dict(constants or {})
+    for name in _hidden(bodies) | {n for b in bodies for s in b.statements for n in written(s)}:
+        fixed.pop(name, None)
+    asking = [body for body in bodies if body.needs]
+    found = _Round(_Held({}, {}), fixed, frozenset()).over(asking).failed if asking else set()
+    if not found or not names:
+        return found
+    held = _Held(dict.fromkeys(names, exactly(0)), dict.fromkeys(names, exactly(0)))
+    thresholds = sorted({*_literals(bodies), INT32.low, INT32.high})
+    called = _called(bodies)
+    within = [s for body in bodies if body.name in called for s in body.statements]
+    changed = frozenset(name for statement in within for name in written(statement))
+    for number in range(_MOST_ROUNDS):
+        round_ = _Round(held, fixed, called, changed).over(bodies)
+        later = round_.later()
+        if later == held:
+            return round_.failed
+        held = held.widened(later, thresholds) if number >= _PLAIN_ROUNDS else later
+    return found
+
+
+@dataclass(slots=True)
+class _Round:
+    """Follows each body once, with what state variables are taken to hold when it starts, and what
+    some names (`fixed`) always do.
+
+    `called` are the bodies that others call, whatever else they are, and `changed` what these
+    change, if that is known.
+    """
+
+    held: _Held
+    fixed: Mapping[str, Interval]
+    called: frozenset[str]
+    changed: Collection[str] | None = None
+    failed: set[Mark] = field(default_factory=set)
+    stored: dict[str, Interval] = field(default_factory=dict)
+    left: dict[str, Interval] = field(default_factory=dict)
+
+    def over(self, bodies: Sequence[Body]) -> _Round:
+        for body in bodies:
+            self._follow(body, Entry.WITHIN if body.name in self.called else body.entry)
+        return self
+
+    def _follow(self, body: Body, entry: Entry) -> None:
+        names = self.held.always.keys()
+        known: Mapping[str, Interval] = {}
+        if entry is Entry.FIRST:
+            known = dict.fromkeys(names, exactly(0))
+        elif entry is Entry.BETWEEN:
+            known = self.held.between
+        IntervalAnalysis(
+            dict.fromkeys(names, _BITS),
+            body.types,
+            known,
+            {**self.fixed, **self.held.always},
+            parameters=body.parameters,
+            state=() if body.entry is Entry.WITHIN else names,
+            called=set(body.types) if self.changed is None else self.changed,
+            needs=body.needs,
+            wraps=False,
+            cuts=body.cuts,
+            results=body.results,
+            failed=self.failed,
+            stored=self.stored,
+            left=self.left,
+        ).body(body.statements)
+
+    def later(self) -> _Held:
+        """What state variables hold, with what the bodies have stored and left."""
+        held = self.held
+        return _Held(
+            {n: r.join(self.stored.get(n, r)) for n, r in held.always.items()},
+            {n: r.join(self.left.get(n, r)) for n, r in held.between.items()},
+        )
+
+
+def _hidden(bodies: Sequence[Body]) -> set[str]:
+    """The names of parameters and locals, whatever else has them."""
+    found = {name for body in bodies for name in body.parameters}
+    return found | {node.name for node in _nodes(bodies) if isinstance(node, m.Declarator)}
+
+
+def _called(bodies: Sequence[Body]) -> frozenset[str]:
+    """The functions of the class that its bodies call."""
+    calls = (n for n in _nodes(bodies) if isinstance(n, m.Call) and n.target is None)
+    return frozenset(call.name for call in calls)
+
+
+def _literals(bodies: Sequence[Body]) -> Iterator[int]:
+    """The numbers that bounds are likely to stop at: those of the code, and their neighbours."""
+    for node in _nodes(bodies):
+        if isinstance(node, m.IntLiteral):
+            for sign in (1, -1):
+                yield from (sign * node.value - 1, sign * node.value, sign * node.value + 1)
+
+
+def _nodes(bodies: Sequence[Body]) -> Iterator[m.Node]:
+    for body in bodies:
+        for statement in body.statements:
+            yield from m.walk(statement)
