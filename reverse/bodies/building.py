@@ -95,6 +95,15 @@ def is_place(expression: m.Expression) -> bool:
             return False
 
 
+def is_default(expression: m.Expression) -> bool:
+    """Whether it is what state variables hold before they are given anything."""
+    match bare(expression):
+        case m.IntLiteral(0) | m.BoolLiteral(False):
+            return True
+        case _:
+            return False
+
+
 def is_plain(expression: m.Expression) -> bool:
     """Whether it is a literal or a name, which cost nothing to repeat."""
     match bare(expression):

@@ -69,9 +69,9 @@ def _sum(
     reader: CppExpressions, node: Node, start: m.Expression, elements: Sequence[m.Expression]
 ) -> m.Expression | None:
     """All of them added to what the sum begins with, whose type the sum has."""
-    literal = isinstance(start, m.IntLiteral)
     types = {type_in(reader.scope, x) for x in elements}
-    of = INT if literal else type_in(reader.scope, start)
+    of = None if isinstance(start, m.IntLiteral) else type_in(reader.scope, start)
+    of = INT if node.type == "number_literal" else of
     whole = all(t is not None and is_integer(t) for t in types)
     if of != INT or not whole or not is_calm(start) or wide_of(reader, node):
         return None
@@ -82,17 +82,28 @@ def _elements(
     reader: CppExpressions, bounds: Sequence[Node], most: int
 ) -> list[m.Expression] | None:
     """The elements from one iterator to another: all of one array of numbers, and not too many."""
+    array = whole_array(bounds)
+    type_ = plain_type(reader, array) if array is not None else None
+    if array is None or type_ is None or not 0 < type_.dimensions[0] <= most:
+        return None
+    target = reader.read(array)
+    return [m.Index(target, m.IntLiteral(i)) for i in range(type_.dimensions[0])]
+
+
+def whole_array(bounds: Sequence[Node]) -> Node | None:
+    """The array of which two iterators are the begin and the end."""
     arrays = [_end(node, ends) for node, ends in zip(bounds, (_BEGINS, _ENDS), strict=False)]
     if len(bounds) != 2 or None in arrays or len({text_of(a) for a in arrays if a}) != 1:
         return None
-    (array, *_) = (a for a in arrays if a is not None)
+    return arrays[0]
+
+
+def plain_type(reader: CppExpressions, array: Node) -> m.Type | None:
+    """The type of an array in one dimension whose elements are as the model has them."""
     place = resolve(reader.scope, array)
     if not isinstance(place, Variable) or place.type is None or place.bits or place.wide:
         return None
-    if len(place.type.dimensions) != 1 or not 0 < place.type.dimensions[0] <= most:
-        return None
-    target = reader.read(array)
-    return [m.Index(target, m.IntLiteral(i)) for i in range(place.type.dimensions[0])]
+    return place.type if len(place.type.dimensions) == 1 else None
 
 
 def _end(node: Node, names: Sequence[str]) -> Node | None:

@@ -9,7 +9,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies.building import bare
 from rebsync.reverse.bodies.cpp_conversions import type_in
-from rebsync.reverse.bodies.cpp_types import Carried, carried, is_time
+from rebsync.reverse.bodies.cpp_types import Carried, is_time
 from rebsync.static.constants import constant
 from rebsync.static.types import BOOLEAN, BYTE, DOUBLE, INT, SHORT, is_integer
 
@@ -26,9 +26,12 @@ def of_constant(reader: CppExpressions, value: Node) -> m.Expression:
     Unread: its type holds another number, or the model has no number of that type.
     """
     type_ = _declared(value)
-    kept = carried(type_, reader.scope.enums) if type_ is not None and not is_time(type_) else None
+    kept = reader.scope.carried(type_) if type_ is not None and not is_time(type_) else None
     if kept is None or kept.type.dimensions:
-        return reader.read(value)
+        read = reader.read(value)
+        if kept is None and type_ is not None and not is_time(type_) and constant(read) is not None:
+            raise reader.unread(value, "what the constant's type makes of this is not known")
+        return read
     if kept.type == BOOLEAN:
         return reader.condition(value)
     read = reader.read(value)

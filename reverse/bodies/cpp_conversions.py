@@ -53,7 +53,7 @@ def place_of(scope: Scope, target: m.Expression) -> Variable:
     """What is known of a place that is written."""
     match target:
         case m.Name(name) | m.Member(m.Self(), name):
-            return variable_of(scope, name) or Variable(name)
+            return variable_of(scope, name, isinstance(target, m.Member)) or Variable(name)
         case m.Paren(inner):
             return place_of(scope, inner)
         case m.Index(array):

@@ -14,7 +14,7 @@ from rebsync.reverse.bodies.cpp_kinds import LEAVES, PLAIN, REPEATED
 from rebsync.reverse.bodies.cpp_macros import is_harmless
 from rebsync.reverse.bodies.cpp_misread import first_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this
-from rebsync.reverse.bodies.cpp_roots import declared_in, is_modelled, root
+from rebsync.reverse.bodies.cpp_roots import declared_in, is_modelled, may_end, root
 from rebsync.reverse.bodies.known_functions import LOOKS, acts, takes_values, type_takes_values
 from rebsync.reverse.bodies.scope import (
     Called,
@@ -105,6 +105,8 @@ class Effects:
         self._inner = before
 
     def _repeated(self, node: Node) -> None:
+        if not may_end(self.scope, node):
+            raise self._touches(node, "nothing ends this loop")
         self._loops += 1
         self._block(node)
         self._loops -= 1
@@ -367,11 +369,8 @@ class Effects:
         self._inner, self._loops = set(outer), 0
         self._inner.update(cpp_roots.parameters_of(function))
         for child in named(part(function, "body")):
-            if child.type == "return_statement":
-                for value in named(child):
-                    self.check(value)
-            else:
-                self.check(child)
+            for each in named(child) if child.type == "return_statement" else [child]:
+                self.check(each)
         self._inner, self._loops = outer, loops
 
 

@@ -56,6 +56,7 @@ from rebsync.static.types import BOOLEAN, converts, is_boolean, is_floating
 _PREFIX = frozenset({"+", "-", "!", "~"})
 _WORDS = {"and": "&&", "or": "||", "not": "!", "not_eq": "!=", "bitand": "&", "bitor": "|"}
 _TRUTH = Variable("", BOOLEAN)
+_EITHER = (m.BoolLiteral(True), m.BoolLiteral(False))  # of what is not known
 _ONE_OF = "it is one of the values in the comment"
 _STANDS = "stands for all that comparisons do not tell apart"
 MOVE = cpp_mailbox.MOVE
@@ -127,8 +128,8 @@ class CppExpressions:
                 return m.Paren(self.condition(self.only(node), place), self.cpp.span(node))
             case "unary_expression" if self._sign(node) == "!":
                 inner = tight(self.condition(part(node, "argument")), precedence.PREFIX)
-                choice_ = isinstance(inner, m.Choice)
-                return inner if choice_ else m.Unary("!", inner, self.cpp.span(node))
+                is_either = self.scope.open and inner == m.Choice(_EITHER)
+                return inner if is_either else m.Unary("!", inner, self.cpp.span(node))
             case "binary_expression" if self._sign(node) in ("&&", "||"):
                 return self.binary(node, self._sign(node), named(node))
         try:
@@ -138,7 +139,7 @@ class CppExpressions:
             if not isinstance(unread, Unknown) and not self.scope.open:
                 raise
             self.approximate(node, unread)
-            return m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)), self.cpp.span(node))
+            return m.Choice(_EITHER, self.cpp.span(node))
         return kept(self, node, read, place or _TRUTH)
 
     def stored(self, node: Node, place: Variable) -> m.Expression:

@@ -10,7 +10,8 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_aliases, cpp_captures, cpp_idioms
-from rebsync.reverse.bodies.building import bare, is_calm, is_effect
+from rebsync.reverse.bodies.building import bare, cast, is_calm, is_effect
+from rebsync.reverse.bodies.cpp_conversions import as_boolean, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_messages import declare, given, is_pointer, message_type, zero_of
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
@@ -33,6 +34,7 @@ from rebsync.reverse.syntax.cpp_declarations import CppParameter
 from rebsync.reverse.syntax.cpp_depth import DEEPEST
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.constants import constant as constant_of
+from rebsync.static.types import converts, is_boolean, is_integer, is_numeric
 
 if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_statements import CppStatements
@@ -63,7 +65,7 @@ def inlined(
     reader.shared.depth += depth
     try:
         if single is not None:
-            found: Meaning | None = _value(inside, single, result)
+            found: Meaning | None = _value(reader, inside, single, result)
             reader.before += inside.before
         else:
             found = _body(reader, inside, body, result)
@@ -101,7 +103,9 @@ def _single(body: Node) -> Node | None:
     return None
 
 
-def _value(inside: CppStatements, node: Node, result: Node | None) -> Meaning:
+def _value(
+    reader: CppStatements, inside: CppStatements, node: Node, result: Node | None
+) -> Meaning:
     """What such a function gives: the value itself, where it is called."""
     text = text_of(result) if result is not None else "auto"
     if message_type(inside.scope, text) is not None:
@@ -111,7 +115,36 @@ def _value(inside: CppStatements, node: Node, result: Node | None) -> Meaning:
         raise Unknown(inside.cpp.span(node), "the model cannot know what this gives")
     place = place_of("", kept) if kept is not None else Variable("")
     inside.findings.statements[inside.within] += 1
-    return inside.expressions.stored(node, place)
+    value = inside.expressions.stored(node, place)
+    if kept is None or inside.scope.open:
+        return value
+    converted = _as(reader, inside, value, place)
+    if converted is None:
+        raise inside.unread(node, "the type that this gives may make another number of it")
+    return converted
+
+
+def _as(
+    reader: CppStatements, inside: CppStatements, value: m.Expression, place: Variable
+) -> m.Expression | None:
+    """A value of generated code as one of a type where the model stores it nowhere.
+
+    None: its own type is not known, or the model has no numbers of that type.
+    """
+    of = type_in(inside.scope, value)
+    scope = inside.scope if of is not None else reader.scope
+    of = of or type_in(scope, value)
+    type_ = place.type
+    if type_ is None or type_.dimensions or of == type_:
+        return value if not (place.bits or place.wide) else None
+    if of is None or place.bits or place.wide:
+        return None
+    if is_boolean(type_):
+        return as_boolean(scope, value)
+    if not (is_numeric(type_) and is_numeric(of)):
+        return None
+    whole = is_integer(type_) and is_integer(of) and converts(of, type_, {})
+    return value if whole else cast(type_, value)
 
 
 def _entered(
@@ -279,8 +312,12 @@ def _valued(
         inside.meaning(name, Outside(place.type))
         return
     if once and is_calm(value) and not place.wide:
-        inside.meaning(name, value)
-        return
+        same = value if reader.scope.open else _as(reader, inside, value, place)
+        if same is not None:
+            inside.meaning(name, same)
+            return
+        if place.bits:
+            raise reader.unread(argument, "the type of the parameter may make another number of it")
     if name in reader.shared.demoted or place.type is None:
         inside.meaning(name, Outside(place.type))
         return
@@ -329,6 +366,8 @@ def _result(
     if kept is None:
         inside.returns = Outside()
         return Outside()
+    if (kept.bits or kept.wide) and not inside.scope.open:
+        raise inside.unread(body, "the model has no numbers of the type that this gives")
     inside.returns = place_of("", kept)
     return place_of(reader.fresh("result", inlining=True), kept)
 

@@ -43,7 +43,7 @@ def declarations(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
         why = "this looks like a declaration, but starts with a variable"
         raise reader.unread(node, why, "put it in parentheses")
     words = specifiers_of(node)
-    kept_elsewhere = "static" in words
+    kept_elsewhere = "static" in words or "thread_local" in words
     constant_ = "const" in words or "constexpr" in words
     for declarator in node.children_by_field_name("declarator"):
         declared = taken_apart(declarator, type_, text, constant_)
@@ -57,11 +57,21 @@ def declarations(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
             reader.meaning(declared.name, number)
             continue
         try:
+            if kept_elsewhere and "constexpr" not in words and _looks_around(declared.value):
+                raise reader.unread(node, "this keeps the value that it was first given")
             yield from _declared(reader, declared)
         except Unread as unread:
             if not reader.scope.open:
                 raise
             _outside(reader, declared, unread)
+
+
+def _looks_around(value: Node | None) -> bool:
+    """Whether a value names something, which may hold something else another time."""
+    if value is None:
+        return False
+    is_name = value.type in ("identifier", "field_identifier", "this")
+    return is_name or any(map(_looks_around, named(value)))
 
 
 def tested(reader: CppStatements, node: Node) -> Iterator[m.Statement]:

@@ -10,9 +10,11 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_special
-from rebsync.reverse.bodies.building import binary, negated
+from rebsync.reverse.bodies.building import binary, is_calm, negated
+from rebsync.reverse.bodies.cpp_algorithms import plain_type, whole_array
 from rebsync.reverse.bodies.cpp_conversions import place_of, type_in
 from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.types import BOOLEAN
 
@@ -83,6 +85,33 @@ def _element(
         local = Variable(local.name, kept.type, wide=kept.wide)
     reader.meaning(name, local, own=True)
     return (reader.local(declarator, local, element),)
+
+
+def filled(reader: CppStatements, node: Node) -> m.Statement | None:
+    """`array.fill(x)`, or `std::fill(array.begin(), array.end(), x)`; None for other statements."""
+    call = call_of(node)
+    if call is None or call.name != ("fill" if call.target is not None else "std::fill"):
+        return None
+    *bounds, value = call.arguments or (node,)
+    target = whole_array(bounds) if call.target is None else None if bounds else call.target
+    type_ = plain_type(reader.expressions, target) if target is not None else None
+    if target is None or type_ is None:
+        return None
+    array, of = reader.expressions.read(target), m.Type(type_.name)
+    read = reader.expressions.stored(value, Variable("", of))
+    if not is_calm(read) or _names(array) & _names(read):
+        raise reader.unread(value, "this is evaluated once here, and for each element there")
+    counter = m.Name(reader.fresh("i"))
+    initial = m.Declaration(m.Type("int"), (m.Declarator(counter.name, _ZERO),))
+    bound = m.Binary("<", counter, m.IntLiteral(type_.dimensions[0]))
+    store = m.ExpressionStatement(m.Assign("=", m.Index(array, counter), read))
+    step = (m.Postfix("++", counter),)
+    return m.For(initial, bound, step, m.Block((store,)), (), reader.cpp.span(node))
+
+
+def _names(expression: m.Expression) -> set[str]:
+    """The variables in an expression, those of the rebec by `self` among them."""
+    return {n.name for n in m.walk(expression) if isinstance(n, m.Name | m.Member)}
 
 
 def do_loop(

@@ -14,7 +14,7 @@ from rebsync import precedence
 from rebsync.names import original
 from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.overloads import HINT, WHY, telling
-from rebsync.reverse.bodies.scope import Runtime, Scope, Sends
+from rebsync.reverse.bodies.scope import Runtime, Scope, Sends, Variable
 from rebsync.reverse.syntax.cpp_calls import string_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
@@ -30,6 +30,8 @@ _CLOCK = {
 }
 # The function under which a statement of `@Move` is read, until it is one.
 MOVE = "@Move"
+_LITERALS = frozenset({"number_literal", "char_literal", "true", "false"})
+_HINT = "send it by a function that only sends"
 
 
 def is_runtime(reader: CppExpressions, node: Node) -> bool:
@@ -68,8 +70,29 @@ def built_in(
             return m.Name(_CLOCK[function], span)
         case "delay" | "assertion", _:
             return reader.calls(node, None, function, arguments)
+        case "post", 4:
+            return _posted(reader, node)
         case _:
             raise reader.unread(node, f'the model has no function "{function}"')
+
+
+def _posted(reader: CppExpressions, node: Node) -> m.Expression:
+    """`mailbox_.post(kX, after(1), text(a), [=] { x(a); })`, which a function that sends does."""
+    posted = reader.scope.posts.get(node.id)
+    if posted is None:
+        why = "this is no server with its priority, the function that serves it, and its arguments"
+        raise reader.unread(node, why, _HINT)
+    sends, arguments = posted
+    for argument in arguments[: sends.arguments]:
+        if not _is_copied(reader.scope, argument):
+            raise reader.unread(argument, "this is evaluated when the message is served", _HINT)
+    return send(reader, node, sends, arguments, implicit=False)
+
+
+def _is_copied(scope: Scope, argument: Node) -> bool:
+    """Whether a lambda has a value of its own: a local that it captures, or a literal."""
+    local = scope.locals.get(text_of(argument)) if argument.type == "identifier" else None
+    return argument.type in _LITERALS or isinstance(local, Variable | m.Name)
 
 
 def _class_named(reader: CppExpressions, node: Node) -> str:

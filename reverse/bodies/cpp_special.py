@@ -19,6 +19,7 @@ from rebsync.reverse.bodies import (
 from rebsync.reverse.bodies.building import bare, is_calm, negated
 from rebsync.reverse.bodies.cpp_conversions import as_boolean, as_number, converted_to, place_of
 from rebsync.reverse.bodies.cpp_effects import Effects, Touches, touching
+from rebsync.reverse.bodies.cpp_failing import failing
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_time import pause, units
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
@@ -79,7 +80,7 @@ def read(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
             return cpp_messages.assign(reader, target, value)
         case "binary_expression" if _streams(node):
             Effects(reader.cpp, reader.scope).check(node)
-            return iter(())
+            return iter(()) if reader.scope.open else failing(reader, node)
         case "call_expression":
             return _called(reader, node)
         case _:

@@ -14,6 +14,7 @@ from rebsync.reverse.bodies import (
     cpp_aliases,
     cpp_control,
     cpp_counts,
+    cpp_failing,
     cpp_inline,
     cpp_locals,
     cpp_loops,
@@ -331,12 +332,16 @@ class CppStatements:
             yield m.Empty(annotations, self.cpp.span(node))
             return
         if cpp_users.is_log(self, node, expression := children[0]):
+            yield from cpp_failing.failing(self, expression)
             return
         if declared := cpp_plain_locals.late(self, expression):
             yield m.Local(declared, annotations, self.cpp.span(node))
             return
         if (special := cpp_special.read(self, expression)) is not None:
             yield from special
+            return
+        if (loop := cpp_loops.filled(self, expression)) is not None:
+            yield loop
             return
         read = self.effect(expression)
         if expression.type == "cast_expression" and not is_effect(read) and is_calm(read):

@@ -12,6 +12,7 @@ from tree_sitter import Node
 
 from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_effects import Effects
+from rebsync.reverse.bodies.cpp_failing import may_fail
 from rebsync.reverse.bodies.cpp_plain_locals import declared_names
 from rebsync.reverse.bodies.known_functions import CONSOLE, LOGGING, STREAMS
 from rebsync.reverse.bodies.scope import Ignored
@@ -46,11 +47,11 @@ def check_names(reader: CppStatements, node: Node) -> None:
 
 
 def only_logs(reader: CppStatements, node: Node) -> bool:
-    """Whether a branch of generated code does nothing but to log.
+    """Whether a branch of generated code does nothing but to log, and cannot fail.
 
     Raises `Unread` where that does more to the model than to look at it.
     """
-    if reader.scope.open or not is_logging(node):
+    if reader.scope.open or not is_logging(node) or may_fail(reader, node):
         return False
     Effects(reader.cpp, reader.scope).check(node)
     return True

@@ -39,6 +39,7 @@ if TYPE_CHECKING:
 _MAY_BE_WIDE = re.compile(
     r"size\(\)|sizeof|size_t|\blong\b|unsigned|uint|int64|\b(?:0x[\da-f]+|\d+)[ul]", re.IGNORECASE
 )
+_WORD = re.compile(r"[A-Za-z_]\w*")
 _PLACES = frozenset(
     {"identifier", "qualified_identifier", "field_expression", "subscript_expression"}
 )
@@ -155,8 +156,15 @@ def _wraps_first(node: Node, found: Ranged, bits: int) -> bool:
 
 
 def _is_asked(reader: CppExpressions, *nodes: Node) -> bool:
-    """Whether there may be such numbers: generated code has none, unless people wrote them."""
-    return reader.scope.open or any(_MAY_BE_WIDE.search(text_of(n)) for n in nodes)
+    """Whether there may be such numbers: generated code has none, unless people wrote them.
+
+    A constant by its name may be of any type.
+    """
+    scope = reader.scope
+    if scope.open or any(_MAY_BE_WIDE.search(text_of(n)) for n in nodes):
+        return True
+    words = {word for n in nodes for word in _WORD.findall(text_of(n))}
+    return not (words.isdisjoint(scope.constants) and words.isdisjoint(scope.enumerators))
 
 
 def _raise(reader: CppExpressions, node: Node) -> None:

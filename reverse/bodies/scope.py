@@ -302,6 +302,8 @@ class Scope:
     # The servers of callbacks that calls (`createTimer`), by the id of the call's node, set timers
     # for.
     timers: Mapping[int, TimerOf] = field(default_factory=dict)
+    # What calls (`post`) send the rebec itself, and with which arguments and time.
+    posts: Mapping[int, tuple[Sends, tuple[Node, ...]]] = field(default_factory=dict)
     # What whole statements of the code stand for, by the ids of their nodes, and expressions:
     # what sets a node up is known from elsewhere. A node among them is read as it is.
     instead: Mapping[int, tuple[Statement | Stores | Node, ...]] = field(default_factory=dict)

@@ -18,6 +18,7 @@ from rebsync.trees import is_within, tree_of_code
 MANIFEST = "package.xml"
 HEADERS = frozenset({".h", ".hh", ".hpp", ".hxx", ".cuh", ".ipp", ".tpp", ".inl", ".H"})
 CODE = HEADERS | {".c", ".cc", ".cpp", ".cxx", ".c++", ".C", ".cu"}
+_EXECUTABLE = 0o111
 _OTHERS = frozenset({".launch", ".msg", ".srv", ".action", ".yaml", ".yml", ".xml"})
 _NAMED = frozenset({"CMakeLists.txt", "rebsync.toml", "setup.cfg"})
 _IGNORING = frozenset({"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"})
@@ -36,7 +37,8 @@ class Listing:
     `only` is the file that is asked for, if it is one; `odd` are the files that cannot be read,
     each with the reason; `size` is that of all code in bytes. Paths have slashes, and are text
     whatever the bytes of the names. `linked` are the real paths of what is behind links, in the
-    directory `tree`; `store` is where the files are, if not on the disk.
+    directory `tree`; `store` is where the files are, if not on the disk; `programs` are the files
+    that may be executed.
     """
 
     root: str
@@ -48,6 +50,7 @@ class Listing:
     linked: dict[str, str] = field(default_factory=dict)
     tree: str = ""
     store: Store | None = None
+    programs: set[str] = field(default_factory=set)
 
 
 def listings(path: str, within: str | None = None, store: Store | None = None) -> Iterator[Listing]:
@@ -217,6 +220,8 @@ def _add(listing: Listing, entry: Entry, inside: str, real: str, files: Store) -
         return
     if stat.S_ISREG(found.st_mode):
         listing.files[name] = entry.path
+        if found.st_mode & _EXECUTABLE or os.name == "nt":  # there, no file has the bits
+            listing.programs.add(name)
         listing.size += found.st_size if suffix in CODE or suffix == SUFFIX else 0
         if real:
             listing.linked[name] = real

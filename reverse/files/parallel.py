@@ -115,9 +115,9 @@ def in_processes(
         lost = [*(one for one, _ in waiting), *more]
         yield from (_alone(one, task, root_of) for one in chain(lost, every))
     finally:
-        # Who has all results waits for the processes to end, which is soon: at its own end the
-        # interpreter would close pipes that the pool's thread still uses.
-        pool.shutdown(wait=not waiting, cancel_futures=True)
+        # At its own end the interpreter would close pipes that the pool's thread still uses; it
+        # waits there for the tasks that have begun in any case.
+        pool.shutdown(cancel_futures=True)
 
 
 def _alone(one: G, task: Callable[[G], T], root_of: Callable[[G], str]) -> T:

@@ -9,11 +9,14 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.package import Value
+from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.launch.parameters import Parameter
 from rebsync.reverse.syntax.cpp_tree import named, text_of
 from rebsync.static.values import converted
 
 _ENV_MARKER = re.compile(r"# *rebsync: env (?P<type>[a-z]+)(?P<lengths>(?:\[\d+\])*) (?P<name>\S+)")
+
+_NAME = re.compile(r"[./]")
 
 
 def plain_value(parameter: Parameter) -> Value | None:
@@ -70,6 +73,16 @@ def as_type(value: Value, type_: m.Type) -> Value:
             return value
         case _:
             return converted(value, type_)
+
+
+def value_in_all(key: str, default: Value | None, launch: Launch) -> Value | None:
+    """What a constant is in all nodes that a launch file starts; None where that is not known."""
+    common = [p for p in launch.parameters if p.name.lstrip("/").removeprefix("env/") == key]
+    every = (*launch.parameters, *(p for node in launch.nodes for p in node.parameters))
+    found = {plain_value(p) for p in every if _NAME.split(p.name)[-1] == _NAME.split(key)[-1]}
+    if not common:
+        found.add(default)
+    return found.pop() if len(found) == 1 and not launch.unknowns else None
 
 
 def marked_type(parameter: Parameter) -> tuple[m.Type, str] | None:

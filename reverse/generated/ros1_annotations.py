@@ -15,7 +15,8 @@ from rebsync.reverse.generated.ros1_roles import Roles
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import text_of
 
-_SHOWN = frozenset({"priority", "globalPriority"}) | OFFERS
+PRIORITIES = frozenset({"priority", "globalPriority"})
+_SHOWN = PRIORITIES | OFFERS
 
 
 def annotations_in(markers: Collection[str], owner: CppClass) -> tuple[m.Annotation, ...]:
@@ -39,7 +40,7 @@ def server_annotations(
     code: Code, all_roles: Mapping[str, Roles], owner: CppClass, function: CppFunction, name: str
 ) -> Iterator[m.Annotation]:
     """Those of the markers, and those that the set-up shows."""
-    shown = _shown(code, all_roles, owner, function, name)
+    shown = set_up_of(code, all_roles, owner, function, name)
     if not any(x.startswith("msgsrv ") for x in function.markers):
         if name in all_roles[owner.name].sensors:
             yield m.Annotation("Sensor")
@@ -58,7 +59,7 @@ def server_annotations(
     yield from said.values()
 
 
-def _shown(
+def set_up_of(
     code: Code, all_roles: Mapping[str, Roles], owner: CppClass, function: CppFunction, name: str
 ) -> tuple[m.Annotation, ...] | None:
     """What the set-up shows of a server, here or in a class above; None if it shows none."""

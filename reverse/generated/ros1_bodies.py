@@ -60,9 +60,19 @@ class Bodies:
             elif self._may_change(function, index):
                 why = "this refers to a member that the function may change"
                 self._unread(function, parameter.node, why, function.name, _BY_VALUE)
-            name = self._given_name(function, parameter)
+            name = self._given_name(function, parameter) or self._declared_name(function, index)
             found.append(m.Parameter(type_ or m.Type("int"), name, span))
         return tuple(found)
+
+    def _declared_name(self, function: CppFunction, index: int) -> str:
+        """What the class calls a parameter that a function does not use, and so leaves unnamed."""
+        owner = self.code.classes.get(function.owner)
+        same = (
+            declared.parameters[index].name
+            for declared in (owner.functions if owner is not None else ())
+            if (declared.name, declared.types) == (function.name, function.types)
+        )
+        return next(filter(None, same), f"unused{index + 1}")
 
     def _may_change(self, function: CppFunction, index: int) -> bool:
         """Whether a reference to a constant may refer to a member that the function changes."""

@@ -50,9 +50,11 @@ from rebsync.reverse.generated.ros1_names import (
     variable_name,
 )
 from rebsync.reverse.generated.ros1_plumbing import check_plumbing
+from rebsync.reverse.generated.ros1_posts import learn_servers, posts_in_bodies
 from rebsync.reverse.generated.ros1_publishing import publisher
 from rebsync.reverse.generated.ros1_roles import Roles, roles_of, shown_of
 from rebsync.reverse.generated.ros1_sends import add_sends, families_of
+from rebsync.reverse.generated.ros1_shown import shown_only
 from rebsync.reverse.generated.ros1_timers import (
     Timer,
     checked,
@@ -72,8 +74,9 @@ _PLUMBING = frozenset({"mailbox", "publishState"})
 class Classes:
     """Reads the classes of some code that have a mailbox, and the interfaces of these.
 
-    `messages` are the fields of message types (`package/Type`) by their names, `unit` the seconds
-    of a unit of time, `served` what classes in another language serve.
+    `messages` are the fields of message types (`package/Type`), `unit` the seconds of a unit of
+    time, `served` what classes in another language serve. `shown` are types with topics that nobody
+    hears, if it is `alone`: no file of another language has to do with them.
     """
 
     code: Code
@@ -86,15 +89,18 @@ class Classes:
     timers: dict[str, tuple[Timer, ...]] = field(default_factory=dict)
     fields: dict[str, Mapping[str, m.Type | None]] = field(default_factory=dict)
     meanings: tuple[Meaning, ...] = ()
+    alone: bool = False
+    shown: frozenset[tuple[str, str]] = frozenset()
     _scopes: dict[str, Scope] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.types = frozenset(self.code.classes)
         if all("Mailbox" not in cpp.source.text for cpp in self.code.files):
             self.roles = {name: Roles() for name in self.code.classes}
-            return  # nothing here is generated
+            return
         self.code = without_mixins(self.code)
         self.meanings = other_meanings(self.code)
+        self.shown = shown_only(self.code) if self.alone else frozenset()
         for owner in self.code.classes.values():
             self.roles[owner.name] = roles_of(self.code, owner)
         ordered = as_handed_on(self.code, self.messages, self.served, self.roles)
@@ -102,11 +108,13 @@ class Classes:
         self.fields = {t.rpartition("/")[2]: f for t, f in self.messages.items()}
         self.types |= {carry(name, NO_CLASSES) for name in self.served.classes}  # of Python
         self.served = self.served.joined(families_of(self.code, self.roles))
-        for owner in self.code.classes.values():
-            add_sends(self.code, owner, self.roles, self.fields, self.served)
         sent = (p.message for roles in self.roles.values() for p in roles.publishers.values())
         states = (s for c in self.code.classes.values() for s in state_types(self.code, c))
         self.types = self.types.union(self.fields, self.served.servers, sent, states)
+        for owner in self.code.classes.values():
+            learn_servers(self.code, owner, self.roles, self.types)
+        for owner in self.code.classes.values():
+            add_sends(self.code, owner, self.roles, self.fields, self.served)
         for owner in self.code.classes.values():
             self.timers[owner.name] = tuple(self._timed(owner))
 
@@ -226,9 +234,8 @@ class Classes:
             self.code, owner, function, partial(has_mailbox, self.code)
         ):
             return False
-        if self._is_by_hand(owner, function):
-            return False
-        return not only_forwards(self.code, owner, function)
+        is_by_hand = self._is_by_hand(owner, function)
+        return not (is_by_hand or only_forwards(self.code, owner, function))
 
     def _is_by_hand(self, owner: CppClass, function: CppFunction) -> bool:
         """Whether a function that people added is none of the model, whatever calls it."""
@@ -330,7 +337,7 @@ class Classes:
             yield m.Constructor(name, (), m.Block((*given, *started)))
 
     def _bodies(self, owner: CppClass) -> Bodies:
-        by_hand = partial(as_by_hand, self.code, owner)
+        by_hand = partial(as_by_hand, self.code, owner, self.shown)
         sensors = frozenset(f"{owner.name}.{name}" for name in self.roles[owner.name].sensors)
         return Bodies(self.code, self.scope(owner), self.findings, by_hand, sensors)
 
@@ -385,6 +392,7 @@ class Classes:
             self.types,
             frozenset(callable_),
             timers=timers,
+            posts=dict(posts_in_bodies(self.code, owner, self.roles, self.served)),
             enumerators=enumerators(self.code),
             enums=frozenset(e.enum for all_ in self.code.enumerators.values() for e in all_),
             messages=self.messages,

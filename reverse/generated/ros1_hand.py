@@ -6,7 +6,7 @@ A body that has such forms in it is read as people's own code is: by what it doe
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 
 from rebsync.reserved import RUNTIME_FUNCTIONS
@@ -31,13 +31,18 @@ _PASSIVE = re.compile(
 _REFERS = ("pointer_declarator", "reference_declarator")
 
 
-def as_by_hand(code: Code, owner: CppClass, scope: Scope) -> Scope:
-    """What a body of a class can name, for a reader of what people write."""
+def as_by_hand(
+    code: Code, owner: CppClass, shown: Collection[tuple[str, str]], scope: Scope
+) -> Scope:
+    """What a body of a class can name, for a reader of what people write.
+
+    `shown` are types of messages with topics that nobody in the code hears.
+    """
     members: dict[str, Member] = dict(scope.members)
     for above in code.lineage(owner.name):
         for name in _referring(above):
             members[name] = Outside(reaches=True)
-        members |= telling_publishers(code, above)
+        members |= telling_publishers(code, above, shown)
     functions: dict[str, Function] = dict(scope.functions)
     free = (f for (of, _), found in code.definitions.items() if not of for f in found)
     own = (f for above in code.lineage(owner.name) for f in code.functions_of(above))

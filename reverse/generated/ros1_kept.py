@@ -198,7 +198,8 @@ def _common(classes: Classes) -> Iterator[str]:
     told = _Told({})
     for each in (classes.roles, classes.timers, classes.meanings, classes.messages):
         yield from told.of(each)
-    yield from told.of((classes.unit, classes.types, classes.fields, classes.served))
+    every = (classes.unit, classes.types, classes.fields, classes.served, classes.shown)
+    yield from told.of(every)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

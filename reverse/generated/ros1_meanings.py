@@ -47,7 +47,8 @@ def other_meanings(code: Code) -> tuple[Meaning, ...]:
     found = [m for cpp in own for m in _named_again(cpp)]
     macros = [m for cpp in own for m in _macros(cpp)]
     if macros:
-        known = RESERVED | CPP_KEYWORDS | {name for cpp in own for name in _declared(cpp)}
+        known = RESERVED | CPP_KEYWORDS
+        known |= {name for cpp in own for name in (*_declared(cpp), *_of_others(cpp))}
         found += [m for m in macros if m.name in known or m.name.startswith(LOGGING)]
     for (owner, name), functions in code.definitions.items():
         if not owner and name in RESERVED:
@@ -86,6 +87,13 @@ def _declared(cpp: Cpp) -> Iterator[str]:
         for node in nodes:
             head = text_of(node).partition("{")[0].partition("=")[0]
             yield from _NAME.findall(head)
+
+
+def _of_others(cpp: Cpp) -> Iterator[str]:
+    """The names of what libraries have, or objects: `fill` of `std::fill` and of `array.fill`."""
+    for nodes in by_types(cpp.root, ("qualified_identifier", "field_expression")).values():
+        for node in nodes:
+            yield from _NAME.findall(re.split(r"::|\.|->", text_of(node))[-1])
 
 
 def _named_again(cpp: Cpp) -> Iterator[Meaning]:

@@ -7,36 +7,32 @@ generated. Anything else is listed: the model would not show it.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Container, Iterator, Mapping, Sequence
-from math import prod
-from typing import TypeAlias
+from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
 
 from tree_sitter import Node
 
-from rebsync.model import Type
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.parameters import READS
-from rebsync.reverse.generated.ros1_handed import handed_on
+from rebsync.reverse.generated.ros1_descriptors import number_of
 from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_names import declared_type
+from rebsync.reverse.generated.ros1_queues import odd_queue
 from rebsync.reverse.generated.ros1_roles import (
     OFFERING,
     Roles,
-    Taken,
     best_priority,
     call_in,
-    number_of,
     odd_priorities,
 )
+from rebsync.reverse.generated.ros1_shims import Fields, odd_in_shim
 from rebsync.reverse.generated.ros1_timers import idle_timers, makes, timers_of
 from rebsync.reverse.generated.ros2_words import SETS_UP, arguments_in
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
-from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
-from rebsync.static.types import PRIMITIVES
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, part, text_of
 
-_Fields: TypeAlias = "Mapping[str, Mapping[str, Type | None]]"
 _SETS_UP = SETS_UP | {"advertise", "advertiseAll", "unused"}
+_LOST = "no subscription takes this in: the class only sends it to itself"
 _STARTING = frozenset({"construct", "start"})
 _ONCE = frozenset({"construct", "onServed", "start"})
 _CHANGES = ("assignment_expression", "update_expression", "delete_expression", "throw_statement")
@@ -49,7 +45,7 @@ def check_plumbing(
     code: Code,
     owner: CppClass,
     all_roles: Mapping[str, Roles],
-    fields: _Fields,
+    fields: Fields,
     findings: Findings,
 ) -> None:
     """Lists what a class does outside of its bodies that the model cannot show.
@@ -57,56 +53,74 @@ def check_plumbing(
     `fields` are those of each message type, in their order.
     """
     roles = all_roles[owner.name]
-    lineage = [all_roles[c.name] for c in code.lineage(owner.name)]
-    topics = {t for above in lineage for t in above.topics}
-    for cpp, node in odd_priorities(code, roles):
-        why = "a server has kNoPriority, priority(number) or globalPriority(number)"
+    for cpp, node, why in (*_odd_servers(code, roles), *_odd_fields(code, owner)):
         findings.unreadable(cpp.source, Unread(cpp.span(node), why), owner.name)
+    lineage = [all_roles[c.name] for c in code.lineage(owner.name)]
+    for function in code.functions_of(owner):
+        if function.body is None:
+            continue
+        for node, why in _odd_in(code, owner, function, lineage, fields):
+            unread = Unread(function.cpp.span(node), why)
+            findings.unreadable(function.cpp.source, unread, f"{owner.name}.{function.name}")
+
+
+def _odd_servers(code: Code, roles: Roles) -> Iterator[tuple[Cpp, Node, str]]:
+    """Priorities and descriptors of servers that no generated code has."""
+    for cpp, node in odd_priorities(code, roles):
+        yield cpp, node, "a server has kNoPriority, priority(number) or globalPriority(number)"
     descriptors = [text_of(taken.call.arguments[0]) for taken in roles.taken]
     for taken, descriptor in zip(roles.taken, descriptors, strict=True):
         if descriptors.count(descriptor) > 1:
-            cpp, why = taken.function.cpp, "messages of two servers are received as those of one"
-            unread = Unread(cpp.span(taken.call.arguments[0]), why)
-            findings.unreadable(cpp.source, unread, owner.name)
+            why = "messages of two servers are received as those of one"
+            yield taken.function.cpp, taken.call.arguments[0], why
+
+
+def _odd_fields(code: Code, owner: CppClass) -> Iterator[tuple[Cpp, Node, str]]:
+    """Members that hold something else than a state variable of their type does."""
     for member in owner.fields:
         storage = (c.text for c in member.node.children if c.type == "storage_class_specifier")
         if b"static" in storage and declared_type(code, member.type) is not None:
             why = "all objects of the class share this; in the model each rebec has its own"
-            unread = Unread(member.cpp.span(member.node), why)
-            findings.unreadable(member.cpp.source, unread, owner.name)
+            yield member.cpp, member.node, why
         if any(c.type == "bitfield_clause" for c in member.node.children):
-            unread = Unread(member.cpp.span(member.node), "this holds some of its bits only")
-            findings.unreadable(member.cpp.source, unread, owner.name)
-    for function in code.functions_of(owner):
-        if function.body is None:
-            continue
-        if function.name == owner.name:
-            odd = _odd_in_constructor(code, owner, function, roles)
-            why = "a constructor of generated code only sets up; the model's own is construct()"
-        elif function.name in roles.shims and function.name not in topics:
-            odd = iter((function.node,))
-            why = "no subscription takes messages to this: those of others do not arrive"
-        elif function.name in roles.shims:
-            odd = _odd_in_shim(code, owner, function, roles, fields)
-            why = "this does more than to hand a message to its handler"
-        elif function.name in roles.odd_sends:
-            odd = iter(roles.odd_sends[function.name])
-            why = "this does more than to send its arguments"
-        elif function.name == "publishState":
-            odd = _odd_in_state(working(function.body))
-            why = "this does more than to tell the state"
-        elif function.name == "construct" and not _is_constructed(code, owner):
-            odd = iter((function.node,))
-            why = "no constructor has this run"
-        else:
-            continue
-        if function.name == owner.name and (told := _odd_priority(code, function, lineage)):
-            why = "the mailbox is told of another priority than its most urgent server has"
-            unread = Unread(function.cpp.span(told), why)
-            findings.unreadable(function.cpp.source, unread, f"{owner.name}.{function.name}")
-        for node in odd:
-            unread = Unread(function.cpp.span(node), why)
-            findings.unreadable(function.cpp.source, unread, f"{owner.name}.{function.name}")
+            yield member.cpp, member.node, "this holds some of its bits only"
+
+
+def _odd_in(
+    code: Code, owner: CppClass, function: CppFunction, lineage: Sequence[Roles], fields: Fields
+) -> Iterator[tuple[Node, str]]:
+    """What in a function of a class is not as generated, if it is one of those around bodies.
+
+    `lineage` is what the class and those above it do, its own first.
+    """
+    roles, name = lineage[0], function.name
+    topics = {t for above in lineage for t in above.topics}
+    odd: Iterable[Node] = ()
+    why = ""
+    if name == owner.name:
+        odd = _odd_in_constructor(code, owner, function, roles)
+        why = "a constructor of generated code only sets up; the model's own is construct()"
+        if (told := _odd_priority(code, function, lineage)) is not None:
+            yield told, "the mailbox is told of another priority than its most urgent server has"
+        if (told := odd_queue(code, function)) is not None:
+            yield told, "this is no number of messages that is known here"
+    elif name in roles.shims and name not in topics:
+        odd = (function.node,)
+        why = "no subscription takes messages to this: those of others do not arrive"
+    elif name in roles.shims:
+        odd = odd_in_shim(code, owner, function, roles, fields)
+        why = "this does more than to hand a message to its handler"
+    elif name in roles.odd_sends:
+        odd = roles.odd_sends[name]
+        why = "this does more than to send its arguments"
+    elif name == "publishState":
+        odd = _odd_in_state(working(function.body))
+        why = "this does more than to tell the state"
+    elif name == "construct" and not _is_constructed(code, owner):
+        odd = (function.node,)
+        why = "no constructor has this run"
+    for node in odd:
+        yield node, _LOST if node.id in roles.lost else why
 
 
 def _odd_priority(code: Code, function: CppFunction, lineage: Sequence[Roles]) -> Node | None:
@@ -264,111 +278,3 @@ def _tells(statement: Node, messages: Collection[str]) -> bool:
         return is_field and next(calls_in(value), None) is None
     call = call_of(expression)
     return call is not None and call.name in _TELLS
-
-
-def _odd_in_shim(
-    code: Code,
-    owner: CppClass,
-    function: CppFunction,
-    roles: Roles,
-    fields: _Fields,
-) -> Iterator[Node]:
-    """The whole body, unless it hands every field on once, in the message's order."""
-    received = [t for t in roles.taken if t.shim == function.node]
-    statements = working(function.body)
-    if len(statements) != 1 or len(received) != 1:
-        yield from statements
-        return
-    (taken,) = received
-    known = fields.get(taken.type)
-    if not (_hands_fields_on(taken, known) and _fits(code, owner, taken, known or {})):
-        yield taken.call.arguments[-1]
-    elif not _tells_of_message(code, owner, taken, known or {}):
-        yield taken.call.node
-
-
-def _fits(code: Code, owner: CppClass, taken: Taken, fields: Mapping[str, Type | None]) -> bool:
-    """Whether fields are of the types of the handler's parameters, so that no value is cut."""
-    own = _handlers(code, owner, taken, len(fields))
-    return not own or any(_takes_in(code, f, fields) for f in own)
-
-
-def _handlers(code: Code, owner: CppClass, taken: Taken, count: int) -> list[CppFunction]:
-    """The functions that may serve a message with so many fields, of the class itself first."""
-    every = (f for c in code.lineage(owner.name) for f in code.functions_of(c))
-    return [f for f in every if f.name == taken.handler and len(f.parameters) == count]
-
-
-def _takes_in(code: Code, function: CppFunction, fields: Mapping[str, Type | None]) -> bool:
-    types = (declared_type(code, p.type) for p in function.parameters)
-    return all(map(_is_kept, fields.values(), types))
-
-
-def _is_kept(field: Type | None, type_: Type | None) -> bool:
-    """Whether a field has all values of a parameter; a rebec's name is a string."""
-    if field is None or type_ is None:
-        return type_ is None or type_.name not in PRIMITIVES
-    return field.name == type_.name and prod(field.dimensions) == prod(type_.dimensions)
-
-
-def _tells_of_message(
-    code: Code, owner: CppClass, taken: Taken, fields: Mapping[str, Type | None]
-) -> bool:
-    """Whether the mailbox gets the message's own times, and its sender where that is asked for."""
-    times, sender = ("".join(text_of(a).split()) for a in taken.call.arguments[1:3])
-    name = taken.message.name
-    if times != f"{name}->timing":
-        return False
-    return sender == f"{name}->sender" or not _asks_for_sender(code, owner, taken, fields)
-
-
-def _asks_for_sender(
-    code: Code, owner: CppClass, taken: Taken, fields: Mapping[str, Type | None]
-) -> bool:
-    """Whether what serves a message asks who has sent it; what it sends is served apart."""
-    called = call_in(taken.call.arguments[-1])
-    if called is None or taken.handler is None:
-        return any(_is_question(call) for call in code.calls_of(taken.function))
-    functions = _told_by_number(code, owner)
-    own = _handlers(code, owner, taken, len(called[1]))
-    waiting = [f for f in own if not fields or _takes_in(code, f, fields)][:1]
-    seen: set[int] = set()
-    while waiting:
-        function = waiting.pop()
-        if function.node.id in seen:
-            continue
-        seen.add(function.node.id)
-        for call in code.calls_of(function):
-            if _is_question(call):
-                return True
-            called_next = functions.get((call.name.rpartition("::")[2], len(call.arguments)))
-            waiting += [called_next] if called_next is not None else []
-    return False
-
-
-def _told_by_number(code: Code, owner: CppClass) -> dict[tuple[str, int], CppFunction]:
-    """The functions by name and number of parameters, without those that only types tell apart.
-
-    Nor those that send.
-    """
-    found: dict[tuple[str, int], CppFunction] = {}
-    several: set[tuple[str, int]] = set()
-    lineage = reversed(code.lineage(owner.name))
-    for function in (f for c in lineage for f in code.functions_of(c)):
-        key = function.name, len(function.parameters)
-        if "When" in function.types[-1:] or found.get(key, function).types != function.types:
-            several.add(key)
-        found[key] = function
-    return {key: function for key, function in found.items() if key not in several}
-
-
-def _is_question(call: CppCall) -> bool:
-    return call.name == "sender" and call.on == "mailbox_"
-
-
-def _hands_fields_on(taken: Taken, order: Collection[str] | None) -> bool:
-    """Whether a handler gets the fields; a lambda that is the handler takes what it wants."""
-    if taken.handler is None:
-        return True
-    passed = handed_on(taken)
-    return passed is not None and (order is None or passed == list(order))

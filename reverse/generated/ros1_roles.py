@@ -19,8 +19,10 @@ from rebsync.reserved import OWN_TOPICS
 from rebsync.reverse.bodies.scope import Sends
 from rebsync.reverse.generated.own_parameters import OwnParameter
 from rebsync.reverse.generated.parameters import READS, read_by
+from rebsync.reverse.generated.ros1_descriptors import priority_of, server_of, tells_priority
 from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_parameters import own_parameters
+from rebsync.reverse.generated.ros1_queues import queue_length
 from rebsync.reverse.generated.ros1_silent import only_logged
 from rebsync.reverse.generated.ros2_words import (
     constant_of_model,
@@ -29,7 +31,7 @@ from rebsync.reverse.generated.ros2_words import (
     message_name,
 )
 from rebsync.reverse.syntax.cpp_calls import CppCall, assigned_in, call_of, calls_in, string_of
-from rebsync.reverse.syntax.cpp_declarations import parameters_in, whole_number
+from rebsync.reverse.syntax.cpp_declarations import parameters_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction, CppParameter
 from rebsync.reverse.syntax.cpp_tree import Cpp, last_name, named, part, text_of
 from rebsync.static.constants import constant
@@ -93,7 +95,8 @@ class Roles:
     those of shims are offered, `wired` the calls that make them and publishers of the rebec; `own`
     are parameters of the node that state variables get, `reading` the statements that do that,
     `silent` the variables of them that are only logged; `passing` are callbacks of timers that only
-    post a message; `odd_sends` what functions that send do besides.
+    post a message; `odd_sends` what functions that send do besides; `posted` are the servers that
+    no subscription takes messages to, `lost` the calls that send there all the same.
     """
 
     handlers: dict[str, str] = field(default_factory=dict)
@@ -116,6 +119,8 @@ class Roles:
     own: dict[str, OwnParameter] = field(default_factory=dict)
     reading: set[int] = field(default_factory=set)
     silent: set[str] = field(default_factory=set)
+    posted: set[str] = field(default_factory=set)
+    lost: set[int] = field(default_factory=set)
     passing: set[str] = field(default_factory=set)
     queue_length: int | None = None
 
@@ -141,7 +146,7 @@ def roles_of(code: Code, owner: CppClass) -> Roles:
     roles.own = {n: p for n, p in roles.own.items() if n not in roles.silent}
     for constructor in (*owner.functions, *functions):
         if constructor.name == owner.name:
-            roles.queue_length = _queue_length(constructor) or roles.queue_length
+            roles.queue_length = queue_length(code, constructor) or roles.queue_length
     for function in functions:
         for call in code.calls_of(function) if _says(function, b"receive") else ():
             if call.name == "receive" and len(call.arguments) == 5:
@@ -162,31 +167,6 @@ def _offered(call: CppCall) -> m.Annotation:
     return m.Annotation(name, tuple(m.Name(reply or "") for reply in replies))
 
 
-def _priority(code: Code, function: CppFunction, call: CppCall) -> Iterator[m.Annotation]:
-    """`@priority(n)` or `@globalPriority(n)` of a server's descriptor."""
-    given = _given_priority(code, function.cpp, text_of(call.arguments[0]))
-    called = call_of(given) if given is not None else None
-    if called is not None and (number := _priority_in(code, function.cpp, called)) is not None:
-        value = m.IntLiteral(abs(number))
-        yield m.Annotation(called.name, (value if number >= 0 else m.Unary("-", value),))
-
-
-def _given_priority(code: Code, cpp: Cpp, descriptor: str) -> Node | None:
-    """What the descriptor of a server says of its priority, a constant by its value."""
-    found = code.constant(cpp, descriptor)
-    values = named(found[1]) if found is not None else []
-    if len(values) != 2:
-        return None
-    constant = code.constant(cpp, text_of(values[1]))
-    return constant[1] if constant is not None else values[1]
-
-
-def _priority_in(code: Code, cpp: Cpp, call: CppCall) -> int | None:
-    if call.name not in ("priority", "globalPriority") or len(call.arguments) != 1:
-        return None
-    return number_of(code, cpp, call.arguments[0])
-
-
 def odd_priorities(code: Code, roles: Roles) -> Iterator[tuple[Cpp, Node]]:
     """The descriptors of servers whose priority is told in a way that the model does not have."""
     for taken in roles.taken:
@@ -194,10 +174,7 @@ def odd_priorities(code: Code, roles: Roles) -> Iterator[tuple[Cpp, Node]]:
         found = code.constant(taken.function.cpp, descriptor)
         if found is None:
             continue
-        given = _given_priority(code, taken.function.cpp, descriptor)
-        called = call_of(given) if given is not None else None
-        is_told = called is not None and _priority_in(code, taken.function.cpp, called) is not None
-        if not is_told and (given is None or text_of(given) != "kNoPriority"):
+        if not tells_priority(code, taken.function.cpp, descriptor):
             yield found
 
 
@@ -207,21 +184,6 @@ def best_priority(lineage: Iterable[Roles]) -> int | None:
     given = (a.arguments or () for each in overloads for shown in each for a in shown)
     found = [constant(argument) for arguments in given for argument in arguments]
     return min((int(n) for n in found if n is not None), default=None)
-
-
-def number_of(code: Code, cpp: Cpp, node: Node) -> int | None:
-    """A whole number, or that of a constant."""
-    found = code.constant(cpp, text_of(node))
-    return whole_number(found[1] if found is not None else node)
-
-
-def server_of(code: Code, cpp: Cpp, constant: str) -> str | None:
-    """The server that a descriptor `constexpr Server kX{"x", priority}` is about."""
-    found = code.constant(cpp, constant)
-    if found is None or found[1].type != "initializer_list":
-        return None
-    values = named(found[1])
-    return string_of(values[0]) if values else None
 
 
 # --- set up by constructors ---------------------------------------------------------------------
@@ -294,21 +256,6 @@ def _member(roles: Roles, member: str, call: CppCall) -> None:
             roles.publishers[member] = Advertised(None, key, message_name(text_of(call.types[0])))
 
 
-def _queue_length(constructor: CppFunction) -> int | None:
-    """The number given to the mailbox, or as default to the parameter that is passed on to it."""
-    if constructor.initialisers is not None:
-        for initialiser in named(constructor.initialisers):
-            for argument in named(initialiser)[-1:]:
-                for value in named(argument):
-                    if text_of(value).isdecimal():
-                        return int(text_of(value))
-    for parameter in constructor.parameters:
-        default = parameter.node.child_by_field_name("default_value")
-        if default is not None and text_of(default).isdecimal():
-            return int(text_of(default))
-    return None
-
-
 # --- what functions do --------------------------------------------------------------------------
 
 
@@ -333,7 +280,7 @@ def _received(
         roles.handlers[handler] = server
         arguments = len(called[1]) if called is not None else 0
         offer = (o for shim, o in roles.offers.items() if shim == function.name)
-        shown = *_port(topic), *offer, *_priority(code, function, call)
+        shown = *_port(topic), *offer, *priority_of(code, function.cpp, text_of(call.arguments[0]))
         roles.annotations.setdefault((server, arguments), []).append(shown)
     roles.messages[taken.type] = server
     roles.constants.add(text_of(call.arguments[0]))
@@ -341,7 +288,8 @@ def _received(
 
 def shown_of(code: Code, taken: Taken) -> tuple[m.Annotation, ...]:
     """The annotations that the set-up of a server shows whose handler is a lambda."""
-    return *_port(taken.topic), *_priority(code, taken.function, taken.call)
+    descriptor = text_of(taken.call.arguments[0])
+    return *_port(taken.topic), *priority_of(code, taken.function.cpp, descriptor)
 
 
 def _is_plain(code: Code, owner: CppClass, name: str) -> bool:

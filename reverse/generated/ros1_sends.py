@@ -5,19 +5,23 @@ Whatever else a function does makes it a function of the model, whose body shows
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 
 from tree_sitter import Node
 
 from rebsync.names import uncarry
 from rebsync.reserved import RUNTIME_CLASSES, RUNTIME_TOPICS
 from rebsync.reverse.bodies.cpp_types import class_name
-from rebsync.reverse.bodies.overloads import Served, plain
+from rebsync.reverse.bodies.overloads import Served, Signature, plain
 from rebsync.reverse.bodies.scope import Sends
+from rebsync.reverse.generated.ros1_descriptors import server_of
 from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_names import declared_type
-from rebsync.reverse.generated.ros1_roles import Advertised, Roles, call_in, server_of
+from rebsync.reverse.generated.ros1_posts import Post, own_post, rivals_of
+from rebsync.reverse.generated.ros1_roles import Advertised, Roles
+from rebsync.reverse.generated.ros1_shims import Fields, is_kept
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, last_name, named, part, text_of
@@ -29,7 +33,7 @@ def add_sends(
     code: Code,
     owner: CppClass,
     all_roles: dict[str, Roles],
-    fields: Mapping[str, Collection[str]],
+    fields: Fields,
     served: Served,
 ) -> None:
     """Reads which functions of a class send what to whom, and which do more than that.
@@ -38,21 +42,28 @@ def add_sends(
     """
     lineage = [all_roles[c.name] for c in code.lineage(owner.name)]
     publishers = {n: p for roles in reversed(lineage) for n, p in roles.publishers.items()}
+    rivals = partial(rivals_of, code, owner, all_roles, served)
     servers = served.servers
     senders = {t.type for roles in all_roles.values() for t in roles.taken if t.tells_sender}
     roles = all_roles[owner.name]
-    for function in code.functions_of(owner):
-        if not _takes_times(function):
-            continue
+    posted = {server for each in all_roles.values() for server in each.posted}
+    sending = [f for f in code.functions_of(owner) if _takes_times(f)]
+    for function in sending:
         for call in code.calls_of(function):
             sends = _sent(code, function, call, publishers, servers)
             if sends is None:
                 continue
             message = publishers[_publisher(call)].message if call.name == "publish" else ""
-            if odd := _odd_send(function, sends, message, lineage, fields, senders):
+            post = partial(own_post, code, owner, all_roles, function)
+            odd = _odd_send(function, sends, message, post, fields, senders)
+            odd = odd or [*_misfits(code, function, message, fields), *_rival(sending, function)]
+            if message and message not in served.servers and sends.server in posted:
+                odd.append(call.node)
+                roles.lost.add(call.node.id)
+            if odd:
                 roles.odd_sends[function.name] = odd
             else:
-                told = _told(code, owner, function, call, publishers, sends, served)
+                told = _told(code, function, call, publishers, sends, served, rivals)
                 roles.sends[function.name] = replace(told, usual=_usual(owner, function))
             break
 
@@ -68,19 +79,35 @@ def families_of(code: Code, all_roles: Mapping[str, Roles]) -> dict[str, dict[st
     return found
 
 
+def _rival(sending: Sequence[CppFunction], function: CppFunction) -> Iterator[Node]:
+    """The function, if only the types of what is sent tell it from another that sends."""
+    same = (f.types for f in sending if f.name == function.name)
+    if any(len(t) == len(function.types) and t != function.types for t in same):
+        yield part(function.node, "declarator")
+
+
+def _misfits(code: Code, function: CppFunction, message: str, fields: Fields) -> Iterator[Node]:
+    """The parameters that are not of the types of the message's fields, which would be cut."""
+    types = [*fields.get(message, {}).values()]
+    given = function.parameters[:-1][-len(types) :] if types else ()
+    for type_, parameter in zip(types, given, strict=False):
+        if not is_kept(type_, declared_type(code, parameter.type)):
+            yield parameter.node
+
+
 def _told(
     code: Code,
-    owner: CppClass,
     function: CppFunction,
     call: CppCall,
     publishers: Mapping[str, Advertised],
     sends: Sends,
     served: Served,
+    rivals_in: Callable[[str, Signature], frozenset[Signature]],
 ) -> Sends:
     """A send with the types of what it sends, and those that overloads take."""
     if sends.known == "self":
         types = plain([declared_type(code, p.type) for p in function.parameters[:-1]])
-        rivals = served.rivals_in(class_name(owner.name), sends.server, types)
+        rivals = rivals_in(sends.server, types)
     else:
         message = publishers[_publisher(call)].message
         types = plain(served.fields.get(message, ()))
@@ -140,19 +167,18 @@ def _odd_send(
     function: CppFunction,
     sends: Sends,
     message: str,
-    lineage: Sequence[Roles],
+    post: Callable[[CppCall], Post | None],
     fields: Mapping[str, Collection[str]],
     senders: Collection[str],
 ) -> list[Node]:
     """What a function does besides sending the `message` that its publisher is for.
 
-    `senders` are the messages that say who sends them.
+    `post` tells what a call posts, `senders` are the messages that say who sends them.
     """
-    handlers = {f: s for roles in reversed(lineage) for f, s in roles.handlers.items()}
     made = next((s for s in working(function.body) if s.type == "declaration"), None)
     type_ = last_name(part(made, "type")) if made is not None else ""
     order = list(fields[type_]) if type_ in fields else None
-    odd = list(_odd_in_send(function, sends, handlers, order))
+    odd = list(_odd_in_send(function, sends, post, order))
     if made is not None and message and type_ != message and order is not None:
         return [made, *odd]
     if made is not None and type_ in senders and not _tells_sender(function, _declared(made)):
@@ -162,12 +188,15 @@ def _odd_send(
 
 
 def _odd_in_send(
-    function: CppFunction, sends: Sends, handlers: Mapping[str, str], fields: Sequence[str] | None
+    function: CppFunction,
+    sends: Sends,
+    post: Callable[[CppCall], Post | None],
+    fields: Sequence[str] | None,
 ) -> Iterator[Node]:
     """Statements that do not put each parameter into its field of the message, or send it once.
 
-    `handlers` are the servers by their functions, `fields` those of the message in their order,
-    if they are known.
+    `post` tells what a call posts, `fields` are those of the message in their order, if they are
+    known.
     """
     *names, when = [p.name for p in function.parameters]
     given = names[sends.known is None :]
@@ -178,7 +207,8 @@ def _odd_in_send(
         if statement.type == "declaration" and next(calls_in(statement), None) is None:
             message = _declared(statement)
         elif call is not None and call.name == "post":
-            right = _posts(call, sends.server, handlers, waiting)
+            posted = post(call)
+            right = posted is not None and [text_of(a) for a in posted.given] == waiting
             if sent or not right or not _at(call, 1, when):
                 yield statement
             waiting, sent = [], sent + 1
@@ -196,14 +226,6 @@ def _odd_in_send(
             waiting = [name for name in waiting if name != parameter]
     if (waiting or not sent) and function.body is not None:
         yield function.body
-
-
-def _posts(call: CppCall, server: str, handlers: Mapping[str, str], given: Sequence[str]) -> bool:
-    """Whether what waits in the mailbox hands these to the handler of the server."""
-    called = call_in(call.arguments[-1])
-    if called is None or handlers.get(called[0]) != server:
-        return False
-    return [text_of(a) for a in called[1]] == list(given)
 
 
 def _called(statement: Node) -> CppCall | None:

@@ -12,14 +12,14 @@ from tree_sitter import Node
 
 from rebsync.reverse.bodies.cpp_users import is_logging
 from rebsync.reverse.bodies.scope import Publishes
-from rebsync.reverse.syntax.cpp_calls import assigned_in, call_of
+from rebsync.reverse.generated.ros1_shown import OFFERS, is_plain, sends, topic_of, type_of
+from rebsync.reverse.syntax.cpp_calls import CppCall, assigned_in, call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass
 from rebsync.reverse.syntax.cpp_tree import part, text_of
 
 # Packages whose messages tell people how a node does, and that no node of a model is sent.
 _TELLING = re.compile(r"(?:diagnostic_msgs|visualization_msgs)::")
 _PUBLISHER = re.compile(r"ros::Publisher|rclcpp::Publisher<(.*)>::SharedPtr")
-_OFFERS = frozenset({"advertise", "create_publisher"})
 
 
 def only_logged(
@@ -60,21 +60,30 @@ def _is_own(node: Node) -> bool:
     return text_of(part(above, "argument")) == "this"
 
 
-def telling_publishers(code: Code, owner: CppClass) -> dict[str, Publishes]:
-    """The publishers of messages for people that the constructor of a class makes, by member."""
-    made: dict[str, list[str]] = {}
-    for function in code.functions_of(owner):
+def telling_publishers(
+    code: Code, owner: CppClass, shown: Collection[tuple[str, str]]
+) -> dict[str, Publishes]:
+    """The publishers of messages for people that the constructor of a class makes, by member.
+
+    `shown` are types with topics that nobody in the code hears.
+    """
+    made: dict[str, list[CppCall | None]] = {}
+    functions = [f for f in code.functions_of(owner) if f.body is not None]
+    for function in functions:
         for name, value in assigned_in(function.body) if function.name == owner.name else ():
-            call = call_of(value)
-            is_offer = call is not None and call.name in _OFFERS and len(call.types) == 1
-            type_ = text_of(call.types[0]) if call is not None and is_offer else ""
-            made.setdefault(name, []).append("".join(type_.split()))
+            made.setdefault(name, []).append(call_of(value))
     members = {f.name: _PUBLISHER.fullmatch("".join(text_of(f.type).split())) for f in owner.fields}
-    return {
-        name: Publishes(())
-        for name, types in made.items()
-        if len(types) == 1
-        and _TELLING.match(types[0])
-        and (found := members.get(name)) is not None
-        and found[1] in (None, types[0])
-    }
+    found = {}
+    for name, calls in made.items():
+        call, declared = calls[0], members.get(name)
+        if len(calls) > 1 or call is None or call.name not in OFFERS or declared is None:
+            continue
+        if not is_plain(call):
+            continue
+        type_ = type_of(call)
+        is_shown = (type_, topic_of(call)) in shown and all(
+            sends(f.node, name, type_) for f in functions
+        )
+        if declared[1] in (None, type_) and (_TELLING.match(type_) or is_shown):
+            found[name] = Publishes(())
+    return found

@@ -112,8 +112,16 @@ def _called_back(
     elif (bound := call_in(callback)) is not None:
         name = bound[0]
     own = next((f for f in code.functions_of(owner) if f.name == name), None)
-    body = part(lambda_, "body") if lambda_ is not None else own.body if own is not None else None
+    body = part(lambda_, "body") if lambda_ is not None else None
+    if own is not None and not _is_overridden(code, owner, name):
+        body = own.body
     return name, lambda_, body, flags
+
+
+def _is_overridden(code: Code, owner: CppClass, name: str) -> bool:
+    """Whether a class below has a function by the name of one of a class."""
+    below = (c for c in code.classes.values() if c is not owner and owner in code.lineage(c.name))
+    return any(f.name == name for c in below for f in code.functions_of(c))
 
 
 def _timer(

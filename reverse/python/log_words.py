@@ -9,3 +9,12 @@ LOGS = re.compile(
     r"|logging\.(?:getLogger\([^()]*\)\.)?\w+|(?:self\.)?_?log(?:ger)?\.\w+)\Z"
 )
 HARMLESS = frozenset({"str", "repr", "len", "format", "round"})
+LOOKS = HARMLESS | {"abs", "bool", "list", "sorted", "sum", "tuple"}  # by these names alone
+# What tells the time, and what may be asked of that.
+CLOCKS = frozenset(
+    {
+        *("rospy.Time.now", "rospy.get_rostime", "rospy.get_time", "self.get_clock"),
+        *("time.monotonic", "time.time"),
+    }
+)
+ON_CLOCKS = frozenset({"now", "to_msg", "to_nsec", "to_sec"})

@@ -13,8 +13,11 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.intervals import INT32, INTEGERS
+from rebsync.intervals import INT32, INTEGERS, Interval
 from rebsync.records import dataclass
+from rebsync.reverse.analysis.invariants import Body, Entry, failed
+from rebsync.reverse.analysis.needs import Mark
+from rebsync.reverse.analysis.writes import own as hidden
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.sensors import list_unseen
@@ -30,17 +33,32 @@ from rebsync.reverse.python.model_helpers import (
 )
 from rebsync.reverse.python.model_kinds import kind_of, literal_kind
 from rebsync.reverse.python.model_overloads import resolved
-from rebsync.reverse.python.model_roles import Roles, Sends, plain_name, servers_of
+from rebsync.reverse.python.model_posts import own_posts
+from rebsync.reverse.python.model_roles import Roles, Sends, plain_name
 from rebsync.reverse.python.model_silent import silent_in
 from rebsync.reverse.python.model_statements import Statements
 from rebsync.reverse.python.model_types import passed_on, type_of
-from rebsync.reverse.python.model_widths import Known, beyond, hint_of
+from rebsync.reverse.python.model_widths import Known, hint_of, wanted_of
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import PyCode, Scope
 from rebsync.reverse.python.py_tree import field, named, text_of
-from rebsync.source import Span
+from rebsync.source import Source, Span
 
 _HINT = "say its type, as `: int` or `-> int`"
+
+
+@dataclass(frozen=True, slots=True)
+class _Noted:
+    """A body that was read, and what is told of its integers whatever the others do."""
+
+    body: Body
+    told: Sequence[Mark]
+    source: Source
+    within: str
+
+    @property
+    def marks(self) -> set[Mark]:
+        return {need.mark for needs in self.body.needs.values() for need in needs}
 
 
 @dataclass(eq=False)
@@ -49,6 +67,7 @@ class Bodies:
 
     `served` is the server of a function, if it serves one, `types` are the names of classes and
     messages, `serving` what classes serve, and `fields` what messages have in the model's types.
+    `constants` are the integers that some names of the model always stand for.
     """
 
     code: PyCode
@@ -59,8 +78,10 @@ class Bodies:
     types: frozenset[str]
     serving: Served
     fields: Mapping[str, Mapping[str, m.Type]]
+    constants: Mapping[str, Interval]
     known: dict[int, Names] = with_default(default_factory=dict)
     passed: dict[int, Mapping[str, Sequence[m.Type | None]]] = with_default(default_factory=dict)
+    noted: dict[int, list[_Noted]] = with_default(default_factory=dict)
 
     def parameters(self, owner: Scope, function: Scope, within: str) -> tuple[m.Parameter, ...]:
         """What a function takes, without its object."""
@@ -86,16 +107,14 @@ class Bodies:
                 reader.expressions.types[reader.local(name)] = type_
         self.findings.statements[within] += 0
         found = reader.block(body_of(function), field(function.node, "body"))
-        self._list_beyond(owner, function, reader, found)
+        self._note(owner, function, reader, found)
         if self.served(owner, function) in self.roles(owner).sensors:
             list_unseen(found, within, function.py.source, self.findings)
         return found
 
-    def _list_beyond(
-        self, owner: Scope, function: Scope, reader: Statements, body: m.Block
-    ) -> None:
-        """Lists the integers of a body that may be others than those of the model."""
-        source, names = function.py.source, reader.expressions.names
+    def _note(self, owner: Scope, function: Scope, reader: Statements, body: m.Block) -> None:
+        """Keeps a body until all of its class are there: what its integers may be they tell."""
+        names, cuts = reader.expressions.names, reader.expressions.cuts
         said = function.node.child_by_field_name("return_type")
         result = (type_of(said) if said is not None else None) or m.Type("int")
         own = {reader.local(_plain(n)): t for n, t in self._taken(owner, function) if t is not None}
@@ -104,15 +123,53 @@ class Bodies:
             names.results,
             self._passed_types(owner),
             lambda e, types: kind_of(e, types.get, names.results),
-            reader.expressions.cuts.of,
-            reader.expressions.cuts.rounded,
-            reader.expressions.cuts.called,
+            *(cuts.of, cuts.rounded, cuts.called, cuts.floored),
         )
-        for _, start, end, why in beyond(body, result, source.path, known):
-            span = Span(start, end)
-            hint = hint_of(source.slice(span), why)
-            unread = Unread(span, f"not the number of the model: {why}", hint)
-            self.findings.unreadable(source, unread, reader.within)
+        source = function.py.source
+        wanted = wanted_of(body, result, source.path, known)
+        is_server = self.served(owner, function) is not None
+        read = Body(
+            reader.within.rpartition(".")[2],
+            Entry.BETWEEN if is_server else Entry.WITHIN,
+            body.statements,
+            known.types,
+            [reader.local(_plain(n)) for n, _ in self._taken(owner, function)],
+            names.results,
+            {key: cut.bounds for key, cut in cuts.of.items()},
+            wanted.needs,
+        )
+        noted = _Noted(read, wanted.told, source, reader.within)
+        self.noted.setdefault(id(owner), []).append(noted)
+
+    def list_beyond(self, owner: Scope, constructors: Sequence[m.Constructor] | None) -> None:
+        """Lists the integers of a class's bodies that may be others than those of the model.
+
+        Given the constructors, with all that runs before them, these bodies are all that changes
+        the state variables, so that it can be told what these hold.
+        """
+        noted = self.noted.pop(id(owner), [])
+        bodies, state = [each.body for each in noted], None
+        if constructors is not None:
+            state = {name: type_ for name, type_, _ in self.roles(owner).state.values()}
+            bodies += self._first(owner, constructors, bodies)
+        marks = failed(bodies, state, self.constants)
+        for each in noted:
+            for mark in sorted({*each.told, *marks & each.marks}):
+                span = Span(mark[1], mark[2])
+                unread = Unread(span, mark[3], hint_of(each.source.slice(span), mark[3]))
+                self.findings.unreadable(each.source, unread, each.within)
+
+    def _first(
+        self, owner: Scope, constructors: Sequence[m.Constructor], bodies: Sequence[Body]
+    ) -> Iterator[Body]:
+        """The constructors as the first bodies that run."""
+        names = self.names(owner)
+        cuts = {key: cut for body in bodies for key, cut in body.cuts.items()}
+        for each in constructors:
+            types = {p.name: p.type for p in each.parameters}
+            statements = each.body.statements if each.body is not None else ()
+            known = {**names.types, **types}
+            yield Body(each.name, Entry.FIRST, statements, known, types, names.results, cuts)
 
     def _passed_types(self, owner: Scope) -> Mapping[str, Sequence[m.Type | None]]:
         """What functions of the code take, those that send as well; of several the narrowest."""
@@ -220,6 +277,7 @@ class Bodies:
             sends |= {f: resolved(self.serving, owner, s, of) for f, s, of in given}
             own = {n: v for n, v in constants_of(above).items() if n not in above.attributes}
             constants |= {f"self.{name}": value for name, value in own.items()}
+        types |= {hidden(name): type_ for name, type_ in types.items()}
         names = Names(variables, sends, {}, constants=constants, types=types)
         return self._with_messages(owner, self._with_functions(owner, names))
 
@@ -274,19 +332,18 @@ class Bodies:
             for b in bindings
             if b.how == "import" and b.node.type == "import_statement"
         }
-        descriptors = {name: server for name, (server, _) in servers_of(owner.module).items()}
-        handlers: dict[str, str] = {}
+        line = self.line(owner)
+        posting = (f for c in line for f in self.roles(c).functions.values())
+        posts = {call.id: p for f in posting for call, p in own_posts(line, self.roles, f)}
         fillings: dict[str, Filling] = {}
         for above in reversed(self.line(owner)):
-            handlers |= self.roles(above).handlers
             fillings |= fillings_of(self.roles(above), names.sends)
         return replace(
             names,
             imported=imported,
-            descriptors=descriptors,
-            handlers=handlers,
+            posts=posts,
             fillings=fillings,
-            silent=silent_in(self.line(owner), [*map(self.roles, self.line(owner))]),
+            silent=silent_in(self.code, self.line(owner), [*map(self.roles, self.line(owner))]),
         )
 
 

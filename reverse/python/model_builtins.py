@@ -12,7 +12,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies.building import binary, chosen, negated
-from rebsync.reverse.python.model_idioms import grouped, is_plain, truth
+from rebsync.reverse.python.model_idioms import grouped, is_plain, truth, type_of
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 if TYPE_CHECKING:
@@ -108,10 +108,11 @@ def _array(reader: Expressions, node: Node) -> tuple[m.Expression, int] | None:
         return None
     name = text_of(node)
     plain = reader.locals.get(name) or reader.names.variables.get(name.removeprefix("self."))
-    type_ = reader.types.get(plain or "", reader.names.types.get(plain or ""))
-    if type_ is None or len(type_.dimensions) != 1:
+    if not {plain} & (reader.types.keys() | reader.names.types.keys()):
         return None
-    return reader.read(node), type_.dimensions[0]
+    read = reader.read(node)
+    type_ = type_of(reader, read)
+    return None if type_ is None or len(type_.dimensions) != 1 else (read, type_.dimensions[0])
 
 
 # --- elements -----------------------------------------------------------------------------------

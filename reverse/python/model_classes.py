@@ -10,9 +10,11 @@ from functools import cached_property
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.names import carry, original
+from rebsync.intervals import Interval
+from rebsync.names import carry, original, uncarry
 from rebsync.records import dataclass
-from rebsync.reserved import NO_PYTHON_CLASSES, OFFERS
+from rebsync.reserved import NO_PYTHON_CLASSES, OFFERS, RUNTIME_TOPICS
+from rebsync.reverse.bodies.building import is_default
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
@@ -20,30 +22,19 @@ from rebsync.reverse.generated.own_parameters import Stored, with_own
 from rebsync.reverse.python.model_bodies import Bodies
 from rebsync.reverse.python.model_overloads import families
 from rebsync.reverse.python.model_plumbing import Plumbing, odd_at_top
-from rebsync.reverse.python.model_roles import EnvUse, Roles, plain_name, roles_of
+from rebsync.reverse.python.model_posts import learn_servers
+from rebsync.reverse.python.model_queues import length_of
+from rebsync.reverse.python.model_roles import EnvUse, Roles, Sends, plain_name, roles_of
 from rebsync.reverse.python.model_silent import silent_in
-from rebsync.reverse.python.model_types import class_name, markers_above
+from rebsync.reverse.python.model_types import class_name, markers_above, messages_of
 from rebsync.reverse.python.py_index import PyCode, Scope, classes_in
 from rebsync.reverse.python.py_lookup import lineage
 from rebsync.reverse.python.py_tree import named, text_of
 from rebsync.reverse.python.py_values import Values
-from rebsync.source import Source
+from rebsync.reverse.python.runtime_files import is_runtime_file
 
 # What the set-up of a server shows, whatever a marker says.
 _SHOWN = frozenset({"priority", "globalPriority"}) | OFFERS
-# The modules of the run-time part, and what each has that people's of that name lack.
-_RUNTIME = {
-    "mailbox": ("\nclass Mailbox",),
-    "startup": ("\nclass Startup",),
-    "values": ("\nclass Violation",),
-    "watchdog": ("\nclass Watchdog", "def add_check("),
-    "drive": ("\nclass Drive", "def move("),
-    "sensor": ("\nclass Sensor", "def seen("),
-    "actions": ("\nclass Actions", "Clients"),
-    "clients": ("\nclass Clients", "def answer("),
-    "services": ("\nclass Services", "Clients"),
-    "lifecycle": ("\nclass RebecNode", "\nclass Managed("),
-}
 
 
 @dataclass(eq=False)
@@ -52,6 +43,7 @@ class Classes:
 
     `messages` are the fields of the package's message types, by the names of these, `served`
     what classes serve, those in another language among them, and `fields` the types of fields.
+    `constants` are the integers that some names of the model always stand for.
     """
 
     code: PyCode
@@ -59,6 +51,7 @@ class Classes:
     messages: Mapping[str, Sequence[str]] = with_default(default_factory=dict)
     served: Served = with_default(default_factory=Served)
     fields: Mapping[str, Mapping[str, m.Type]] = with_default(default_factory=dict)
+    constants: Mapping[str, Interval] = with_default(default_factory=dict)
     roles: dict[int, Roles] = with_default(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -80,9 +73,12 @@ class Classes:
             if not self._is_alone(owner):
                 roles.own.clear()
             elif roles.own:
-                roles.leave_out(silent_in(line, [*map(self._of, line)], roles.own).texts)
+                all_roles = [*map(self._of, line)]
+                roles.leave_out(silent_in(self.code, line, all_roles, roles.own).texts)
+        for owner in self._owners:
+            learn_servers(self.line(owner), self._of)
         own = {o.name for o in self._owners}
-        self._types = frozenset({*self.messages, *_messages_of(self._owners), *own})
+        self._types = frozenset({*self.messages, *messages_of(self._owners), *own})
 
     @cached_property
     def _bodies(self) -> Bodies:
@@ -96,6 +92,7 @@ class Classes:
             self._types.union(in_cpp),
             self.served,
             self.fields,
+            self.constants,
         )
 
     def families(self) -> dict[str, dict[str, str]]:
@@ -171,10 +168,17 @@ class Classes:
     def _interface(self, owner: Scope) -> m.Interface:
         functions = self._of(owner).functions.values()
         servers = tuple(self._server(owner, f, plain_name(f)) for f in functions)
+        self._bodies.list_beyond(owner, None)
         line = _once(self.line(owner)[1:])
         extends = tuple(class_name(c.name) for c in line if self._is_base(owner, c))
         span = owner.py.span(owner.node)
         return m.Interface(class_name(owner.name), servers, extends, _annotations(owner), span)
+
+    def _is_lost(self, sends: Sends) -> bool:
+        """Whether a message goes to a server that no subscription takes messages to."""
+        message, _, key = sends.server.partition(" ")
+        posted = {server for roles in self.roles.values() for server in roles.posted}
+        return message not in self.served.servers and uncarry(key, RUNTIME_TOPICS) in posted
 
     def _is_base(self, owner: Scope, above: Scope) -> bool:
         """Whether a class is named among the bases of another."""
@@ -184,27 +188,34 @@ class Classes:
 
     def _reactive(self, owner: Scope) -> m.ReactiveClass:
         roles = self._of(owner)
-        silent, lineage = self._bodies.names(owner).silent, self.line(owner)[1:]
-        Plumbing(roles, self.messages, self.findings, self.code, silent, lineage).check()
+        names, lineage = self._bodies.names(owner), self.line(owner)[1:]
+        before = len(self.findings.all)
+        Plumbing(
+            *(roles, self.messages, self.findings, self.code, names.silent, lineage),
+            *(names.posts, self.fields, self._is_lost),
+        ).check()
         members: list[m.ClassMember] = []
         known = [self._variable(owner, *v) for v in roles.known.values()]
         state = [self._variable(owner, *v) for v in roles.state.values()]
         members += [m.KnownRebecs(tuple(known))] if known else []
         members += [m.StateVars(tuple(state))] if state else []
         constructors = tuple(self._constructors(owner))
-        members += with_own(constructors, self._own(owner), class_name(owner.name))
+        constructors = tuple(with_own(constructors, self._own(owner), class_name(owner.name)))
+        members += constructors
         rest = [f for f in self._functions(owner) if self._is_of_model(owner, f)]
         served = {f.name: self._served(owner, f) for f in rest}
         members += [self._server(owner, f, s) for f in rest if (s := served[f.name]) is not None]
         members += [self._method(owner, f) for f in rest if served[f.name] is None]
         members += [self._method(owner, f) for f in self._bodies.helpers(owner)]
+        is_whole = self._is_alone(owner) and len(self.findings.all) == before
+        self._bodies.list_beyond(owner, constructors if is_whole else None)
         own = (c for c in _once(self.line(owner)[1:]) if not is_runtime_file(c.py.source))
         above = (c for c in own if not self._is_helping(c))
         bases = [c for c in above if self._is_base(owner, c)]
         extends = [class_name(c.name) for c in bases if self._has_mailbox(c)]
         return m.ReactiveClass(
             class_name(owner.name),
-            roles.queue_length or 1,
+            length_of(self.code, owner, roles.queues, roles.queue, self.findings),
             tuple(members),
             not roles.is_executable,
             extends[0] if extends else None,
@@ -345,29 +356,12 @@ class Classes:
     def _initial(self, owner: Scope, function: Scope, within: str) -> tuple[m.Statement, ...]:
         """What variables hold before the constructor of the model runs."""
         reader, roles = self._bodies.reader(owner, function, within).expressions, self._of(owner)
+        given = ((roles.state[name][0], reader.read(value), value) for name, value in roles.initial)
         return tuple(
-            m.ExpressionStatement(
-                m.Assign("=", m.Name(roles.state[attribute][0]), reader.read(value)),
-                span=owner.py.span(value),
-            )
-            for attribute, value in roles.initial
+            m.ExpressionStatement(m.Assign("=", m.Name(name), read), span=owner.py.span(value))
+            for name, read, value in given
+            if not is_default(read)
         )
-
-
-def is_runtime_file(source: Source) -> bool:
-    """Whether a file is a module of the run-time part, which is the same in all packages."""
-    stem = source.path.rpartition("/")[2].removesuffix(".py")
-    return stem in _RUNTIME and all(text in source.text for text in _RUNTIME[stem])
-
-
-def _messages_of(owners: list[Scope]) -> Iterator[str]:
-    """The message types that the modules of some classes import."""
-    for module in {id(o.module): o.module for o in owners}.values():
-        for name, bindings in module.names.items():
-            nodes = (b.node for b in bindings if b.how == "import")
-            modules = (text_of(n.child_by_field_name("module_name") or n) for n in nodes)
-            if any(module.endswith(".msg") for module in modules):
-                yield name
 
 
 def _once(line: list[Scope]) -> list[Scope]:

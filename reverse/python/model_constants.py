@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import builtins
+import re
 from collections.abc import Iterator, Mapping
+from dataclasses import field as with_default
 from operator import add, floordiv, mul, sub
 
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.records import dataclass
 from rebsync.reverse.python.py_imports import module_named, module_of
 from rebsync.reverse.python.py_index import CLASS, PyCode, Scope
 from rebsync.reverse.python.py_tree import Py, field, named, text_of
@@ -26,12 +29,31 @@ _DEEPEST = 4  # modules that import a constant from each other
 Constants = Mapping[str, m.Expression]
 
 
-def constants_in(code: PyCode, module: Scope, depth: int = 0) -> dict[str, m.Expression]:
+def constants_in(code: PyCode, module: Scope) -> dict[str, m.Expression]:
     """What constants of a module are, by all that they are called in it: `LAST`, `limits.LAST`.
 
     Those of its classes, of what is made of these, and of imported modules are among them.
     """
-    found = constants_of(module)
+    return _Constants(code).of(module, 0)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Constants:
+    """Those of modules that import each other, each found once at each depth."""
+
+    code: PyCode
+    known: dict[tuple[int, int], dict[str, m.Expression]] = with_default(default_factory=dict)
+
+    def of(self, module: Scope, depth: int) -> dict[str, m.Expression]:
+        """Those of a module that is reached through so many others."""
+        key = id(module), depth
+        if key not in self.known:
+            self.known[key] = _constants_in(self, module, depth)
+        return self.known[key]
+
+
+def _constants_in(all_: _Constants, module: Scope, depth: int) -> dict[str, m.Expression]:
+    code, found = all_.code, constants_of(module)
     for name, bindings in module.names.items():
         if len(bindings) != 1 or hasattr(builtins, name):
             continue
@@ -43,11 +65,20 @@ def constants_in(code: PyCode, module: Scope, depth: int = 0) -> dict[str, m.Exp
             own = {k: v for k, v in constants_of(owner).items() if k not in owner.attributes}
             found |= {f"{name}.{key}": value for key, value in own.items()}
         elif binding.how == "import" and depth < _DEEPEST:
-            found |= _imported(code, module, name, binding.node, binding.value, depth)
+            found |= _imported(all_, module, name, binding.node, binding.value, depth)
         elif binding.how == "value" and binding.value is not None:
             found |= _made(code, module, name, binding.value)
+            if binding.value.type == "list" and _is_named_elsewhere(code, module, name):
+                found = {k: v for k, v in found.items() if not k.startswith(f"{name}[")}
     stored = {name for scope in code.scopes.values() for _, name in scope.stores}
     return {k: v for k, v in found.items() if "." not in k or k.rpartition(".")[2] not in stored}
+
+
+def _is_named_elsewhere(code: PyCode, module: Scope, name: str) -> bool:
+    """Whether other modules may have to do with a name of a module."""
+    use = re.compile(rf"\.{re.escape(name)}\b|\bimport\b[^\n]*\b{re.escape(name)}\b")
+    others = (each for each in code.modules.values() if each is not module)
+    return any(use.search(each.py.source.text) for each in others)
 
 
 def constants_of(scope: Scope) -> dict[str, m.Expression]:
@@ -59,9 +90,10 @@ def constants_of(scope: Scope) -> dict[str, m.Expression]:
             read = _value(scope.py, value, found) if value is not None else None
             if read is not None:
                 found[name] = read
-            elif value is not None and value.type == "tuple":
+            elif value is not None and _is_fixed(scope, name, value):
                 each = [_value(scope.py, v, found) for v in named(value)]
-                found |= {f"{name}[{i}]": v for i, v in enumerate(each) if v is not None}
+                if None not in each:
+                    found |= {f"{name}[{i}]": v for i, v in enumerate(each) if v is not None}
     return found
 
 
@@ -137,9 +169,18 @@ def is_quiet(scope: Scope, statement: Node) -> bool:
     if text_of(left) == "__all__":
         return value.type in ("list", "tuple")
     is_known = _value(scope.py, value, constants_of(scope)) is not None or (
-        value.type == "tuple" and all(map(_is_literal, named(value)))
+        _is_fixed(scope, text_of(left), value) and all(map(_is_literal, named(value)))
     )
     return (is_known or _is_record(scope, value)) and _is_new(scope, text_of(left))
+
+
+def _is_fixed(scope: Scope, name: str, value: Node) -> bool:
+    """Whether a value is a tuple, or a list of the module's own that only gives choices."""
+    if value.type == "list" and name.startswith("_"):
+        text = scope.py.source.text
+        choices = re.findall(rf"\bself\._mailbox\.choose\((?:self\.)?{re.escape(name)}[,)]", text)
+        return len(re.findall(rf"\b{re.escape(name)}\b", text)) == 1 + len(choices)
+    return value.type == "tuple"
 
 
 def _is_new(scope: Scope, name: str) -> bool:
@@ -212,22 +253,22 @@ def _number(read: m.Expression | None) -> int | None:
 
 
 def _imported(
-    code: PyCode, module: Scope, name: str, node: Node, item: Node | None, depth: int
+    all_: _Constants, module: Scope, name: str, node: Node, item: Node | None, depth: int
 ) -> dict[str, m.Expression]:
     """The constants that an import brings under a name."""
     if item is None:
         return {}
+    code = all_.code
     wanted = text_of(field(item, "name") if item.type == "aliased_import" else item)
     if node.type == "import_statement":
         source = module_named(code, wanted, module)
         called = name if item.type == "aliased_import" else wanted
-        return _below(code, source, module, called, depth)
+        return _below(all_, source, module, called, depth)
     source = module_named(code, module_of(node), module)
     if source is None or source is module or wanted not in source.names:
         inner = module_named(code, f"{module_of(node).rstrip('.')}.{wanted}", module)
-        return _below(code, inner, module, name, depth)
-    given = constants_in(code, source, depth + 1)
-    given |= enumerations_of(source)
+        return _below(all_, inner, module, name, depth)
+    given = all_.of(source, depth + 1) | enumerations_of(source)
     return {
         f"{name}{key.removeprefix(wanted)}": value
         for key, value in given.items()
@@ -236,11 +277,11 @@ def _imported(
 
 
 def _below(
-    code: PyCode, source: Scope | None, module: Scope, name: str, depth: int
+    all_: _Constants, source: Scope | None, module: Scope, name: str, depth: int
 ) -> dict[str, m.Expression]:
     if source is None or source is module:
         return {}
-    return {f"{name}.{k}": v for k, v in constants_in(code, source, depth + 1).items()}
+    return {f"{name}.{k}": v for k, v in all_.of(source, depth + 1).items()}
 
 
 def _made(code: PyCode, module: Scope, name: str, value: Node) -> dict[str, m.Expression]:

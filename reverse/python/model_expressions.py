@@ -21,6 +21,7 @@ from rebsync.reverse.python.model_cuts import Cuts
 from rebsync.reverse.python.model_filled import Filling
 from rebsync.reverse.python.model_helpers import Helper
 from rebsync.reverse.python.model_kinds import is_single, kind_of
+from rebsync.reverse.python.model_posts import Post
 from rebsync.reverse.python.model_roles import Sends
 from rebsync.reverse.python.model_sends import of_mailbox, sent
 from rebsync.reverse.python.model_silent import NOTHING, Silent
@@ -64,8 +65,8 @@ class Names:
     and those of the class behind `self.`, are bound to. `types` are those of variables, `results`
     those of functions, by their names in the model; `properties` functions that are read.
     `imported` are what names of the module are of, `helpers` functions without an object,
-    `fillings` what publishers send, `descriptors` and `handlers` the servers that are posted.
-    `silent` is what only people are told.
+    `fillings` what publishers send, `posts` what is posted, by the ids of the calls. `silent` is
+    what only people are told.
     """
 
     variables: Mapping[str, str]
@@ -79,8 +80,7 @@ class Names:
     imported: Mapping[str, str] = with_default(default_factory=dict)
     helpers: Mapping[str, Helper] = with_default(default_factory=dict)
     fillings: Mapping[str, Filling] = with_default(default_factory=dict)
-    descriptors: Mapping[str, str] = with_default(default_factory=dict)
-    handlers: Mapping[str, str] = with_default(default_factory=dict)
+    posts: Mapping[int, Post] = with_default(default_factory=dict)
     silent: Silent = NOTHING
 
 

@@ -45,17 +45,18 @@ def fillings_of(roles: Roles, sends: Mapping[str, Sends]) -> dict[str, Filling]:
             continue
         member = text_of(published[0][1][0])
         values: dict[str, tuple[str, str]] = {}
-        message = variable = ""
+        message, first = made_of(published[0][1][1]) if len(published[0][1]) > 1 else ("", {})
+        values |= {key: _around(value) for key, value in first.items()}
+        variable = ""
         for statement in statements:
             if statement.type != "assignment":
                 continue
             left, right = text_of(field(statement, "left")), field(statement, "right")
             if left.isidentifier():
-                variable, message = left, (call_parts(right) or ("", []))[0]
+                variable, (message, first) = left, made_of(right)
+                values |= {key: _around(value) for key, value in first.items()}
             else:
-                around, given = call_parts(right) or ("", [])
-                plain = text_of(given[0]) if len(given) == 1 else text_of(right)
-                values[left.removeprefix(f"{variable}.")] = (plain, around if given else "")
+                values[left.removeprefix(f"{variable}.")] = _around(right)
         of_parameter = {plain: (key, around) for key, (plain, around) in values.items()}
         taken = [p for p in own.parameters if p != "when"]
         if message and all(p in of_parameter for p in taken):
@@ -64,6 +65,20 @@ def fillings_of(roles: Roles, sends: Mapping[str, Sends]) -> dict[str, Filling]:
             others = tuple((k, text) for k, (text, _) in values.items() if k not in own_fields)
             found[member] = Filling(message, sends[name], fields, others)
     return found
+
+
+def made_of(value: Node | None) -> tuple[str, dict[str, Node]]:
+    """`Message(field=value)`: the type and the fields; nothing of what is made otherwise."""
+    called, arguments = call_parts(value) or ("", [])
+    if not all(a.type == "keyword_argument" for a in arguments):
+        return "", {}
+    return called, {text_of(field(a, "name")): field(a, "value") for a in arguments}
+
+
+def _around(value: Node) -> tuple[str, str]:
+    """A value, and the function around it."""
+    called, given = call_parts(value) or ("", [])
+    return text_of(given[0]) if len(given) == 1 else text_of(value), called if given else ""
 
 
 def filled(reader: Expressions, node: Node, after: list[Node]) -> list[m.Statement] | None:
@@ -96,13 +111,15 @@ def _made(reader: Expressions, node: Node) -> tuple[str, str, dict[str, Node]] |
     inner = named(node)[0] if node.type == "expression_statement" and named(node) else node
     if inner.type != "assignment" or field(inner, "left").type != "identifier":
         return None
-    called, arguments = call_parts(inner.child_by_field_name("right")) or ("", [])
-    if called not in {f.message for f in reader.names.fillings.values()}:
+    value = inner.child_by_field_name("right")
+    if (call_parts(value) or ("", []))[0] not in {
+        f.message for f in reader.names.fillings.values()
+    }:
         return None
-    if not all(a.type == "keyword_argument" for a in arguments):
+    message, given = made_of(value)
+    if not message:
         raise reader.unread(node, "name the fields of this message")
-    given = {text_of(field(a, "name")): field(a, "value") for a in arguments}
-    return text_of(field(inner, "left")), called, given
+    return text_of(field(inner, "left")), message, given
 
 
 def _assert_gone(reader: Expressions, node: Node, name: str, rest: list[Node]) -> None:

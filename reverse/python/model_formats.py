@@ -73,10 +73,7 @@ def _operator(called: str, arguments: list[Node]) -> str:
 
 def is_kept(reader: Expressions, target: m.Expression, called: str) -> bool:
     """Whether a variable is of the type of a format, so that storing implies the conversion."""
-    while isinstance(target, m.Index):
-        target = target.target
-    name = target.name if isinstance(target, m.Name | m.Member) else ""
-    type_ = reader.types.get(name, reader.names.types.get(name))
+    type_ = idioms.type_of(reader, target)
     return type_ is None or type_.name == FORMATS[called]
 
 

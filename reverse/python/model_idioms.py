@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.analysis.writes import array_of, is_own, own
 from rebsync.reverse.bodies.building import binary
+from rebsync.reverse.python.model_cuts import other_division
 from rebsync.reverse.python.model_kinds import is_floating
 from rebsync.reverse.python.py_tree import field, named, text_of
 
@@ -97,14 +99,17 @@ def is_plain(node: Node) -> bool:
 
 
 def divided(reader: Expressions, node: Node, read: m.Binary) -> m.Binary:
-    """`a / b` of numbers with a point. Unread: of integers, which the model divides otherwise."""
+    """`a / b` of numbers with a point, and `a // b` and `a % b` of integers that must turn out to
+    be ones of which the model has the same. Unread: all else, which the model divides otherwise.
+    """
     operator = text_of(field(node, "operator"))
     kinds = reader.kind(read.left), reader.kind(read.right)
     if operator == "/" and any(map(is_floating, kinds)):
         return read
-    right = f"{_WHOLE[operator]}(a, b)"
-    why = f'"{operator}" of Python is not the model\'s, which is {right}'
-    raise reader.unread(node, why)
+    if operator != "/" and kinds == (m.Type("int"), m.Type("int")):
+        whole = m.Binary(operator[0], read.left, read.right, read.span)
+        return reader.cuts.divided(whole)
+    raise reader.unread(node, other_division(operator))
 
 
 def truth(reader: Expressions, read: m.Expression) -> m.Expression:
@@ -140,6 +145,22 @@ def _is_condition(node: Node) -> bool:
     return above.child_by_field_name("condition") == node
 
 
+def kind_at(reader: Expressions, node: Node) -> m.Type | None:
+    """The kind of what is still to be read, as the types of locals are told."""
+    divided = dict(reader.cuts.floored)
+    found = reader.kind(reader.read(node))
+    reader.cuts.floored.clear()
+    reader.cuts.floored.update(divided)
+    return found
+
+
+def type_of(reader: Expressions, place: m.Expression) -> m.Type | None:
+    """The type of the variable that a place is, or is an element of."""
+    name = array_of(place) or ""
+    key = own(name) if is_own(place) else name
+    return reader.types.get(key, reader.names.types.get(key))
+
+
 def check_copied(reader: Expressions, node: Node, read: m.Expression) -> None:
     """Raises `Unread` for an array that Python would only give another name."""
     if node.type == "parenthesized_expression" and len(named(node)) == 1:
@@ -155,12 +176,11 @@ def check_copied(reader: Expressions, node: Node, read: m.Expression) -> None:
 
 def _is_array(reader: Expressions, read: m.Expression) -> bool:
     """Whether an expression names an array, or one in an array."""
-    depth = 0
+    type_, depth = type_of(reader, read), 0
     while isinstance(read, m.Index):
         read, depth = read.target, depth + 1
     if not isinstance(read, m.Name | m.Member):
         return False
-    type_ = reader.types.get(read.name, reader.names.types.get(read.name))
     return type_ is not None and len(type_.dimensions) > depth
 
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Callable, Mapping
+from functools import reduce
 from typing import TypeAlias
 
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.analysis.writes import is_own, own, variable_of
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 _INT, _DOUBLE, _BOOLEAN = m.Type("int"), m.Type("double"), m.Type("boolean")
@@ -27,8 +29,9 @@ TypeOf: TypeAlias = Callable[[m.Expression], "m.Type | None"]
 def kind_of(expression: m.Expression, known: Known, results: Mapping[str, m.Type]) -> m.Type | None:
     """The widest type of the kind of an expression's value; None where it cannot be told.
 
-    `known` tells those of variables, `results` those of functions. A variable of Python holds any
-    integer and numbers of 64 bits, so that it is an `int` or a `double` whatever is stored in it.
+    `known` tells those of variables, by `self.x` of those that others hide, `results` those of
+    functions. A variable of Python holds any integer and numbers of 64 bits, so that it is an `int`
+    or a `double` whatever is stored in it.
     """
 
     def of(inner: m.Expression) -> m.Type | None:
@@ -45,8 +48,10 @@ def kind_of(expression: m.Expression, known: Known, results: Mapping[str, m.Type
             return of(inner)
         case m.Name(name) if name in _TIMES and known(name) is None:
             return _INT
-        case m.Name(name) | m.Member(m.Self(), name):
+        case m.Name(name):
             return _widest(known(name))
+        case m.Member(m.Self(), name):
+            return _widest(known(own(name)))
         case m.Index(target):
             return _element(target, known)
         case m.Cast(type_):
@@ -57,6 +62,8 @@ def kind_of(expression: m.Expression, known: Known, results: Mapping[str, m.Type
             return _widest(results.get(name))
         case m.Conditional(_, then, otherwise):
             return _joined(of(then), of(otherwise))
+        case m.Choice(options):
+            return reduce(_joined, map(of, options))
         case m.Binary(operator, left, right):
             kinds = of(left), of(right)
             is_real = operator not in _TESTS and _DOUBLE in kinds
@@ -145,8 +152,8 @@ def _element(target: m.Expression, known: Known) -> m.Type | None:
     depth = 1
     while isinstance(target, m.Index):
         target, depth = target.target, depth + 1
-    name = target.name if isinstance(target, m.Name | m.Member) else ""
-    type_ = known(name)
+    name = variable_of(target) or ""
+    type_ = known(own(name) if is_own(target) else name)
     if type_ is None or len(type_.dimensions) != depth:
         return None
     return _widest(m.Type(type_.name))

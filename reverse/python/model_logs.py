@@ -2,29 +2,131 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator
+from collections.abc import Container, Iterator, Sequence
+from dataclasses import replace
 
 from tree_sitter import Node
 
-from rebsync.reverse.python.log_words import HARMLESS, LOGS
+from rebsync.records import dataclass
+from rebsync.reverse.python.log_words import CLOCKS, LOGS, LOOKS, ON_CLOCKS
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import Scope
+from rebsync.reverse.python.py_index import CLASS, PyCode, Scope
 from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.runtime_files import is_runtime_file
 
 _DESCRIBES = frozenset({"__repr__", "__str__"})
 _STORING = frozenset({"named_expression", "await", "yield", "lambda"})
+_MODULES = frozenset({"rospy", "time"})
 
 
-def only_logs(node: Node) -> bool:
+@dataclass(frozen=True, slots=True)
+class Looks:
+    """What names stand for in the code of a class: whether an expression is pure.
+
+    `trusted` are names that stand for what Python and ROS have by them, "self" among them for a
+    node of ROS 2; `functions` those of classes, of which one may be a property that does something;
+    `makers` what makes messages.
+    """
+
+    trusted: frozenset[str] = LOOKS | {"rospy", "self"}
+    functions: frozenset[str] = frozenset()
+    makers: frozenset[str] = frozenset()
+
+    def is_pure(self, node: Node) -> bool:
+        """Whether nothing happens where an expression is evaluated."""
+        if node.type in _STORING or (node.type == "call" and not self._is_look(node)):
+            return False
+        if node.type == "attribute" and text_of(field(node, "attribute")) in self.functions:
+            return text_of(field(node, "object")) not in ("self", "super()")
+        return all(map(self.is_pure, node.named_children))
+
+    def _is_look(self, call: Node) -> bool:
+        """Whether what is called only looks at its arguments, or at the clock."""
+        function = field(call, "function")
+        called = text_of(function)
+        if called in CLOCKS:
+            return called.partition(".")[0] in self.trusted
+        if function.type == "identifier":
+            return called in self.makers or (called in LOOKS and called in self.trusted)
+        if function.type != "attribute":
+            return False
+        holder, name = field(function, "object"), text_of(field(function, "attribute"))
+        if name in ON_CLOCKS:
+            return holder.type == "call" and not named(field(call, "arguments"))
+        return name == "format" and holder.type in ("string", "concatenated_string")
+
+    def logs(self, call: Node) -> bool:
+        """Whether a call only logs what is there already."""
+        called = text_of(field(call, "function"))
+        head = called.partition(".")[0]
+        if LOGS.match(called) is None or (head == "rospy" and head not in self.trusted):
+            return False
+        if called.startswith("self.get_logger") and not self._is_node:
+            return False
+        return self.is_pure(field(call, "arguments"))
+
+    @property
+    def _is_node(self) -> bool:
+        """Whether the object is a node of ROS 2 that has its logger from there."""
+        return "self" in self.trusted and "get_logger" not in self.functions
+
+
+_PLAIN = Looks()
+
+
+def looks_in(code: PyCode, modules: Sequence[Scope], makers: frozenset[str]) -> Looks:
+    """What names stand for in some modules with classes of the model."""
+    paths = {module.py.source.path for module in modules}
+    scopes = [s for (path, _), s in code.scopes.items() if path in paths and s.kind != CLASS]
+    bound = {name for s in (*modules, *scopes) for name in s.names if not _is_import(s, name)}
+    trusted = LOOKS.union(n for n in _MODULES if all(_is_import(s, n) for s in modules))
+    if any(map(_has_rclpy, modules)):
+        trusted |= {"self"}
+    looks = Looks(trusted - (bound - {"self"}), frozenset(code.methods), makers)
+    own = (
+        name
+        for name, found in code.methods.items()
+        for function in found
+        if not (is_runtime_file(function.py.source) or _only_returns(function, looks))
+    )
+    return replace(looks, functions=frozenset(own))
+
+
+def _only_returns(function: Scope, looks: Looks) -> bool:
+    """Whether a function is a property that gives what is there."""
+    body = body_of(function)
+    values = named(body[0]) if len(body) == 1 and body[0].type == "return_statement" else []
+    is_property = function.decorators == ["property"]
+    return is_property and len(values) == 1 and looks.is_pure(values[0])
+
+
+def _is_import(scope: Scope, name: str) -> bool:
+    """Whether a name of a module is that of a module of Python or ROS, and nothing else."""
+    bindings = scope.names.get(name, [])
+    if name not in _MODULES or len(bindings) != 1:
+        return False
+    statement = bindings[0].node
+    plain = (each.type == "dotted_name" for each in named(statement))
+    return statement.type == "import_statement" and all(plain)
+
+
+def _has_rclpy(module: Scope) -> bool:
+    """Whether a module has something from rclpy, or from the run-time part's own node of it."""
+    bindings = (b.node for found in module.names.values() for b in found)
+    imports = (n for n in bindings if n.type == "import_from_statement")
+    names = (text_of(field(n, "module_name")) for n in imports)
+    return any(n.partition(".")[0] == "rclpy" or n.endswith(".lifecycle") for n in names)
+
+
+def only_logs(node: Node, looks: Looks = _PLAIN) -> bool:
     """Whether a statement only logs what is there already, perhaps under a condition."""
     match node.type:
         case "expression_statement" if len(named(node)) == 1:
             call = named(node)[0]
-            is_log = call.type == "call" and LOGS.match(text_of(field(call, "function")))
-            return bool(is_log) and _is_pure(field(call, "arguments"))
+            return call.type == "call" and looks.logs(call)
         case "if_statement":
             parts = [node, *node.children_by_field_name("alternative")]
-            return all(map(_branch_only_logs, parts))
+            return all(_branch_only_logs(part, looks) for part in parts)
         case _:
             return False
 
@@ -38,7 +140,9 @@ def only_describes(function: Scope, members: Container[str]) -> bool:
     if function.name not in _DESCRIBES or len(body) != 1 or function.node.parent is None:
         return False
     values = named(body[0]) if body[0].type == "return_statement" else []
-    is_plain = function.node.parent.type == "block" and len(values) == 1 and _is_pure(values[0])
+    is_plain = (
+        function.node.parent.type == "block" and len(values) == 1 and _PLAIN.is_pure(values[0])
+    )
     return is_plain and not any(
         text_of(field(a, "attribute")) in members for a in _reads(values[0])
     )
@@ -51,20 +155,9 @@ def _reads(node: Node) -> Iterator[Node]:
         yield from _reads(child)
 
 
-def _branch_only_logs(part: Node) -> bool:
+def _branch_only_logs(part: Node, looks: Looks) -> bool:
     condition = part.child_by_field_name("condition")
     body = field(part, "body" if part.type == "else_clause" else "consequence")
     inside = [n for n in named(body) if n.type not in ("comment", "pass_statement")]
-    is_pure = condition is None or _is_pure(condition)
-    return is_pure and bool(inside) and all(map(only_logs, inside))
-
-
-def _is_pure(node: Node) -> bool:
-    """Whether nothing happens where an expression is evaluated."""
-    if node.type in _STORING:
-        return False
-    if node.type == "call":
-        holder, _, name = text_of(field(node, "function")).rpartition(".")
-        if name not in HARMLESS or holder in ("self", "super()"):
-            return False
-    return all(map(_is_pure, node.named_children))
+    is_pure = condition is None or looks.is_pure(condition)
+    return is_pure and bool(inside) and all(only_logs(each, looks) for each in inside)

@@ -133,8 +133,8 @@ def _round(
 def each(reader: Statements, node: Node, name: str) -> m.For:
     """`for x in self._values` goes through an array of one dimension."""
     values = reader.expressions.read(field(node, "right"))
-    variable = values.name if isinstance(values, m.Name | m.Member) else ""
-    type_ = reader.expressions.types.get(variable, reader.expressions.names.types.get(variable))
+    is_whole = isinstance(values, m.Name | m.Member)
+    type_ = idioms.type_of(reader.expressions, values) if is_whole else None
     if type_ is None or len(type_.dimensions) != 1:
         raise reader.expressions.unread(node, "the model has no such loop")
     _assert_kept(reader, node, field(node, "right"))

@@ -6,17 +6,20 @@ Set-up, shims, and functions that send are not in the model: what somebody chang
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from tree_sitter import Node
 
+from rebsync import model as m
 from rebsync.names import graph_name
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python.model_constants import constants_of, is_quiet
+from rebsync.reverse.python.model_filled import made_of
 from rebsync.reverse.python.model_helpers import is_transparent
 from rebsync.reverse.python.model_parameters import declared_by, parameter_read
-from rebsync.reverse.python.model_roles import OFFERING, Roles, field_read
+from rebsync.reverse.python.model_posts import POST, Post, tells_arguments
+from rebsync.reverse.python.model_roles import OFFERING, Roles, Sends, field_read
 from rebsync.reverse.python.model_silent import Silent
 from rebsync.reverse.python.model_types import (
     call_parts,
@@ -32,6 +35,7 @@ from rebsync.reverse.python.model_types import (
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import PyCode, Scope
 from rebsync.reverse.python.py_tree import Py, field, named, text_of
+from rebsync.static.types import PRIMITIVES
 
 _MADE = frozenset({"Mailbox", "Drive", "Sensor"})
 _PUBLISHERS = frozenset({"rospy.Publisher", "self.create_publisher", "node.create_publisher"})
@@ -58,8 +62,12 @@ _AT_TOP = frozenset(
 _IN_CLASS = frozenset({"function_definition", "decorated_definition", "pass_statement"})
 _DECORATORS = frozenset({"abstractmethod", "final", "override", "staticmethod", "classmethod"})
 _WHY = "what this does is not in the model"
+_LOST = "no subscription takes this in: the class only sends it to itself"
 _LATE = "this gives a coroutine, and nobody runs it"
 _HINT = "say it in the model, or move it into a user block"
+
+
+_SENDER = "self._mailbox.self()"
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +75,8 @@ class Plumbing:
     """One class with what its functions are for.
 
     `fields` are those of messages, by their types; of those that another package has, as in ROS 2,
-    only the order of what is passed on can be looked at. `above` are the classes above.
+    only the order of what is passed on can be looked at. `above` are the classes above, `posts`
+    what is posted, by the ids of the calls, `types` those of fields; what is lost nobody takes in.
     """
 
     roles: Roles
@@ -76,13 +85,18 @@ class Plumbing:
     code: PyCode
     silent: Silent
     above: Sequence[Scope]
+    posts: Mapping[int, Post]
+    types: Mapping[str, Mapping[str, m.Type]]
+    is_lost: Callable[[Sends], bool]
 
     def check(self) -> None:
         """Lists what a class does besides."""
         owner = self.roles.owner
         for function in self.roles.functions.values():
+            sends = self.roles.sends.get(function.name)
+            why = _LOST if sends is not None and self.is_lost(sends) else _WHY
             for node in self._odd(function):
-                self._list(owner.py, node, _WHY, function.name)
+                self._list(owner.py, node, why, function.name)
         for function in self.roles.functions.values():
             if any(c.type == "async" for c in function.node.children):
                 self._list(owner.py, function.node, _LATE, function.name)
@@ -144,7 +158,11 @@ class Plumbing:
     def _odd_in_set_up(self, function: Scope, body: list[Node]) -> Iterator[Node]:
         """What does not set up, or comes when the model's constructor has been handed over."""
         is_constructed = False
+        early = [s for s in body_of(function) if _is_before_node(function, s)]
+        yield from early
         for statement in body:
+            if statement in early:
+                continue
             if is_constructed or not self._sets_up(function, statement):
                 yield statement
             called, _ = call_parts(_inner(statement)) or ("", [])
@@ -189,6 +207,8 @@ class Plumbing:
             _, values = call_parts(given) or ("", [])
             names = [*(p.name for p in function.parameters[1:]), *self.roles.arguments]
             return [text_of(v) for v in values] == names[-len(values) :] if values else True
+        if self.silent.timers.is_idle(call):
+            return True
         declared = declared_by(call)
         return called in _CALLED or (declared is not None and declared[1].own() is not None)
 
@@ -213,46 +233,76 @@ class Plumbing:
         parameter = field(function.node, "parameters").named_children[-1]
         type_ = parameter.child_by_field_name("type")
         message = function.parameters[-1].name
+        _, values = passed_on(arguments[4]) or ("", [])
         if type_ is None or text_of(arguments[1]) != f"{message}.timing":
             return False
-        _, values = passed_on(arguments[4]) or ("", [])
+        if not tells_arguments(arguments[3], values):
+            return False
         given = [field_read(v, message) for v in values]
-        wanted = self.fields.get(text_of(type_))
+        wanted, handler = self.fields.get(text_of(type_)), self.roles.handler_of(function.name)
+        if wanted is not None and given != list(wanted):
+            return False
+        if handler is not None and not self._fits(text_of(type_), given, handler, len(given)):
+            return False
         if wanted is not None:
-            return given == list(wanted)
-        handler = self.roles.handler_of(function.name)
+            return True
         count = len(handler.parameters) - 1 if handler is not None else len(given)
         return len(set(given)) == count == len(given) and all(map(str.isidentifier, given))
 
     def _sends(self, function: Scope, body: list[Node]) -> Iterator[Node]:
         """The statements of a function that do more than fill a message and send it."""
-        passed = [p.name for p in function.parameters[1:] if p.name != "when"]
+        sends, parameters = self.roles.sends[function.name], _parameters(function)
+        passed = [p for p in parameters if p != "when"][sends.known is None :]
+        wanted = sends.server.partition(" ")[0] if sends.known != "self" else ""
         filled: dict[str, str] = {}
-        type_, message = "", "msg"
+        type_, message, is_sent = "", "msg", False
         for statement in body:
             inner = _inner(statement)
             called, arguments = call_parts(inner) or ("", [])
-            if inner is not None and inner.type == "assignment":
-                left, value = text_of(field(inner, "left")), field(inner, "right")
-                if left.isidentifier() and not filled:
-                    message, type_ = left, (call_parts(value) or ("", []))[0]
-                elif left == f"{message}.sender":
-                    continue
-                else:
-                    inside = call_parts(value)
-                    plain = inside[1][0] if inside is not None and inside[1] else value
-                    filled[left.removeprefix(f"{message}.")] = text_of(plain)
-            elif called == "self._mailbox.publish":
-                to_any = self.roles.sends[function.name].known is None
-                fields = self.fields.get(type_, tuple(filled))
-                in_order = [filled.get(f) for f in fields] == passed[to_any:]
-                if not in_order or text_of(arguments[-1]) != "when":
+            left = _left(inner)
+            if is_sent:
+                yield statement
+            elif inner is not None and left.isidentifier() and not type_:
+                message, (type_, first) = left, made_of(field(inner, "right"))
+                filled |= {name: _flat(value) for name, value in first.items()}
+                is_own = filled.pop("sender", _SENDER) == _SENDER
+                if type_ != wanted or left in parameters or not is_own:
                     yield statement
-            elif called == "self._mailbox.post":
-                if not _posts(arguments, passed):
+            elif inner is not None and left == f"{message}.sender":
+                if text_of(field(inner, "right")) != _SENDER:
+                    yield statement
+            elif inner is not None and left.startswith(f"{message}."):
+                filled[left.removeprefix(f"{message}.")] = _flat(field(inner, "right"))
+            elif called == "self._mailbox.publish":
+                if not type_ and len(arguments) > 1:
+                    type_, first = made_of(arguments[1])
+                    filled |= {name: _flat(value) for name, value in first.items()}
+                is_sent, fields = True, self.fields.get(type_, tuple(filled))
+                in_order = [filled.get(f) for f in fields] == passed and len(filled) == len(passed)
+                fits = in_order and self._fits(type_, fields, function, len(passed))
+                fits = fits and type_ == wanted
+                if not fits or text_of(arguments[-1]) != "when" or self.is_lost(sends):
+                    yield statement
+            elif called == POST:
+                is_sent, post = True, self.posts.get(inner.id) if inner is not None else None
+                held = post is not None and post.is_held and text_of(post.when) == "when"
+                if post is None or not held or [text_of(v) for v in post.given] != passed:
                     yield statement
             else:
                 yield statement
+
+    def _fits(self, message: str, fields: Sequence[str], function: Scope, count: int) -> bool:
+        """Whether fields are of the types of the last parameters but for the time."""
+        if message not in self.types:
+            return True
+        nodes = named(field(function.node, "parameters"))
+        given = [n for n in nodes if _name_of(n) != "when"][-count:] if count else []
+        said = [type_of(n.child_by_field_name("type")) for n in given]
+        return all(
+            type_ is None or type_.name not in PRIMITIVES or type_ == self.types[message].get(name)
+            for name, type_ in zip(fields, said, strict=True)
+            if type_ is None or not type_.dimensions
+        )
 
 
 def odd_at_top(module: Scope) -> Iterator[Node]:
@@ -284,12 +334,32 @@ def _is_of_type(statement: Node) -> bool:
     return said is None or made is None or said.dimensions == made.dimensions
 
 
-def _posts(arguments: list[Node], passed: list[str]) -> bool:
-    """Whether a message to oneself has all that the function was given."""
-    if len(arguments) != 4 or text_of(arguments[1]) != "when":
-        return False
-    _, values = passed_on(arguments[3]) or ("", [])
-    return [text_of(v) for v in values] == passed
+def _is_before_node(function: Scope, statement: Node) -> bool:
+    """Whether a statement of a constructor asks of the object what only a node can do."""
+    made = (s for s in body_of(function) if text_of(s).startswith("super().__init__("))
+    start = next(made, None)
+    is_early = start is not None and statement.start_byte < start.start_byte
+    return is_early and re.search(r"\bself\b(?!\._\w+\s*=)", text_of(statement)) is not None
+
+
+def _parameters(function: Scope) -> list[str]:
+    return [p.name for p in function.parameters[1:]]
+
+
+def _name_of(parameter: Node) -> str:
+    name = parameter.child_by_field_name("name")
+    return text_of(name if name is not None else (named(parameter) or [parameter])[0])
+
+
+def _left(inner: Node | None) -> str:
+    """What an assignment stores into; nothing for what is none."""
+    return text_of(field(inner, "left")) if inner is not None and inner.type == "assignment" else ""
+
+
+def _flat(value: Node) -> str:
+    """What a field of a message is filled with: an array by its elements."""
+    called, arguments = call_parts(value) or ("", [])
+    return text_of(arguments[0] if called == "flatten" and len(arguments) == 1 else value)
 
 
 def _is_of_state(statement: Node) -> bool:

@@ -22,6 +22,8 @@ from rebsync.reverse.build.field_order import are_named
 from rebsync.reverse.generated.own_parameters import OwnParameter, only_once
 from rebsync.reverse.python.model_logs import only_describes
 from rebsync.reverse.python.model_parameters import ParameterRead, declared_by, parameter_read
+from rebsync.reverse.python.model_queues import PASSED, queue_in
+from rebsync.reverse.python.model_timers import called_back
 from rebsync.reverse.python.model_types import (
     call_parts,
     handed_over,
@@ -96,6 +98,7 @@ class Roles:
     # The fields of messages in the order in which shims hand them on.
     orders: list[tuple[str, tuple[str, ...]]] = with_default(default_factory=list)
     shims: set[str] = with_default(default_factory=set)
+    ticking: set[str] = with_default(default_factory=set)
     arguments: dict[str, str] = with_default(default_factory=dict)
     own: dict[str, tuple[OwnParameter, Node]] = with_default(default_factory=dict)
     declared: dict[str, ParameterRead] = with_default(default_factory=dict)
@@ -103,11 +106,13 @@ class Roles:
     topics: dict[str, str] = with_default(default_factory=dict)
     offers: dict[str, m.Annotation] = with_default(default_factory=dict)
     sensors: set[str] = with_default(default_factory=set)
+    posted: set[str] = with_default(default_factory=set)  # servers that no subscription is for
     constructed: bool = False  # while the set-up is read: the model's constructor has run
     has_mailbox: bool = False
     has_drive: bool = False
     on_bridge: bool = False
-    queue_length: int | None = None
+    queues: list[Node] = with_default(default_factory=list)
+    queue: Node | None = None  # the length that heirs may hand on another one for
 
     def leave_out(self, members: Collection[str]) -> None:
         """Takes those with parameters of the node's own among some members out of the model."""
@@ -124,7 +129,8 @@ class Roles:
 
     def is_plumbing(self, name: str) -> bool:
         """Whether a function is none of the model's."""
-        return name in _PLUMBING or name in self.shims or name in self.sends
+        others = (_PLUMBING, self.shims, self.sends, self.ticking)
+        return any(name in of for of in others)
 
     @property
     def is_executable(self) -> bool:
@@ -150,7 +156,25 @@ def roles_of(code: PyCode, owner: Scope) -> Roles:
     for function in roles.functions.values():
         if function.name not in _PLUMBING:
             _does(roles, function, servers)
+    for name in ("__init__", "_wire"):
+        if name in roles.functions:
+            roles.ticking.update(
+                n for n in called_back(roles.functions[name]) if _is_added(roles, n)
+            )
     return roles
+
+
+def _is_added(roles: Roles, name: str) -> bool:
+    """Whether a function is one that people added beside what sends and serves."""
+    function = roles.functions.get(name)
+    is_made = roles.is_plumbing(name) or name in roles.handlers or name.startswith("construct")
+    is_made = is_made or is_of_node(name)
+    return function is not None and not (is_made or markers_above(function.py, function.node))
+
+
+def is_of_node(name: str) -> bool:
+    """Whether a node of rclpy has a member of its own by this name."""
+    return name in PYTHON_FUNCTIONS or name.removeprefix("_") in PYTHON_MEMBERS
 
 
 def servers_of(module: Scope) -> dict[str, tuple[str, tuple[m.Annotation, ...]]]:
@@ -201,17 +225,16 @@ def _wired(roles: Roles, function: Scope) -> None:
                 if read is not None and read.is_own:
                     roles.arguments[left] = read.key
     for parameter in function.parameters:
-        if parameter.default is not None and text_of(parameter.default).isdecimal():
-            roles.queue_length = roles.queue_length or int(text_of(parameter.default))
+        if parameter.name == PASSED and parameter.default is not None:
+            roles.queue = parameter.default
 
 
 def _called(roles: Roles, call: Node) -> None:
     """`self._wire(4, NO_PRIORITY)` says how long the queue is."""
     function, arguments = call_parts(call) or ("", [])
     roles.constructed |= function == "self._mailbox.construct"
-    lengths = [int(text_of(a)) for a in arguments if text_of(a).isdecimal()]
-    if function.endswith("._wire") and lengths and text_of(arguments[0]) != "queue_length":
-        roles.queue_length = lengths[0]
+    if function.endswith("._wire") and (given := queue_in(arguments)) is not None:
+        roles.queues.append(given)
 
 
 def _member(roles: Roles, function: Scope, name: str, statement: Node, value: Node) -> None:
@@ -222,10 +245,8 @@ def _member(roles: Roles, function: Scope, name: str, statement: Node, value: No
         type_ = read.type
     if called == "Mailbox":
         roles.has_mailbox = True
-        lengths = [int(text_of(a)) for a in arguments if text_of(a).isdecimal()]
-        passed = text_of(arguments[-2]) if len(arguments) > 1 else ""
-        if (lengths and not passed.isidentifier()) or (lengths and passed in ("self", "node")):
-            roles.queue_length = lengths[0]
+        if (given := queue_in(arguments)) is not None:
+            roles.queues.append(given)
     elif called == "Drive":
         roles.has_drive = True
     elif called == "Sensor":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import takewhile
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
@@ -11,7 +12,7 @@ from rebsync.names import original
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_builtins import array_elements
 from rebsync.reverse.python.model_overloads import told
-from rebsync.reverse.python.model_types import passed_on, string_value
+from rebsync.reverse.python.model_types import string_value
 from rebsync.reverse.python.py_tree import named, text_of
 
 if TYPE_CHECKING:
@@ -25,7 +26,6 @@ _CLOCK = {
     "waiting_time": "currentMessageWaitingTime",
     "sender": "sender",
 }
-_LATE = frozenset({"integer", "float", "true", "false"})  # the same whenever it is evaluated
 
 
 def of_mailbox(reader: Expressions, node: Node, name: str, arguments: list[Node]) -> m.Expression:
@@ -36,31 +36,41 @@ def of_mailbox(reader: Expressions, node: Node, name: str, arguments: list[Node]
             return m.Self(span)
         case _, 0 if name in _CLOCK:
             return m.Name(_CLOCK[name], span)
-        case "choose", 1 | 2 if arguments[0].type == "list":
+        case "choose", 1 | 2 if arguments[0].type in ("list", "tuple"):
             return m.Choice(tuple(map(reader.read, named(arguments[0]))), span)
+        case "choose", 1 | 2 if options := _constants(reader, text_of(arguments[0])):
+            return m.Choice(options, span)
         case "is_a", 2:
             type_ = m.Type(original(string_value(arguments[1]) or ""))
             return m.InstanceOf(reader.read(arguments[0]), type_, span)
         case "delay" | "assertion", _:
             return m.Call(None, name, tuple(map(reader.read, arguments)), span=span)
         case "post", 4:
-            return _posted(reader, node, arguments)
+            return _posted(reader, node)
         case _:
             raise reader.unread(node, f'the model has no function "{name}"')
 
 
-def _posted(reader: Expressions, node: Node, arguments: list[Node]) -> m.Expression:
+def _constants(reader: Expressions, name: str) -> tuple[m.Expression, ...]:
+    """The elements of a constant tuple or list."""
+    known = reader.names.constants
+    keys = [f"{name}[{i}]" for i in range(len(known))] if name not in reader.locals else []
+    return tuple(known[key] for key in takewhile(known.__contains__, keys))
+
+
+def _posted(reader: Expressions, node: Node) -> m.Expression:
     """`self._mailbox.post(_P, When(), "", self.p)`, which a function that sends does as well."""
-    server = reader.names.descriptors.get(text_of(arguments[0]))
-    handler, values = passed_on(arguments[3]) or ("", [])
-    if server is None or reader.names.handlers.get(handler.removeprefix("self.")) != server:
-        raise reader.unread(node, "this is no server of the model with the function that serves it")
-    if not all(value.type in _LATE for value in values):
+    post = reader.names.posts.get(node.id)
+    if post is None:
+        why = "this is no server with its priority, the function that serves it, and its arguments"
+        raise reader.unread(node, why)
+    if not post.is_held:
         raise reader.unread(node, "this is evaluated when it is served: send it by `send_self_...`")
-    times, span = idioms.times(reader, arguments[1]), reader.py.span(node)
-    given = tuple(map(reader.read, values))
-    call = m.Call(m.Self(span), server, given, times.get("after"), times.get("deadline"), span)
-    return reader.cuts.passing(call, handler.removeprefix("self."))
+    times, span = idioms.times(reader, post.when), reader.py.span(node)
+    given = tuple(map(reader.read, post.given))
+    after, deadline = times.get("after"), times.get("deadline")
+    call = m.Call(m.Self(span), post.server, given, after, deadline, span)
+    return reader.cuts.passing(call, post.handler)
 
 
 def sent(reader: Expressions, node: Node, sends: Sends, arguments: list[Node]) -> m.Expression:

@@ -1,6 +1,7 @@
 """Members of generated Python that nothing of the model depends on: what is only told to people.
 
-Texts, lists and parameters that are only logged, publishers of diagnostics, and locks. A store in
+Texts, lists and parameters that are only logged, publishers of diagnostics, timers that only log,
+and locks. A store in
 such a member changes nothing that a model could show, as long as nothing else looks at it.
 """
 
@@ -13,23 +14,20 @@ from dataclasses import field as with_default
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.python.log_words import HARMLESS
-from rebsync.reverse.python.model_logs import only_logs
-from rebsync.reverse.python.model_roles import Roles
+from rebsync.reverse.python.model_logs import Looks, looks_in, only_logs
+from rebsync.reverse.python.model_roles import Roles, is_of_node
+from rebsync.reverse.python.model_shown import PUBLISHERS, Shown, is_topic, shown_by
+from rebsync.reverse.python.model_timers import Timers
 from rebsync.reverse.python.model_types import call_parts, string_value
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import Scope
+from rebsync.reverse.python.py_index import PyCode, Scope
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 _SET_UP = ("__init__", "_wire")
 _VALUES = frozenset({"string", "concatenated_string", "none", "list", "tuple"})
 _LOCKS = {"threading.Lock": False, "threading.RLock": True}
-_PUBLISHERS = frozenset({"rospy.Publisher", "self.create_publisher"})
 # Packages whose messages tell people how a node does, and that no node of a model is sent.
 _TELLING = re.compile(r"(?:diagnostic_msgs|visualization_msgs)\.msg\Z")
-_CLOCKS = frozenset({"rospy.Time.now", "rospy.get_time", "time.time", "self.get_clock"})
-_ON_CLOCKS = frozenset({"now", "to_msg", "to_sec"})
-_STORING = frozenset({"named_expression", "await", "yield", "lambda"})
 _STATEMENTS = frozenset({"function_definition", "class_definition", "module"})
 _GROWING = frozenset({"append", "clear"})
 
@@ -38,23 +36,39 @@ _GROWING = frozenset({"append", "clear"})
 class Silent:
     """The silent members of a class: `texts` are told to people only, `locks` whether again.
 
-    `locals` are the messages that a function makes for people, by the function's node, and
-    `makers` what such messages are made by.
+    `ticking` are timers that only log, as `timers` tells them. `locals` are the messages that a
+    function makes for people, by the function's node.
     """
 
     texts: frozenset[str] = frozenset()
     publishers: frozenset[str] = frozenset()
+    ticking: frozenset[str] = frozenset()
     locks: dict[str, bool] = with_default(default_factory=dict)
     locals: dict[int, frozenset[str]] = with_default(default_factory=dict)
-    makers: frozenset[str] = frozenset()
+    timers: Timers = Timers()
+    shown: dict[str, Shown] = with_default(default_factory=dict)
+
+    @property
+    def looks(self) -> Looks:
+        """What names stand for where something is logged."""
+        return self.timers.looks
+
+    @property
+    def _members(self) -> tuple[Collection[str], ...]:
+        return self.texts, self.publishers, self.ticking, self.locks, self.shown
+
+    @property
+    def members(self) -> frozenset[str]:
+        """All of them."""
+        return frozenset(name for of in self._members for name in of)
 
     def is_member(self, name: str) -> bool:
         """Whether only people are told of a member, or it is a lock."""
-        return name in self.texts or name in self.publishers or name in self.locks
+        return any(name in of for of in self._members)
 
     def holds(self, node: Node) -> bool:
         """Whether a statement does nothing but to tell people something, or to keep it for that."""
-        if only_logs(node):
+        if only_logs(node, self.looks):
             return True
         if node.type == "if_statement":
             return all(map(self._branch_holds, [node, *node.children_by_field_name("alternative")]))
@@ -70,12 +84,15 @@ class Silent:
         condition = part.child_by_field_name("condition")
         body = field(part, "body" if part.type == "else_clause" else "consequence")
         inside = [n for n in named(body) if n.type != "pass_statement"]
-        is_pure = condition is None or self._is_pure(condition)
+        is_pure = condition is None or self.looks.is_pure(condition)
         return is_pure and bool(inside) and all(map(self.holds, inside))
 
     def _tells(self, call: Node) -> bool:
         """`self._diagnostics_pub.publish(status)` and `self._history.append(x)`."""
         function, arguments = field(call, "function"), named(field(call, "arguments"))
+        publisher = text_of(function).removeprefix("self.").removesuffix(".publish")
+        if text_of(function) == f"self.{publisher}.publish" and publisher in self.shown:
+            return self.shown[publisher].sends(arguments)
         if function.type != "attribute" or not all(map(self._is_made, arguments)):
             return False
         holder, method = field(function, "object"), text_of(field(function, "attribute"))
@@ -93,19 +110,7 @@ class Silent:
 
     def _is_made(self, node: Node) -> bool:
         """Whether a value only takes up what is there, or is a parameter of the node's own."""
-        return self._is_pure(node) or _own_parameter(node)
-
-    def _is_pure(self, node: Node) -> bool:
-        if node.type in _STORING:
-            return False
-        if node.type == "call":
-            called = text_of(field(node, "function"))
-            is_known = called in _CLOCKS or called in self.makers
-            holder, _, name = called.rpartition(".")
-            is_own = holder in ("self", "super()") or name not in HARMLESS | _ON_CLOCKS
-            if not is_known and is_own:
-                return False
-        return all(map(self._is_pure, node.named_children))
+        return self.looks.is_pure(node) or _own_parameter(node)
 
     # --- locks ----------------------------------------------------------------------------------
 
@@ -123,37 +128,49 @@ class Silent:
 NOTHING = Silent()
 
 
-def silent_in(line: Sequence[Scope], roles: Sequence[Roles], own: Collection[str] = ()) -> Silent:
+def silent_in(
+    code: PyCode, line: Sequence[Scope], roles: Sequence[Roles], own: Collection[str] = ()
+) -> Silent:
     """The silent members of a class, the first of a line with those above it, and their roles.
 
     They are among what its constructor makes, and none that has a role, but for those of `own`.
     """
     owner, functions = line[0], roles[0].functions
     taken = {n for r in roles for n in (*r.state, *r.known, *r.env, *r.publishers)}.difference(own)
-    members = {name: value for name, value in _made(functions) if name not in taken}
     makers = frozenset(_makers(owner.module))
+    modules = [*{id(c.module): c.module for c in line}.values()]
+    looks = looks_in(code, modules, makers)
+    taken |= looks.functions
+    made = {name: value for name, value in _made(functions) if name not in taken}
+    members = {name: value for name, value in made.items() if not is_of_node(name)}
+    publishers = {} if "create_publisher" in looks.functions else members
+    variables = {name: type_ for r in roles for name, (_, type_, _) in r.state.items()}
+    timers = Timers.of(code, {n: functions[n] for n in roles[0].ticking}, looks)
     found = Silent(
         frozenset(n for n, v in members.items() if v.type in _VALUES or _own_parameter(v)),
-        frozenset(n for n, v in members.items() if _is_publisher(v, makers)),
+        frozenset(n for n, v in publishers.items() if _is_publisher(v, makers)),
+        frozenset(n for n, v in members.items() if timers.is_idle(v)),
         {n: _LOCKS[lock] for n, v in members.items() if (lock := _lock(owner.module, v))},
         {f.node.id: frozenset(_messages(f, makers)) for f in functions.values()},
-        makers,
+        timers,
+        {n: s for n, v in publishers.items() if (s := shown_by(code, owner.module, v, variables))},
     )
-    if not (members or any(found.locals.values())):
-        return NOTHING
-    modules = {id(c.module): c.module for c in line}
-    while True:
-        wrong = {n for module in modules.values() for n in _odd(found, module.node)}
+    while members or any(found.locals.values()):
+        wrong = {n for module in modules for n in _odd(found, module.node)}
         if not wrong:
-            return found
+            break
         found = _without(found, wrong)
+    return found
 
 
 def _without(silent: Silent, wrong: set[str]) -> Silent:
     locals_ = {f: frozenset(names - wrong) for f, names in silent.locals.items()}
     locks = {n: again for n, again in silent.locks.items() if n not in wrong}
-    texts, publishers = silent.texts - wrong, silent.publishers - wrong
-    return Silent(texts, publishers, locks, locals_, silent.makers)
+    texts, publishers, ticking = (
+        names - wrong for names in (silent.texts, silent.publishers, silent.ticking)
+    )
+    shown = {n: s for n, s in silent.shown.items() if n not in wrong}
+    return Silent(texts, publishers, ticking, locks, locals_, silent.timers, shown)
 
 
 def _made(functions: Mapping[str, Scope]) -> Iterator[tuple[str, Node]]:
@@ -202,7 +219,8 @@ def _is_publisher(node: Node, makers: frozenset[str]) -> bool:
     called, arguments = _parts(node)
     types = [a for a in arguments if text_of(a) in makers]
     topics = [s for a in arguments if (s := string_value(a)) is not None]
-    return called in _PUBLISHERS and len(types) == 1 and len(topics) == 1
+    is_named = len(topics) == 1 and is_topic(topics[0], called)
+    return called in PUBLISHERS and len(types) == 1 and is_named
 
 
 def _parts(node: Node) -> tuple[str, list[Node]]:
@@ -244,7 +262,7 @@ def _messages(function: Scope, makers: frozenset[str]) -> Iterator[str]:
 
 def _odd(silent: Silent, root: Node) -> set[str]:
     """The members and locals that something else than a statement for people names."""
-    members = silent.texts | silent.publishers | silent.locks.keys()
+    members = silent.members
     found, waiting = set[str](), [root]
     while waiting:
         node = waiting.pop()

@@ -13,6 +13,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reserved import PYTHON_RESERVED, uncarry_local
 from rebsync.reverse.analysis.evaluation_order import note_store
+from rebsync.reverse.bodies.building import bare
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python import model_idioms as idioms
@@ -20,8 +21,8 @@ from rebsync.reverse.python import model_loops as loops
 from rebsync.reverse.python import model_stored as stored
 from rebsync.reverse.python import model_users as users
 from rebsync.reverse.python.model_expressions import Expressions
+from rebsync.reverse.python.model_failing import failing, may_fail
 from rebsync.reverse.python.model_filled import filled
-from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_types import (
     call_parts,
     is_unset,
@@ -72,9 +73,13 @@ class Statements:
         waiting = list(nodes)
         while waiting:
             node = waiting.pop(0)
-            if self.expressions.names.silent.holds(node):
+            is_silent = self.expressions.names.silent.holds(node)
+            if is_silent and not may_fail(self.expressions, node):
                 continue
             try:
+                if is_silent and node.type != "if_statement":
+                    found += failing(self.expressions, node)
+                    continue
                 if users.is_users(self.expressions, node):
                     users.check(self.expressions, node)
                     continue
@@ -202,12 +207,12 @@ class Statements:
         return [m.ExpressionStatement(self.expressions.read(inner), span=span)]
 
     def _cell(self, axis: str, node: Node) -> m.Expression:
-        found = _bare(self.expressions.read(node))
+        found = bare(self.expressions.read(node))
         match found:
             case m.IntLiteral(0):
                 return m.Name(axis)
             case m.Unary("-", operand) if node.type == "unary_operator":
-                return m.Binary("-", m.Name(axis), _bare(operand))
+                return m.Binary("-", m.Name(axis), bare(operand))
             case _:
                 return m.Binary("+", m.Name(axis), found)
 
@@ -250,7 +255,7 @@ class Statements:
         """A local without a type, which is that of its value."""
         if name in self.expressions.names.constants:
             raise self.expressions.unread(node, f'"{name}" is a constant elsewhere')
-        type_ = self.expressions.kind(self.expressions.read(value))
+        type_ = idioms.kind_at(self.expressions, value)
         if type_ is None:
             raise self.expressions.unread(node, f'say the type of "{name}" where it is first set')
         self.implied.add(name)
@@ -284,7 +289,10 @@ class Statements:
             name = "body" if part.type == "else_clause" else "consequence"
             bodies.append(self.branch(field(part, name)))
         if parts[-1].type == "else_clause":
-            otherwise = bodies.pop()
+            said = [n for n in named(field(parts[-1], "body")) if n.type != "comment"]
+            is_silent = not bodies[-1].statements and all(n.type != "pass_statement" for n in said)
+            otherwise = None if is_silent else bodies[-1]
+            bodies.pop()
         for condition, body, part in reversed(list(zip(conditions, bodies, parts, strict=False))):
             otherwise = m.If(condition, body, otherwise, span=self.expressions.py.span(part))
         assert otherwise is not None
@@ -331,7 +339,9 @@ class Statements:
     def _switch(self, node: Node, name: str, subject: Node) -> m.Switch:
         read = self.expressions.read(subject)
         self.cases.append(name)
-        cases = [self._case(c) for c in named(field(node, "body")) if not only_logs(c)]
+        silent = self.expressions.names.silent
+        inside = (c for c in named(field(node, "body")) if not silent.holds(c))
+        cases = [self._case(c) for c in inside]
         self.cases.pop()
         return m.Switch(read, tuple(cases), span=self.expressions.py.span(node))
 
@@ -373,15 +383,6 @@ def _taken(
                 before.pop()
                 return (first,)
     return ()
-
-
-def _bare(expression: m.Expression) -> m.Expression:
-    while isinstance(expression, m.Paren):
-        expression = expression.inner
-    if isinstance(expression, m.Binary):
-        left, right = _bare(expression.left), _bare(expression.right)
-        return m.Binary(expression.operator, left, right)
-    return expression
 
 
 def _annotated(statement: m.Statement, given: tuple[m.Annotation, ...]) -> m.Statement:

@@ -164,7 +164,7 @@ def declared_before(reader: Statements, node: Node, after: list[Node]) -> list[m
         if name in known.locals or name in known.names.constants or name in known.kept:
             continue
         try:
-            type_ = known.kind(known.read(value))
+            type_ = idioms.kind_at(known, value)
         except Unread:
             continue  # it is listed where it stands
         if type_ is not None:

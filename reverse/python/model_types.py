@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.names import uncarry
 from rebsync.reserved import NO_PYTHON_CLASSES
+from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_tree import Py, field, named, text_of
 
 _PLAIN = {
@@ -170,3 +172,13 @@ def only_breaks_lines(node: Node) -> bool:
     inner = named(node)[0]
     is_apart = inner.start_point.row > node.start_point.row
     return is_apart and inner.type != "named_expression"
+
+
+def messages_of(owners: list[Scope]) -> Iterator[str]:
+    """The message types that the modules of some classes import."""
+    for module in {id(o.module): o.module for o in owners}.values():
+        for name, bindings in module.names.items():
+            nodes = (b.node for b in bindings if b.how == "import")
+            modules = (text_of(n.child_by_field_name("module_name") or n) for n in nodes)
+            if any(module.endswith(".msg") for module in modules):
+                yield name

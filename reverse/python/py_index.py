@@ -137,7 +137,8 @@ class PyCode:
 
     `calls` are all calls with the scope they stand in, in the order of the text; `by_callee` the
     same by the last name of what is called; `found` are the modules that imports name, by
-    the path of the file that imports them, as far as they were looked for.
+    the path of the file that imports them, as far as they were looked for. It is `alone` where no
+    file of another language has to do with messages of std_msgs.
     """
 
     modules: dict[str, Scope] = with_default(default_factory=dict)
@@ -146,6 +147,7 @@ class PyCode:
     found: dict[tuple[str, str], Scope | None] = with_default(default_factory=dict)
     by_callee: dict[str, list[tuple[Node, Scope]]] = with_default(default_factory=dict)
     methods: dict[str, list[Scope]] = with_default(default_factory=dict)
+    alone: bool = False
 
     @classmethod
     def of(cls, files: Iterable[Py]) -> PyCode:

@@ -30,7 +30,8 @@ from rebsync.reverse.nodes.node_joined import Part
 from rebsync.reverse.nodes.node_system import unit_of_time
 from rebsync.reverse.python.body_started import Started, is_module, scripts_of
 from rebsync.reverse.python.body_system import PyNodes, PySystem
-from rebsync.reverse.python.model_classes import Classes, is_runtime_file
+from rebsync.reverse.python.model_classes import Classes
+from rebsync.reverse.python.model_env import integer_constants
 from rebsync.reverse.python.model_parameters import constant, parameter_read
 from rebsync.reverse.python.model_types import class_name
 from rebsync.reverse.python.py_calls import graph_with, owner_of
@@ -38,6 +39,7 @@ from rebsync.reverse.python.py_hooks import hooks_in
 from rebsync.reverse.python.py_index import PyCode
 from rebsync.reverse.python.py_tree import field, named, parse, text_of, unparsed
 from rebsync.reverse.python.py_values import Values
+from rebsync.reverse.python.runtime_files import is_runtime_file
 from rebsync.source import Source
 
 _WHY = "what this belongs to is no node of the model: only what it asks of ROS is read"
@@ -118,6 +120,11 @@ class PythonCode:
             sources, code, Values(code), Classes(code, findings, fields_by_name(messages or {}))
         )
 
+    def hears_others(self) -> bool:
+        """Whether a file that is not of the run-time part has to do with messages of std_msgs."""
+        sources = (s for s in self.sources.values() if not is_runtime_file(s))
+        return any(word in s.text for s in sources for word in ("std_msgs", "AnyMsg"))
+
     def orders(self) -> Iterator[tuple[str, tuple[str, ...]]]:
         """The fields of message types in the orders in which generated code hands them on."""
         for roles in self.classes.roles.values():
@@ -153,6 +160,7 @@ def read_python(
     known, unit = MessageTypes.of(files or {}, package), unit_of_time(files or {})
     classes.served = served if served is not None else Served(classes.families())
     classes.fields = _types_in(known)
+    classes.constants = integer_constants(classes.env(), launch)
     read = classes.read(path) if asked is not None or only is None else ()
     if read and only is None and SETUP in (files or {}):
         findings.all += unparsed(parse((files or {})[SETUP]))

@@ -107,7 +107,8 @@ class CppField:
 class CppEnumerator:
     """A constant of an enumeration; `scope` is the class around it, or empty.
 
-    `value` is known where the enumeration says it with numbers, or leaves it out.
+    `value` is known where the enumeration says it with numbers, or leaves it out, and it is one of
+    an `int`.
     """
 
     name: str

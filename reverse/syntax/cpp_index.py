@@ -62,6 +62,9 @@ _CONTAINERS = frozenset(
     }
 )
 
+# The types of enumerations whose constants become an `int`.
+_INTS = frozenset(["char", "int", "int8_t", "int16_t", "int32_t", "short", "uint8_t", "uint16_t"])
+
 
 @dataclass(slots=True)
 class Code:
@@ -305,13 +308,15 @@ class Code:
     def _add_enum(self, cpp: Cpp, node: Node, scope: str) -> None:
         name, body = node.child_by_field_name("name"), node.child_by_field_name("body")
         next_: int | None = 0
+        is_plain = _is_of_int(node)
         for child in body.named_children if body is not None else []:
             if child.type != "enumerator":
                 continue
             if (given := child.child_by_field_name("value")) is not None:
                 next_ = KnownNumbers(self.enumerators, self._agreed(), cpp).of(given)
             own = text_of(part(child, "name"))
-            read = CppEnumerator(own, text_of(name) if name else "", scope, next_, cpp, child)
+            value = next_ if is_plain else None
+            read = CppEnumerator(own, text_of(name) if name else "", scope, value, cpp, child)
             self.enumerators.setdefault(own, []).append(read)
             next_ = next_ + 1 if next_ is not None else None
 
@@ -382,3 +387,10 @@ def _append(to: dict[_K, list[_V]], more: dict[_K, list[_V]]) -> None:
             known += values
         else:
             to[key] = [*values]
+
+
+def _is_of_int(node: Node) -> bool:
+    """Whether the constants of an enumeration are numbers of an `int` wherever one computes."""
+    base = node.child_by_field_name("base")
+    is_scoped = any(child.type in ("class", "struct") for child in node.children)
+    return base is None or is_scoped or text_of(base).removeprefix("std::") in _INTS

@@ -10,7 +10,7 @@ from typing import Any
 
 from rebsync.cli import main
 from rebsync.diagnostics import Diagnostic
-from rebsync.roundtrip.checked import check
+from rebsync.roundtrip.check import check
 from rebsync.roundtrip.difference import explain
 from rebsync.roundtrip.packages import find
 from rebsync.source import Source
@@ -27,7 +27,8 @@ else:
 HERE = Path(__file__).parent
 FILES = (
     *("python.toml", "rclcpp.toml", "cpp.toml", "mixed.toml"),
-    *("harmless.toml", "library.toml", "forms.toml"),
+    *("harmless.toml", "library.toml", "forms.toml", "posts.toml", "shown.toml"),
+    "messages.toml",
 )
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 
@@ -143,8 +144,9 @@ class Trial:
         return [p for p in self.package.rglob("*") if p.is_file() and ".rebsync" not in p.parts]
 
     def code(self) -> dict[str, bytes]:
-        """All files of the package but rebsync's own."""
-        return {p.relative_to(self.package).as_posix(): p.read_bytes() for p in self._files()}
+        """All files of the package but rebsync's own, and the page that follows the model."""
+        files = (p for p in self._files() if p.name != "README.md")
+        return {p.relative_to(self.package).as_posix(): p.read_bytes() for p in files}
 
     def wanted(self) -> str:
         """The text of the model that the edit is."""

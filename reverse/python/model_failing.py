@@ -1,0 +1,112 @@
+"""What may fail where something is only told to people: divisions, and elements of arrays.
+
+The model has the statement that fails where the code does, with nothing else of what is told: so
+what is told under a condition, or of a number that is never zero, can be shown to do nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.python import model_idioms as idioms
+from rebsync.reverse.python.model_expressions import Expressions
+from rebsync.reverse.python.py_tree import field, named, text_of
+
+_DIVIDING = frozenset({"/", "//", "%"})
+_TEXTS = frozenset({"string", "concatenated_string"})
+_LATER = frozenset({"generator_expression", "lambda", "list_comprehension", "set_comprehension"})
+
+
+def may_fail(expressions: Expressions, node: Node) -> bool:
+    """Whether there is something in a statement that may fail."""
+    if _is_division(node) or _is_element(expressions, node):
+        return True
+    return any(may_fail(expressions, child) for child in node.named_children)
+
+
+def failing(expressions: Expressions, node: Node) -> Iterator[m.Statement]:
+    """What may fail in an expression, in the order in which it is evaluated.
+
+    Unread: the model has no expression for it.
+    """
+    if not may_fail(expressions, node):
+        return
+    if node.type in _LATER:
+        raise expressions.unread(node, "this may fail where it is told")
+    if node.type == "conditional_expression":
+        then, condition, otherwise = named(node)
+        yield from _guarded(expressions, condition, then, otherwise)
+        return
+    if node.type == "boolean_operator":
+        is_and = text_of(field(node, "operator")) == "and"
+        left, right = field(node, "left"), field(node, "right")
+        yield from _guarded(expressions, left, *((right, None) if is_and else (None, right)))
+        return
+    for child in node.named_children:
+        yield from failing(expressions, child)
+    if _is_division(node):
+        yield _divided(expressions, field(node, "right"))
+    elif _is_element(expressions, node):
+        yield m.ExpressionStatement(expressions.read(node), span=expressions.py.span(node))
+
+
+def _guarded(
+    expressions: Expressions, condition: Node, then: Node | None, otherwise: Node | None
+) -> Iterator[m.Statement]:
+    yield from failing(expressions, condition)
+    ways = [list(failing(expressions, n)) if n is not None else [] for n in (then, otherwise)]
+    if any(ways):
+        read = expressions.condition(condition)
+        blocks = [m.Block(tuple(way)) for way in ways]
+        span = expressions.py.span(condition)
+        yield m.If(read, blocks[0], blocks[1] if ways[1] else None, span=span)
+
+
+def _divided(expressions: Expressions, divisor: Node) -> m.Statement:
+    """A division by what the code divides by."""
+    read, span = expressions.read(divisor), expressions.py.span(divisor)
+    match expressions.kind(read):
+        case m.Type("int", ()):
+            return m.ExpressionStatement(
+                _quotient(read),
+                span=span,
+            )
+        case m.Type("float" | "double", ()):
+            is_zero = m.Binary("==", m.Paren(read), m.IntLiteral(0))
+            number = m.Conditional(is_zero, m.IntLiteral(0), m.IntLiteral(1))
+            return m.ExpressionStatement(_quotient(number), span=span)
+        case _:
+            raise expressions.unread(divisor, "this may be zero where it is divided by")
+
+
+def _quotient(divisor: m.Expression) -> m.Expression:
+    is_one = isinstance(divisor, m.Name | m.Member | m.Index)
+    return m.Binary("/", m.IntLiteral(1), divisor if is_one else m.Paren(divisor))
+
+
+def _is_division(node: Node) -> bool:
+    if node.type != "binary_operator" or text_of(field(node, "operator")) not in _DIVIDING:
+        return False
+    is_text = field(node, "left").type in _TEXTS
+    return not (is_text or _is_other_than_zero(field(node, "right")))
+
+
+def _is_other_than_zero(node: Node) -> bool:
+    is_number = node.type in ("integer", "float")
+    return is_number and any(digit in text_of(node) for digit in "123456789")
+
+
+def _is_element(expressions: Expressions, node: Node) -> bool:
+    """Whether it is the element of an array of the model by an index that is not written out."""
+    if node.type != "subscript" or field(node, "subscript").type == "integer":
+        return False
+    try:
+        held = expressions.read(field(node, "value"))
+    except Unread:
+        return False
+    type_ = idioms.type_of(expressions, held)
+    return type_ is not None and bool(type_.dimensions)

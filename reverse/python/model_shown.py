@@ -1,0 +1,157 @@
+"""Publishers of standard messages that no node of a package can hear, in generated Python.
+
+By its type: nobody subscribes to any message of it. By its topic: nothing else has the name. A
+value that the message may refuse is another matter: to publish that raises.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.python.model_types import call_parts, string_value
+from rebsync.reverse.python.py_index import PyCode, Scope
+from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.runtime_files import is_runtime_file
+
+_INTEGERS = frozenset({"byte", "int", "short"})
+# By the names of messages, the types of variables that their values can be.
+_VALUES = {"Bool": frozenset({"boolean"}), "Int32": _INTEGERS, "Int64": _INTEGERS}
+_LITERALS = {"Bool": ("true", "false"), "Int32": ("integer",), "Int64": ("integer",)}
+# What says how many messages may wait: without, rospy waits for those who listen.
+_DEPTH = {
+    "rospy.Publisher": re.compile(r"queue_size=[1-9]\d*"),
+    "self.create_publisher": re.compile(r"[1-9]\d*"),
+}
+PUBLISHERS = frozenset(_DEPTH)
+_LATCHED = frozenset({"latch=False", "latch=True"})
+_GREATEST = 2**31 - 1
+_PACKAGE = "std_msgs"
+_TOPIC = re.compile(r"(?:~/?|/)?(?:[a-z](?:_?[a-z0-9])*/)*([a-z](?:_?[a-z0-9])*)", re.I | re.A)
+_RUNTIME = frozenset({"state", "cmd_vel", "odom", "clock", "tf", "rosout", "diagnostics"})
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Shown:
+    """A publisher of messages of a type, and the types of the variables of its class."""
+
+    type: str
+    variables: Mapping[str, m.Type]
+
+    def sends(self, arguments: list[Node]) -> bool:
+        """Whether it is given a message with a value that this takes: `Int32(data=self._x)`."""
+        given = arguments[0] if len(arguments) == 1 else None
+        if given is None or given.type != "call" or text_of(field(given, "function")) != self.type:
+            return False
+        values = named(field(given, "arguments"))
+        if len(values) != 1 or values[0].type != "keyword_argument":
+            return False
+        is_data = text_of(field(values[0], "name")) == "data"
+        return is_data and self._takes(field(values[0], "value"))
+
+    def _takes(self, value: Node) -> bool:
+        if value.type in _LITERALS[self.type]:
+            return value.type != "integer" or int(text_of(value), 0) <= _GREATEST
+        holder, _, name = text_of(value).partition(".")
+        type_ = self.variables.get(name) if holder == "self" else None
+        return type_ is not None and not type_.dimensions and type_.name in _VALUES[self.type]
+
+
+def shown_by(
+    code: PyCode, module: Scope, value: Node, variables: Mapping[str, m.Type]
+) -> Shown | None:
+    """The publisher that a call in a module makes, if nothing in the package can hear it."""
+    called, _ = call_parts(value) or ("", [])
+    if called not in _DEPTH or not code.alone:
+        return None
+    arguments = named(field(value, "arguments"))
+    given, rest = arguments[:2], [text_of(a) for a in arguments[2:]]
+    if not rest or _DEPTH[called].fullmatch(rest[0]) is None or not set(rest[1:]) <= _LATCHED:
+        return None
+    topics = [s for a in given if (s := string_value(a)) is not None]
+    types = [t for a in given if (t := text_of(a)) in _VALUES and _is_standard(module, t)]
+    if len(topics) != 1 or len(types) != 1 or not is_topic(topics[0], called):
+        return None
+    type_, name = types[0], topics[0].lstrip("~/")
+    if not topics[0].startswith("~") or "/" in name or name in _RUNTIME:
+        return None
+    modules = [*code.modules.values()]
+    is_heard = any(_hears(each, type_) for each in modules)
+    taken = any(_is_named(each.node, name, type_) for each in modules)
+    return None if is_heard or taken else Shown(type_, variables)
+
+
+def is_topic(name: str, offered_by: str) -> bool:
+    """Whether a name can be that of a topic; `~name` only rospy knows."""
+    is_private = name.startswith("~") and not name.startswith("~/")
+    return _TOPIC.fullmatch(name) is not None and not (
+        is_private and offered_by == "self.create_publisher"
+    )
+
+
+def _is_standard(module: Scope, name: str) -> bool:
+    """Whether a name of a module is that of a message of the package, and nothing else."""
+    bindings = module.names.get(name, [])
+    nodes = [b.node for b in bindings if b.node.type == "import_from_statement"]
+    return len(nodes) == len(bindings) == 1 and _is_plain(nodes[0])
+
+
+def _is_plain(statement: Node) -> bool:
+    """Whether it is `from std_msgs.msg import Int32`, each by its own name."""
+    module = field(statement, "module_name")
+    names = [c for c in named(statement) if c != module]
+    is_messages = text_of(module) == f"{_PACKAGE}.msg"
+    return is_messages and all(n.type == "dotted_name" for n in names)
+
+
+def _hears(module: Scope, type_: str) -> bool:
+    """Whether a module may do more with messages of a type than to make and to publish them."""
+    source = module.py.source
+    if is_runtime_file(source):
+        return False
+    imports = [n for n in _all(module.node) if n.type == "import_from_statement"]
+    plain = [n for n in imports if _PACKAGE in text_of(n) and _is_plain(n)]
+    if source.text.count(_PACKAGE) != len(plain) or "AnyMsg" in source.text:
+        return True
+    if not plain:
+        return False
+    uses = (n for n in _all(module.node) if n.type == "identifier" and text_of(n) == type_)
+    return not all(map(_is_sent, uses))
+
+
+def _is_sent(use: Node) -> bool:
+    """Whether a type is named to make a message or a publisher, or where it is imported."""
+    above = use.parent
+    if above is None or above.type == "dotted_name":
+        return above is not None
+    if above.type == "call":
+        return field(above, "function") == use
+    call = above.parent if above.type == "argument_list" else None
+    return call is not None and text_of(field(call, "function")) in PUBLISHERS
+
+
+def _is_named(root: Node, name: str, type_: str) -> bool:
+    """Whether a text is a name, or ends with it, but for those of publishers of a type."""
+    for node in _all(root):
+        if node.type != "string_content" or re.split(r"[/~]", text_of(node))[-1] != name:
+            continue
+        listed = node.parent.parent if node.parent is not None else None
+        call = listed.parent if listed is not None else None
+        if call is None or call.type != "call" or listed is None:
+            return True
+        is_publisher = text_of(field(call, "function")) in PUBLISHERS
+        if not is_publisher or type_ not in map(text_of, named(listed)):
+            return True
+    return False
+
+
+def _all(node: Node) -> Iterator[Node]:
+    waiting = [node]
+    while waiting:
+        current = waiting.pop()
+        yield current
+        waiting += current.named_children

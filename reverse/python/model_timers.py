@@ -1,0 +1,121 @@
+"""Timers that the set-up of generated Python makes, and whose callbacks only log.
+
+A callback runs beside the bodies of the model: what it looks at may be on its way to another value,
+and what it logs changes nothing.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import field as with_default
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reverse.python.model_logs import Looks, only_logs
+from rebsync.reverse.python.model_types import call_parts, without_parentheses
+from rebsync.reverse.python.py_callbacks import body_of
+from rebsync.reverse.python.py_index import PyCode, Scope
+from rebsync.reverse.python.py_tree import field, named, text_of
+
+# What makes timers, and how many arguments these give their callbacks.
+_MAKES = {"rospy.Timer": 1, "self.create_timer": 0}
+_DURATIONS = frozenset({"rospy.Duration", "rospy.Duration.from_sec"})
+_BASES = frozenset({"ABC", "Node", "RebecNode", "object"})
+_NUMBER = re.compile(r"\d+(?:\.\d*)?")
+_LEAST, _MOST = 0.001, 1e6
+_FLAGS = frozenset({"oneshot=True", "oneshot=False"})
+
+
+def called_back(function: Scope) -> Iterator[str]:
+    """The methods that the statements of a function hand to timers."""
+    for statement in body_of(function):
+        inner = named(statement)[0] if statement.type == "expression_statement" else statement
+        value = inner.child_by_field_name("right") if inner.type == "assignment" else inner
+        called, arguments = call_parts(value) or ("", [])
+        if called in _MAKES and len(arguments) > 1:
+            holder, _, name = text_of(arguments[1]).partition(".")
+            if holder == "self" and name.isidentifier():
+                yield name
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Timers:
+    """What tells the timers of a class that only log: `logging` are the functions that do no more,
+    each with how many arguments it takes.
+    """
+
+    looks: Looks = Looks()
+    logging: Mapping[str, int] = with_default(default_factory=dict)
+
+    @staticmethod
+    def of(code: PyCode, functions: Mapping[str, Scope], looks: Looks) -> Timers:
+        """Those of a class by its functions; what an heir has in place of one may be anything."""
+        logging = {}
+        for name, function in functions.items():
+            others = (f for f in code.methods.get(name, ()) if f is not function)
+            if _only_logs(function, looks) and not any(map(_is_heir, others)):
+                logging[name] = len(function.parameters) - 1
+        return Timers(looks, logging)
+
+    def is_idle(self, node: Node) -> bool:
+        """Whether something makes a timer that only logs."""
+        called, arguments = call_parts(node) or ("", [])
+        is_known = called in _MAKES and called.partition(".")[0] in self.looks.trusted
+        if not is_known or called.rpartition(".")[2] in self.looks.functions:
+            return False
+        if len(arguments) < 2 or not all(text_of(a) in _FLAGS for a in arguments[2:]):
+            return False
+        period, callback, *flags = arguments
+        if called == "rospy.Timer":
+            made, given = call_parts(period) or ("", [])
+            if made not in _DURATIONS or len(given) != 1:
+                return False
+            period = given[0]
+        elif flags:
+            return False
+        return _is_period(period) and self._logs(callback, _MAKES[called])
+
+    def _logs(self, callback: Node, count: int) -> bool:
+        """Whether a callback that gets so many arguments takes them, and only logs."""
+        if callback.type == "lambda":
+            given = callback.child_by_field_name("parameters")
+            names = named(given) if given is not None else []
+            body = without_parentheses(field(callback, "body"))
+            is_plain = all(n.type == "identifier" for n in names)
+            hides = any(text_of(n) in self.looks.trusted for n in names)
+            is_taking = is_plain and not hides and len(names) == count
+            return is_taking and body.type == "call" and self.looks.logs(body)
+        holder, _, name = text_of(callback).partition(".")
+        return holder == "self" and self.logging.get(name) == count
+
+
+def _is_heir(function: Scope) -> bool:
+    """Whether a method is of a class that may be below another one of the package."""
+    owner = function.owner
+    bases = owner.node.child_by_field_name("superclasses") if owner is not None else None
+    return bases is not None and not {text_of(b) for b in named(bases)} <= _BASES
+
+
+def _only_logs(function: Scope, looks: Looks) -> bool:
+    """Whether a method does nothing but to log, with all its arguments by position."""
+    body = body_of(function)
+    is_plain = not function.decorators and function.node.children[0].type == "def"
+    parameters = function.parameters
+    by_position = all(p.star == 0 and p.default is None for p in parameters)
+    is_own = bool(parameters) and parameters[0].name == "self"
+    return (
+        is_plain
+        and is_own
+        and by_position
+        and len(parameters) == len(named(field(function.node, "parameters")))
+        and bool(body)
+        and all(only_logs(statement, looks) for statement in body)
+    )
+
+
+def _is_period(node: Node) -> bool:
+    """Whether it is a number of seconds, as it stands, that leaves time and that ROS can count."""
+    number = _NUMBER.fullmatch(text_of(node))
+    return number is not None and _LEAST <= float(number[0]) <= _MOST
