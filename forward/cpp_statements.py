@@ -54,8 +54,9 @@ class CppStatements:
         for statement in statements:
             yield from self.remarks.between(at, statement.span.start)
             yield from _annotations(statement)
-            yield from self._statement(statement)
-            at = statement.span.end
+            own = tuple(self._statement(statement))
+            lines, at = self.remarks.beside(own, statement.span.end, end)
+            yield from lines
         yield from self.remarks.between(at, end)
 
     def _statement(self, statement: m.Statement) -> Iterator[str]:

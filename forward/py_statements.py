@@ -82,8 +82,9 @@ class PyStatements:
             yield from self._remarks(at, statement.span.start)
             if not isinstance(statement, m.For | m.Switch):
                 yield from self._annotations(statement)
-            yield from self._statement(statement)
-            at = statement.span.end
+            own = tuple(self._statement(statement))
+            lines, at = self.remarks.beside(own, statement.span.end, end, "#")
+            yield from lines
         yield from self._remarks(at, end)
 
     def _annotations(self, statement: m.Statement | m.Case) -> Iterator[str]:

@@ -10,6 +10,8 @@ from rebsync.model import ReactiveClass
 from rebsync.records import dataclass
 from rebsync.source import Span
 
+_WIDTH = 80  # characters of a line before it is indented
+
 
 class Comment(Protocol):
     """A comment as the parser gives it."""
@@ -19,6 +21,9 @@ class Comment(Protocol):
 
     @property
     def span(self) -> Span: ...
+
+    @property
+    def behind(self) -> int | None: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +39,25 @@ class Remarks:
             if comment.span.end > end:
                 break
             yield from (f"// {_harmless(line)}".rstrip() for line in comment_lines(comment.text))
+
+    def beside(
+        self, lines: Sequence[str], at: int, end: int, mark: str = "//"
+    ) -> tuple[Sequence[str], int]:
+        """What a statement that ends at a place becomes, with the comment at the end of its line.
+
+        Also the place up to which comments are given then. It goes above what takes several lines.
+        """
+        first = bisect_left(self.comments, at, key=lambda c: c.span.start)
+        comment = self.comments[first] if first < len(self.comments) else None
+        if comment is None or comment.behind != at or comment.span.end > end:
+            return lines, at
+        words = [_harmless(line) for line in comment_lines(comment.text)]
+        if len(words) != 1 or not words[0]:
+            return lines, at
+        remark = f"{mark} {words[0]}"
+        if len(lines) == 1 and len(line := f"{lines[0]}  {remark}") <= _WIDTH:
+            return [line], comment.span.end
+        return [remark, *lines], comment.span.end
 
     def above(self, declaration: ReactiveClass | None) -> dict[int, tuple[str, ...]]:
         """By the identity of each body of a class, the comments that stand before its member."""

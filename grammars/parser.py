@@ -12,10 +12,14 @@ from rebsync.source import Source, Span
 
 @dataclass(frozen=True, slots=True)
 class Comment:
-    """A comment as written, delimiters included."""
+    """A comment as written, delimiters included.
+
+    `behind` is where the code before it on its line ends; None where there is none.
+    """
 
     text: str
     span: Span
+    behind: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,9 +49,15 @@ def parse_model(source: Source) -> Parsed:
     return Parsed(
         source,
         model,
-        tuple(Comment(str(c), token_span(c)) for c in lexed.comments),
+        tuple(_comment(source, str(c), token_span(c)) for c in lexed.comments),
         tuple(sorted(found, key=lambda d: (d.span.start, d.code))),
     )
+
+
+def _comment(source: Source, text: str, span: Span) -> Comment:
+    line = source.text[source.text.rfind("\n", 0, span.start) + 1 : span.start].rstrip()
+    behind = source.text.rfind(line, 0, span.start) + len(line) if line else None
+    return Comment(text, span, behind)
 
 
 def parse_statement(text: str) -> Statement:

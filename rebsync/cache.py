@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import os
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -75,11 +76,20 @@ class Cache:
 def open_cache(part: str) -> Cache | None:
     """A part of the cache; None if there is no place for it, or no safe one (see `refused`)."""
     try:
-        folder = _safe(_chosen_directory() / part)
-        key = _key() if folder is not None else None
-        return Cache(folder, key) if folder and key else None
+        place = _chosen_directory() / part
+        return _opened(
+            place, _of_user("XDG_STATE_HOME", ".local/state"), os.environ.get(KEY_VARIABLE)
+        )
     except (OSError, RuntimeError, ValueError):  # RuntimeError: a user without a home
         return None
+
+
+@cache
+def _opened(place: Path, state: Path, told: str | None) -> Cache | None:
+    """Looked at once: whoever could change the folders later could have done so before."""
+    folder = _safe(place)
+    key = _key(state, told) if folder is not None else None
+    return Cache(folder, key) if folder and key else None
 
 
 def refused() -> Findings | None:
@@ -117,15 +127,15 @@ def _safe(path: Path) -> Path | None:
 # --- the key -------------------------------------------------------------------------------------
 
 
-def _key() -> bytes | None:
+def _key(state: Path, told: str | None) -> bytes | None:
     """The key of the user's seal: from the environment, else from a file outside the cache."""
-    if told := os.environ.get(KEY_VARIABLE):
+    if told:
         if len(told) >= _SEAL:
             return hashlib.blake2b(told.encode("utf-8", "surrogateescape")).digest()
         message = f"nothing is kept between runs: the key has fewer than {_SEAL} characters"
         _refused[KEY_VARIABLE] = (message, "`openssl rand -hex 32` makes one")
         return None
-    folder = _safe(_of_user("XDG_STATE_HOME", ".local/state"))
+    folder = _safe(state)
     if folder is None:
         return None
     path = folder / "cache.key"

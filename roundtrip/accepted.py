@@ -19,7 +19,7 @@ from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
 from rebsync.files import source_below
 from rebsync.printing import print_member, print_model
 from rebsync.records import dataclass
-from rebsync.roundtrip.checked import Checked
+from rebsync.roundtrip.checked import Accepted, Checked
 from rebsync.roundtrip.difference import Undetermined
 from rebsync.roundtrip.digests import digest_of
 from rebsync.roundtrip.manifest import ACCEPTED
@@ -38,23 +38,7 @@ _HEAD = """\
 """
 
 
-@dataclass(frozen=True, slots=True)
-class Entry:
-    """An accepted finding: its code, the file in the package, its message, its place's digest."""
-
-    code: str
-    path: str
-    finding: str
-    place: str
-    reason: str = ""
-
-    @property
-    def key(self) -> tuple[str, str, str, str]:
-        """By what the finding is known again."""
-        return self.code, self.path, self.finding, self.place
-
-
-def read_entries(root: str) -> tuple[Entry, ...]:
+def read_entries(root: str) -> tuple[Accepted, ...]:
     """The entries of a package. RebsyncError: the file is damaged, or cannot be read."""
     source = source_below(root, ACCEPTED)
     if source is None:
@@ -67,15 +51,15 @@ def read_entries(root: str) -> tuple[Entry, ...]:
     return found
 
 
-def _entry(table: Table) -> Entry:
+def _entry(table: Table) -> Accepted:
     for key in _KEYS:
         table.require(key)
     values = [table.text(key) or "" for key in _KEYS]
     table.finish()
-    return Entry(*values)
+    return Accepted(*values)
 
 
-def entries_text(entries: Iterable[Entry]) -> str:
+def entries_text(entries: Iterable[Accepted]) -> str:
     """The text of the file with some entries, each once, in a lasting order."""
     ordered = sorted(entries, key=lambda e: (e.path, e.finding, e.place, e.reason))
     tables = (
@@ -92,7 +76,7 @@ def _quoted(text: str) -> str:
 # --- findings -----------------------------------------------------------------------------------
 
 
-def acceptable(checked: Checked) -> Iterator[tuple[Findings, Diagnostic, Entry]]:
+def acceptable(checked: Checked) -> Iterator[tuple[Findings, Diagnostic, Accepted]]:
     """The findings that may be accepted, each with its entry but for the reason."""
     places = _Places(checked)
     known = {
@@ -109,7 +93,7 @@ def acceptable(checked: Checked) -> Iterator[tuple[Findings, Diagnostic, Entry]]
                 if path.is_relative_to(checked.kept.root):
                     inside = path.relative_to(checked.kept.root).as_posix()
                     digest = places.digest(found.source, each)
-                    yield found, each, Entry(each.code, inside, each.message, digest)
+                    yield found, each, Accepted(each.code, inside, each.message, digest)
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,7 +149,7 @@ def with_accepted(checked: Checked) -> Checked:
         return checked
     waiting = Counter(entry.key for entry in entries)
     taken: dict[Findings, set[Diagnostic]] = {}
-    accepted = list[Entry]()
+    accepted = list[Accepted]()
     reasons = {entry.key: entry.reason for entry in entries}
     for found, each, entry in acceptable(checked):
         if waiting[entry.key] > 0:
@@ -195,7 +179,7 @@ def _is_only_unknown(drift: Drift) -> bool:
     )
 
 
-def _stale(root: str, entries: Iterable[Entry]) -> Iterator[Findings]:
+def _stale(root: str, entries: Iterable[Accepted]) -> Iterator[Findings]:
     """A note for entries that are for nothing any more."""
     for entry in dict.fromkeys(entries):
         message = f'what was accepted of {entry.path} is not there as it was: "{entry.finding}"'

@@ -12,7 +12,7 @@ from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.roundtrip.checked import Checked
 from rebsync.roundtrip.outcome import IN_STEP, Outcome, verdict_of
 from rebsync.source import NOWHERE, Source, Span
-from rebsync.terminal import encoded, lines_text, named
+from rebsync.terminal import encoded, named
 
 if TYPE_CHECKING:
     from rebsync.roundtrip.difference import Difference
@@ -59,28 +59,6 @@ def _sentence(outcome: Outcome) -> str:
 
 
 # --- text ---------------------------------------------------------------------------------------
-
-
-def as_text(outcomes: Sequence[Outcome], style: str, *, is_full: bool = False) -> str:
-    """What there is to say of some packages, in one of the forms of the command."""
-    match style:
-        case "json":
-            return as_json(outcomes)
-        case "sarif":
-            return as_sarif(outcomes)
-        case "github":
-            return as_github(outcomes)
-        case "junit":
-            from rebsync.roundtrip.junit import as_junit
-
-            return as_junit(outcomes)
-        case _:
-            from rebsync.report import report
-
-            parts = (
-                lines_text(told_lines(o, is_full=is_full)) + report(o.findings) for o in outcomes
-            )
-            return "".join(parts)
 
 
 def told_lines(outcome: Outcome, *, is_full: bool) -> Iterator[str]:

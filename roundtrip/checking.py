@@ -9,9 +9,10 @@ from functools import partial
 from typing import TypeAlias, cast
 
 from rebsync.diagnostics import Findings, RebsyncError
-from rebsync.roundtrip.checked import Begun, Checked, begin, finish_proved
+from rebsync.roundtrip.check import begin, finish_proved
+from rebsync.roundtrip.checked import Begun, Checked
+from rebsync.roundtrip.kept import Kept
 from rebsync.roundtrip.manifest import ACCEPTED
-from rebsync.roundtrip.packages import Kept
 
 # Findings say why it cannot be told how a package stands.
 Result: TypeAlias = "Checked | tuple[Findings, ...]"

@@ -74,8 +74,8 @@ class Gone:
             return
         from rebsync.reverse.files.reading import read
         from rebsync.reverse.nodes.node_launch import system_of
+        from rebsync.reverse.scaffold.facts import package_name
         from rebsync.roundtrip.units import as_one
-        from rebsync.roundtrip.wiring_facts import package_name
 
         listing = as_one(self.checked.standing.listing)
         package = package_name(listing.files.get(MANIFEST, ""))

@@ -13,11 +13,11 @@ from rebsync.files import read_source
 from rebsync.reverse.files.packages import MANIFEST
 from rebsync.reverse.files.python_files import SETUP
 from rebsync.reverse.files.stores import Disk, join
-from rebsync.roundtrip.digests import Standing
+from rebsync.reverse.python.unbound import unbound_names
+from rebsync.roundtrip.digests import NOT_EXECUTABLE, Standing
+from rebsync.roundtrip.kept import Kept
 from rebsync.roundtrip.manifest import BASE
-from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record
-from rebsync.roundtrip.unbound import unbound_names
 from rebsync.roundtrip.units import folders_of
 from rebsync.source import NOWHERE, Source, Span
 
@@ -37,6 +37,7 @@ def lacking(kept: Kept, record: Record, now: Standing) -> tuple[Findings, ...]:
         *_fields(kept, record, now),
         *_packages(kept, record, now),
         *_refused(now),
+        *_not_executable(now),
     )
 
 
@@ -58,6 +59,16 @@ def _refused(now: Standing) -> Iterator[Findings]:
             line = source.start_of(min(getattr(error, "lineno", None) or 1, last))
             message = f"Python does not take this: {getattr(error, 'msg', error)}"
             yield _finding(source, Span(line, line + 1), message)
+
+
+def _not_executable(now: Standing) -> Iterator[Findings]:
+    """The generated programs that no launch file can start: their executable bit is gone."""
+    for name in now.changed:
+        if now.digests[name].startswith(NOT_EXECUTABLE):
+            source = Source(now.listing.files[name], "")
+            message = "this program is not executable, so that nothing can start it"
+            hint = "make it executable again: `chmod +x`"
+            yield Findings(source, (Diagnostic("RS956", NOWHERE, message, hint),))
 
 
 def _code(path: str) -> Source | None:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.files import source_below
 from rebsync.records import dataclass
+from rebsync.reverse.scaffold.stand_ins import STAND_IN
+from rebsync.roundtrip.digests import is_of_model
 from rebsync.roundtrip.markers import user_blocks, with_user_blocks
 from rebsync.roundtrip.merge_files import renamed_files
 from rebsync.roundtrip.merge_models import Favour
@@ -16,7 +17,7 @@ from rebsync.roundtrip.merge_source import merged_source
 from rebsync.roundtrip.text_merge import MergedText
 from rebsync.source import NOWHERE, Source
 
-_STAND_IN = re.compile(r"(?:.*/)?\w+_stand_in(?:\.cpp|\.py)?")
+_INTERFACES = (".msg", ".srv", ".action")
 LABELS = ("as edited", "as generated now")
 
 
@@ -64,7 +65,11 @@ def merged_code(
         texts[old] = None
         conflicts |= {new: stages} if stages is not None else {}
     for path in sorted({*base, *theirs} - {*renamed, *renamed.values()}):
-        if base.get(path) == theirs.get(path):
+        text = theirs.get(path)
+        if base.get(path) == text:
+            is_new = path.endswith(_INTERFACES) and path not in recorded
+            if text is not None and is_new and source_below(root, path) is None:
+                texts[path] = text  # of a message that a node only sends itself
             continue
         here = moved.get(path, path)
         last = recorded.get(path)
@@ -91,8 +96,10 @@ def _file(
 ) -> tuple[str, Stages | None] | Findings | None:
     """The text of one file, its conflict if there is one; None where it goes."""
     path, source = Path(root, name), source_below(root, name)
+    if not is_of_model(name) and favour is Favour.MARKERS:
+        favour = Favour.CODE  # what nothing is read from stays as its people want it
     if source is None:
-        if theirs is None:
+        if theirs is None or (base is not None and not is_of_model(name)):
             return None
         if base is None or favour is Favour.MODEL:
             return theirs, None
@@ -161,7 +168,8 @@ def ancestors(
     `recorded` was generated last time, `before` is today's generation of the model of last time,
     and `now` that of the model with the changes of the code. Where the first two differ, rebsync
     or the settings have changed since: that is to come into the code as well. So is what changes
-    in a stand-in of a sensor, which nobody reads: it plays as often as the class looks.
+    in files that no model is read from, as the page about the package, and in a stand-in of a
+    sensor, which plays as often as the class looks.
     """
     return dict(_ancestors(recorded, before, now))
 
@@ -171,7 +179,8 @@ def _ancestors(
 ) -> Iterator[tuple[str, str]]:
     for path in sorted({*recorded, *now}):
         old, new = recorded.get(path), now.get(path)
-        if old is not None and new is not None and _STAND_IN.fullmatch(path):
+        is_unread = STAND_IN.fullmatch(path) is not None or not is_of_model(path)
+        if old is not None and new is not None and is_unread:
             yield path, old
         elif old is None or old == before.get(path):
             if new is not None:

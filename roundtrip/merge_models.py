@@ -14,6 +14,7 @@ from rebsync.roundtrip.differences import compare
 from rebsync.roundtrip.matching import matched
 from rebsync.roundtrip.models import parsed
 from rebsync.roundtrip.patching import patched
+from rebsync.roundtrip.rewritten import compared_with_code
 from rebsync.roundtrip.sides import Given, Item, side, two_sides
 from rebsync.roundtrip.verdict import Drift, Mover, judge
 from rebsync.source import NOWHERE, Source, Span
@@ -93,10 +94,8 @@ def as_code_says(today: Given, code: Given, comparison: Comparison) -> str:
 def _judged(
     base: Given | None, today: Given, code: Given, compared: Callable[[Given, Given], Comparison]
 ) -> Drift:
-    apart = compared(today, code)
-    if base is None:
-        return judge(apart, None, None)
-    return judge(apart, compared(base, today), compared(base, code))
+    found = compared_with_code(today, code, base, compared)
+    return judge(found.apart, found.of_model, found.of_code)
 
 
 def _side_of(movers: set[Mover]) -> Mover:

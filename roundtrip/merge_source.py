@@ -7,7 +7,13 @@ from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
 from rebsync.reverse.syntax.code_units import Unit
-from rebsync.roundtrip.text_merge import MergedText, agreed_lines, decided, merged_text
+from rebsync.roundtrip.text_merge import (
+    MergedText,
+    agreed_lines,
+    decided,
+    merged_text,
+    split_comment,
+)
 
 _CPP = (".cpp", ".cc", ".cxx", ".h", ".hh", ".hpp", ".hxx")
 _Sides: TypeAlias = "tuple[Unit, Unit, Unit]"
@@ -109,14 +115,15 @@ def _is_sound(merged: MergedText, sides: _Sides, labels: tuple[str, str], reader
 
 
 def _said(unit: Unit) -> Iterator[str]:
-    """The lines of a unit that are not empty, and what is imported."""
+    """The lines of a unit that are not empty, comments at their ends apart; what is imported."""
     if unit.inside:
         for each in unit.inside:
             yield from _said(each)
     elif unit.names:
         yield from unit.names
     else:
-        yield from (line.strip() for line in unit.text.split("\n") if line.strip())
+        for line in unit.text.split("\n"):
+            yield from (part.strip() for part in split_comment(line) if part.strip())
 
 
 def _has_all(

@@ -11,9 +11,9 @@ from pathlib import Path
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
 from rebsync.files import STANDARD_INPUT
 from rebsync.roundtrip.attested import remember_model, remembered_model
+from rebsync.roundtrip.kept import Kept
 from rebsync.roundtrip.manifest import FOLDER, made_from
 from rebsync.roundtrip.model_search import Search, is_alike, search
-from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.recorded import Record, read_record
 from rebsync.source import NOWHERE, Source
 from rebsync.trees import repository, tree_of

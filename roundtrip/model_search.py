@@ -15,8 +15,8 @@ from rebsync.diagnostics import RebsyncError
 from rebsync.files import read_bytes, read_source
 from rebsync.records import dataclass
 from rebsync.roundtrip.digests import is_text_of
+from rebsync.roundtrip.kept import SKIPPED, SUFFIX, Kept
 from rebsync.roundtrip.manifest import BASE_MODEL
-from rebsync.roundtrip.packages import SKIPPED, SUFFIX, Kept
 from rebsync.roundtrip.recorded import Record
 from rebsync.trees import GIT
 

@@ -12,7 +12,7 @@ from rebsync.records import dataclass
 from rebsync.roundtrip.difference import Place
 from rebsync.roundtrip.digests import Standing, digest_of
 from rebsync.roundtrip.extraction_cache import keep, kept, key_of
-from rebsync.roundtrip.packages import Kept
+from rebsync.roundtrip.kept import Kept
 from rebsync.roundtrip.recorded import conflict_in
 from rebsync.roundtrip.sides import Given, Unread
 from rebsync.roundtrip.units import as_one

@@ -250,9 +250,19 @@ class BodyPatch:
         if isinstance(x, m.Declaration | m.Declarator) and type(x) is type(r):
             return self._parts(x, r)
         if isinstance(x, m.Expression) and isinstance(r, m.Expression):
-            is_operand = isinstance(parent, _OPERANDS) or name == "target"
-            return self.expression(x, r, binding(x) if is_operand else LOWEST)
+            return self.expression(x, r, _least(parent, x, name))
         return self.same(x, r)
+
+
+def _least(parent: object, x: m.Expression, name: str) -> int:
+    """How tightly what stands in place of a part must bind, so that it needs no parentheses."""
+    match parent:
+        case m.Binary():  # which group from the left
+            return binding(parent) + (name == "right")
+        case _ if isinstance(parent, _OPERANDS) or name == "target":
+            return binding(x)
+        case _:
+            return LOWEST
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -7,9 +7,9 @@ from pathlib import Path
 
 from rebsync.diagnostics import Findings, RebsyncError
 from rebsync.roundtrip.digests import is_base_whole, standing
+from rebsync.roundtrip.kept import Kept
 from rebsync.roundtrip.manifest import BASE_MODEL
 from rebsync.roundtrip.merge_models import whole
-from rebsync.roundtrip.packages import Kept
 from rebsync.roundtrip.plan import Action, Step
 from rebsync.roundtrip.recorded import read_record
 from rebsync.roundtrip.sides import Given

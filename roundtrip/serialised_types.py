@@ -22,7 +22,7 @@ _NAMES = {
     "rebsync.reverse.files.packages": "Listing",
     "rebsync.reverse.findings": "Finding Grade Ordered",
     "rebsync.reverse.generated.ros1_kept": "ClassRead",
-    "rebsync.roundtrip.checked": "Checked",
+    "rebsync.roundtrip.checked": "Accepted Checked",
     "rebsync.roundtrip.class_memory": "Entry",
     "rebsync.roundtrip.difference": (
         "Added Aspect Changed Comparison Element Moved Place Removed Renamed StatementInserted"
@@ -30,8 +30,8 @@ _NAMES = {
     ),
     "rebsync.roundtrip.digests": "Standing",
     "rebsync.roundtrip.judged": "Judged",
+    "rebsync.roundtrip.kept": "Kept",
     "rebsync.roundtrip.models": "Code",
-    "rebsync.roundtrip.packages": "Kept",
     "rebsync.roundtrip.recorded": "Record",
     "rebsync.roundtrip.sides": "Given Unread",
     "rebsync.roundtrip.verdict": "Drift Mover Verdict",

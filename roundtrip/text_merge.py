@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Hashable, Iterator, Sequence
 from difflib import SequenceMatcher
 from pathlib import Path
@@ -11,6 +12,8 @@ from rebsync.git import finished
 from rebsync.records import dataclass
 
 _CONFLICT = 128  # from this exit status on `git merge-file` has failed; below it counts conflicts
+# A comment at the end of a line of C++ or Python; `a // b` of Python is none.
+_BESIDE = re.compile(r"(?<=[;{},:])[ \t]*//|(?<=\S)[ \t]+#")
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +37,11 @@ def merged_text(
     if ours == base:
         return MergedText(theirs)
     found = _by_git(ours, base, theirs, labels)
-    merged = found if found is not None else merged_lines(ours, base, theirs, labels)
+    if found is None or found.conflicts:
+        by_lines = merged_lines(ours, base, theirs, labels)
+        if found is None or by_lines.conflicts < found.conflicts:
+            found = by_lines
+    merged = found
     if not merged.conflicts or favour == "markers":
         return merged
     return MergedText(decided(merged.text, labels, favour == "theirs"))
@@ -95,7 +102,10 @@ def _by_git(ours: str, base: str, theirs: str, labels: tuple[str, str]) -> Merge
 
 
 def merged_lines(ours: str, base: str, theirs: str, labels: tuple[str, str]) -> MergedText:
-    """The same without git: what both left alone divides the texts into parts that are merged."""
+    """The same without git: what both left alone divides the texts into parts that are merged.
+
+    Code and the comments at the ends of its lines are merged apart, which git does not.
+    """
     lines = [text.splitlines(keepends=True) for text in (ours, base, theirs)]
     out: list[str] = []
     conflicts = 0
@@ -105,10 +115,34 @@ def merged_lines(ours: str, base: str, theirs: str, labels: tuple[str, str]) -> 
             out += mine
         elif mine == old:
             out += new
+        elif (both := _merged_apart(mine, old, new)) is not None:
+            out += both
         else:
             out += _conflict(mine, new, labels)
             conflicts += 1
     return MergedText("".join(out), conflicts)
+
+
+def _merged_apart(ours: list[str], base: list[str], theirs: list[str]) -> list[str] | None:
+    """Lines of which one side has changed the code and the other the comments at their ends."""
+    if not len(ours) == len(base) == len(theirs):
+        return None
+    sides = [[split_comment(line) for line in side] for side in (ours, base, theirs)]
+    (codes, notes), (old_codes, old_notes), (new_codes, new_notes) = (
+        ([code for code, _ in side], [note for _, note in side]) for side in sides
+    )
+    if new_codes == old_codes and notes == old_notes:
+        return [code + note for code, note in zip(codes, new_notes, strict=True)]
+    if codes == old_codes and new_notes == old_notes:
+        return [code + note for code, note in zip(new_codes, notes, strict=True)]
+    return None
+
+
+def split_comment(line: str) -> tuple[str, str]:
+    """The code of a line, and the comment at its end with the space before it, or its end."""
+    found = _BESIDE.search(line)
+    at = found.start() if found is not None else len(line.rstrip("\r\n"))
+    return line[:at], line[at:]
 
 
 def aligned(

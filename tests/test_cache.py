@@ -23,6 +23,7 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setenv("HOME", str(tmp_path))
     monkeypatch.setattr(cache, "_refused", {})
+    monkeypatch.setattr(cache, "_opened", cache._opened.__wrapped__)  # as in a new process
     return tmp_path
 
 

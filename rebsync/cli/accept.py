@@ -11,10 +11,12 @@ import click
 
 from rebsync.cli.status import Status
 from rebsync.diagnostics import RebsyncError
-from rebsync.roundtrip.accepted import Entry, acceptable, entries_text, read_entries
-from rebsync.roundtrip.checked import check
+from rebsync.roundtrip.accepted import acceptable, entries_text, read_entries
+from rebsync.roundtrip.check import check
+from rebsync.roundtrip.checked import Accepted
+from rebsync.roundtrip.kept import Kept
 from rebsync.roundtrip.manifest import ACCEPTED
-from rebsync.roundtrip.packages import Kept, find
+from rebsync.roundtrip.packages import find
 from rebsync.terminal import named, one_line, say
 from rebsync.writing import replace_tree
 
@@ -62,7 +64,7 @@ def _list(kept: Kept) -> None:
         say(f"  {one_line(entry.reason)}")
 
 
-def _found(kept: Kept, places: set[tuple[str, int]]) -> Iterator[Entry]:
+def _found(kept: Kept, places: set[tuple[str, int]]) -> Iterator[Accepted]:
     """The entries for some lines of a package. RebsyncError: there is nothing to accept."""
     left = set(places)
     for found, each, entry in acceptable(check(kept)):
@@ -77,7 +79,7 @@ def _found(kept: Kept, places: set[tuple[str, int]]) -> Iterator[Entry]:
         raise RebsyncError.of(os.path.relpath(path), "RS946", message, hint)
 
 
-def _write(kept: Kept, entries: list[Entry]) -> None:
+def _write(kept: Kept, entries: list[Accepted]) -> None:
     old = [e for e in read_entries(kept.root) if e.key not in {each.key for each in entries}]
     replace_tree(kept.to_write(), {ACCEPTED: entries_text([*old, *entries])})
     for entry in entries:

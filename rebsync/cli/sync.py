@@ -16,15 +16,16 @@ from rebsync.files import read_source
 from rebsync.locking import alone_in
 from rebsync.patches import patch
 from rebsync.report import print_report
-from rebsync.roundtrip.checked import check_merged
-from rebsync.roundtrip.packages import Kept, find
+from rebsync.roundtrip.check import check_merged
+from rebsync.roundtrip.kept import Kept
+from rebsync.roundtrip.packages import find
 from rebsync.source import NOWHERE, Source
 from rebsync.stamps import Stamps, stamps
 from rebsync.terminal import named, say
 from rebsync.writing import told
 
 if TYPE_CHECKING:
-    from rebsync.roundtrip.sync import Sync
+    from rebsync.roundtrip.sync_result import Sync
 
 
 @click.command("sync")

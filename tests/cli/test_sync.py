@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from rebsync.cli import main
-from rebsync.roundtrip.checked import check
+from rebsync.roundtrip.check import check
 from rebsync.roundtrip.packages import find
 from rebsync.roundtrip.verdict import Verdict
 from tests.cli.test_check import MODEL, SOURCE, made, package, replace, snapshot
@@ -290,3 +290,34 @@ def test_what_makes_no_model_together_is_told_of_the_model(sync: Run) -> None:
     assert status == 1
     assert "patrol.rebeca: RS967 the changes of model and code cannot be put together" in shown
     assert 'hint: it would say `on = true;`: unknown variable "on"' in shown
+
+
+@pytest.mark.parametrize(
+    "edit",
+    [None, lambda path: path.write_text("# Ours\n"), Path.unlink],
+    ids=["as generated", "written anew", "gone"],
+)
+def test_the_page_about_a_package_follows_its_launch_file(
+    sync: Run, edit: Callable[[Path], object] | None
+) -> None:
+    page = Path("patrol/README.md")
+    if edit is not None:
+        edit(page)
+    left = page.read_text() if page.exists() else None
+    launch = Path("patrol/launch/patrol.launch")
+    text = launch.read_text()
+    block = text[text.index("  <!-- rebsync: rebec robot2") : text.index("</launch>")]
+    text = text.replace(
+        "</launch>", "\n" + block.replace("rebec robot2", "rebec robot3") + "</launch>"
+    )
+    head, _, tail = text.rpartition('name="robot2"')
+    launch.write_text(
+        f'{head}name="robot3"{tail}'.replace("[robot1, robot2]", "[robot1, robot2, robot3]")
+    )
+    assert sync()[0] == 0
+    found = page.read_text() if page.exists() else None
+    assert "`/robot3/go`" in str(found) if edit is None else found == left
+    assert main(["check"]) == 0
+    before = snapshot(Path("patrol"))
+    assert main(["generate", "patrol.rebeca"]) in (0, 1)
+    assert edit is Path.unlink or snapshot(Path("patrol")) == before

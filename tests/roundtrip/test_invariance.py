@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from rebsync.cli import main
-from rebsync.roundtrip.checked import check
+from rebsync.roundtrip.check import check
 from rebsync.roundtrip.difference import explain
 from rebsync.roundtrip.packages import find
 from tests.roundtrip.mutations.harness import written

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from rebsync.roundtrip.checked import check
+from rebsync.roundtrip.check import check
 from rebsync.roundtrip.difference import explain
 from rebsync.roundtrip.packages import find
 from tests.reverse.test_edits import BY_NAME

@@ -54,3 +54,26 @@ def test_by_the_indentation_of_the_file_and_without_parentheses(step: str) -> No
     base = given(BASE.replace("  ", step))
     merged = merged_model(base, base, given(CODE), Favour.MARKERS)
     assert merged.text == WANTED.replace("  ", step)
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ("x < 0 || x > 9", "x < 0 || x > 9 || x == 5"),
+        ("x > 1 && x < 5", "x > 1 && x < 5 && x != 3"),
+        ("x + 1 > 3", "x + 1 + 2 * x > 3"),
+        ("x - 1 > 3", "x - (1 - x) > 3"),
+        ("x * 2 > 3", "(x + 1) * 2 > 3"),
+        ("x * 2 > 3", "x * (2 + x) > 3"),
+        ("!(x > 3)", "!(x > 4)"),
+        ("-x > 3", "-(x + 1) > 3"),
+    ],
+)
+def test_parts_of_an_expression_have_no_more_parentheses_than_they_need(
+    before: str, after: str
+) -> None:
+    text = BASE.replace("x = x + 1;", f"if ({before}) x = 1;")
+    base = given(text)
+    wanted = text.replace(f"if ({before})", f"if ({after})")
+    merged = merged_model(base, base, given(wanted), Favour.MARKERS)
+    assert merged.text == wanted

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from rebsync import __version__
-from rebsync.roundtrip.checked import begin
+from rebsync.roundtrip.check import begin
 from rebsync.roundtrip.digests import digest_of
 from rebsync.roundtrip.packages import find
 from rebsync.roundtrip.recorded import told_in_step

@@ -14,7 +14,7 @@ from tempfile import TemporaryDirectory
 
 from rebsync.cli import main
 from rebsync.diagnostics import RebsyncError
-from rebsync.roundtrip.checked import check
+from rebsync.roundtrip.check import check
 from rebsync.roundtrip.manifest import FOLDER
 from rebsync.roundtrip.packages import find
 from rebsync.roundtrip.text_merge import decided

@@ -12,7 +12,7 @@ from tests.roundtrip.mutations.harness import Result, Said, Task, results
 from tests.roundtrip.mutations.kinds import BEHAVIOUR, NEUTRAL, made_by
 from tests.roundtrip.mutations.package import BY_NAME, DIALECTS, Kind
 
-_FINE = {True: (Said.AT_ELEMENT, Said.AT_FILE), False: (Said.IN_STEP,)}
+_FINE = {True: (Said.AT_ELEMENT, Said.AT_FILE, Said.ALIKE), False: (Said.IN_STEP, Said.ALIKE)}
 
 
 def main(arguments: Sequence[str]) -> int:

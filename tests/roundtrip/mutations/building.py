@@ -12,8 +12,8 @@ KINDS = (
     Kind("run-time part: statement removed", run_time(r"^ +\w+\.\w+\([^;\n]*\);\n", "")),
     Kind("run-time part: file gone", gone("/mailbox.h")),
     Kind(
-        "stand-in publishes something else",
-        in_files("_stand_in.cpp", r"\{false, true\}|\{0, 1\}", "{}"),
+        "stand-in publishes elsewhere",
+        in_files("_stand_in.cpp", r'"(?:~/)?\w+", 10', '"/other", 10'),
     ),
     Kind("source not built", in_files("CMakeLists.txt", r"^  src/(?!.*_node).*\.cpp\n", "")),
     Kind("program not built", in_files("CMakeLists.txt", r"^add_executable\([^)]*\)\n", "")),
@@ -34,6 +34,10 @@ KINDS = (
 )
 
 NEUTRAL = (
+    Kind(
+        "stand-in plays something else",
+        in_files("_stand_in.cpp", r"\{false, true\}|\{0, 1\}", "{}"),
+    ),
     Kind(
         "comment in the build", in_files("CMakeLists.txt", r"^(add_executable)", r"# a program\n\1")
     ),

@@ -16,7 +16,8 @@ from pathlib import Path
 
 from rebsync.cli.status import Status, status_of
 from rebsync.diagnostics import RebsyncError
-from rebsync.roundtrip.checked import Checked, check
+from rebsync.roundtrip.check import check
+from rebsync.roundtrip.checked import Checked
 from rebsync.roundtrip.packages import find
 from rebsync.roundtrip.verdict import Verdict
 from tests.roundtrip.mutations.kinds import named
@@ -28,8 +29,9 @@ class Said(Enum):
 
     AT_ELEMENT: that the code moved, at the element that was changed. ELSEWHERE: the same, but at
     other elements only. AT_FILE: that it cannot tell, with a finding in the file that was changed.
-    UNDETERMINED: that it cannot tell, with none there. NOISE: in step, but not without a
-    finding. BROKEN: that something cannot be read at all.
+    UNDETERMINED: that it cannot tell, with none there. ALIKE: in step, as a proof shows that bodies
+    do the same. NOISE: in step, but not without a finding. BROKEN: that something cannot be read at
+    all.
     """
 
     AT_ELEMENT = "at the element"
@@ -37,6 +39,7 @@ class Said(Enum):
     AT_FILE = "at the file"
     UNDETERMINED = "undetermined"
     IN_STEP = "in step"
+    ALIKE = "proved to do the same"
     NOISE = "noise"
     BROKEN = "broken"
 
@@ -109,6 +112,7 @@ def written(package: Package, root: Path) -> None:
         target = root / package.name / path
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_bytes(text.encode("utf-8"))
+        target.chmod(0o755 if text.startswith("#!") else 0o644)
 
 
 @contextmanager
@@ -155,7 +159,9 @@ def _said(found: Checked, mutant: Mutant) -> tuple[Said, list[str]]:
     messages = [d.message for f in found.findings for d in f.diagnostics]
     if found.drift is None or found.drift.verdict is Verdict.IN_STEP:
         is_clean = status_of(found.findings) is Status.CLEAN
-        return Said.IN_STEP if is_clean else Said.NOISE, messages
+        is_proved = any(d.code == "RS970" for f in found.findings for d in f.diagnostics)
+        is_step = Said.ALIKE if is_proved else Said.IN_STEP
+        return is_step if is_clean else Said.NOISE, messages
     differences = [d for d, _ in found.drift.differences]
     lines = [f"{d.element}" for d in differences] + messages
     paths = {d.element.path for d in differences}

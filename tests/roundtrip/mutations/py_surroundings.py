@@ -79,10 +79,7 @@ KINDS = (
         "program changes a class",
         _program(r"^( *)(rebec = )(\w+)", r"\1\3.construct = print\n\1\2\3"),
     ),
-    Kind("stand-in publishes something else", _sensor(r"\[False, True\]|\[0, 1\]", "[False]")),
-    Kind(
-        "stand-in publishes less often", _sensor(r"\((\d+\.\d) \* time_unit", r"(1\1 * time_unit")
-    ),
+    Kind("stand-in publishes elsewhere", _sensor(r'"~/?\w+",', '"/other",')),
     Kind(
         "message not generated",
         in_files("CMakeLists.txt", r'^  "?(?:msg/)?(?!\w+State)\w+\.msg"?\n', ""),

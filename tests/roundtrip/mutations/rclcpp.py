@@ -114,10 +114,6 @@ KINDS = (
         "program renames topics",
         _program(r"NodeOptions\(\)", 'NodeOptions().arguments({"--ros-args", "-r", "~/a:=b"})'),
     ),
-    Kind(
-        "stand-in publishes less often",
-        in_files("_stand_in.cpp", r"from_seconds\((\d+)", r"from_seconds(1\1"),
-    ),
 )
 
 _LOG = "  RCLCPP_INFO(get_logger(), {});\n"

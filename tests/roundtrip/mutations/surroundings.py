@@ -81,7 +81,7 @@ KINDS = (
     Kind("constant by default", _by_default),
     Kind("unit of time", in_files("params.yaml", _ENTRY.format("time_unit"), r"\g<1>2.0")),
     Kind("settling time", in_files("params.yaml", _ENTRY.format("settle"), r"\g<1>0.0")),
-    Kind("size of a cell", in_files("params.yaml", _ENTRY.format("cell_size"), r"\g<1>2.0")),
+    Kind("no size of a cell", in_files("params.yaml", _ENTRY.format("cell_size"), r"\g<1>0.0")),
     Kind("kind of drive", _other_drive),
     Kind("heading", in_files("params.yaml", _ENTRY.format("heading"), r"\g<1>1.57")),
     Kind("time of a move", in_files("params.yaml", _ENTRY.format("move_time"), r"\g<1>3.0")),
@@ -97,6 +97,7 @@ NEUTRAL = (
     ),
     Kind("parameters reordered", swapped_lines(r" *(?!seed)\w+: \d+", "params.yaml")),
     Kind("slack", in_files("params.yaml", _ENTRY.format("slack"), r"\g<1>0.9")),
+    Kind("size of a cell", in_files("params.yaml", _ENTRY.format("cell_size"), r"\g<1>2.0")),
     Kind("seed", in_files("params.yaml", _ENTRY.format("seed"), r"\g<1>7")),
     Kind("comment in a message", in_files(".msg", r"\A", "# what is told\n")),
     Kind(

@@ -6,7 +6,8 @@ from pathlib import Path
 
 from rebsync.cli import main
 from rebsync.grammars.parser import parse_model
-from rebsync.roundtrip.checked import Checked, check
+from rebsync.roundtrip.check import check
+from rebsync.roundtrip.checked import Checked
 from rebsync.roundtrip.packages import find
 from rebsync.source import Source
 from rebsync.static import analyse

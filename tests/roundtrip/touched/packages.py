@@ -10,7 +10,7 @@ from rebsync.cli import main
 from rebsync.diagnostics import RebsyncError
 from rebsync.grammars.parser import parse_model
 from rebsync.model import Interface, Model, ReactiveClass
-from rebsync.roundtrip.checked import check
+from rebsync.roundtrip.check import check
 from rebsync.roundtrip.packages import find
 from rebsync.roundtrip.verdict import Verdict
 from rebsync.source import Source
