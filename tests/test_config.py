@@ -15,7 +15,7 @@ from rebsync.config import (
     parse_config,
 )
 from rebsync.diagnostics import RebsyncError
-from rebsync.roundtrip.manifest import MANIFEST, with_manifest
+from rebsync.roundtrip.package.manifest import MANIFEST, with_manifest
 from rebsync.source import Source
 
 

@@ -28,7 +28,7 @@ def _imports(path: Path) -> set[str]:
 def _graph(room: str) -> dict[str, set[str]]:
     files = {
         f"rebsync.{path.relative_to(ROOT).with_suffix('').as_posix().replace('/', '.')}": path
-        for path in (ROOT / room).glob("*.py")
+        for path in (ROOT / room).rglob("*.py")
     }
     return {name: _imports(path) & files.keys() for name, path in files.items()}
 

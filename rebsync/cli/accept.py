@@ -11,12 +11,12 @@ import click
 
 from rebsync.cli.status import Status
 from rebsync.diagnostics import RebsyncError
-from rebsync.roundtrip.accepted import acceptable, entries_text, read_entries
-from rebsync.roundtrip.check import check
-from rebsync.roundtrip.checked import Accepted
-from rebsync.roundtrip.kept import Kept
-from rebsync.roundtrip.manifest import ACCEPTED
-from rebsync.roundtrip.packages import find
+from rebsync.roundtrip.package.discovery import find
+from rebsync.roundtrip.package.managed import ManagedPackage
+from rebsync.roundtrip.package.manifest import ACCEPTED
+from rebsync.roundtrip.verdict.acceptance import acceptable, entries_text, read_entries
+from rebsync.roundtrip.verdict.check import check
+from rebsync.roundtrip.verdict.result import AcceptedFinding
 from rebsync.terminal import named, one_line, say
 from rebsync.writing import replace_tree
 
@@ -33,21 +33,21 @@ def command(findings: tuple[str, ...], reason: str | None, is_list: bool) -> Sta
     FINDING is FILE:LINE, as `rebsync check` prints it. With --list it is a package, as for `check`.
     """
     if is_list:
-        for kept in find(findings or (".",)):
-            _list(kept)
+        for package in find(findings or (".",)):
+            _list(package)
         return Status.CLEAN
     if not findings:
         raise click.UsageError("name what is to be accepted, as FILE:LINE")
     if reason is None or not reason.strip():
         raise click.UsageError("say with --reason why it is as it is to be")
-    wanted: dict[str, tuple[Kept, set[tuple[str, int]]]] = {}
+    wanted: dict[str, tuple[ManagedPackage, set[tuple[str, int]]]] = {}
     for finding in findings:
         path, line = _place(finding)
-        (kept,) = find((path,))
-        wanted.setdefault(kept.root, (kept, set()))[1].add((os.path.realpath(path), line))
-    chosen = [(kept, list(_found(kept, places))) for kept, places in wanted.values()]
-    for kept, entries in chosen:
-        _write(kept, [replace(entry, reason=reason.strip()) for entry in entries])
+        (package,) = find((path,))
+        wanted.setdefault(package.root, (package, set()))[1].add((os.path.realpath(path), line))
+    chosen = [(package, list(_found(package, places))) for package, places in wanted.values()]
+    for package, entries in chosen:
+        _write(package, [replace(entry, reason=reason.strip()) for entry in entries])
     return Status.CLEAN
 
 
@@ -58,16 +58,16 @@ def _place(finding: str) -> tuple[str, int]:
     return found[1], int(found[2])
 
 
-def _list(kept: Kept) -> None:
-    for entry in read_entries(kept.root):
-        say(f"{named(kept.root)}/{entry.path}: {entry.code} {one_line(entry.finding)}")
+def _list(package: ManagedPackage) -> None:
+    for entry in read_entries(package.root):
+        say(f"{named(package.root)}/{entry.path}: {entry.code} {one_line(entry.finding)}")
         say(f"  {one_line(entry.reason)}")
 
 
-def _found(kept: Kept, places: set[tuple[str, int]]) -> Iterator[Accepted]:
+def _found(package: ManagedPackage, places: set[tuple[str, int]]) -> Iterator[AcceptedFinding]:
     """The entries for some lines of a package. RebsyncError: there is nothing to accept."""
     left = set(places)
-    for found, each, entry in acceptable(check(kept)):
+    for found, each, entry in acceptable(check(package)):
         line = found.source.position(each.span.start).line
         key = os.path.realpath(found.source.path), line
         if key in places:
@@ -79,8 +79,8 @@ def _found(kept: Kept, places: set[tuple[str, int]]) -> Iterator[Accepted]:
         raise RebsyncError.of(os.path.relpath(path), "RS946", message, hint)
 
 
-def _write(kept: Kept, entries: list[Accepted]) -> None:
-    old = [e for e in read_entries(kept.root) if e.key not in {each.key for each in entries}]
-    replace_tree(kept.to_write(), {ACCEPTED: entries_text([*old, *entries])})
+def _write(package: ManagedPackage, entries: list[AcceptedFinding]) -> None:
+    old = [e for e in read_entries(package.root) if e.key not in {each.key for each in entries}]
+    replace_tree(package.to_write(), {ACCEPTED: entries_text([*old, *entries])})
     for entry in entries:
-        say(f"accepted {named(kept.root)}/{entry.path}: {entry.code} {one_line(entry.finding)}")
+        say(f"accepted {named(package.root)}/{entry.path}: {entry.code} {one_line(entry.finding)}")

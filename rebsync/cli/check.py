@@ -12,15 +12,15 @@ from rebsync.cli.amounts import amount, duration
 from rebsync.cli.status import Status, status_of, worst
 from rebsync.diagnostics import RebsyncError
 from rebsync.records import dataclass
-from rebsync.roundtrip.checked import Checked
-from rebsync.roundtrip.checking import Result, check_all
-from rebsync.roundtrip.kept import Kept
-from rebsync.roundtrip.outcome import IN_STEP, Outcome, verdict_of
-from rebsync.roundtrip.packages import find
+from rebsync.roundtrip.package.discovery import find
+from rebsync.roundtrip.package.managed import ManagedPackage
+from rebsync.roundtrip.verdict.check_all import Result, check_all
+from rebsync.roundtrip.verdict.outcome import IN_STEP, Outcome, verdict_of
+from rebsync.roundtrip.verdict.result import CheckResult
 from rebsync.terminal import named, say, say_lines
 
 if TYPE_CHECKING:
-    from rebsync.roundtrip.proof import Proof
+    from rebsync.roundtrip.behaviour.proof import Proof
 
 FORMATS = ("text", "json", "sarif", "github", "junit")
 _FEW = 5000  # states of each side, within which --behaviour is to answer
@@ -75,49 +75,49 @@ def command(ctx: click.Context, /, paths: tuple[str, ...], style: str, **_: obje
     packages = list(find(paths or (".",), given["model"]))
     told = _Told(style, given["output"], given["full"])
     every = zip(packages, check_all(packages, given["depth"]), strict=True)
-    found = [told.tell(_outcome(kept, result, given)) for kept, result in every]
+    found = [told.tell(_outcome(package, result, given)) for package, result in every]
     return worst([*found, told.finish()])
 
 
-def _outcome(kept: Kept, checked: Result, given: dict[str, Any]) -> Outcome:
-    if not isinstance(checked, Checked):
-        return Outcome(kept.root, None, RebsyncError(checked))
+def _outcome(package: ManagedPackage, checked: Result, given: dict[str, Any]) -> Outcome:
+    if not isinstance(checked, CheckResult):
+        return Outcome(package.root, None, RebsyncError(checked))
     try:
         proof = _proof(checked, given) if given["verify"] else None
     except RebsyncError as error:
-        return Outcome(kept.root, None, error)
+        return Outcome(package.root, None, error)
     except RecursionError:
         why = "something in it nests deeper than rebsync reads"
-        return Outcome(kept.root, None, RebsyncError.of(kept.root, "RS111", why))
+        return Outcome(package.root, None, RebsyncError.of(package.root, "RS111", why))
     if checked.drift is not None and checked.findings:
-        from rebsync.roundtrip.unparsed_code import as_far_as_parsed
+        from rebsync.roundtrip.verdict.unparsed import as_far_as_parsed
 
         checked = as_far_as_parsed(checked)
     is_same = given["behaviour"] and _is_same(checked, given["max_states"])
-    return Outcome(kept.root, checked, proof=proof, is_same=is_same)
+    return Outcome(package.root, checked, proof=proof, is_same=is_same)
 
 
-def _is_same(checked: Checked, most: int | None) -> bool:
+def _is_same(checked: CheckResult, most: int | None) -> bool:
     """Whether model and code differ, and are proved to do the same within a bound."""
     is_open = any(d.code not in ("RS944", "RS970") for f in checked.findings for d in f.diagnostics)
     if checked.drift is None or not checked.drift.differences or is_open:
         return False
-    from rebsync.roundtrip.bisimulation import compare_behaviour
-    from rebsync.roundtrip.models import code_given, model_given
+    from rebsync.roundtrip.behaviour.bisimulation import compare_behaviour
+    from rebsync.roundtrip.package.models import read_code, read_model
 
-    code = code_given(checked.kept, checked.standing).given
-    return compare_behaviour(model_given(checked.model), code, most or _FEW).verdict == "same"
+    code = read_code(checked.package, checked.state).given
+    return compare_behaviour(read_model(checked.model), code, most or _FEW).verdict == "same"
 
 
-def _proof(checked: Checked, given: dict[str, Any]) -> Proof:
+def _proof(checked: CheckResult, given: dict[str, Any]) -> Proof:
     from rebsync.checker.exploration import Limits
     from rebsync.checker.problem import Options
     from rebsync.config import settings_beside
-    from rebsync.roundtrip.models import code_given, model_given
-    from rebsync.roundtrip.proof import prove
+    from rebsync.roundtrip.behaviour.proof import prove
+    from rebsync.roundtrip.package.models import read_code, read_model
 
-    code = code_given(checked.kept, checked.standing)
-    today = model_given(checked.model)
+    code = read_code(checked.package, checked.state)
+    today = read_model(checked.model)
     limits = Limits(given["max_states"], given["max_time"], given["memory"])
     _, settings = settings_beside(checked.model)
     options = Options(limits=limits, allowed=frozenset({*given["allow"], *settings.allow}))
@@ -141,7 +141,7 @@ class _Told:
             say(f"{named(outcome.root)}: {IN_STEP}")
         else:
             from rebsync.report import print_report
-            from rebsync.roundtrip.check_report import told_lines
+            from rebsync.roundtrip.verdict.report.text import told_lines
 
             say_lines(told_lines(outcome, is_full=self.is_full))
             print_report(outcome.findings, sys.stdout)
@@ -151,7 +151,7 @@ class _Told:
         """Prints what was kept."""
         if self.style != "text" or self.output != "-":
             from rebsync.cli.options import write_output
-            from rebsync.roundtrip.check_formats import as_text
+            from rebsync.roundtrip.verdict.report.formats import as_text
 
             write_output(self.output, as_text(self.all, self.style, is_full=self.is_full))
         return Status.CLEAN

@@ -15,9 +15,9 @@ from rebsync.terminal import lines_text, say
 
 if TYPE_CHECKING:
     from rebsync.diagnostics import Findings
-    from rebsync.roundtrip.behaviour import Behaviour
-    from rebsync.roundtrip.difference import Comparison
-    from rebsync.roundtrip.models import Code
+    from rebsync.roundtrip.diff.behaviour import Behaviour
+    from rebsync.roundtrip.diff.difference import Comparison
+    from rebsync.roundtrip.package.models import Code
 
 FORMATS = ("text", "json", "sarif", "github", "html")
 _DONE = {
@@ -67,9 +67,9 @@ def command(
     nothing read. With --behaviour it is that of what the two do.
     """
     from rebsync.report import print_report
-    from rebsync.roundtrip.difference import Depth
-    from rebsync.roundtrip.differences import compare
-    from rebsync.roundtrip.revisions import read_side
+    from rebsync.roundtrip.diff.compare import compare
+    from rebsync.roundtrip.diff.difference import Depth
+    from rebsync.roundtrip.package.revisions import read_side
 
     if left == right == "-":
         raise click.UsageError("standard input can be one of the two only")
@@ -99,14 +99,14 @@ def _loose(side: Code) -> Iterator[Findings]:
 
 
 def _counted(comparison: Comparison) -> str:
-    from rebsync.roundtrip.difference_report import counted
+    from rebsync.roundtrip.diff.report import counted
 
     return counted(comparison)
 
 
 def _behaviour(comparison: Comparison, sides: tuple[Code, Code], most: int) -> Behaviour:
-    from rebsync.roundtrip.behaviour import SAME
-    from rebsync.roundtrip.bisimulation import compare_behaviour
+    from rebsync.roundtrip.behaviour.bisimulation import compare_behaviour
+    from rebsync.roundtrip.diff.behaviour import SAME
 
     if comparison.is_empty:
         return SAME
@@ -121,7 +121,7 @@ def _text(
     style: str,
     done: Behaviour | None,
 ) -> str:
-    from rebsync.roundtrip import difference_report as report
+    from rebsync.roundtrip.diff import report
 
     match style:
         case "json":
@@ -131,7 +131,7 @@ def _text(
         case "github":
             return report.as_commands(comparison, done)
         case "html":
-            from rebsync.roundtrip.sides_page import sides_page
+            from rebsync.roundtrip.diff.page import sides_page
 
             return sides_page(comparison, sides[0].given, sides[1].given, done)
         case _:

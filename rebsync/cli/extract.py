@@ -60,7 +60,7 @@ def command(paths: tuple[str, ...], form: str, style: str | None, output: str) -
     """
     from rebsync.reverse.answer import answer
     from rebsync.reverse.files.parallel import each
-    from rebsync.roundtrip.units import units
+    from rebsync.roundtrip.package.units import units
 
     if style is not None and form == "json":
         raise click.UsageError("--format json has the report in it: leave out --report")

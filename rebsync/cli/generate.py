@@ -17,10 +17,10 @@ from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
 from rebsync.files import followed, operating_on, read_source
 from rebsync.locking import alone_in
 from rebsync.report import print_report
-from rebsync.roundtrip.attested import attest, is_attested
-from rebsync.roundtrip.manifest import FOLDER, MANIFEST
-from rebsync.roundtrip.model_file import former_packages, remember
-from rebsync.roundtrip.plan import Action, Step, aside, name_to_keep, plan
+from rebsync.roundtrip.package.manifest import FOLDER, MANIFEST
+from rebsync.roundtrip.package.model_file import former_packages, remember
+from rebsync.roundtrip.package.seals import attest, is_attested
+from rebsync.roundtrip.sync.plan import Action, Step, aside, name_to_keep, plan
 from rebsync.source import NOWHERE, Source
 from rebsync.stamps import Stamps, stamps
 from rebsync.terminal import say, say_lines
@@ -92,7 +92,7 @@ def _merged(
 ) -> Status:
     """Writes the files, if what is merged with edits says what the model says."""
     if any(step.action in (Action.KEEP, Action.MERGE) for step in steps):
-        from rebsync.roundtrip.plan_proof import wrong_in
+        from rebsync.roundtrip.sync.plan_check import wrong_in
 
         wrong = wrong_in(folder, steps, source)
         if wrong and not force:
@@ -105,7 +105,7 @@ def _merged(
 
 def _with_accepted(folder: Path, files: dict[str, str]) -> dict[str, str]:
     """The files with what the manifest that is there says of edits by hand."""
-    from rebsync.roundtrip.recorded import read_record, with_accepted
+    from rebsync.roundtrip.package.record import read_record, with_accepted
 
     with suppress(RebsyncError):
         record = read_record(str(folder))
@@ -122,7 +122,7 @@ def _stem(path: str) -> str:
 
 def _refuse_another_model(folder: str, model: str) -> None:
     """Two models of one package name must not replace each other's code."""
-    from rebsync.roundtrip.model_file import other_model
+    from rebsync.roundtrip.package.model_file import other_model
 
     other = other_model(folder, model, f"{_stem(model)}.rebeca")
     if other is not None:
@@ -143,8 +143,8 @@ def package_files(source: Source, config: Config, output: str = ".") -> tuple[st
     from rebsync.forward.generate import generate, package_name
     from rebsync.forward.limits import limits
     from rebsync.grammars.parser import parse_model
-    from rebsync.roundtrip.manifest import with_manifest
-    from rebsync.roundtrip.packages import path_to_model
+    from rebsync.roundtrip.package.discovery import path_to_model
+    from rebsync.roundtrip.package.manifest import with_manifest
     from rebsync.static import analyse
 
     parsed = parse_model(source)

@@ -16,16 +16,16 @@ from rebsync.files import read_source
 from rebsync.locking import alone_in
 from rebsync.patches import patch
 from rebsync.report import print_report
-from rebsync.roundtrip.check import check_merged
-from rebsync.roundtrip.kept import Kept
-from rebsync.roundtrip.packages import find
+from rebsync.roundtrip.package.discovery import find
+from rebsync.roundtrip.package.managed import ManagedPackage
+from rebsync.roundtrip.verdict.check import check_merged
 from rebsync.source import NOWHERE, Source
 from rebsync.stamps import Stamps, stamps
 from rebsync.terminal import named, say
 from rebsync.writing import told
 
 if TYPE_CHECKING:
-    from rebsync.roundtrip.sync_result import Sync
+    from rebsync.roundtrip.sync.result import Sync
 
 
 @click.command("sync")
@@ -48,18 +48,18 @@ def command(paths: tuple[str, ...], model: str | None, conflict: str, dry_run: b
     1 a conflict is left or nothing could be merged, 2 something cannot be read, 4 undetermined.
     """
     packages = list(find(paths or (".",), model))
-    return worst([_one(kept, conflict, dry_run) for kept in packages])
+    return worst([_one(package, conflict, dry_run) for package in packages])
 
 
-def _one(kept: Kept, conflict: str, dry_run: bool) -> Status:
+def _one(package: ManagedPackage, conflict: str, dry_run: bool) -> Status:
     try:
-        kept.to_write()
+        package.to_write()
         if dry_run:
-            return _shown(_worked_out(kept, conflict))
-        models = _models_of(kept)
-        with alone_in(kept.root, *models):
-            before = stamps(kept.root, *models, *_beside(models))
-            return _done(_worked_out(kept, conflict), before)
+            return _shown(_worked_out(package, conflict))
+        models = _models_of(package)
+        with alone_in(package.root, *models):
+            before = stamps(package.root, *models, *_beside(models))
+            return _done(_worked_out(package, conflict), before)
     except RebsyncError as error:
         print_report(error.findings, sys.stderr)
         unmerged = {"RS955", "RS967"}
@@ -70,41 +70,41 @@ def _one(kept: Kept, conflict: str, dry_run: bool) -> Status:
         )
     except RecursionError:
         why = "something in it nests deeper than rebsync reads"
-        print_report(RebsyncError.of(kept.root, "RS111", why).findings, sys.stderr)
+        print_report(RebsyncError.of(package.root, "RS111", why).findings, sys.stderr)
         return Status.UNUSABLE
 
 
-def _models_of(kept: Kept) -> tuple[str, ...]:
+def _models_of(package: ManagedPackage) -> tuple[str, ...]:
     """The model, which is to be written as well, if it is found."""
-    from rebsync.roundtrip.model_file import model_of
-    from rebsync.roundtrip.recorded_merge import read_merged_record
+    from rebsync.roundtrip.package.model_file import model_of
+    from rebsync.roundtrip.package.record_merge import read_merged_record
 
     try:
-        return (kept.model or model_of(kept, read_merged_record(kept.root)),)
+        return (package.model or model_of(package, read_merged_record(package.root)),)
     except RebsyncError:
         return ()  # what is wrong is told when it is worked out
 
 
 def _beside(models: tuple[str, ...]) -> Iterator[str]:
     """The property files of models."""
-    from rebsync.roundtrip.model_file import properties_beside
+    from rebsync.roundtrip.package.model_file import properties_beside
 
     return filter(None, map(properties_beside, models))
 
 
-def _worked_out(kept: Kept, conflict: str) -> Sync:
-    from rebsync.roundtrip.merge_models import Favour
-    from rebsync.roundtrip.sync import synced
+def _worked_out(package: ManagedPackage, conflict: str) -> Sync:
+    from rebsync.roundtrip.merge.models import Favour
+    from rebsync.roundtrip.sync.sync import synced
 
-    return synced(check_merged(kept), Favour(conflict))
+    return synced(check_merged(package), Favour(conflict))
 
 
 def _done(sync: Sync, before: Stamps) -> Status:
     """Writes it, and tells what was done."""
-    root = sync.checked.kept.root
+    root = sync.checked.package.root
     if sync.refused:
         return _refused(sync)
-    from rebsync.roundtrip.sync_writing import write
+    from rebsync.roundtrip.sync.writing import write
 
     written = write(sync, before)
     for path in written:
@@ -136,7 +136,7 @@ def _shown(sync: Sync) -> Status:
 
 def _patch(sync: Sync) -> Iterator[str]:
     changes: dict[str, str | None] = {**sync.beside}
-    changes |= {f"{sync.checked.kept.root}/{p}": t for p, t in sync.texts.items()}
+    changes |= {f"{sync.checked.package.root}/{p}": t for p, t in sync.texts.items()}
     for path, text in changes.items():
         exists = Path(path).is_file()
         old = read_source(path).text if exists else ""
@@ -147,7 +147,7 @@ def _patch(sync: Sync) -> Iterator[str]:
 def _refused(sync: Sync) -> Status:
     print_report(sync.findings, sys.stderr)
     print_report(sync.refused, sys.stderr)
-    say(f"{named(sync.checked.kept.root)}: nothing was written", err=True)
+    say(f"{named(sync.checked.package.root)}: nothing was written", err=True)
     return Status.UNDETERMINED if sync.is_undetermined else Status.FINDINGS
 
 
@@ -163,7 +163,7 @@ def _is_unread(found: Findings) -> bool:
 
 
 def _open(sync: Sync, path: str) -> Findings:
-    where = f"{sync.checked.kept.root}/{path}" if path else sync.checked.model
+    where = f"{sync.checked.package.root}/{path}" if path else sync.checked.model
     message = "model and code have changed the same here, each in its own way"
     hint = "decide between the conflict markers, then `rebsync sync` again; or use --conflict"
     return Findings(Source(where, ""), (Diagnostic("RS966", NOWHERE, message, hint),))

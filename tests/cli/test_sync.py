@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 
 from rebsync.cli import main
-from rebsync.roundtrip.check import check
-from rebsync.roundtrip.packages import find
-from rebsync.roundtrip.verdict import Verdict
+from rebsync.roundtrip.package.discovery import find
+from rebsync.roundtrip.verdict.check import check
+from rebsync.roundtrip.verdict.drift import Verdict
 from tests.cli.test_check import MODEL, SOURCE, made, package, replace, snapshot
 
 __all__ = ["made", "package"]  # fixtures
@@ -79,12 +79,12 @@ def test_edited_code_is_known_by_its_digest_afterwards(sync: Run) -> None:
     replace(SOURCE, "  mailbox_.delay(1);", "  // slow\n  mailbox_.delay(1);")
     replace(SOURCE, "n > 3", "n > 5")
     assert sync()[0] == 0
-    (kept,) = find(["."])
-    assert check(kept).drift is None, "nothing was read"
+    (package,) = find(["."])
+    assert check(package).drift is None, "nothing was read"
     assert main(["generate", "patrol.rebeca"]) == 0
-    assert check(kept).drift is None
+    assert check(package).drift is None
     replace(SOURCE, "// slow", "// slower")
-    drift = check(kept).drift
+    drift = check(package).drift
     assert drift is not None, "it is other code now"
     assert drift.verdict is Verdict.IN_STEP
 

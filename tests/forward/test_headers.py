@@ -12,7 +12,7 @@ from rebsync.config import TARGETS, Config, SensorBinding
 from rebsync.forward.headers import LICENSES, headed
 from rebsync.forward.templating import fill
 from rebsync.grammars.parser import parse_model
-from rebsync.roundtrip.normal import normal
+from rebsync.roundtrip.diff.normal_form import normal
 from rebsync.source import Source
 from tests.forward.compiling import CASES, case_config, generated
 from tests.reverse.laws import (

@@ -12,7 +12,7 @@ import pytest
 from rebsync.cli import main
 from rebsync.config import TARGETS, Config
 from rebsync.grammars.parser import parse_model
-from rebsync.roundtrip.normal import normal
+from rebsync.roundtrip.diff.normal_form import normal
 from rebsync.source import Source
 from tests.forward.compiling import generated, written
 from tests.reverse.laws import (

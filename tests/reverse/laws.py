@@ -11,7 +11,7 @@ from rebsync.config import Config
 from rebsync.forward.generate import generate
 from rebsync.printing import print_model
 from rebsync.reverse.recovery import Extracted, extract
-from rebsync.roundtrip.normal import normal, rewrite
+from rebsync.roundtrip.diff.normal_form import normal, rewrite
 from rebsync.source import Source
 from rebsync.static import analyse
 

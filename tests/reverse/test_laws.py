@@ -12,7 +12,7 @@ from hypothesis import given
 from rebsync import model as m
 from rebsync.files import read_source
 from rebsync.grammars.parser import parse_model
-from rebsync.roundtrip.normal import normal
+from rebsync.roundtrip.diff.normal_form import normal
 from tests.reverse.laws import (
     assert_same,
     assert_says,

@@ -12,7 +12,7 @@ from rebsync.config import ClassTarget, Config
 from rebsync.files import read_source
 from rebsync.forward.generate import generate
 from rebsync.grammars.parser import parse_model
-from rebsync.roundtrip.normal import normal
+from rebsync.roundtrip.diff.normal_form import normal
 from rebsync.static import analyse
 from tests.reverse.laws import assert_same, extracted, told_without_markers, without_markers
 from tests.reverse.mixed import LANGUAGES, families, mixed

@@ -11,7 +11,7 @@ from rebsync.config import TARGETS, Config
 from rebsync.forward.generate import generate
 from rebsync.grammars.parser import parse_model
 from rebsync.reserved import OFFERS
-from rebsync.roundtrip.normal import normal
+from rebsync.roundtrip.diff.normal_form import normal
 from rebsync.source import Source
 from rebsync.static import analyse
 from tests.reverse.laws import extracted, without_markers

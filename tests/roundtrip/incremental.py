@@ -17,7 +17,7 @@ from rebsync import model as m
 from rebsync.reverse.findings import Finding
 from rebsync.reverse.generated.ros1_kept import ClassRead
 from rebsync.reverse.recovery import Extracted, extract
-from rebsync.roundtrip.class_memory import ClassMemory
+from rebsync.roundtrip.package.cache.classes import ClassCache
 from rebsync.source import NOWHERE, Source, SourceSpan, Span
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
@@ -27,7 +27,7 @@ _WORD = re.compile(r"\b[a-z]\w+\b")
 _LINES = ("// more", "int extra_ = 1;", "return;", "#define LIMIT 3", "if (true) {}", "/* open")
 
 
-class Counting(ClassMemory):
+class Counting(ClassCache):
     """A memory that counts what it did not know."""
 
     def __init__(self) -> None:

@@ -16,9 +16,9 @@ from random import Random
 
 from rebsync.config import Config
 from rebsync.diagnostics import RebsyncError
-from rebsync.roundtrip.generated import generated
-from rebsync.roundtrip.merge_code import LABELS, merged_file
-from rebsync.roundtrip.text_merge import merged_text
+from rebsync.roundtrip.merge.code import LABELS, merged_file
+from rebsync.roundtrip.merge.text import merged_text
+from rebsync.roundtrip.package.generation import generated
 from rebsync.source import Source
 from tests.reverse.test_edits import BY_NAME
 from tests.roundtrip.edits.trial import HERE, Case, Trial, cases

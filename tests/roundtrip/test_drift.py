@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from rebsync.reserved import RUNTIME_HEADERS
-from rebsync.roundtrip.check import check
-from rebsync.roundtrip.checked import Checked
-from rebsync.roundtrip.markers import elements
-from rebsync.roundtrip.packages import find
-from rebsync.roundtrip.verdict import Verdict
+from rebsync.roundtrip.package.discovery import find
+from rebsync.roundtrip.package.markers import elements
+from rebsync.roundtrip.verdict.check import check
+from rebsync.roundtrip.verdict.drift import Verdict
+from rebsync.roundtrip.verdict.result import CheckResult
 from tests.reverse.test_edits import BY_NAME, EDITS, LISTED, edited
 
 # These differ in parentheses without a meaning.
@@ -30,18 +30,18 @@ def test_run_time_headers_are_known() -> None:
     assert found == set(RUNTIME_HEADERS) - missing
 
 
-def checked(example: str, files: dict[str, str], folder: Path) -> Checked:
+def checked(example: str, files: dict[str, str], folder: Path) -> CheckResult:
     """The verdict on an example when its package has these files."""
     shutil.copytree(BY_NAME[example], folder / example)
     for path, text in files.items():
         target = folder / example / example / path
         target.parent.mkdir(exist_ok=True)
         target.write_text(text, encoding="utf-8")
-    (kept,) = find([str(folder / example)])
-    return check(kept)
+    (package,) = find([str(folder / example)])
+    return check(package)
 
 
-def told(found: Checked) -> list[str]:
+def told(found: CheckResult) -> list[str]:
     return [d.message for f in found.findings for d in f.diagnostics]
 
 

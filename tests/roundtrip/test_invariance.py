@@ -14,9 +14,9 @@ from typing import Any
 import pytest
 
 from rebsync.cli import main
-from rebsync.roundtrip.check import check
-from rebsync.roundtrip.difference import explain
-from rebsync.roundtrip.packages import find
+from rebsync.roundtrip.diff.difference import explain
+from rebsync.roundtrip.package.discovery import find
+from rebsync.roundtrip.verdict.check import check
 from tests.roundtrip.mutations.harness import written
 from tests.roundtrip.mutations.package import DIALECTS, Package
 
@@ -67,8 +67,8 @@ def made(names: list[str], dialect: str, root: Path) -> None:
 
 def told(root: Path) -> list[str]:
     """The differences that `rebsync check` tells; nothing else is told."""
-    (kept,) = find([str(root)])
-    found = check(kept)
+    (package,) = find([str(root)])
+    found = check(package)
     assert [d.message for f in found.findings for d in f.diagnostics] == []
     assert found.drift is not None
     return [f"{d.element}: {explain(d)}" for d, _ in found.drift.differences]

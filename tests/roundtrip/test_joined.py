@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
-from rebsync.roundtrip.check import check
-from rebsync.roundtrip.difference import explain
-from rebsync.roundtrip.packages import find
+from rebsync.roundtrip.diff.difference import explain
+from rebsync.roundtrip.package.discovery import find
+from rebsync.roundtrip.verdict.check import check
 from tests.reverse.test_edits import BY_NAME
 
 if sys.version_info >= (3, 11):
@@ -34,8 +34,8 @@ def test_who_is_joined_counts(name: str, tmp_path: Path) -> None:
         text = file.read_text(encoding="utf-8")
         assert old in text, (path, old)
         file.write_text(text.replace(old, new), encoding="utf-8")
-    (kept,) = find([str(tmp_path / example)])
-    found = check(kept)
+    (package,) = find([str(tmp_path / example)])
+    found = check(package)
     assert found.drift is not None
     assert found.drift.verdict.value == case["verdict"], found.findings
     told = [f"{d.element}: {explain(d)}" for d, _ in found.drift.differences]

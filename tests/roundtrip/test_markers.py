@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rebsync.roundtrip.markers import elements, user_blocks, with_user_blocks
+from rebsync.roundtrip.package.markers import elements, user_blocks, with_user_blocks
 
 SOURCE = """\
 // rebsync: msgsrv Robot.go

@@ -13,11 +13,11 @@ from rebsync import model as m
 from rebsync.cli import main
 from rebsync.diagnostics import RebsyncError
 from rebsync.printing import print_model
-from rebsync.roundtrip import rewritten
-from rebsync.roundtrip.differences import compare
-from rebsync.roundtrip.merge_models import Favour, MergedModel, merged_model
-from rebsync.roundtrip.models import parsed
-from rebsync.roundtrip.sides import Given
+from rebsync.roundtrip.diff import equivalence as rewritten
+from rebsync.roundtrip.diff.compare import compare
+from rebsync.roundtrip.diff.operands import SourcedModel
+from rebsync.roundtrip.merge.models import Favour, MergedModel, merged_model
+from rebsync.roundtrip.package.models import parsed
 from rebsync.source import Source
 from rebsync.static import analyse
 from tests.reverse.laws import generated
@@ -27,19 +27,21 @@ from tests.strategies import models
 FEW = settings(max_examples=settings().max_examples // 5)  # each is read several times
 
 
-def given_of(text: str) -> Given:
+def given_of(text: str) -> SourcedModel:
     source = Source("drawn.rebeca", text)
-    return Given(parsed(source), source)
+    return SourcedModel(parsed(source), source)
 
 
-def _merged(base: Given, today: Given, code: Given, favour: Favour) -> MergedModel:
+def _merged(
+    base: SourcedModel, today: SourcedModel, code: SourcedModel, favour: Favour
+) -> MergedModel:
     """The merge of all that is written, whether or not it is proved to do the same."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(rewritten, "_proved_elements", lambda *_: frozenset())
         return merged_model(base, today, code, favour)
 
 
-def printed(model: m.Model) -> Given:
+def printed(model: m.Model) -> SourcedModel:
     """A model as if it stood in a file, with a remark on each line."""
     lines = print_model(model).split("\n")
     return given_of("\n".join(f"{line}  // {i}" if line else line for i, line in enumerate(lines)))

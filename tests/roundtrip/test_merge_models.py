@@ -7,10 +7,10 @@ from collections.abc import Callable
 
 import pytest
 
-from rebsync.roundtrip.merge_models import Favour, MergedModel, merged_model
-from rebsync.roundtrip.models import parsed
-from rebsync.roundtrip.sides import Given
-from rebsync.roundtrip.text_merge import MergedText, merged_lines, merged_text
+from rebsync.roundtrip.diff.operands import SourcedModel
+from rebsync.roundtrip.merge.models import Favour, MergedModel, merged_model
+from rebsync.roundtrip.merge.text import MergedText, merged_lines, merged_text
+from rebsync.roundtrip.package.models import parsed
 from rebsync.source import Source
 
 BASE = """\
@@ -57,9 +57,9 @@ def changed(text: str, changes: dict[str, str]) -> str:
     return text
 
 
-def given_of(text: str) -> Given:
+def given_of(text: str) -> SourcedModel:
     source = Source("robot.rebeca", text)
-    return Given(parsed(source), source)
+    return SourcedModel(parsed(source), source)
 
 
 def merged(model: dict[str, str], code: dict[str, str]) -> MergedModel:

@@ -8,9 +8,9 @@ import pytest
 
 from rebsync.cli import main
 from rebsync.cli.status import Status
-from rebsync.roundtrip.merge_properties import with_renames
-from rebsync.roundtrip.models import parsed
-from rebsync.roundtrip.sides import Given
+from rebsync.roundtrip.diff.operands import SourcedModel
+from rebsync.roundtrip.merge.properties import with_renames
+from rebsync.roundtrip.package.models import parsed
 from rebsync.source import Source
 from tests.roundtrip.mutations.harness import written
 from tests.roundtrip.mutations.package import DIALECTS, Package
@@ -33,9 +33,9 @@ main { Robot one():(); Robot two():(); }
 """
 
 
-def given(text: str) -> Given:
+def given(text: str) -> SourcedModel:
     source = Source("m.rebeca", text)
-    return Given(parsed(source), source)
+    return SourcedModel(parsed(source), source)
 
 
 def renamed(old: str, new: str) -> str:

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from rebsync.reverse.python.py_units import py_units
 from rebsync.reverse.syntax.code_units import Unit
 from rebsync.reverse.syntax.cpp_units import cpp_units
-from rebsync.roundtrip.merge_source import merged_source
-from rebsync.roundtrip.text_merge import MergedText, merged_text
+from rebsync.roundtrip.merge.source import merged_source
+from rebsync.roundtrip.merge.text import MergedText, merged_text
 
 if sys.version_info >= (3, 11):
     import tomllib

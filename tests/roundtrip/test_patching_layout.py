@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from rebsync.roundtrip.merge_models import Favour, merged_model
-from rebsync.roundtrip.models import parsed
-from rebsync.roundtrip.sides import Given
+from rebsync.roundtrip.diff.operands import SourcedModel
+from rebsync.roundtrip.merge.models import Favour, merged_model
+from rebsync.roundtrip.package.models import parsed
 from rebsync.source import Source
 
 BASE = """reactiveclass Robot(3) {
@@ -44,9 +44,9 @@ WANTED = (
 )
 
 
-def given(text: str) -> Given:
+def given(text: str) -> SourcedModel:
     source = Source("m.rebeca", text)
-    return Given(parsed(source), source)
+    return SourcedModel(parsed(source), source)
 
 
 @pytest.mark.parametrize("step", ["  ", "    ", "\t"])

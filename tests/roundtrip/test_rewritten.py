@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from rebsync.grammars.parser import parse_model
-from rebsync.roundtrip.differences import compare
-from rebsync.roundtrip.rewritten import without_rewritten
-from rebsync.roundtrip.sides import Given
+from rebsync.roundtrip.diff.compare import compare
+from rebsync.roundtrip.diff.equivalence import without_equivalent
+from rebsync.roundtrip.diff.operands import SourcedModel
 from rebsync.source import Source
 
 MODEL = """\
@@ -41,11 +41,11 @@ def _left_over(left: dict[str, str], right: dict[str, str]) -> int:
         text = MODEL.format(**{**PLAIN, **changes})
         parsed = parse_model(Source("base.rebeca", text))
         assert parsed.ok, parsed.diagnostics
-        sides.append(Given(parsed.model, Source("base.rebeca", text)))
+        sides.append(SourcedModel(parsed.model, Source("base.rebeca", text)))
     first, second = sides
     apart = compare(first, second)
     assert not apart.is_empty
-    rest, same = without_rewritten(apart, first, second)
+    rest, same = without_equivalent(apart, first, second)
     assert len(rest.differences) + len(same.differences) == len(apart.differences)
     return len(rest.differences)
 

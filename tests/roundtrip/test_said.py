@@ -7,12 +7,12 @@ from collections.abc import Iterator
 import pytest
 
 from rebsync.grammars.parser import parse_model
-from rebsync.roundtrip.difference import explain
-from rebsync.roundtrip.differences import compare
-from rebsync.roundtrip.moves import explained
-from rebsync.roundtrip.sides import Given
-from rebsync.roundtrip.verdict import Mover
-from rebsync.roundtrip.wiring import _change
+from rebsync.roundtrip.diff.compare import compare
+from rebsync.roundtrip.diff.difference import explain
+from rebsync.roundtrip.diff.operands import SourcedModel
+from rebsync.roundtrip.verdict.drift import Mover
+from rebsync.roundtrip.verdict.report.movers import change_of_mover
+from rebsync.roundtrip.verdict.wiring.facts import _change
 from rebsync.source import Source
 
 MODEL = """\
@@ -43,16 +43,16 @@ SIDES = {
 PAIRS = [(a, b) for a in SIDES for b in SIDES if a != b]
 
 
-def given(name: str) -> Given:
+def given(name: str) -> SourcedModel:
     source = Source(f"{name}.rebeca", SIDES[name])
     parsed = parse_model(source)
     assert parsed.ok
-    return Given(parsed.model, source)
+    return SourcedModel(parsed.model, source)
 
 
 def said(one: str, other: str) -> Iterator[str]:
     for difference in compare(given(one), given(other)).differences:
-        yield from (explained(difference, mover) for mover in Mover)
+        yield from (change_of_mover(difference, mover) for mover in Mover)
         yield explain(difference)
 
 

@@ -18,9 +18,9 @@ from hypothesis import given
 from rebsync import model as m
 from rebsync.checker.trace import Change
 from rebsync.grammars.parser import parse_model
-from rebsync.roundtrip import serialised_types
-from rebsync.roundtrip.difference import Place
-from rebsync.roundtrip.serialisation import NotSerialisable, deserialised, serialised
+from rebsync.roundtrip.diff.difference import Place
+from rebsync.roundtrip.package.cache import types as serialised_types
+from rebsync.roundtrip.package.cache.serialisation import NotSerialisable, deserialised, serialised
 from rebsync.source import NOWHERE, Source, SourceSpan, Span
 from tests.strategies import models
 

@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 
 from rebsync.cli import main
-from rebsync.roundtrip.check import check
-from rebsync.roundtrip.packages import find
-from rebsync.roundtrip.verdict import Verdict
+from rebsync.roundtrip.package.discovery import find
+from rebsync.roundtrip.verdict.check import check
+from rebsync.roundtrip.verdict.drift import Verdict
 from tests.reverse.test_edits import BY_NAME, EDITS, edited
 from tests.reverse.test_laws import package_of
 
@@ -100,8 +100,8 @@ def _files(root: Path, records: bool = True) -> dict[str, str]:
 
 
 def _is_in_step(root: Path) -> bool:
-    (kept,) = find([str(root)])
-    drift = check(kept).drift
+    (package,) = find([str(root)])
+    drift = check(package).drift
     return drift is None or drift.verdict is Verdict.IN_STEP
 
 

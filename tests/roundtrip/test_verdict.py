@@ -9,10 +9,10 @@ from typing import Any
 import pytest
 
 from rebsync.grammars.parser import parse_model
-from rebsync.roundtrip.difference import Comparison, Element, Undetermined
-from rebsync.roundtrip.differences import compare
-from rebsync.roundtrip.sides import Given
-from rebsync.roundtrip.verdict import Drift, Verdict, judge
+from rebsync.roundtrip.diff.compare import compare
+from rebsync.roundtrip.diff.difference import Comparison, Element, Undetermined
+from rebsync.roundtrip.diff.operands import SourcedModel
+from rebsync.roundtrip.verdict.drift import Drift, Verdict, judge
 from rebsync.source import Source
 
 if sys.version_info >= (3, 11):
@@ -70,14 +70,14 @@ main {
 """
 
 
-def given(path: str, edits: list[list[str]]) -> Given:
+def given(path: str, edits: list[list[str]]) -> SourcedModel:
     text = BASE
     for old, new in edits:
         assert old in text, old
         text = text.replace(old, new)
     parsed = parse_model(Source(path, text))
     assert parsed.ok, parsed.diagnostics
-    return Given(parsed.model, parsed.source)
+    return SourcedModel(parsed.model, parsed.source)
 
 
 def drift(case: dict[str, Any], *, base: bool = True) -> Drift:

@@ -319,7 +319,7 @@ def test_a_repository_of_somebody_else(
 def test_merging_texts_does_not_depend_on_settings(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from rebsync.roundtrip.text_merge import merged_text
+    from rebsync.roundtrip.merge.text import merged_text
 
     settings = tmp_path / "gitconfig"
     settings.write_text("[merge]\n\tconflictStyle = diff3\n")

@@ -176,7 +176,7 @@ def test_a_package_that_becomes_a_link_out_meanwhile(
         package.symlink_to(away)
         return rebsync.writing.replace_tree(*arguments, **others)  # type: ignore[arg-type]
 
-    monkeypatch.setattr("rebsync.roundtrip.sync_writing.replace_tree", late)
+    monkeypatch.setattr("rebsync.roundtrip.sync.writing.replace_tree", late)
     status, _ = run("sync")
     assert status == 2
     assert everything(away) == before

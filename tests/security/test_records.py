@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 
 from rebsync import __version__
-from rebsync.roundtrip.check import begin
-from rebsync.roundtrip.digests import digest_of
-from rebsync.roundtrip.packages import find
-from rebsync.roundtrip.recorded import told_in_step
+from rebsync.roundtrip.package.digests import digest_of
+from rebsync.roundtrip.package.discovery import find
+from rebsync.roundtrip.package.record import told_in_step
+from rebsync.roundtrip.verdict.check import begin
 from tests.cli.test_check import SOURCE, made, package, replace
 from tests.security.hostile import Run, runner
 
@@ -59,10 +59,10 @@ def copied(name: str) -> None:
 def known(name: str) -> None:
     """The code as it is now, as if a sync had looked at it."""
     data = json.loads(MANIFEST.read_text())
-    (kept,) = find(["patrol"])
-    begun = begin(kept)
+    (managed,) = find(["patrol"])
+    begun = begin(managed)
     assert begun.record is not None
-    data["in_step"] = told_in_step(begun.record, begun.standing.told)
+    data["in_step"] = told_in_step(begun.record, begun.state.told)
     MANIFEST.write_text(json.dumps(data, indent=2) + "\n")
 
 
@@ -98,10 +98,10 @@ def test_records_of_others_are_believed_once_they_are_proved(
     """A fresh clone: nothing here has made the package."""
     shutil.rmtree(package.parent / ".cache")
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
-    (kept,) = find(["patrol"])
-    assert not hasattr(begin(kept), "drift"), "digests alone do not tell"
+    (managed,) = find(["patrol"])
+    assert not hasattr(begin(managed), "drift"), "digests alone do not tell"
     assert run("check", "patrol") == (0, "patrol: in step\n")
-    assert hasattr(begin(kept), "drift"), "now they do"
+    assert hasattr(begin(managed), "drift"), "now they do"
 
 
 def test_code_that_is_to_come_is_not_believed_with_the_records(run: Run, package: Path) -> None:

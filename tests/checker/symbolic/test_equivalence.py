@@ -17,9 +17,9 @@ from rebsync.checker.program import Program
 from rebsync.checker.symbolic.equivalence import proofs
 from rebsync.grammars.parser import parse_model
 from rebsync.printing import print_model
-from rebsync.roundtrip.bisimulation import compare_behaviour
-from rebsync.roundtrip.normal import rewrite
-from rebsync.roundtrip.sides import Given
+from rebsync.roundtrip.behaviour.bisimulation import compare_behaviour
+from rebsync.roundtrip.diff.normal_form import rewrite
+from rebsync.roundtrip.diff.operands import SourcedModel
 from rebsync.source import Source
 from rebsync.static import analyse
 from tests.checker.comparing import System
@@ -124,7 +124,9 @@ def _is_otherwise(node: object) -> bool:
 
 def _judged(left: m.Model, right: m.Model) -> str | None:
     """What the two do, by their state spaces, where one is proved to do what the other does."""
-    sides = [Given(each, Source("drawn.rebeca", print_model(each))) for each in (left, right)]
+    sides = [
+        SourcedModel(each, Source("drawn.rebeca", print_model(each))) for each in (left, right)
+    ]
     analyses = [analyse(rewrite(each, lambda node: node)) for each in (left, right)]
     assume(not any(each.errors for each in analyses))
     if not _are_alike(*(lower(each)[0] for each in analyses)):

@@ -8,7 +8,7 @@ from dataclasses import replace
 from rebsync import model as m
 from rebsync.config import Config
 from rebsync.forward.generate import generate
-from rebsync.roundtrip.normal import as_in_python, normal, rewrite
+from rebsync.roundtrip.diff.normal_form import as_in_python, normal, rewrite
 from rebsync.static import analyse
 from tests.reverse.laws import assert_same, extracted
 

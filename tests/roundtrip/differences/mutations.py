@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn
 
 from rebsync import model as m
-from rebsync.roundtrip.normal import normal, rewrite
+from rebsync.roundtrip.diff.normal_form import normal, rewrite
 
 _Node = TypeVar("_Node")
 _BODIES = (m.Constructor, m.MessageServer, m.Method)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 from rebsync.grammars.parser import parse_model
-from rebsync.roundtrip.behaviour import Behaviour, lines
-from rebsync.roundtrip.bisimulation import compare_behaviour
-from rebsync.roundtrip.difference import Place
-from rebsync.roundtrip.sides import Given, Unread
+from rebsync.roundtrip.behaviour.bisimulation import compare_behaviour
+from rebsync.roundtrip.diff.behaviour import Behaviour, lines
+from rebsync.roundtrip.diff.difference import Place
+from rebsync.roundtrip.diff.operands import SourcedModel, Unread
 from rebsync.source import NOWHERE, Source
 
 MODEL = """\
@@ -99,11 +99,11 @@ main { A a():(); }
 EARLY = "self.middle(?(1, 2));", "self.end(y);"
 
 
-def given(text: str) -> Given:
+def given(text: str) -> SourcedModel:
     source = Source("model.rebeca", text)
     parsed = parse_model(source)
     assert not parsed.diagnostics
-    return Given(parsed.model, source)
+    return SourcedModel(parsed.model, source)
 
 
 def changed(changes: list[tuple[str, str]]) -> str:
@@ -176,7 +176,7 @@ def test_a_difference_within_the_bound_is_one() -> None:
 
 def test_what_cannot_be_run_is_undetermined() -> None:
     whole = given(MODEL)
-    unread = Given(whole.model, whole.source, (Unread(Place(whole.source, NOWHERE), "why"),))
+    unread = SourcedModel(whole.model, whole.source, (Unread(Place(whole.source, NOWHERE), "why"),))
     found = compare_behaviour(whole, unread)
     assert (found.verdict, found.reason) == (
         "undetermined",

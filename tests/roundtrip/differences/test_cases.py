@@ -14,10 +14,10 @@ import pytest
 from rebsync.files import read_source
 from rebsync.grammars.parser import parse_model
 from rebsync.reverse.findings import Grade
-from rebsync.roundtrip.difference import Depth, Place
-from rebsync.roundtrip.difference_report import lines
-from rebsync.roundtrip.differences import compare
-from rebsync.roundtrip.sides import Given, Unread
+from rebsync.roundtrip.diff.compare import compare
+from rebsync.roundtrip.diff.difference import Depth, Place
+from rebsync.roundtrip.diff.operands import SourcedModel, Unread
+from rebsync.roundtrip.diff.report import lines
 from rebsync.source import Source
 from tests.reverse.laws import extracted
 from tests.reverse.test_edits import BY_NAME, EDITS, LISTED, edited
@@ -28,27 +28,27 @@ CASES = sorted((HERE / "cases").glob("*.left.rebeca"))
 ALL_EDITS = {**EDITS, **LISTED}
 
 
-def model_given(path: Path) -> Given:
+def read_model(path: Path) -> SourcedModel:
     text = read_source(str(path)).text
     source = Source(path.name.replace(".left.", ".").replace(".right.", "."), text)
     parsed = parse_model(source)
     assert not parsed.diagnostics
-    return Given(parsed.model, source)
+    return SourcedModel(parsed.model, source)
 
 
-def code_given(files: dict[str, str]) -> Given:
+def read_code(files: dict[str, str]) -> SourcedModel:
     found = extracted(files)
     unread = tuple(
         Unread(Place(f.source, f.span), f.why, f.within)
         for f in found.findings
         if f.grade is Grade.UNREADABLE
     )
-    return Given(found.model, Source("code", ""), unread)
+    return SourcedModel(found.model, Source("code", ""), unread)
 
 
 def told(case: Path) -> str:
     """The differences of a case at both depths."""
-    sides = model_given(case), model_given(case.with_name(case.name.replace(".left.", ".right.")))
+    sides = read_model(case), read_model(case.with_name(case.name.replace(".left.", ".right.")))
     texts = []
     for depth in Depth:
         found = "".join(f"{line}\n" for line in lines(compare(*sides, depth)))
@@ -60,8 +60,8 @@ def told_of_edit(name: str) -> str:
     """The differences between the model of an example and its edited code."""
     edit = ALL_EDITS[name]
     example = BY_NAME[edit["example"]]
-    model = model_given(example / f"{example.name}.rebeca")
-    comparison = compare(model, code_given(edited(edit)))
+    model = read_model(example / f"{example.name}.rebeca")
+    comparison = compare(model, read_code(edited(edit)))
     return "".join(f"{line}\n" for line in lines(comparison))
 
 
@@ -84,8 +84,8 @@ def test_edits(name: str) -> None:
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda example: example.name)
 def test_what_was_generated_has_no_differences(example: Path) -> None:
-    model = model_given(example / f"{example.name}.rebeca")
-    assert compare(model, code_given(package_of(example))).is_empty
+    model = read_model(example / f"{example.name}.rebeca")
+    assert compare(model, read_code(package_of(example))).is_empty
 
 
 def texts() -> Iterator[tuple[Path, str]]:

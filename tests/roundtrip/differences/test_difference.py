@@ -6,8 +6,9 @@ import pytest
 
 from rebsync import model as m
 from rebsync.diagnostics import RebsyncError
-from rebsync.roundtrip.alignment import aligned, longest_increasing, overlap
-from rebsync.roundtrip.difference import (
+from rebsync.roundtrip.diff.alignment import aligned, longest_increasing, overlap
+from rebsync.roundtrip.diff.compare import compare
+from rebsync.roundtrip.diff.difference import (
     Aspect,
     Changed,
     Element,
@@ -16,8 +17,7 @@ from rebsync.roundtrip.difference import (
     line_of,
     place,
 )
-from rebsync.roundtrip.differences import compare
-from rebsync.roundtrip.sides import Given
+from rebsync.roundtrip.diff.operands import SourcedModel
 from rebsync.source import NOWHERE, Source, Span
 
 SOURCE = Source("a.rebeca", "one\ntwo\nthree\n")
@@ -98,13 +98,13 @@ def test_helpers() -> None:
     assert overlap(Counter(), Counter()) == 1.0
 
 
-def chain(length: int) -> Given:
+def chain(length: int) -> SourcedModel:
     """A chain of `else if`, which nests as deep as it is long."""
     statement: m.Statement = m.Empty()
     for _ in range(length):
         statement = m.If(m.Name("x"), m.Empty((m.Annotation("note"),)), statement)
     server = m.MessageServer("m", (), m.Block((statement,)))
-    return Given(m.Model((), (m.ReactiveClass("A", 2, (server,)),), None), SOURCE)
+    return SourcedModel(m.Model((), (m.ReactiveClass("A", 2, (server,)),), None), SOURCE)
 
 
 def test_what_nests_too_deeply_is_a_mistake_of_the_model() -> None:
@@ -117,6 +117,6 @@ def test_what_nests_too_deeply_is_a_mistake_of_the_model() -> None:
 def test_what_could_not_be_read_is_like_nothing() -> None:
     body = m.Block((m.Empty((m.Annotation("Unreadable"),)),))
     model = m.Model((), (m.ReactiveClass("A", 2, (m.MessageServer("m", (), body),)),), None)
-    comparison = compare(Given(model, SOURCE), Given(model, SOURCE))
+    comparison = compare(SourcedModel(model, SOURCE), SourcedModel(model, SOURCE))
     assert comparison.is_undetermined
     assert {str(d.element) for d in comparison.differences} == {"msgsrv A.m"}

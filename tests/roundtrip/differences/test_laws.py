@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rebsync import model as m
-from rebsync.roundtrip.difference import Changed, Comparison, Depth, Renamed, line_of
-from rebsync.roundtrip.differences import compare, compare_in_full
-from rebsync.roundtrip.normal import rewrite
-from rebsync.roundtrip.sides import Given
+from rebsync.roundtrip.diff.compare import compare, compare_in_full
+from rebsync.roundtrip.diff.difference import Changed, Comparison, Depth, Renamed, line_of
+from rebsync.roundtrip.diff.normal_form import rewrite
+from rebsync.roundtrip.diff.operands import SourcedModel
 from rebsync.source import Source
 from tests.roundtrip.differences.mutations import (
     DIFFERENT,
@@ -37,7 +37,7 @@ RENAMES = (server_renamed, variable_renamed)
 
 def compared(left: m.Model, right: m.Model, depth: Depth = Depth.EQUAL) -> Comparison:
     """The differences that are looked for in full; the quick answer must be none of its own."""
-    sides = Given(left, SOURCE), Given(right, SOURCE)
+    sides = SourcedModel(left, SOURCE), SourcedModel(right, SOURCE)
     found = compare_in_full(*sides, depth)
     assert compare(*sides, depth) == found
     return found

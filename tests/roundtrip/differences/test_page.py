@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
-from rebsync.roundtrip.differences import compare
-from rebsync.roundtrip.revisions import read_side
-from rebsync.roundtrip.sides_page import sides_page
+from rebsync.roundtrip.diff.compare import compare
+from rebsync.roundtrip.diff.page import sides_page
+from rebsync.roundtrip.package.revisions import read_side
 from tests.checker.show.browser import Browser
 from tests.consoles import ROOT
 

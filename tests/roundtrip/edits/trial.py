@@ -10,9 +10,9 @@ from typing import Any
 
 from rebsync.cli import main
 from rebsync.diagnostics import Diagnostic
-from rebsync.roundtrip.check import check
-from rebsync.roundtrip.difference import explain
-from rebsync.roundtrip.packages import find
+from rebsync.roundtrip.diff.difference import explain
+from rebsync.roundtrip.package.discovery import find
+from rebsync.roundtrip.verdict.check import check
 from rebsync.source import Source
 from tests.reverse.test_edits import EDITS, LISTED
 from tests.roundtrip.mutations.harness import written
@@ -157,8 +157,8 @@ class Trial:
 
     def check(self) -> tuple[str, list[str], list[str]]:
         """The verdict, the differences, and the findings."""
-        (kept,) = find([str(self.root)])
-        found = check(kept)
+        (package,) = find([str(self.root)])
+        found = check(package)
         texts = [f"{_line(f.source, d)} {d.message}" for f in found.findings for d in f.diagnostics]
         if found.drift is None:
             return "in step", [], texts

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from rebsync.roundtrip.text_merge import decided
+from rebsync.roundtrip.merge.text import decided
 from tests.roundtrip.faults.package import (
     MANIFEST,
     MODEL_FILE,

@@ -10,8 +10,8 @@ from random import Random
 from rebsync.config import Config
 from rebsync.forward.generate import generate
 from rebsync.grammars.parser import parse_model
-from rebsync.roundtrip.markers import user_blocks, with_user_blocks
-from rebsync.roundtrip.text_merge import merged_lines
+from rebsync.roundtrip.merge.text import merged_lines
+from rebsync.roundtrip.package.markers import user_blocks, with_user_blocks
 from rebsync.source import Source
 from rebsync.static import analyse
 from tests.roundtrip.histories.laws import parts_of

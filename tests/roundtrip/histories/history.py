@@ -14,11 +14,11 @@ from tempfile import TemporaryDirectory
 
 from rebsync.cli import main
 from rebsync.diagnostics import RebsyncError
-from rebsync.roundtrip.check import check
-from rebsync.roundtrip.manifest import FOLDER
-from rebsync.roundtrip.packages import find
-from rebsync.roundtrip.text_merge import decided
-from rebsync.roundtrip.verdict import Drift
+from rebsync.roundtrip.merge.text import decided
+from rebsync.roundtrip.package.discovery import find
+from rebsync.roundtrip.package.manifest import FOLDER
+from rebsync.roundtrip.verdict.check import check
+from rebsync.roundtrip.verdict.drift import Drift
 from tests.reverse.test_edits import BY_NAME
 from tests.roundtrip.histories import laws
 from tests.roundtrip.histories.code_edits import as_generated, edited_code
@@ -253,9 +253,9 @@ class _Running:
         return f"failed with {status}"
 
     def _drift(self) -> Drift | None:
-        (kept,) = find(["."])
+        (package,) = find(["."])
         try:
-            return check(kept).drift
+            return check(package).drift
         except RebsyncError:
             return None
 

@@ -9,12 +9,12 @@ from rebsync import model as m
 from rebsync.grammars.parser import parse_model
 from rebsync.reverse.files.reading import read
 from rebsync.reverse.recovery import extract
-from rebsync.roundtrip.difference import Difference, Renamed, Undetermined, explain
-from rebsync.roundtrip.differences import compare
-from rebsync.roundtrip.markers import user_blocks
-from rebsync.roundtrip.sides import Given
-from rebsync.roundtrip.units import as_one, listing_of
-from rebsync.roundtrip.verdict import Drift, Mover
+from rebsync.roundtrip.diff.compare import compare
+from rebsync.roundtrip.diff.difference import Difference, Renamed, Undetermined, explain
+from rebsync.roundtrip.diff.operands import SourcedModel
+from rebsync.roundtrip.package.markers import user_blocks
+from rebsync.roundtrip.package.units import as_one, listing_of
+from rebsync.roundtrip.verdict.drift import Drift, Mover
 from rebsync.source import Source
 from tests.roundtrip.mutations.package import BODIES, Package, Part
 
@@ -29,8 +29,8 @@ def says_the_same(root: Path, model: Path) -> Iterator[str]:
     files = (p.relative_to(root).as_posix() for p in root.rglob("package.xml"))
     generated = [name for name in files if not name.startswith(".rebsync/")]
     chosen = read(as_one(listing_of(str(root), str(root.parent), generated)))
-    said = Given(extract(chosen.files).model, Source(str(root), ""))
-    for difference in compare(Given(parse_model(source).model, source), said).differences:
+    said = SourcedModel(extract(chosen.files).model, Source(str(root), ""))
+    for difference in compare(SourcedModel(parse_model(source).model, source), said).differences:
         yield f"law 3: {difference.element}: {explain(difference)}"
 
 

@@ -16,10 +16,10 @@ from pathlib import Path
 
 from rebsync.cli.status import Status, status_of
 from rebsync.diagnostics import RebsyncError
-from rebsync.roundtrip.check import check
-from rebsync.roundtrip.checked import Checked
-from rebsync.roundtrip.packages import find
-from rebsync.roundtrip.verdict import Verdict
+from rebsync.roundtrip.package.discovery import find
+from rebsync.roundtrip.verdict.check import check
+from rebsync.roundtrip.verdict.drift import Verdict
+from rebsync.roundtrip.verdict.result import CheckResult
 from tests.roundtrip.mutations.kinds import named
 from tests.roundtrip.mutations.package import Kind, Mutant, Package, generated
 
@@ -142,9 +142,9 @@ def told(package: Package, kind: str, mutant: Mutant, root: Path) -> Result:
             else:
                 (home / path).parent.mkdir(parents=True, exist_ok=True)
                 (home / path).write_bytes(text.encode("utf-8"))
-        (kept,) = find([str(root)])
+        (managed,) = find([str(root)])
         try:
-            said, lines = _said(check(kept), mutant)
+            said, lines = _said(check(managed), mutant)
         except RebsyncError as error:
             said, lines = Said.BROKEN, [d.message for f in error.findings for d in f.diagnostics]
         return Result(kind, package.name, mutant.place, said, tuple(lines))
@@ -155,7 +155,7 @@ def told(package: Package, kind: str, mutant: Mutant, root: Path) -> Result:
                 (home / path).write_bytes(package.files[path].encode("utf-8"))
 
 
-def _said(found: Checked, mutant: Mutant) -> tuple[Said, list[str]]:
+def _said(found: CheckResult, mutant: Mutant) -> tuple[Said, list[str]]:
     messages = [d.message for f in found.findings for d in f.diagnostics]
     if found.drift is None or found.drift.verdict is Verdict.IN_STEP:
         is_clean = status_of(found.findings) is Status.CLEAN

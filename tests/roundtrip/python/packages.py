@@ -6,9 +6,9 @@ from pathlib import Path
 
 from rebsync.cli import main
 from rebsync.grammars.parser import parse_model
-from rebsync.roundtrip.check import check
-from rebsync.roundtrip.checked import Checked
-from rebsync.roundtrip.packages import find
+from rebsync.roundtrip.package.discovery import find
+from rebsync.roundtrip.verdict.check import check
+from rebsync.roundtrip.verdict.result import CheckResult
 from rebsync.source import Source
 from rebsync.static import analyse
 
@@ -43,13 +43,13 @@ def made(name: str, target: str, folder: Path, text: str | None = None) -> Path:
     return folder / name
 
 
-def checked(root: Path) -> Checked:
+def checked(root: Path) -> CheckResult:
     """The verdict on a package."""
-    (kept,) = find([str(root)])
-    return check(kept)
+    (package,) = find([str(root)])
+    return check(package)
 
 
-def told(found: Checked) -> list[str]:
+def told(found: CheckResult) -> list[str]:
     """The messages of all that was found."""
     return [d.message for f in found.findings for d in f.diagnostics]
 

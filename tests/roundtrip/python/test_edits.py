@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from rebsync.roundtrip.verdict import Verdict
+from rebsync.roundtrip.verdict.drift import Verdict
 from tests.roundtrip.python.packages import checked, made, told
 
 if sys.version_info >= (3, 11):

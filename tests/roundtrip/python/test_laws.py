@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 from rebsync import model as m
 from rebsync.printing import print_model
-from rebsync.roundtrip.verdict import Verdict
+from rebsync.roundtrip.verdict.drift import Verdict
 from tests.roundtrip.python.packages import checked, made, python_of, told
 from tests.strategies import models
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from rebsync.roundtrip.verdict import Verdict
+from rebsync.roundtrip.verdict.drift import Verdict
 from tests.roundtrip.python.packages import checked, made, told
 
 _SETUP = ("setup.py", '"r1_node = ', '"robot_node = ')

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from rebsync.cli import main
-from rebsync.roundtrip.verdict import Verdict
+from rebsync.roundtrip.verdict.drift import Verdict
 from tests.roundtrip.python.packages import checked, made, python_of
 from tests.roundtrip.python.test_check import PLAIN
 

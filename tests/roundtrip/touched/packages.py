@@ -10,9 +10,9 @@ from rebsync.cli import main
 from rebsync.diagnostics import RebsyncError
 from rebsync.grammars.parser import parse_model
 from rebsync.model import Interface, Model, ReactiveClass
-from rebsync.roundtrip.check import check
-from rebsync.roundtrip.packages import find
-from rebsync.roundtrip.verdict import Verdict
+from rebsync.roundtrip.package.discovery import find
+from rebsync.roundtrip.verdict.check import check
+from rebsync.roundtrip.verdict.drift import Verdict
 from rebsync.source import Source
 from rebsync.static import analyse
 from rebsync.unions import assert_never
@@ -116,8 +116,8 @@ def made(case: Case, target: str, folder: Path) -> Path:
 def out_of_step(root: Path) -> Sequence[str]:
     """What is told of the packages in a folder that should not be; digests alone tell nothing."""
     told: list[str] = []
-    for kept in find([str(root)]):
-        found = check(kept)
+    for package in find([str(root)]):
+        found = check(package)
         told += [d.message for f in found.findings for d in f.diagnostics]
         if found.drift is None:
             told.append("digests alone told that this is in step")

@@ -1,0 +1,1 @@
+"""Behaviour of models: models go in; bisimilarity, or proved properties with runs, comes out."""

@@ -1,0 +1,1 @@
+"""Three-way merge: base, model and code go in; the merged text and files come out."""

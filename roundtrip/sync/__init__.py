@@ -1,0 +1,1 @@
+"""Synchronisation: a checked package goes in; the texts to write, or the conflicts, come out."""

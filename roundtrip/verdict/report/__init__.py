@@ -1,0 +1,1 @@
+"""Verdicts in each output format: outcomes go in; lines, JSON, SARIF, JUnit come out."""

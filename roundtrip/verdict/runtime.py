@@ -1,0 +1,101 @@
+"""Generated code that no model describes: the run-time part, programs, stand-ins of sensors.
+
+What somebody has changed there is not in the model that is extracted, so that nothing can be said
+of the system. Layout and comments do not count, nor does another name of the package.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
+from rebsync.files import read_source
+from rebsync.reverse.scaffold.facts import package_name
+from rebsync.reverse.scaffold.python_trees import MODULE
+from rebsync.reverse.scaffold.runtime_cpp import HEADER, first_cpp_difference, may_be_cpp_runtime
+from rebsync.reverse.scaffold.runtime_python import PYTHON, first_difference, is_python_runtime
+from rebsync.reverse.scaffold.stand_ins import STAND_IN, plays_on
+from rebsync.roundtrip.package.managed import ManagedPackage
+from rebsync.roundtrip.package.manifest import BASE
+from rebsync.roundtrip.package.record import Record
+from rebsync.roundtrip.package.state import PackageState
+from rebsync.roundtrip.package.units import manifest_of
+from rebsync.source import NOWHERE, Source, Span
+
+_HINT = "take the edit back, or tell of it in the model; `rebsync generate --diff` shows it"
+
+
+def edited(
+    package: ManagedPackage, record: Record | None, now: PackageState
+) -> tuple[Findings, ...]:
+    """The places that are not as they were generated."""
+    if record is None:
+        return ()
+    paths = (
+        f"{package.root}/{BASE}{manifest_of(record.files)}",
+        now.listing.files.get(manifest_of(now.listing.files), ""),
+    )
+    own = frozenset(filter(None, map(package_name, paths)))
+    names = sorted({*now.changed, *now.missing} & record.files.keys())
+    return tuple(f for name in names if _may_be(name) for f in _edited(package, now, name, own))
+
+
+def _may_be(name: str) -> bool:
+    """Whether a generated file may be of the run-time part, or a program."""
+    return may_be_cpp_runtime(name) or PYTHON.match(name) is not None
+
+
+def _edited(
+    package: ManagedPackage, now: PackageState, name: str, own: frozenset[str]
+) -> Iterator[Findings]:
+    """The place where a file is not as it was generated; `own` are the names of the package."""
+    path = now.listing.files.get(name) or _moved(now, name)
+    if path is None:
+        if HEADER.match(name) or MODULE.match(name) or _is_python_program(package, name):
+            message = "generated code that the rest needs is gone"
+            yield _finding(Source(f"{package.root}/{name}", ""), NOWHERE, message)
+        return
+    try:
+        source, base = read_source(path), read_source(f"{package.root}/{BASE}{name}")
+    except RebsyncError as error:
+        found = error.findings[0]
+        message = f"generated code that no model describes cannot be compared with {BASE}{name}"
+        message += f": {found.diagnostics[0].message}"
+        yield _finding(Source(path, ""), NOWHERE, message)
+        return
+    span = _difference(name, base, source, own)
+    if span is not None:
+        yield _finding(source, span, "this is not as it was generated, and no model describes it")
+
+
+def _is_python_program(package: ManagedPackage, name: str) -> bool:
+    """Whether a file that is gone was a program, or played sensors."""
+    if not PYTHON.match(name):
+        return False
+    try:
+        base = read_source(f"{package.root}/{BASE}{name}")
+    except RebsyncError:
+        return False
+    return is_python_runtime(name, base.text)
+
+
+def _difference(name: str, base: Source, source: Source, own: frozenset[str]) -> Span | None:
+    """Where a file is not as it was generated, if no model describes it."""
+    is_python = PYTHON.match(name) is not None
+    if STAND_IN.fullmatch(name) and plays_on(base.text, source.text, is_python=is_python):
+        return None
+    if is_python:
+        is_described = not is_python_runtime(name, base.text)
+        return None if is_described else first_difference(base, source, own)
+    return first_cpp_difference(name, base, source, own)
+
+
+def _finding(source: Source, span: Span, message: str) -> Findings:
+    return Findings(source, (Diagnostic("RS956", span, message, _HINT),))
+
+
+def _moved(now: PackageState, name: str) -> str | None:
+    """The file of that name that is somewhere else, as in a package that was renamed."""
+    last = name.rpartition("/")[2]
+    same = [p for n, p in now.listing.files.items() if n.rpartition("/")[2] == last]
+    return same[0] if len(same) == 1 else None
