@@ -90,7 +90,7 @@ def _unit(
     }
     text = module.py.source.text
     is_rclpy = "rclpy" in text
-    unit = Unit(names.give(wish), None, (), (), tuple(together), Code(), rclpy=is_rclpy)
+    unit = Unit(names.give(wish), None, (), (), tuple(together), Code(), own=is_rclpy)
     version = 3 if _THREE.search(text) else (2 if _PRINTS.search(text) else 0)
     return PyUnit(unit, family, module, node, calls, version, is_rclpy)
 

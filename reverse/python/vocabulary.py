@@ -8,7 +8,7 @@ from __future__ import annotations
 from enum import Enum
 
 from rebsync.records import dataclass
-from rebsync.reverse.graph import Access
+from rebsync.reverse.libraries.routines import Access
 
 
 class Kind(Enum):

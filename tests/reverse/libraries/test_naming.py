@@ -1,4 +1,4 @@
-"""The names of the client libraries occur in `reverse/libraries`, beside what reads launch files."""
+"""The names of the client libraries occur in `reverse/libraries`, and in launch files."""
 
 from __future__ import annotations
 
