@@ -230,7 +230,7 @@ def _timer(reader: CppStatements, node: Node) -> TimerOf | None:
     if node.type != "call_expression" or b"Timer" not in (node.text or b""):
         return None
     call = call_of(node)
-    if call is None or call.name not in ("createTimer", "createWallTimer", "createSteadyTimer"):
+    if call is None or call.name not in libraries.timers_of_handles():
         return None
     made = reader.scope.timers.get(node.id)
     if made is not None:

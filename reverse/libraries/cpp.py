@@ -168,6 +168,12 @@ def handle_methods() -> Mapping[str, Routine]:
 
 
 @derived
+def timers_of_handles() -> frozenset[str]:
+    """Those of them that make a timer."""
+    return frozenset(n for n, r in handle_methods().items() if r.kind is Kind.TIMER)
+
+
+@derived
 def node_methods() -> Mapping[str, Routine]:
     """The methods of nodes that ask for something."""
     return {n: r for c in calls() for n, r in c.on_nodes.items()}

@@ -55,6 +55,7 @@ _NODE = {
     "get_clock": Routine(Kind.VALUE, does=Effect.NONE),
     "get_logger": Routine(),
     "destroy_node": Routine(Kind.START, does=Effect.ENDS),
+    **dict.fromkeys(("destroy_subscription", "destroy_timer"), Routine(does=Effect.ENDS)),
     "create_guard_condition": _CALLED,
     "add_on_set_parameters_callback": _CALLED,
     "add_pre_set_parameters_callback": _CALLED,
@@ -106,12 +107,14 @@ _METHODS = {
     "rclpy.parameter.Parameter": {
         "get_parameter_value": Routine(Kind.VALUE),
     },
+    "rclpy.timer.Timer": {"cancel": Routine(does=Effect.CHANGES)},
+    "rclpy.client.Client": {"call_async": Routine(does=Effect.SENDS)},
     "rclpy.clock.Clock": {"now": Routine(Kind.CLOCK)},
     "rclpy.executors.Executor": {
         "spin": Routine(Kind.SPIN),
         "spin_once": Routine(Kind.SERVE),
         "add_node": Routine(Kind.START),
-        "remove_node": Routine(Kind.START),
+        "remove_node": Routine(Kind.START, does=Effect.ENDS),
         "shutdown": Routine(Kind.START, does=Effect.ENDS),
         "try_shutdown": Routine(Kind.START, does=Effect.ENDS),
     },
@@ -121,10 +124,18 @@ _METHODS = {
         "register_handle_accepted_callback": _hook("callback", handle_accepted_callback="callback"),
     },
     "rclpy.action.ActionClient": {
-        "send_goal_async": _hook("", "callback", feedback_callback="callback")
+        "send_goal_async": Routine(
+            Kind.HOOK,
+            ("", "callback"),
+            (("feedback_callback", "callback"),),
+            does=Effect.SENDS,
+        )
     },
     "rclpy.context.Context": {"on_shutdown": _CALLED},
-    "rclpy.task.Future": {"add_done_callback": _CALLED},
+    "rclpy.task.Future": {
+        "add_done_callback": _CALLED,
+        "set_result": Routine(does=Effect.CHANGES),
+    },
 }
 # What is kept of a subscription or publisher whose queue a name stands for, in messages.
 _PROFILES = {
@@ -154,6 +165,7 @@ LIBRARIES = (
         managed=frozenset(n for n in _NODES if n.startswith("rclpy.lifecycle.")),
         marks=("rclpy", "message_filters"),
         table=Table(profiles=_PROFILES),
+        logs=("get_logger",),
         strict=True,
     ),
 )

@@ -9,7 +9,6 @@ from rebsync.reverse.libraries.routines import (
     Language,
     Library,
     Routine,
-    Table,
 )
 
 _KEYWORDS = (
@@ -17,7 +16,6 @@ _KEYWORDS = (
     *(("queue_size", "depth"), ("latch", "latched"), ("handler", "callback")),
     *(("oneshot", "one_shot"), ("param_name", "name"), ("param_value", "value")),
     *(("topic", "name"), ("caller_id", ""), ("frequency", "hz")),
-    ("subscriber_listener", "listener"),
 )
 _SUBSCRIBED = ("name", "type", "callback", "callback_args", "depth")
 _ADVERTISED = ("name", "type", "listener", "", "latched", "", "depth")
@@ -36,10 +34,12 @@ _SLEEP = Routine(Kind.SLEEP, ("period",))
 _STOPPED = Routine(Kind.RUNNING, result="!bool")
 _SPAN = Routine(Kind.SPAN, ("secs", "nsecs"))
 _LOG = Routine(Kind.LOG)
-_DONE = {"done_cb": "callback", "active_cb": "callback", "feedback_cb": "callback"}
+_DONE = tuple((name, "callback") for name in ("done_cb", "active_cb", "feedback_cb"))
 _FUNCTIONS = {
     "rospy.init_node": _asks(Kind.NODE, "name", "", "anonymous"),
-    "rospy.Publisher": _asks(Kind.PUBLISHER, *_ADVERTISED),
+    "rospy.Publisher": Routine(
+        Kind.PUBLISHER, _ADVERTISED, (*_KEYWORDS, ("subscriber_listener", "listener"))
+    ),
     "rospy.Subscriber": _asks(Kind.SUBSCRIPTION, *_SUBSCRIBED),
     "rospy.wait_for_message": _asks(Kind.SINGLE, "name", "type"),
     "rospy.Timer": _asks(Kind.TIMER, "period", "callback", "one_shot"),
@@ -89,7 +89,9 @@ _METHODS = {
         "register_preempt_callback": _hook("callback", cb="callback"),
     },
     "actionlib.SimpleActionClient": {
-        "send_goal": _hook("", "callback", "callback", "callback", **_DONE)
+        "send_goal": Routine(
+            Kind.HOOK, ("", "callback", "callback", "callback"), _DONE, does=Effect.SENDS
+        )
     },
 }
 
@@ -100,7 +102,7 @@ LIBRARIES = (
         _FUNCTIONS,
         _METHODS,
         marks=("rospy", "message_filters"),
-        table=Table(),
+        plain=frozenset({"rospy.AnyMsg", "rospy.msg.AnyMsg"}),
         flat=False,
         threads=True,
     ),

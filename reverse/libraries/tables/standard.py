@@ -35,7 +35,8 @@ class Rule:
     def routine(self) -> Routine:
         """The functions as one routine."""
         arguments = _ARGUMENTS.get(self.kind, ())
-        return Routine(self.kind, arguments, does=self.does, writes=self.writes)
+        result = "seconds" if self.kind is Kind.CLOCK else ""
+        return Routine(self.kind, arguments, result=result, does=self.does, writes=self.writes)
 
 
 FUNCTIONS = (
