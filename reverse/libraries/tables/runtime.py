@@ -39,6 +39,13 @@ def _python() -> dict[str, Routine]:
     return {**_IN_BOTH, **clock, "is_a": Routine(Kind.TOLD, ("object", "class"))}
 
 
+def names_in_model(language: Language) -> dict[str, str]:
+    """The methods of the mailbox without arguments that give what the model has a name for."""
+    methods = _cpp() if language is Language.CPP else _python()
+    found = {n: r for n, r in methods.items() if r.kind is Kind.TOLD and r.result}
+    return {n: r.result for n, r in found.items() if n != "self"}
+
+
 _MOVE = {"move": Routine(arguments=("motion", "callback"), does=Effect.ASKS)}
 
 LIBRARIES = (

@@ -18,6 +18,7 @@ from rebsync.reverse.libraries.routines import (
     Routine,
 )
 
+_KEY = (("key", "callback"),)
 _ARGUMENTS = {Kind.SLEEP: ("period",), Kind.CHECK: ("condition",)}
 
 
@@ -30,19 +31,24 @@ class Rule:
     python: str = ""
     kind: Kind = Kind.OTHER
     writes: tuple[str, ...] = ()
+    arguments: tuple[str, ...] = ()
+    keywords: tuple[tuple[str, str], ...] = ()
 
     @property
     def routine(self) -> Routine:
         """The functions as one routine."""
-        arguments = _ARGUMENTS.get(self.kind, ())
+        arguments = self.arguments or _ARGUMENTS.get(self.kind, ())
         result = "seconds" if self.kind is Kind.CLOCK else ""
-        return Routine(self.kind, arguments, result=result, does=self.does, writes=self.writes)
+        return Routine(
+            self.kind, arguments, self.keywords, result=result, does=self.does, writes=self.writes
+        )
 
 
 FUNCTIONS = (
     # Numbers.
     Rule(Effect.NONE, "abs fabs fabsf labs", "builtins.abs math.fabs"),
-    Rule(Effect.NONE, "max min fmax fmin clamp", "builtins.max builtins.min"),
+    Rule(Effect.NONE, "max min fmax fmin clamp"),
+    Rule(Effect.NONE, python="builtins.max builtins.min builtins.sorted", keywords=_KEY),
     Rule(Effect.NONE, "ceil floor round roundf lround trunc rint", "builtins.round"),
     Rule(Effect.NONE, python="math.ceil math.floor math.trunc"),
     Rule(
@@ -61,8 +67,9 @@ FUNCTIONS = (
     # Collections.
     Rule(Effect.NONE, python="builtins.len builtins.sum builtins.any builtins.all"),
     Rule(Effect.NONE, python="builtins.range builtins.list builtins.tuple builtins.dict"),
-    Rule(Effect.NONE, python="builtins.set builtins.sorted builtins.reversed builtins.zip"),
-    Rule(Effect.NONE, python="builtins.map builtins.filter builtins.enumerate builtins.chr"),
+    Rule(Effect.NONE, python="builtins.set builtins.reversed builtins.zip"),
+    Rule(Effect.NONE, python="builtins.enumerate builtins.chr"),
+    Rule(Effect.NONE, python="builtins.map builtins.filter", arguments=("callback",)),
     Rule(Effect.NONE, python="builtins.ord builtins.isinstance builtins.type builtins.hasattr"),
     Rule(Effect.NONE, python="builtins.getattr copy.deepcopy"),
     # Chance, clocks, time.
