@@ -34,6 +34,7 @@ from rebsync.reverse.bodies.scope import (
 )
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_declarations import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
@@ -321,14 +322,14 @@ class Effects:
         assert target is not None
         match meaning:
             case None | Outside(reaches=False):
-                if name in libraries.publishing() and (
+                if name in libraries.named(Kind.PUBLISH) and (
                     meaning is not None or not of or of in self._inner
                 ):
                     raise self._touches(call.node, "what is published here is not known")
             case Outside():
                 raise self._touches(call.node, f'"{text_of(target)}" may act on the node')
             case Publishes(targets):
-                if name in libraries.publishing() and not targets:
+                if name in libraries.named(Kind.PUBLISH) and not targets:
                     return
                 if name not in libraries.looking():
                     raise self._touches(call.node, "this sends, or ends that the node can send")

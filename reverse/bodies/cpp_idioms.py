@@ -23,6 +23,7 @@ from rebsync.reverse.bodies.cpp_widths import check_whole, check_wide_call
 from rebsync.reverse.bodies.scope import Called, Record, Variable
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.source import Span
@@ -211,7 +212,7 @@ def member_call(
         return to_seconds(reader, target)
     if name == "now" and is_flat(reader) and _CLOCKS.match(text_of(target)):
         return m.Name("now", reader.cpp.span(node))
-    if name.partition("<")[0] in libraries.values_held() and target.type == "call_expression":
+    if name.partition("<")[0] in libraries.named(Kind.VALUE) and target.type == "call_expression":
         return reader.read(target)
     if name == "ok" and _NODES.match(text_of(target)):
         return m.BoolLiteral(True, reader.cpp.span(node))

@@ -31,6 +31,7 @@ from rebsync.reverse.bodies.scope import (
 )
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.types import is_boolean
 
@@ -279,7 +280,7 @@ def published(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None
     function = part(node, "function")
     if function.type != "field_expression":
         return None
-    if text_of(part(function, "field")) not in libraries.publishing():
+    if text_of(part(function, "field")) not in libraries.named(Kind.PUBLISH):
         return None
     arguments = named(part(node, "arguments"))
     target, times = part(function, "argument"), {}

@@ -37,6 +37,7 @@ from rebsync.reverse.bodies.scope import (
 )
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.libraries.tables.standard import STREAMS
 from rebsync.reverse.syntax.cpp_calls import call_of, calls_in
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -153,7 +154,7 @@ def _called(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
         return _statement(reader, node, m.Call(None, "delay", (length,)))
     if name in libraries.failing():
         return _statement(reader, node, m.Call(None, "assertion", (m.BoolLiteral(False),)))
-    if name in libraries.checks() and name not in reader.scope.functions:
+    if name in libraries.named(Kind.CHECK) and name not in reader.scope.functions:
         condition = _checked(reader, named(part(node, "arguments"))[0])
         if not is_calm(condition):
             raise reader.unread(node, "a build without assertions does not do this")

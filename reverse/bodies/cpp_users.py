@@ -16,6 +16,7 @@ from rebsync.reverse.bodies.cpp_failing import may_fail
 from rebsync.reverse.bodies.cpp_plain_locals import declared_names
 from rebsync.reverse.bodies.scope import Ignored
 from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.libraries.tables.standard import STREAMS
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
@@ -72,7 +73,7 @@ def is_logging(node: Node) -> bool:
             inner = named(node)[0]
             if inner.type == "call_expression":
                 name = text_of(part(inner, "function"))
-                return name.startswith(libraries.logging()) or name in libraries.printing()
+                return name.startswith(libraries.logging()) or name in libraries.names_of(Kind.LOG)
             while inner.type == "binary_expression" and text_of(part(inner, "operator")) == "<<":
                 inner = part(inner, "left")
             return text_of(inner) in STREAMS
@@ -99,7 +100,7 @@ def is_log(reader: CppStatements, statement: Node, node: Node) -> bool:
         Effects(reader.cpp, reader.scope).check(part(node, "arguments"))
         return True
     logs = name.startswith(libraries.logging()) and function.type == "identifier"
-    if not logs and (reader.scope.open or name not in libraries.printing()):
+    if not logs and (reader.scope.open or name not in libraries.names_of(Kind.LOG)):
         return False
     if reader.scope.open:  # then it is not outside
         raise reader.unread(statement, "what is logged here changes what the model has")

@@ -6,7 +6,7 @@ import re
 from functools import lru_cache
 
 from rebsync.reverse.libraries import cpp as libraries
-from rebsync.reverse.libraries.routines import Effect
+from rebsync.reverse.libraries.routines import Effect, Kind
 from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
 from rebsync.reverse.syntax.cpp_tree import text_of
@@ -34,7 +34,7 @@ def is_matrix(type_: str) -> bool:
 def acts(call: CppCall) -> str | None:
     """What a call does to the node by its name: it takes time, or ends it; None for others."""
     name = call.name.rpartition("::")[2]
-    if call.target is None and name in libraries.polling():
+    if call.target is None and name in libraries.named(Kind.POLL):
         return Effect.WAITS.value
     return libraries.acting().get(name)
 

@@ -16,7 +16,7 @@ from rebsync.reverse.calls.ros_calls_shapes import (
     types_of,
 )
 from rebsync.reverse.calls.ros_calls_sites import site_of
-from rebsync.reverse.libraries.cpp import Calls
+from rebsync.reverse.libraries.cpp_calls import Calls
 from rebsync.reverse.libraries.routines import Kind, Routine
 from rebsync.reverse.syntax.cpp_index import CppClass
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of

@@ -23,7 +23,8 @@ from rebsync.reverse.calls.ros_calls_sites import owner_of, site_of
 from rebsync.reverse.calls.words import words_in
 from rebsync.reverse.graph import Fact, Graph
 from rebsync.reverse.libraries import cpp as libraries
-from rebsync.reverse.libraries.cpp import Calls
+from rebsync.reverse.libraries.cpp_calls import Calls
+from rebsync.reverse.libraries.cpp_calls import calls as calls_of_libraries
 from rebsync.reverse.libraries.routines import Routine
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
@@ -84,7 +85,7 @@ def _calls_in(code: Code, values: Values, without: Collection[str]) -> Iterator[
     """The calls but for those in functions of some classes, or of that name."""
     flat = uses_flat(values)
     for cpp in code.files:
-        for calls in libraries.calls():
+        for calls in calls_of_libraries():
             if calls.library.flat and not flat:
                 continue
             asked_by = asked_of_nodes if calls.library.flat else _asked

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rebsync.reverse.libraries.cpp import Calls
+from rebsync.reverse.libraries.cpp_calls import Calls
 from rebsync.reverse.syntax.cpp_words import places_of
 
 _WHITE = frozenset(b" \t\n\r\f\v")

@@ -7,6 +7,7 @@ from tree_sitter import Node
 from rebsync.reverse.bodies.known_functions import takes_values
 from rebsync.reverse.generated.ros2_words import ASKS
 from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.libraries.tables.standard import STREAMS
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
@@ -40,7 +41,9 @@ def _logs(node: Node) -> bool:
     call = call_of(node)
     if call is not None:
         said = text_of(node).startswith("static_cast<void>(")
-        logs = call.name.startswith(libraries.logging()) or call.name in libraries.printing()
+        logs = call.name.startswith(libraries.logging()) or call.name in libraries.names_of(
+            Kind.LOG
+        )
         return said or (call.target is None and logs)
     if node.type == "cast_expression":
         return text_of(part(node, "type")) == "void"

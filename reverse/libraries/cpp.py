@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from rebsync.records import dataclass
+from rebsync.reverse.libraries.cpp_calls import calls, last
 from rebsync.reverse.libraries.registry import derived, libraries
 from rebsync.reverse.libraries.routines import (
     ACTING,
-    ASKING,
     Access,
     Effect,
     Kind,
@@ -23,105 +22,9 @@ _LOOKS = frozenset({Effect.NONE, Effect.CLOCK})
 CONTAINER = "std::vector"  # the class that stands for all containers
 
 
-def _last(name: str) -> str:
-    return name.rpartition("::")[2]
-
-
-def _scope(name: str) -> str:
-    """The last scope of a full name: `param` of `ros::param::get`."""
-    return _last(name.rpartition("::")[0])
-
-
 @derived
 def _libraries() -> tuple[Library, ...]:
     return libraries(Language.CPP)
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Calls:
-    """What a library is called by: routines by what code says of them.
-
-    `functions` are by their scope and name, `objects` those of classes that ask for something when
-    an object is made, with the scopes these classes may have; `macros` have no scope. `methods` are
-    by the class of their object and their name, without the methods of nodes and handles.
-    """
-
-    library: Library
-    functions: Mapping[tuple[str, str], Routine]
-    objects: Mapping[str, tuple[Routine, frozenset[str]]]
-    macros: Mapping[str, Routine]
-    on_nodes: Mapping[str, Routine]
-    on_handles: Mapping[str, Routine]
-    methods: Mapping[str, Mapping[str, Routine]]
-    nodes: Mapping[str, Routine]
-    node_scopes: frozenset[str]
-    words: frozenset[bytes]
-    scoped_words: frozenset[bytes]
-
-    @property
-    def node_classes(self) -> frozenset[str]:
-        """The names of the classes of nodes."""
-        return frozenset(self.nodes)
-
-    @property
-    def filters(self) -> frozenset[str]:
-        """The classes that subscribe when an object is made, or by a method."""
-        found = self.objects.items()
-        return frozenset(n for n, (r, _) in found if r.kind is Kind.SUBSCRIPTION)
-
-    @property
-    def scopes(self) -> frozenset[str]:
-        """The outermost scopes of its names."""
-        return frozenset(n.partition("::")[0] for n in self.library.handles | self.library.nodes)
-
-    @property
-    def classes(self) -> frozenset[str]:
-        """Words of which objects are made; the others are called."""
-        return frozenset(self.objects).union(self.nodes)
-
-
-def _asking(routines: Mapping[str, Routine]) -> dict[str, Routine]:
-    return {name: r for name, r in routines.items() if r.kind in ASKING}
-
-
-def _calls_of(library: Library) -> Calls:
-    functions: dict[tuple[str, str], Routine] = {}
-    objects: dict[str, tuple[Routine, frozenset[str]]] = {}
-    macros: dict[str, Routine] = {}
-    own = library.nodes | library.handles
-    for full, routine in _asking(library.functions).items():
-        name = _last(full)
-        if routine.kind is Kind.NODELET:
-            macros[name] = routine
-        elif routine.kind is Kind.NODE and name[:1].isupper():
-            continue
-        elif name[:1].isupper():
-            before = objects.get(name, (routine, frozenset()))
-            objects[name] = routine, before[1] | {_scope(full)}
-        else:
-            functions[_scope(full), name] = routine
-    of_classes = {c: _asking(m) for c, m in library.methods.items()}
-    nodes = {n: r for c, m in of_classes.items() if c in library.nodes for n, r in m.items()}
-    handles = {n: r for c, m in of_classes.items() if c in library.handles for n, r in m.items()}
-    others = {_last(c): m for c, m in of_classes.items() if c not in own and m}
-    kinds = library.functions.items()
-    made = {f: r for f, r in kinds if r.kind is Kind.NODE and _last(f)[:1].isupper()}
-    classes = {_last(f): r for f, r in made.items()}
-    names = {*nodes, *handles, *(n for m in others.values() for n in m)}
-    names |= {n for scope, n in functions if not scope or library.flat}
-    words = frozenset(n.encode() for n in (*names, *objects, *macros, *classes))
-    scoped = frozenset(n.encode() for _, n in functions) - words
-    return Calls(
-        *(library, functions, objects, macros, nodes, handles, others),
-        *(classes, frozenset(map(_scope, made)), words, scoped),
-    )
-
-
-@derived
-def calls() -> tuple[Calls, ...]:
-    """What each library is called by."""
-    found = (_calls_of(library) for library in _libraries())
-    return tuple(calls for calls in found if calls.words)
 
 
 # --- nodes and handles --------------------------------------------------------------------------
@@ -145,13 +48,13 @@ def node_names() -> frozenset[str]:
 @derived
 def managed() -> frozenset[str]:
     """The names of classes of nodes whose state others change."""
-    return frozenset(_last(n) for library in _libraries() for n in library.managed)
+    return frozenset(last(n) for library in _libraries() for n in library.managed)
 
 
 @derived
 def handles() -> frozenset[str]:
     """The names of classes of node handles."""
-    return frozenset(_last(n) for library in _libraries() for n in library.handles)
+    return frozenset(last(n) for library in _libraries() for n in library.handles)
 
 
 @derived
@@ -238,12 +141,6 @@ def declaring() -> frozenset[str]:
 
 
 @derived
-def values_held() -> frozenset[str]:
-    """Methods that give what a parameter holds."""
-    return frozenset(n for n, r in _methods() if r.kind is Kind.VALUE)
-
-
-@derived
 def value_classes() -> frozenset[str]:
     """Classes that hold the value that they are made of."""
     return frozenset(n for library in _libraries() for n in library.plain)
@@ -259,18 +156,6 @@ def qualities() -> Mapping[str, int | None]:
 def profiles() -> Mapping[str, int]:
     """Names of qualities of service, with their depths."""
     return {n: d for library in _libraries() for n, d in library.table.profiles.items()}
-
-
-@derived
-def changing() -> frozenset[str]:
-    """Methods that change the quality of service that they are called on, and give it."""
-    return frozenset(n for n, r in _methods() if r.kind is Kind.CHANGE)
-
-
-@derived
-def leaving() -> frozenset[str]:
-    """Methods that give the quality of service that they are called on as it is."""
-    return frozenset(n for n, r in _methods() if r.kind is Kind.QUALITY)
 
 
 @derived
@@ -296,7 +181,7 @@ def _methods() -> Iterator[tuple[str, Routine]]:
 def _functions() -> Iterator[tuple[str, Routine]]:
     """All functions by their last names."""
     for library in _people():
-        yield from ((_last(n), r) for n, r in library.functions.items())
+        yield from ((last(n), r) for n, r in library.functions.items())
 
 
 def _routines() -> Iterator[tuple[str, Routine]]:
@@ -305,6 +190,7 @@ def _routines() -> Iterator[tuple[str, Routine]]:
     yield from _methods()
 
 
+@derived
 def names_of(*kinds: Kind) -> frozenset[str]:
     """The full names of the functions of some kinds."""
     return frozenset(
@@ -312,21 +198,10 @@ def names_of(*kinds: Kind) -> frozenset[str]:
     )
 
 
-def last_names_of(*kinds: Kind) -> frozenset[str]:
+@derived
+def named(*kinds: Kind) -> frozenset[str]:
     """The last names of the functions and methods of some kinds."""
     return frozenset(n for n, r in _routines() if r.kind in kinds)
-
-
-@derived
-def publishing() -> frozenset[str]:
-    """Methods that publish a message."""
-    return last_names_of(Kind.PUBLISH)
-
-
-@derived
-def clocks() -> frozenset[str]:
-    """Functions that tell the time."""
-    return names_of(Kind.CLOCK)
 
 
 @derived
@@ -373,35 +248,17 @@ def finishing() -> frozenset[str]:
 
 
 @derived
-def serving() -> frozenset[str]:
-    """Names of what lets messages be served that wait."""
-    return last_names_of(Kind.SERVE)
-
-
-@derived
 def waiting() -> frozenset[str]:
     """Names of what lets messages be served, or starts or ends that, and is nothing in a model."""
     kinds = frozenset({Kind.SPIN, Kind.SHUTDOWN})
     starts = (n for n, r in _methods() if r.kind is Kind.START)
-    return last_names_of(*kinds).union(starts, serving_once())
+    return named(*kinds).union(starts, serving_once())
 
 
 @derived
 def serving_once() -> frozenset[str]:
     """Names of what lets messages be served that wait, and waits for no others."""
     return frozenset(n for n, r in _routines() if r.kind is Kind.SERVE and not r.arguments)
-
-
-@derived
-def spinning() -> frozenset[str]:
-    """Names of what lets messages be served until the node ends."""
-    return last_names_of(Kind.SPIN)
-
-
-@derived
-def audience() -> frozenset[str]:
-    """Methods that tell who is at the other end, or wait for somebody."""
-    return last_names_of(Kind.AUDIENCE)
 
 
 @derived
@@ -419,18 +276,6 @@ def acting() -> Mapping[str, str]:
 
 
 @derived
-def polling() -> frozenset[str]:
-    """Free functions that wait for what comes from elsewhere, as long as they are told to."""
-    return last_names_of(Kind.POLL)
-
-
-@derived
-def checks() -> frozenset[str]:
-    """Functions and macros that end the program where a condition does not hold."""
-    return last_names_of(Kind.CHECK)
-
-
-@derived
 def failing() -> frozenset[str]:
     """Those of them that have no condition, and so never go on."""
     return frozenset(n for n, r in _functions() if r.kind is Kind.CHECK and not r.arguments)
@@ -440,12 +285,6 @@ def failing() -> frozenset[str]:
 def logging() -> tuple[str, ...]:
     """The beginnings of the names of macros that log."""
     return tuple(prefix for library in _libraries() for prefix in library.logs)
-
-
-@derived
-def printing() -> frozenset[str]:
-    """Functions that write a text for people to read, by the names that code has for them."""
-    return names_of(Kind.LOG)
 
 
 @derived
@@ -552,4 +391,4 @@ def macros() -> tuple[str, ...]:
 def telling_words() -> tuple[str, ...]:
     """Words of which one is in code that asks for something, sends, or lets messages be served."""
     asking = (w.decode() for c in calls() for w in (*c.words, *c.scoped_words))
-    return tuple(sorted({*asking, *publishing(), *waiting(), *checks()}))
+    return tuple(sorted({*asking, *named(Kind.PUBLISH, Kind.CHECK), *waiting()}))

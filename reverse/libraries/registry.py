@@ -7,22 +7,23 @@ import pkgutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import cache
-from typing import TypeVar
+from typing import ParamSpec, TypeVar, cast
 
 from rebsync.reverse.libraries import tables
 from rebsync.reverse.libraries.routines import Language, Library
 
+P = ParamSpec("P")
 T = TypeVar("T")
 
 _beside: list[Library] = []
 _caches: list[Callable[[], None]] = []
 
 
-def derived(function: Callable[[], T]) -> Callable[[], T]:
+def derived(function: Callable[P, T]) -> Callable[P, T]:
     """A function that makes something of the tables, once for each set of libraries."""
     cached = cache(function)
     _caches.append(cached.cache_clear)
-    return cached
+    return cast("Callable[P, T]", cached)
 
 
 @derived

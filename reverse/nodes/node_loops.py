@@ -14,6 +14,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import Fact, RateFact, TimerFact
 from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.cpp_calls import calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, text_of
@@ -72,7 +73,7 @@ def spins(statement: Node) -> bool:
     if statement.type != "expression_statement":
         return False
     names = {c.name.rpartition("::")[2] for c in calls_in(statement)}
-    return bool(names & libraries.serving()) and len(names) == 1
+    return bool(names & libraries.named(Kind.SERVE)) and len(names) == 1
 
 
 def _loop(function: CppFunction, node: Node, rates: Sequence[RateFact]) -> Loop | None:
@@ -107,7 +108,7 @@ def _loop(function: CppFunction, node: Node, rates: Sequence[RateFact]) -> Loop 
 
 def _may_wait(text: bytes) -> bool:
     """Whether a loop may sleep or serve messages: others name nothing that does."""
-    return any(word.encode() in text for word in ("sleep", *libraries.serving()))
+    return any(word.encode() in text for word in ("sleep", *libraries.named(Kind.SERVE)))
 
 
 def _conjuncts(node: Node) -> Iterator[Node]:

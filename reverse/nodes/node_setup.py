@@ -26,6 +26,7 @@ from rebsync.reverse.graph import (
     TimerFact,
 )
 from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.nodes.node_loops import (
     Loop,
     behind,
@@ -329,7 +330,10 @@ class Setup:
         waits = function.body is not None and _may_wait(function.body)
         for call in self.code.calls_of(function) if waits else ():
             name = call.name.rpartition("::")[2]
-            if name in libraries.audience() and (loop := loop_around(call.node)) is not None:
+            if (
+                name in libraries.named(Kind.AUDIENCE)
+                and (loop := loop_around(call.node)) is not None
+            ):
                 self.instead[loop.id] = ()
                 continue
             statement = statement_of(call.node) if name in libraries.waiting() else None
@@ -343,7 +347,7 @@ class Setup:
             if call.target is not None and any(f.name == name for f in self.state.unit.functions):
                 continue
             self.instead[statement.id] = ()
-            if name in libraries.spinning():
+            if name in libraries.named(Kind.SPIN):
                 if (
                     call.target is not None
                     and cancels(self.code, (*self.state.unit.functions, function), self.facts)
@@ -399,4 +403,4 @@ def _serves(node: Node) -> bool:
 def _may_wait(body: Node) -> bool:
     """Whether a body has a word of what waits for messages, or for others."""
     text = body.text or b""
-    return any(n.encode() in text for n in libraries.waiting() | libraries.audience())
+    return any(n.encode() in text for n in libraries.waiting() | libraries.named(Kind.AUDIENCE))

@@ -10,6 +10,7 @@ from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, Resolved, Unresolved
 from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.reverse.values.cpp_flow_reach import taken
@@ -275,7 +276,7 @@ def _of_ros2(
     """What a method of a node, of a parameter or of a quality of service gives."""
     if name in libraries.reading() and given:
         return parameter(values, name, given, node, frame)
-    if name in libraries.values_held() and not given:
+    if name in libraries.named(Kind.VALUE) and not given:
         held = values.value(target, frame)
         return held if not isinstance(held, Nothing) else values.unknown("a value", node, frame)
     if is_quality_method(name):

@@ -10,6 +10,7 @@ from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, Unresolved
 from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.libraries.tables.standard import RATIOS, SUFFIXES, UNITS
 from rebsync.reverse.syntax.cpp_calls import string_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -49,7 +50,7 @@ def literal(values: Values, node: Node, frame: Frame) -> Value:
         suffix = text_of(children[1])
         inner = values.value(children[0], frame)
         if children[0].type == "number_literal" and suffix in SUFFIXES:
-            return each(lambda v: _times(v, SUFFIXES[suffix]), inner)
+            return each(lambda v: _times(v, float(SUFFIXES[suffix])), inner)
         if suffix == "s" and isinstance(inner, str):
             return inner
     return values.unknown("a literal of its own kind", node, frame)
@@ -62,7 +63,7 @@ def made(values: Values, type_: str, use: Use, frame: Frame) -> Value | None:
     if name in libraries.qualities():
         return _quality(values, name, use, frame)
     if name in UNITS and given:
-        return each(lambda v: _times(v, UNITS[name]), values.value(given[0], frame))
+        return each(lambda v: _times(v, float(UNITS[name])), values.value(given[0], frame))
     if (unit := libraries.spans().get(type_)) is not None and "::" in type_ and len(given) == 1:
         return each(lambda v: _times(v, unit), values.value(given[0], frame))
     if name in libraries.value_classes() and len(given) == 1:
@@ -102,7 +103,10 @@ def span(
     unit = libraries.spans().get(name) if not name[:1].isupper() else None
     if name == "duration" and types:
         ratio = "".join(text_of(types[1]).split()) if len(types) > 1 else ""
-        unit = RATIOS.get(ratio) if ratio else 1.0
+        unit = 1.0
+        if ratio:
+            known = RATIOS.get(ratio)
+            unit = float(known) if known is not None else None
     if unit is None:
         return None
     return each(lambda v: _times(v, unit), values.value(given[0], frame))
@@ -164,7 +168,7 @@ def changed(
     values: Values, value: Value, name: str, given: tuple[Node, ...], node: Node, frame: Frame
 ) -> Value:
     """A quality of service after a method was called on it."""
-    if not isinstance(value, Quality) or name in libraries.leaving():
+    if not isinstance(value, Quality) or name in libraries.named(Kind.QUALITY):
         return value
     match name:
         case "keep_last" if given:
@@ -199,7 +203,7 @@ def adjusted(values: Values, before: Value, definition: Definition, frame: Frame
 
 def is_quality_method(name: str) -> bool:
     """Whether a method of this name gives the quality of service that it is called on."""
-    return name in libraries.changing() or name in libraries.leaving()
+    return name in libraries.named(Kind.CHANGE) or name in libraries.named(Kind.QUALITY)
 
 
 # --- parameters ---------------------------------------------------------------------------------

@@ -7,6 +7,7 @@ that stand alone, `methods` of objects of which nothing is known.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from fractions import Fraction
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.routines import (
@@ -121,15 +122,21 @@ STREAMS = frozenset(
 )
 # The seconds of a unit of `std::chrono`, by its class, by the ending of a literal, and as a ratio.
 UNITS = {
-    "nanoseconds": 1e-9,
-    "microseconds": 1e-6,
-    "milliseconds": 1e-3,
-    "seconds": 1.0,
-    "minutes": 60.0,
-    "hours": 3600.0,
+    **{"hours": Fraction(3600), "minutes": Fraction(60), "seconds": Fraction(1)},
+    **{"milliseconds": Fraction(1, 10**3), "microseconds": Fraction(1, 10**6)},
+    **{"nanoseconds": Fraction(1, 10**9)},
 }
-SUFFIXES = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
-RATIOS = {"std::nano": 1e-9, "std::micro": 1e-6, "std::milli": 1e-3}
+SUFFIXES = {
+    **{"h": UNITS["hours"], "min": UNITS["minutes"], "s": UNITS["seconds"]},
+    **{"ms": UNITS["milliseconds"], "us": UNITS["microseconds"], "ns": UNITS["nanoseconds"]},
+}
+RATIOS = {
+    "std::nano": UNITS["nanoseconds"],
+    "std::micro": UNITS["microseconds"],
+    "std::milli": UNITS["milliseconds"],
+}
+# The seconds of the unit that functions sleep in.
+SLEEPS = {"sleep": UNITS["seconds"], "usleep": UNITS["microseconds"]}
 # What makes threads wait for each other, which changes nothing of a model, as a pattern.
 LOCKS = r"(threading|_thread|thread)\.(R?Lock|Condition|(Bounded)?Semaphore|allocate_lock)"
 
