@@ -135,16 +135,15 @@ def pause(reader: CppExpressions, call: Node) -> m.Expression | None:
         return _own_pause(reader, part(function, "argument"), text_of(part(function, "field")))
     text = text_of(function)
     name = text.rpartition("::")[2]
-    if name != "sleep_for" and name not in SLEEPS:
-        return None
+    unit = _SECOND if text in libraries.sleeping_seconds() else SLEEPS.get(name)
     arguments = named(part(call, "arguments"))
     if len(arguments) != 1:
         return None
     if name == "sleep_for":
         return reader.read(arguments[0])
-    if text not in reader.scope.functions:
-        return units(reader, arguments[0], SLEEPS[name])
-    return None
+    if unit is None or text in reader.scope.functions:
+        return None
+    return units(reader, arguments[0], unit)
 
 
 def _own_pause(reader: CppExpressions, target: Node, name: str) -> m.Expression | None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 
-from rebsync.reverse.libraries.python import marks
 from rebsync.source import Source
 
 SUFFIX = ".py"
@@ -71,6 +70,10 @@ def relevant_python(code: Mapping[str, bytes], only: str | None = None) -> set[s
 
 
 def _of_ros(data: bytes) -> bool:
+    from rebsync.reverse.libraries.python import (
+        marks,  # which commands that read no code do without
+    )
+
     return any(word in data for word in marks())
 
 

@@ -11,8 +11,6 @@ import re
 from collections.abc import Mapping
 from functools import cached_property
 
-from rebsync.reverse.libraries.cpp import marks, starts
-
 _MUCH = 200_000  # bytes, from which on comparing names is quicker than reading it all
 _INCLUDE = re.compile(rb'#[ \t]*include[ \t]*["<](?:[^">\n]*/)?([^">\n/]+)[">]')
 _NAME = re.compile(rb"(?<![\w.])(?<!->)[A-Za-z_]\w*")
@@ -62,10 +60,14 @@ def relevant(code: Mapping[str, bytes], only: str | None = None) -> set[str]:
 
 
 def _of_nodes(data: bytes) -> bool:
+    from rebsync.reverse.libraries.cpp import starts  # which commands that read no code do without
+
     return any(word in data for word in starts())
 
 
 def _of_ros(data: bytes) -> bool:
+    from rebsync.reverse.libraries.cpp import marks
+
     return any(word in data for word in marks())
 
 

@@ -8,6 +8,7 @@ from rebsync.reverse.libraries.cpp_calls import calls, last
 from rebsync.reverse.libraries.registry import derived, libraries
 from rebsync.reverse.libraries.routines import (
     ACTING,
+    ANY_CONTAINER,
     Access,
     Effect,
     Kind,
@@ -19,7 +20,6 @@ from rebsync.reverse.libraries.routines import (
 
 _READ = frozenset({Access.GET, Access.DECLARE})
 _LOOKS = frozenset({Effect.NONE, Effect.CLOCK})
-CONTAINER = "std::vector"  # the class that stands for all containers
 
 
 @derived
@@ -239,6 +239,13 @@ def seconds() -> frozenset[str]:
 
 
 @derived
+def sleeping_seconds() -> frozenset[str]:
+    """Functions that sleep for a number of seconds, by their full names."""
+    sleeps = ((n, r) for lib in _people() for n, r in lib.functions.items())
+    return frozenset(n for n, r in sleeps if r.kind is Kind.SLEEP and r.result == "seconds")
+
+
+@derived
 def finishing() -> frozenset[str]:
     """Functions that serve messages until the node ends, or end it."""
     waits = frozenset({Effect.RUNS, Effect.ENDS})
@@ -300,7 +307,7 @@ def keeping_arguments() -> frozenset[str]:
 @derived
 def copying() -> frozenset[str]:
     """Methods of containers, which copy what they get."""
-    found = (m for lib in _people() for c, m in lib.methods.items() if c == CONTAINER)
+    found = (m for lib in _people() for c, m in lib.methods.items() if c == ANY_CONTAINER)
     return frozenset(n for methods in found for n in methods)
 
 
@@ -319,7 +326,7 @@ def looking() -> frozenset[str]:
         for library in _libraries()
         for of_class, methods in library.methods.items()
         for pair in methods.items()
-        if of_class != CONTAINER
+        if of_class != ANY_CONTAINER
     )
     looks = {n for n, r in found if r.effect in _LOOKS and r.kind in plain and not r.arguments}
     return frozenset(looks - acting().keys())

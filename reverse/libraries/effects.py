@@ -7,15 +7,23 @@ of plain types: an object's own operators and conversions, which they may call, 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.registry import libraries
-from rebsync.reverse.libraries.routines import Effect, Kind, Language, Routine
+from rebsync.reverse.libraries.routines import (
+    ANY_CONTAINER,
+    Effect,
+    Kind,
+    Language,
+    Library,
+    Routine,
+)
 
 _PREFIXES = ("std::this_thread::", "std::", "boost::")
-_CONTAINERS = frozenset({"array", "deque", "list", "map", "set", "string", "unordered_map"})
-ANY_CONTAINER = "std::vector"
+_CONTAINERS = frozenset(
+    {"vector", "array", "deque", "list", "map", "set", "string", "unordered_map"}
+)
 _CALLING = frozenset({Kind.HOOK, Kind.START, Kind.OTHER})
 
 
@@ -52,12 +60,12 @@ def of_function(language: Language, name: str) -> CallEffect:
 
 def of_method(language: Language, of: str, name: str) -> CallEffect:
     """What a method does, by the full name of the class of its object."""
-    classes = (of.removeprefix("::"), *_containers(language, of))
+    plain = of.removeprefix("::")
     found = [
-        library.methods[class_][name]
-        for class_ in classes
+        methods[name]
         for library in libraries(language)
-        if name in library.methods.get(class_, {})
+        for methods in _methods(library, plain)
+        if name in methods
     ]
     return _of(found[0]) if found else UNKNOWN
 
@@ -80,11 +88,17 @@ def _functions(language: Language, name: str) -> Iterator[Routine]:
             yield library.functions[name]
 
 
-def _containers(language: Language, of: str) -> Iterator[str]:
-    """The class that stands for all containers of the standard library."""
-    scope, _, name = of.removeprefix("::").partition("::")
-    if language is Language.CPP and scope == "std" and name.partition("<")[0] in _CONTAINERS:
-        yield ANY_CONTAINER
+def _methods(library: Library, of: str) -> Iterator[Mapping[str, Routine]]:
+    """The methods of a class; all classes of nodes of a library have the same."""
+    classes = library.nodes if of in library.nodes else {of}
+    if library.language is Language.CPP and _is_container(of):
+        classes = {ANY_CONTAINER}
+    yield from (library.methods[c] for c in sorted(classes) if c in library.methods)
+
+
+def _is_container(of: str) -> bool:
+    scope, _, name = of.partition("::")
+    return scope == "std" and name.partition("<")[0] in _CONTAINERS
 
 
 def _of(routine: Routine) -> CallEffect:

@@ -9,6 +9,7 @@ from enum import Enum
 from rebsync.records import dataclass
 
 RECEIVER = "self"  # the role of the object that a method is called on
+ANY_CONTAINER = "std::vector"  # the class that stands for all containers of C++
 
 
 class Access(Enum):
@@ -129,11 +130,13 @@ class Routine:
     `arguments` are the roles of the arguments in their order, `keywords` those of arguments that
     are given by a name (a role stands for itself too). The arguments of the role `callback` are
     called later. `type` is the type of messages where the call has no other, `result` the class of
-    what it gives; `wall` says that it goes by the clock on the wall. `options` is the class that
-    may stand for all of the arguments. Names of `flat` routines are not under the namespace of a
-    handle, and their arguments stand in one order. `least` is how many arguments a method has at
-    least that is taken for this one without knowing its object. `does` and `writes` say of the
-    effect, and of the roles whose arguments are written, what does not follow from the kind.
+    what it gives, or the unit of the time that it takes or tells; `wall` says that it goes by the
+    clock on the wall. `options` is the class that may stand for all of the arguments.
+
+    Names of `flat` routines are not under the namespace of a handle, and their arguments stand in
+    one order. `least` is how many arguments a method has at least that is taken for this one
+    without knowing its object. `does` and `writes` say of the effect, and of the roles whose
+    arguments are written, what does not follow from the kind.
     """
 
     kind: Kind = Kind.OTHER

@@ -11,6 +11,7 @@ from fractions import Fraction
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.routines import (
+    ANY_CONTAINER,
     RECEIVER,
     Effect,
     Kind,
@@ -163,6 +164,6 @@ def _library(name: str, language: Language, containers: str) -> Library:
 
 
 LIBRARIES = (
-    _library("std", Language.CPP, "std::vector"),
+    _library("std", Language.CPP, ANY_CONTAINER),
     _library("Python", Language.PYTHON, "builtins.list"),
 )

@@ -20,7 +20,7 @@ def _library(language: Language, scope: str, typed: tuple[str, ...]) -> Library:
         f"mesh{scope}open": opened,
         f"mesh{scope}log_info": Routine(Kind.LOG),
         f"mesh{scope}alive": Routine(Kind.RUNNING, result="bool"),
-        f"mesh{scope}pause": Routine(Kind.SLEEP, ("period",)),
+        f"mesh{scope}pause": Routine(Kind.SLEEP, ("period",), result="seconds"),
         f"mesh{scope}time": Routine(Kind.CLOCK, result="seconds"),
     }
     on_session = {

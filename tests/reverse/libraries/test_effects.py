@@ -59,6 +59,8 @@ def test_methods_are_known_by_the_class_of_their_object() -> None:
     assert of_method(CPP, "ros::Rate", "sleep").blocks
     assert of_method(CPP, "rclcpp::Node", "create_subscription").effect is Effect.ASKS
     assert of_method(CPP, "rclcpp::Node", "now").is_pure
+    assert of_method(CPP, "rclcpp_lifecycle::LifecycleNode", "now").is_pure
+    assert of_method(PYTHON, "rclpy.lifecycle.Node", "create_timer").callbacks == (1,)
     assert of_method(CPP, "somebody::Node", "now") == UNKNOWN
     assert of_method(PYTHON, "somebody.Rate", "sleep") == UNKNOWN
 
