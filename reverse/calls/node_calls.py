@@ -33,7 +33,7 @@ def asked_of_nodes(
     calls: Calls, values: Values, cpp: Cpp, place: Node, name: str
 ) -> Iterator[Asked]:
     """What a word asks for, if anything."""
-    if name in calls.node_classes:
+    if name in calls.nodes:
         yield from _node(calls, values, cpp, place, name)
         return
     if name in calls.objects:
@@ -75,7 +75,7 @@ def _of_method(
     if class_ is not None:
         meant = _may_be_node(values, class_, name)
     else:
-        meant = type_ in calls.node_classes or _says_enough(ask, given)
+        meant = type_ in calls.nodes or _says_enough(ask, given)
     if meant:
         yield Asked(ask, site_of(values, cpp, place, call), given, types_of(called), target)
 
@@ -89,7 +89,7 @@ def _of_function(
         return
     scope, call = called
     ask = calls.functions.get((scope, name))
-    if ask is None and scope in ("", *calls.node_classes):
+    if ask is None and scope in ("", *calls.nodes):
         function = values.texts.function_around(cpp, place)
         class_ = values.texts.class_of(function)
         if class_ is not None and _may_be_node(values, class_, name):

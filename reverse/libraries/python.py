@@ -88,12 +88,14 @@ def asks(name: str, count: int, keywords: Collection[str]) -> Routine | None:
     return found if found is not None and found.kind in ASKING else None
 
 
+@derived
 def kind_of(name: str) -> Kind | None:
     """What a function is for, by its full name."""
     found = function(name)
     return found.kind if found is not None else None
 
 
+@derived
 def names_of(*kinds: Kind, result: str | None = None) -> frozenset[str]:
     """The full names of the functions of some kinds, or those with a result."""
     found = ((n, r) for n, r in _functions() if r.kind in kinds)
@@ -112,6 +114,7 @@ def managed() -> frozenset[str]:
     return frozenset(n for library in _libraries() for n in library.managed)
 
 
+@derived
 def node_method(name: str, of: str | None = None) -> Routine | None:
     """The method of nodes that asks for something; of any library, or of that of a node's class."""
     for library in _libraries():
