@@ -9,12 +9,12 @@ relative `x`, private `~x`; the namespace of a node handle is part of the name.
 from __future__ import annotations
 
 from dataclasses import field
-from enum import Enum
 from typing import TypeAlias
 
 from tree_sitter import Node as SyntaxNode
 
 from rebsync.records import dataclass
+from rebsync.reverse.libraries.routines import Access
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp
 from rebsync.source import Source, Span
@@ -186,17 +186,6 @@ class RateFact:
     site: Site
     hz: Resolved
     wall: bool = False
-
-
-class Access(Enum):
-    """What is done with a parameter; SEARCH is a look-up upwards, DECLARE that of ROS 2."""
-
-    GET = "get"
-    SET = "set"
-    HAS = "has"
-    DELETE = "delete"
-    SEARCH = "search"
-    DECLARE = "declare"
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from rebsync import model as m
 from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_roots import identifiers_in, specifiers_of
 from rebsync.reverse.bodies.cpp_widths import wide_of
-from rebsync.reverse.bodies.known_functions import LOOKS, may_change, takes_values
+from rebsync.reverse.bodies.known_functions import may_change, takes_values
 from rebsync.reverse.bodies.scope import (
     Called,
     Inline,
@@ -22,6 +22,7 @@ from rebsync.reverse.bodies.scope import (
     Variable,
     meant_by,
 )
+from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.constants import constant
@@ -160,7 +161,7 @@ def _is_value(scope: Scope, arguments: Node, node: Node) -> bool:
         return False
     position = [a.id for a in call.arguments].index(node.id)
     if call.target is not None:
-        return call.name in LOOKS
+        return call.name in libraries.looking()
     match scope.functions.get(call.name):
         case Sends():
             return True

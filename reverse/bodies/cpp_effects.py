@@ -15,7 +15,7 @@ from rebsync.reverse.bodies.cpp_macros import is_harmless
 from rebsync.reverse.bodies.cpp_misread import first_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this
 from rebsync.reverse.bodies.cpp_roots import declared_in, is_modelled, may_end, root
-from rebsync.reverse.bodies.known_functions import LOOKS, acts, takes_values, type_takes_values
+from rebsync.reverse.bodies.known_functions import acts, takes_values, type_takes_values
 from rebsync.reverse.bodies.scope import (
     Called,
     Ignored,
@@ -33,6 +33,8 @@ from rebsync.reverse.bodies.scope import (
     meant_by,
 )
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_declarations import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
@@ -320,25 +322,27 @@ class Effects:
         assert target is not None
         match meaning:
             case None | Outside(reaches=False):
-                if name == "publish" and (meaning is not None or not of or of in self._inner):
+                if name in libraries.named(Kind.PUBLISH) and (
+                    meaning is not None or not of or of in self._inner
+                ):
                     raise self._touches(call.node, "what is published here is not known")
             case Outside():
                 raise self._touches(call.node, f'"{text_of(target)}" may act on the node')
             case Publishes(targets):
-                if name == "publish" and not targets:
+                if name in libraries.named(Kind.PUBLISH) and not targets:
                     return
-                if name not in LOOKS:
+                if name not in libraries.looking():
                     raise self._touches(call.node, "this sends, or ends that the node can send")
             case TimerOf():
-                if name not in LOOKS:
+                if name not in libraries.looking():
                     raise self._touches(call.node, "this changes a timer")
             case Record() | Variable():
-                if name not in LOOKS and is_modelled(target, meaning):
+                if name not in libraries.looking() and is_modelled(target, meaning):
                     self._changes(call.node, of, f'this may change "{of}"')
-            case Runtime() | Lambda() | Itself() if name not in LOOKS:
+            case Runtime() | Lambda() | Itself() if name not in libraries.looking():
                 raise self._touches(call.node, f'"{of}" acts on the node')
             case _:
-                if name not in LOOKS and is_modelled(target, meaning):
+                if name not in libraries.looking() and is_modelled(target, meaning):
                     raise self._touches(call.node, f'this may change "{of}"')
         self.check(target)
 

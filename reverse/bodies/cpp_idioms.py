@@ -17,12 +17,13 @@ from rebsync.reverse.bodies.cpp_conversions import as_number, operands, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_literals import lower
 from rebsync.reverse.bodies.cpp_places import resolve
-from rebsync.reverse.bodies.cpp_time import is_for_ros2, time_called, to_seconds
+from rebsync.reverse.bodies.cpp_time import is_flat, time_called, to_seconds
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.cpp_widths import check_whole, check_wide_call
 from rebsync.reverse.bodies.scope import Called, Record, Variable
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.rclcpp_vocabulary import HELD
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.source import Span
@@ -72,7 +73,7 @@ def call(
             check_whole(reader, argument)
     _check_explicit(reader, node, arguments)
     match plain, count:
-        case "ros::ok" | "rclcpp::ok", 0:
+        case _, 0 if plain in libraries.running():
             return m.BoolLiteral(True, span)
         case "min" | "max", 2:
             check_wide_call(reader, node)
@@ -99,7 +100,7 @@ def call(
         least = limit[1] in ("min", "lowest")
         return whole(_LEAST if least else 2**31 - 1, span) if least or limit[1] == "max" else None
     kept = reader.scope.carried(_function(node)) if count == 1 else None
-    if kept is not None and not name.startswith(("ros::", "rclcpp::")):
+    if kept is not None and not name.startswith(libraries.scopes()):
         return reader.cast(_function(node), arguments[0], node)
     return time_called(reader, node, name, list(arguments))
 
@@ -207,11 +208,11 @@ def member_call(
         return held
     if arguments:
         return None
-    if name == "toSec" or (name == "seconds" and _asks_now(target) and is_for_ros2(reader)):
+    if name == "toSec" or (name == "seconds" and _asks_now(target) and is_flat(reader)):
         return to_seconds(reader, target)
-    if name == "now" and is_for_ros2(reader) and _CLOCKS.match(text_of(target)):
+    if name == "now" and is_flat(reader) and _CLOCKS.match(text_of(target)):
         return m.Name("now", reader.cpp.span(node))
-    if name.partition("<")[0] in HELD and target.type == "call_expression":
+    if name.partition("<")[0] in libraries.named(Kind.VALUE) and target.type == "call_expression":
         return reader.read(target)
     if name == "ok" and _NODES.match(text_of(target)):
         return m.BoolLiteral(True, reader.cpp.span(node))

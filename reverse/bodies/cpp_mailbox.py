@@ -15,19 +15,15 @@ from rebsync.names import original
 from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.overloads import HINT, WHY, telling
 from rebsync.reverse.bodies.scope import Runtime, Scope, Sends, Variable
+from rebsync.reverse.libraries.routines import Language
+from rebsync.reverse.libraries.tables.runtime import names_in_model
 from rebsync.reverse.syntax.cpp_calls import string_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_expressions import CppExpressions
 
-_CLOCK = {
-    "now": "now",
-    "arrival": "currentMessageArrival",
-    "expiry": "currentMessageDeadline",
-    "waitingTime": "currentMessageWaitingTime",
-    "sender": "sender",
-}
+_CLOCK = names_in_model(Language.CPP)
 # The function under which a statement of `@Move` is read, until it is one.
 MOVE = "@Move"
 _LITERALS = frozenset({"number_literal", "char_literal", "true", "false"})

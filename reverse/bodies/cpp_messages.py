@@ -30,6 +30,8 @@ from rebsync.reverse.bodies.scope import (
     of_width,
 )
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.types import is_boolean
 
@@ -276,7 +278,9 @@ def unknown_value(
 def published(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
     """`publisher.publish(message)`: a send to each receiver; None for another call."""
     function = part(node, "function")
-    if function.type != "field_expression" or text_of(part(function, "field")) != "publish":
+    if function.type != "field_expression":
+        return None
+    if text_of(part(function, "field")) not in libraries.named(Kind.PUBLISH):
         return None
     arguments = named(part(node, "arguments"))
     target, times = part(function, "argument"), {}

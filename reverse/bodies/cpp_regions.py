@@ -15,8 +15,8 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.known_functions import LOGGING
 from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_numbers import constant_number
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
@@ -157,7 +157,7 @@ def _is_harmless(arguments: Node) -> bool:
     call = call_of(arguments.parent) if arguments.parent is not None else None
     if call is None:
         return False
-    return call.name.startswith(LOGGING) or call.name.rpartition("::")[2] in _STORES
+    return call.name.startswith(libraries.logging()) or call.name.rpartition("::")[2] in _STORES
 
 
 def _apart(whole: set[int], bounds: set[float]) -> list[int]:

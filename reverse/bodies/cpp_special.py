@@ -24,7 +24,6 @@ from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_time import pause, units
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.cpp_widths import check_whole
-from rebsync.reverse.bodies.known_functions import ASSERTS, STREAMS
 from rebsync.reverse.bodies.scope import (
     Called,
     Inline,
@@ -37,6 +36,9 @@ from rebsync.reverse.bodies.scope import (
     meant_by,
 )
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.libraries.tables.standard import STREAMS
 from rebsync.reverse.syntax.cpp_calls import call_of, calls_in
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.constants import constant
@@ -150,9 +152,9 @@ def _called(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
             why = "the mailbox knows nothing of this sleep: to it the body takes no time"
             raise reader.unread(node, why, "call `delay` of the mailbox, in units of time")
         return _statement(reader, node, m.Call(None, "delay", (length,)))
-    if name == "ROS_BREAK":
+    if name in libraries.failing():
         return _statement(reader, node, m.Call(None, "assertion", (m.BoolLiteral(False),)))
-    if name in ASSERTS and name not in reader.scope.functions:
+    if name in libraries.named(Kind.CHECK) and name not in reader.scope.functions:
         condition = _checked(reader, named(part(node, "arguments"))[0])
         if not is_calm(condition):
             raise reader.unread(node, "a build without assertions does not do this")
@@ -229,7 +231,7 @@ def _timer(reader: CppStatements, node: Node) -> TimerOf | None:
     if node.type != "call_expression" or b"Timer" not in (node.text or b""):
         return None
     call = call_of(node)
-    if call is None or call.name not in ("createTimer", "createWallTimer", "createSteadyTimer"):
+    if call is None or call.name not in libraries.timers_of_handles():
         return None
     made = reader.scope.timers.get(node.id)
     if made is not None:

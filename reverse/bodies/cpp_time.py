@@ -14,7 +14,9 @@ from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_widths import check_whole
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.rclcpp_vocabulary import MARK
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.libraries.tables.standard import SLEEPS, SUFFIXES, UNITS
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.constants import constant
 from rebsync.static.types import DOUBLE, is_integer
@@ -23,27 +25,15 @@ if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_expressions import CppExpressions
 
 _SECOND = Fraction(1)
-# What constructs a span of time or a point in it, with the seconds that a number in it means.
-_SPANS = {
-    **dict.fromkeys(("ros::Duration", "ros::WallDuration", "ros::Time", "ros::WallTime"), _SECOND),
-    **{"hours": Fraction(3600), "minutes": Fraction(60), "seconds": _SECOND},
-    **{"milliseconds": Fraction(1, 10**3), "microseconds": Fraction(1, 10**6)},
-    **{"nanoseconds": Fraction(1, 10**9)},
-}
-_SLEEPS = {"sleep": _SECOND, "usleep": Fraction(1, 10**6)}
-_CLOCKS = frozenset({"ros::Time::now", "ros::WallTime::now", "ros::SteadyTime::now"})
-# What a number with one of these endings means, in seconds: `500ms`.
-_SUFFIXES = {
-    **{"h": Fraction(3600), "min": Fraction(60), "s": _SECOND, "ms": Fraction(1, 10**3)},
-    **{"us": Fraction(1, 10**6), "ns": Fraction(1, 10**9)},
-}
 
 
 def time_called(
     reader: CppExpressions, node: Node, name: str, arguments: list[Node]
 ) -> m.Expression | None:
     """`ros::Time::now()`, `ros::Duration(0.5)`, `std::chrono::milliseconds(20)`."""
-    if not arguments and (name in _CLOCKS or (name == "now" and is_for_ros2(reader))):
+    if not arguments and (
+        name in libraries.names_of(Kind.CLOCK) or (name == "now" and is_flat(reader))
+    ):
         return m.Name("now", reader.cpp.span(node))
     seconds = seconds_of(name)
     if seconds is None:
@@ -56,16 +46,16 @@ def time_called(
         case [whole, nanoseconds] if seconds == _SECOND:
             of_two = (
                 units(reader, whole, seconds),
-                units(reader, nanoseconds, _SPANS["nanoseconds"]),
+                units(reader, nanoseconds, UNITS["nanoseconds"]),
             )
             return binary("+", *of_two)
         case _:
             return None
 
 
-def is_for_ros2(reader: CppExpressions) -> bool:
-    """Whether the code is for rclcpp, whose nodes and clocks have a method `now`."""
-    return MARK in reader.cpp.data
+def is_flat(reader: CppExpressions) -> bool:
+    """Whether the code may use a library whose nodes and clocks have a method `now`."""
+    return libraries.is_flat(reader.cpp.data)
 
 
 def written(reader: CppExpressions, node: Node) -> m.Expression | None:
@@ -74,16 +64,17 @@ def written(reader: CppExpressions, node: Node) -> m.Expression | None:
         return None
     inner = named(node)
     suffix = text_of(inner[1]) if len(inner) == 2 else ""
-    if suffix not in _SUFFIXES:
+    if suffix not in SUFFIXES:
         return None
-    return units(reader, inner[0], _SUFFIXES[suffix])
+    return units(reader, inner[0], SUFFIXES[suffix])
 
 
 def seconds_of(name: str) -> Fraction | None:
     """The seconds that a number in a span of time means, by the name of the span's type."""
     if "chrono" in name:
-        return _SPANS.get(name.rpartition("::")[2])
-    return _SPANS.get(name.removeprefix("::"))
+        return UNITS.get(name.rpartition("::")[2])
+    plain = name.removeprefix("::")
+    return _SECOND if plain in libraries.seconds() else UNITS.get(plain)
 
 
 def units(reader: CppExpressions, node: Node, seconds: Fraction) -> m.Expression:
@@ -144,16 +135,15 @@ def pause(reader: CppExpressions, call: Node) -> m.Expression | None:
         return _own_pause(reader, part(function, "argument"), text_of(part(function, "field")))
     text = text_of(function)
     name = text.rpartition("::")[2]
-    if name != "sleep_for" and name not in _SLEEPS:
-        return None
+    unit = _SECOND if text in libraries.sleeping_seconds() else SLEEPS.get(name)
     arguments = named(part(call, "arguments"))
     if len(arguments) != 1:
         return None
     if name == "sleep_for":
         return reader.read(arguments[0])
-    if text not in reader.scope.functions:
-        return units(reader, arguments[0], _SLEEPS[name])
-    return None
+    if unit is None or text in reader.scope.functions:
+        return None
+    return units(reader, arguments[0], unit)
 
 
 def _own_pause(reader: CppExpressions, target: Node, name: str) -> m.Expression | None:

@@ -14,8 +14,10 @@ from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_failing import may_fail
 from rebsync.reverse.bodies.cpp_plain_locals import declared_names
-from rebsync.reverse.bodies.known_functions import CONSOLE, LOGGING, STREAMS
 from rebsync.reverse.bodies.scope import Ignored
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.libraries.tables.standard import STREAMS
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 if TYPE_CHECKING:
@@ -71,7 +73,7 @@ def is_logging(node: Node) -> bool:
             inner = named(node)[0]
             if inner.type == "call_expression":
                 name = text_of(part(inner, "function"))
-                return name.startswith(LOGGING) or name in CONSOLE
+                return name.startswith(libraries.logging()) or name in libraries.names_of(Kind.LOG)
             while inner.type == "binary_expression" and text_of(part(inner, "operator")) == "<<":
                 inner = part(inner, "left")
             return text_of(inner) in STREAMS
@@ -97,8 +99,8 @@ def is_log(reader: CppStatements, statement: Node, node: Node) -> bool:
     if isinstance(own, Ignored) and not reader.scope.open:
         Effects(reader.cpp, reader.scope).check(part(node, "arguments"))
         return True
-    logs = name.startswith(LOGGING) and function.type == "identifier"
-    if not logs and (reader.scope.open or name not in CONSOLE):
+    logs = name.startswith(libraries.logging()) and function.type == "identifier"
+    if not logs and (reader.scope.open or name not in libraries.names_of(Kind.LOG)):
         return False
     if reader.scope.open:  # then it is not outside
         raise reader.unread(statement, "what is logged here changes what the model has")

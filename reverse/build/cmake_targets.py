@@ -10,6 +10,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.build.build_files import Target
 from rebsync.reverse.build.cmake_text import Command
 from rebsync.reverse.build.cmake_values import Unset, Variables, known, sections
+from rebsync.reverse.libraries.cpp import registering_in_builds
 from rebsync.reverse.unknowns import Open, Text, Unknown
 from rebsync.source import Source
 
@@ -81,7 +82,7 @@ TARGETLESS = frozenset(
         *("ament_add_test", "ament_index_register_resource", "ament_register_extension"),
         *("rosidl_target_interfaces", "rosidl_get_typesupport_target"),
         *("pluginlib_export_plugin_description_file",),
-        *("rclcpp_components_register_node", "rclcpp_components_register_nodes"),
+        *registering_in_builds(),
     }
 )
 

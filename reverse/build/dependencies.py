@@ -8,13 +8,12 @@ from rebsync.reverse.build.cmake import BUILD, read_build
 from rebsync.reverse.build.manifests import read_manifest
 from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.files.python_files import SUFFIX
+from rebsync.reverse.libraries.cpp import including
 from rebsync.source import Source
 
 _CODE = (*sorted(CODE), SUFFIX)
 _INTERFACES = (".msg", ".srv", ".action")
 _OF_INTERFACES = re.compile(r"message_(?:generation|runtime)|rosidl_default_\w+")
-# By what code names a package, where that is not its own name.
-_NAMED = {"roscpp": "ros"}
 
 
 def asked_for(path: str, source: Source) -> frozenset[str]:
@@ -30,6 +29,6 @@ def uses(path: str, source: Source, package: str) -> bool:
         return path.endswith(_INTERFACES)
     if not path.endswith(_CODE):
         return False
-    word = re.escape(_NAMED.get(package, package))
+    word = re.escape(including().get(package, package))
     asks = rf"(?:#\s*include\s*[<\"]|\bfrom\s+|\bimport\s+){word}\b"
     return re.search(asks, source.text) is not None

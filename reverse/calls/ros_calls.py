@@ -4,39 +4,34 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import replace
+from functools import partial
 
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.calls.rclcpp_calls import asked_of_ros2
+from rebsync.reverse.calls.node_calls import asked_of_nodes
 from rebsync.reverse.calls.ros_calls_facts import Facts
-from rebsync.reverse.calls.ros_calls_shapes import TEMPLATES, Asked, called_as, objects_of, types_of
-from rebsync.reverse.calls.ros_calls_sites import owner_of, site_of
-from rebsync.reverse.graph import Fact, Graph
-from rebsync.reverse.rclcpp_vocabulary import NODE_CLASSES, TIMERS
-from rebsync.reverse.rclcpp_vocabulary import words_in as words_of_ros2
-from rebsync.reverse.roscpp_vocabulary import (
-    FILTER_SCOPES,
-    FILTERS,
-    FUNCTIONS,
-    HANDLE,
-    HANDLE_TYPE,
-    LEAST,
-    LIBRARY,
-    NODELETS,
-    RATES,
-    TRANSPORTS,
-    Ask,
-    words_in,
+from rebsync.reverse.calls.ros_calls_shapes import (
+    TEMPLATES,
+    Asked,
+    called_as,
+    handed_on,
+    objects_of,
+    types_of,
 )
+from rebsync.reverse.calls.ros_calls_sites import owner_of, site_of
+from rebsync.reverse.calls.words import words_in
+from rebsync.reverse.graph import Fact, Graph
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.cpp_calls import Calls
+from rebsync.reverse.libraries.cpp_calls import calls as calls_of_libraries
+from rebsync.reverse.libraries.routines import Routine
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.values.cpp_flow import climb
 from rebsync.reverse.values.cpp_values import Values
-from rebsync.reverse.values.cpp_values_ros2 import uses_rclcpp
+from rebsync.reverse.values.cpp_values_ros2 import uses_flat
 
-# Of these objects are made; the other words of the vocabulary are called.
-_CLASSES = frozenset({*RATES, *FILTERS, *NODE_CLASSES, *TIMERS})
 _BEHIND = (b"(", b"<", b"/", b"#", b"\\")
 _CALLED = frozenset({"template_method", "template_function", "dependent_name"})
 
@@ -58,12 +53,12 @@ class Asking:
     def calls(self) -> list[Asked]:
         """The calls, without those of the client library itself."""
         if self._calls is None:
-            self._calls = list(_calls_in(self.code, self.values(), LIBRARY))
+            self._calls = list(_calls_in(self.code, self.values(), libraries.own_classes()))
         return self._calls
 
     def calls_outside(self, owners: Collection[str]) -> Iterator[Asked]:
         """Those of the calls that do not stand in functions of some classes."""
-        return _calls_in(self.code, self.values(), LIBRARY.union(owners))
+        return _calls_in(self.code, self.values(), libraries.own_classes().union(owners))
 
     def values(self) -> Values:
         """What finds the values of their arguments."""
@@ -88,14 +83,15 @@ def graph_of(code: Code) -> Graph:
 
 def _calls_in(code: Code, values: Values, without: Collection[str]) -> Iterator[Asked]:
     """The calls but for those in functions of some classes, or of that name."""
-    ros2 = uses_rclcpp(values)
+    flat = uses_flat(values)
     for cpp in code.files:
-        for found in words_in(cpp.original, cpp.words):
-            if found[2] in _CLASSES or _may_be_called(cpp.original, found[1]):
-                yield from _at(values, cpp, found, without, _asked)
-        for found in words_of_ros2(cpp.original, cpp.words) if ros2 else ():
-            if found[2] in _CLASSES or _may_be_called(cpp.original, found[1]):
-                yield from _at(values, cpp, found, without, asked_of_ros2)
+        for calls in calls_of_libraries():
+            if calls.library.flat and not flat:
+                continue
+            asked_by = asked_of_nodes if calls.library.flat else _asked
+            for found in words_in(calls, cpp.original, cpp.words):
+                if found[2] in calls.classes or _may_be_called(cpp.original, found[1]):
+                    yield from _at(values, cpp, found, without, partial(asked_by, calls))
 
 
 def _may_be_called(data: bytes, end: int) -> bool:
@@ -131,13 +127,13 @@ def _order(fact: Fact) -> tuple[str, int]:
     return fact.site.place.source.path, fact.site.place.span.start
 
 
-def _asked(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
-    """What a word of the vocabulary asks for where it stands, if anything."""
-    if name in NODELETS:
-        yield from _nodelet(values, cpp, place, name)
+def _asked(calls: Calls, values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
+    """What a word of a library with node handles asks for where it stands, if anything."""
+    if name in calls.macros:
+        yield from _nodelet(calls.macros[name], values, cpp, place)
         return
-    if name in RATES or name in FILTERS:
-        found = list(_object(values, cpp, place, name))
+    if name in calls.objects:
+        found = list(_object(calls, values, cpp, place, name))
         yield from found
         if found:
             return
@@ -150,60 +146,69 @@ def _asked(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
         call = above.parent
         if call is None or call.type != "call_expression" or part(call, "function") != above:
             return
-        yield from _of_method(values, cpp, place, call, node, part(above, "argument"), name)
+        yield from _of_method(calls, values, cpp, place, call, node, part(above, "argument"), name)
     else:
-        yield from _of_function(values, cpp, place, node, above, name)
+        yield from _of_function(calls, values, cpp, place, node, above, name)
 
 
 def _of_function(
-    values: Values, cpp: Cpp, place: Node, node: Node, above: Node, name: str
+    calls: Calls, values: Values, cpp: Cpp, place: Node, node: Node, above: Node, name: str
 ) -> Iterator[Asked]:
     called = called_as(node, above)
     if called is None:
         return
     scope, call = called
-    ask = FUNCTIONS.get((scope, name))
-    if ask is None or _is_own(call, scope):
+    ask = calls.functions.get((scope, name))
+    if ask is None or _is_own(call, scope, calls.scopes):
         return
     given = tuple(named(part(call, "arguments")))
     if scope or (len(given) >= len(ask.arguments) - 1 and not values.calls.functions(cpp, call)):
         yield Asked(ask, site_of(values, cpp, place, call), given, types_of(node))
 
 
-def _is_own(call: Node, scope: str) -> bool:
+def _is_own(call: Node, scope: str, scopes: frozenset[str]) -> bool:
     """Whether a call stands in the scope of the function: in the client library's own code."""
     around = call
-    for wanted in (scope, "ros"):
+    for wanted in (frozenset({scope}), scopes):
         above = climb(around, lambda n: n.type == "namespace_definition") if scope else None
         name = above.child_by_field_name("name") if above is not None else None
-        if above is None or name is None or text_of(name) != wanted:
+        if above is None or name is None or text_of(name) not in wanted:
             return False
         around = above
     return True
 
 
 def _of_method(
-    values: Values, cpp: Cpp, place: Node, call: Node, called: Node, target: Node, name: str
+    calls: Calls,
+    values: Values,
+    cpp: Cpp,
+    place: Node,
+    call: Node,
+    called: Node,
+    target: Node,
+    name: str,
 ) -> Iterator[Asked]:
     """What a method asks for, by the class of the object that it is called on."""
     given = tuple(named(part(call, "arguments")))
     type_ = values.types.type_of(cpp, target).rpartition("::")[2]
-    if type_ in FILTERS and name == "subscribe":
+    if type_ in calls.filters and name == "subscribe":
         variable = values.types.variable(cpp, target)
         types = types_of(variable.type) if variable is not None else ()
         site = replace(site_of(values, cpp, place, call), kept=text_of(target))
-        yield Asked(FILTERS[type_], site, given, types)
+        yield Asked(calls.objects[type_][0], site, given, types)
         return
     ask = None
-    if type_ == HANDLE_TYPE:
-        ask = HANDLE.get(name)
-    elif type_ in TRANSPORTS:
-        ask = TRANSPORTS[type_].get(name)
+    on_handle = calls.on_handles.get(name)
+    if type_ in libraries.handles():
+        ask = on_handle
+    elif type_ in calls.methods:
+        ask = calls.methods[type_].get(name)
     elif type_ and (class_ := values.texts.class_near(type_, cpp)) is not None:
-        descends = any(HANDLE_TYPE in c.bases for c in values.texts.lineage(class_))
-        ask = HANDLE.get(name) if descends else None
-    elif not type_ and _is_undeclared(values, cpp, target) and len(given) >= LEAST.get(name, 9):
-        ask = HANDLE[name]
+        lineage = values.texts.lineage(class_)
+        descends = any(b in libraries.handles() for c in lineage for b in c.bases)
+        ask = on_handle if descends else None
+    elif not type_ and on_handle is not None and _is_undeclared(values, cpp, target):
+        ask = on_handle if len(given) >= on_handle.least else None
     if ask is not None:
         yield Asked(ask, site_of(values, cpp, place, call), given, types_of(called), target)
 
@@ -217,17 +222,17 @@ def _is_undeclared(values: Values, cpp: Cpp, target: Node) -> bool:
     return target.type == "identifier" and values.types.variable(cpp, target) is None
 
 
-def _nodelet(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
+def _nodelet(ask: Routine, values: Values, cpp: Cpp, place: Node) -> Iterator[Asked]:
     call = place.parent
     if call is not None and call.type == "call_expression":
         given = tuple(named(part(call, "arguments")))
-        yield Asked(NODELETS[name], site_of(values, cpp, place, call), given)
+        yield Asked(ask, site_of(values, cpp, place, call), given)
 
 
 # --- objects that ask when they are made --------------------------------------------------------
 
 
-def _object(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
+def _object(calls: Calls, values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
     """`ros::Rate r(10)`, `new message_filters::Subscriber<T>(nh, "x", 1)`."""
     node, above = place, place.parent
     types: tuple[Node, ...] = ()
@@ -239,20 +244,20 @@ def _object(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]
             written = above.child_by_field_name("scope")
             scope = text_of(written) if written is not None else ""
         node, above = above, above.parent
-    wanted = (FILTER_SCOPES[name],) if name in FILTERS else ("ros", "rclcpp")
-    if above is None or scope not in ("", *wanted) or (name in FILTERS and not scope):
+    ask, scopes = calls.objects[name]
+    is_filter = name in calls.filters
+    if above is None or scope not in ({"", *scopes} if not is_filter else scopes):
         return
-    if above.type == "field_declaration" and name in FILTERS:
-        yield from _initialised(values, above, FILTERS[name], types)
+    if above.type == "field_declaration" and is_filter:
+        yield from _initialised(values, above, ask, types)
         return
-    ask = RATES.get(name) or FILTERS[name]
     for call, given in objects_of(node, above):
-        if given and not (name in RATES and _handed_on(call)):
+        if given and (is_filter or not handed_on(call)):
             yield Asked(ask, site_of(values, cpp, place, call), given, types)
 
 
 def _initialised(
-    values: Values, declaration: Node, ask: Ask, types: tuple[Node, ...]
+    values: Values, declaration: Node, ask: Routine, types: tuple[Node, ...]
 ) -> Iterator[Asked]:
     """Members that constructors make with arguments."""
     for declarator in declaration.children_by_field_name("declarator"):
@@ -267,11 +272,3 @@ def _initialised(
             if given := tuple(named(lists[-1])):
                 site = replace(site_of(values, other, place, above), kept=text_of(place))
                 yield Asked(ask, site, given, types)
-
-
-def _handed_on(call: Node) -> bool:
-    """Whether an object is only the argument of a call, or of a declaration."""
-    above = call.parent
-    if above is None or call.type == "init_declarator" or above.type == "declaration":
-        return False
-    return above.type in ("argument_list", "init_declarator", "optional_parameter_declaration")

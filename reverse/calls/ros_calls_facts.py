@@ -7,7 +7,7 @@ from dataclasses import field
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.calls.rclcpp_facts import interface_of, several
+from rebsync.reverse.calls.parameter_lists import interface_of, several
 from rebsync.reverse.calls.ros_calls_callbacks import Callbacks, Called
 from rebsync.reverse.calls.ros_calls_filters import registered
 from rebsync.reverse.calls.ros_calls_handles import namespace_of, usual_depth
@@ -15,7 +15,6 @@ from rebsync.reverse.calls.ros_calls_options import Given, options_of
 from rebsync.reverse.calls.ros_calls_shapes import Asked, distinct, given_to, nodelets_of, truth_of
 from rebsync.reverse.calls.ros_calls_types import MessageTypes
 from rebsync.reverse.graph import (
-    Access,
     Callback,
     ClientFact,
     Fact,
@@ -30,7 +29,8 @@ from rebsync.reverse.graph import (
     TimerFact,
     Unresolved,
 )
-from rebsync.reverse.roscpp_vocabulary import ANONYMOUS, OPTIONS, Kind
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Access, Kind
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 from rebsync.reverse.values.cpp_values import Values
 from rebsync.reverse.values.cpp_values_names import is_plain, name_under, one_of, resolved
@@ -49,6 +49,7 @@ from rebsync.reverse.values.cpp_values_plain import (
 
 # Ways into a function up to which all of its calls are looked at on each of them from the start.
 _FEW = 3
+_ANONYMOUS = "AnonymousName"  # the option that makes the name of a node one of its own
 
 
 @dataclass(slots=True)
@@ -142,7 +143,7 @@ class Facts:
         """The arguments of a call by their roles."""
         arguments, ask = asked.arguments, asked.ask
         if ask.options is not None and len(arguments) == 1:
-            found = options_of(self.values, arguments[0], frame, OPTIONS[ask.options])
+            found = options_of(self.values, arguments[0], frame, libraries.options()[ask.options])
             if found:
                 return found
         roles = ask.arguments
@@ -261,7 +262,7 @@ class Facts:
         name = self._or_unknown(found.get("name"), asked, "the name is not known")
         match ask.kind:
             case Kind.NODE:
-                anonymous = any(ANONYMOUS in text_of(a) for a in asked.arguments)
+                anonymous = any(_ANONYMOUS in text_of(a) for a in asked.arguments)
                 return NodeFact(site, name, anonymous)
             case Kind.PUBLISHER:
                 depth = self._or_unknown(found.get("depth"), asked, "the depth is not known")
@@ -333,7 +334,9 @@ class Facts:
         named_: list[tuple[Cpp, Node]] = [(c.cpp, c.type) for c in called if c.type is not None]
         if asked.ask.options is not None and len(asked.arguments) == 1:
             frame = Frame(cpp, asked.site.function)
-            held = options_of(self.values, asked.arguments[0], frame, OPTIONS[asked.ask.options])
+            held = options_of(
+                self.values, asked.arguments[0], frame, libraries.options()[asked.ask.options]
+            )
             named_ = [(g.frame.cpp, g.node) for r, g in held.items() if r == "type"] + named_
         if "call" in asked.ask.arguments and len(asked.arguments) > 1:
             variable = self.values.types.variable(cpp, asked.arguments[1])

@@ -9,13 +9,11 @@ from tree_sitter import Node
 
 from rebsync.reverse.calls.ros_calls_shapes import Asked
 from rebsync.reverse.graph import Resolved, Under
-from rebsync.reverse.rclcpp_vocabulary import NODE_CLASSES, NODE_SCOPES, PROFILES
-from rebsync.reverse.roscpp_vocabulary import TRANSPORTS, Kind
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.values.cpp_values import Values
 from rebsync.reverse.values.cpp_values_names import one_of
 from rebsync.reverse.values.cpp_values_plain import Frame, Handle, Made, Value, ways
-
-_NODES = frozenset(f"{scope}::{name}" for scope in NODE_SCOPES for name in NODE_CLASSES)
 
 
 def namespace_of(values: Values, asked: Asked, frame: Frame) -> Resolved:
@@ -27,7 +25,7 @@ def namespace_of(values: Values, asked: Asked, frame: Frame) -> Resolved:
         target = _handed(asked)
         if asked.ask.kind is Kind.SINGLE and target is not None:
             type_ = values.types.type_of(frame.cpp, target).rpartition("::")[2]
-            target = target if type_ == "NodeHandle" else None
+            target = target if type_ in libraries.handles() else None
     if target is None or _is_node(values, target, frame):
         return ""
     namespace = one_of(h.namespace for h in _handles(values, values.value(target, frame)))
@@ -39,7 +37,7 @@ def usual_depth(values: Values, asked: Asked, frame: Frame) -> Resolved | None:
     target = _handed(asked) if "handle" in asked.ask.arguments else None
     if target is None or not _is_node(values, target, frame):
         return None
-    return PROFILES["rmw_qos_profile_default"]
+    return libraries.profiles()["rmw_qos_profile_default"]
 
 
 def _handed(asked: Asked) -> Node | None:
@@ -50,8 +48,8 @@ def _handed(asked: Asked) -> Node | None:
 
 
 def _is_node(values: Values, target: Node, frame: Frame) -> bool:
-    """Whether an expression is a node of rclcpp, under which names are not looked up."""
-    if values.types.type_of(frame.cpp, target) in _NODES:
+    """Whether an expression is a node, under which names are not looked up."""
+    if values.types.type_of(frame.cpp, target) in libraries.node_names():
         return True
     class_ = values.types.class_of(frame.cpp, target)
     return any(c.roots for c in values.texts.lineage(class_))
@@ -61,7 +59,7 @@ def _handles(values: Values, value: Value) -> Iterator[Handle]:
     for way in ways(value):
         if isinstance(way, Handle):
             yield way
-        elif isinstance(way, Made) and way.type.rpartition("::")[2] in TRANSPORTS:
+        elif isinstance(way, Made) and way.type.rpartition("::")[2] in libraries.made_of_handles():
             yield from _made_of(values, way)
 
 

@@ -5,13 +5,12 @@ from __future__ import annotations
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.libraries.routines import Options
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.reverse.values.cpp_flow import climb, declaration_of, made_of
 from rebsync.reverse.values.cpp_flow_types import unscoped_member
 from rebsync.reverse.values.cpp_values import Values
 from rebsync.reverse.values.cpp_values_plain import Frame
-
-_Roles = tuple[tuple[str, ...], tuple[str, ...], dict[str, str]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,7 +21,7 @@ class Given:
     frame: Frame
 
 
-def options_of(values: Values, node: Node, frame: Frame, roles: _Roles) -> dict[str, Given]:
+def options_of(values: Values, node: Node, frame: Frame, roles: Options) -> dict[str, Given]:
     """What the options that a node stands for hold, by roles; `type` is the message's."""
     if node.type == "call_expression":
         return _created(node, frame, roles)
@@ -36,14 +35,16 @@ def options_of(values: Values, node: Node, frame: Frame, roles: _Roles) -> dict[
     return found
 
 
-def _created(call: Node, frame: Frame, roles: _Roles) -> dict[str, Given]:
+def _created(call: Node, frame: Frame, roles: Options) -> dict[str, Given]:
     """`Options::create<T>(...)`, `ops.init<T>(...)`, or a constructor."""
     function = part(call, "function")
     while function.type in ("qualified_identifier", "field_expression"):
         field = "name" if function.type == "qualified_identifier" else "field"
         function = part(function, field)
     name = unscoped_member(function)
-    order = roles[0] if name in ("create", "init", "initByFullCallbackType") else roles[1]
+    order = (
+        roles.made if name in ("create", "init", "initByFullCallbackType") else roles.constructed
+    )
     found = _ordered(tuple(named(part(call, "arguments"))), order, frame)
     if function.type in ("template_method", "template_function"):
         types = named(part(function, "arguments"))
@@ -56,13 +57,13 @@ def _ordered(arguments: tuple[Node, ...], order: tuple[str, ...], frame: Frame) 
     return {r: Given(a, frame) for r, a in zip(order, arguments, strict=False) if r}
 
 
-def _at(place: Node, frame: Frame, roles: _Roles) -> dict[str, Given]:
+def _at(place: Node, frame: Frame, roles: Options) -> dict[str, Given]:
     """What one use of the object gives it."""
     if declaration_of(place) is not None:
         given = made_of(place)
         if given and len(given) == 1 and given[0].type == "call_expression":
             return _created(given[0], frame, roles)
-        return _ordered(given or (), roles[1], frame)
+        return _ordered(given or (), roles.constructed, frame)
     above = place.parent
     if above is None:
         return {}
@@ -73,7 +74,7 @@ def _at(place: Node, frame: Frame, roles: _Roles) -> dict[str, Given]:
         return {}
     holder = above.parent
     if holder is not None and holder.type == "assignment_expression":
-        role = roles[2].get(text_of(part(above, "field")))
+        role = roles.fields.get(text_of(part(above, "field")))
         if role and role != "type" and part(holder, "left") == above:
             return {role: Given(part(holder, "right"), frame)}
     call = climb(place, lambda n: n.type in ("call_expression", "compound_statement"))

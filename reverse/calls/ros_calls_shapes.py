@@ -18,13 +18,13 @@ from rebsync.reverse.graph import (
     Site,
     Unresolved,
 )
-from rebsync.reverse.rclcpp_vocabulary import MAKERS
-from rebsync.reverse.roscpp_vocabulary import Ask
+from rebsync.reverse.libraries.routines import Routine
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.reverse.values.cpp_flow import climb, declaration_of, made_of
 from rebsync.reverse.values.cpp_values_names import one_of
 from rebsync.reverse.values.cpp_values_plain import Frame
 
+MAKERS = frozenset({"make_shared", "make_unique"})
 TEMPLATES = ("template_type", "template_function", "template_method")
 
 
@@ -32,7 +32,7 @@ TEMPLATES = ("template_type", "template_function", "template_method")
 class Asked:
     """A call that asks for something; `target` is the object whose method it is."""
 
-    ask: Ask
+    ask: Routine
     site: Site
     arguments: tuple[Node, ...]
     types: tuple[Node, ...] = ()
@@ -138,3 +138,11 @@ def called_as(node: Node, above: Node) -> tuple[str, Node] | None:
         node, above = above, above.parent
     is_called = above.type == "call_expression" and part(above, "function") == node
     return (scope, above) if is_called else None
+
+
+def handed_on(call: Node) -> bool:
+    """Whether an object is only the argument of a call, or of a declaration."""
+    above = call.parent
+    if above is None or call.type == "init_declarator" or above.type == "declaration":
+        return False
+    return above.type in ("argument_list", "init_declarator", "optional_parameter_declaration")

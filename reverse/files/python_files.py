@@ -10,8 +10,6 @@ from rebsync.source import Source
 SUFFIX = ".py"
 # What says which programs a package of Python installs; no code of nodes.
 SETUP = "setup.py"
-# Where none of these is, nothing is asked of ROS; `rebsync:` is in generated code.
-_WORDS = (b"rospy", b"rclpy", b"message_filters", b"rebsync:")
 # How the names of launch files end, and what they import.
 LAUNCHES = (".launch.py", "_launch.py", "-launch.py")
 _OF_ROS_2 = re.compile(r"[._-]launch\.(?:py|xml|yaml|yml)\Z")
@@ -72,7 +70,11 @@ def relevant_python(code: Mapping[str, bytes], only: str | None = None) -> set[s
 
 
 def _of_ros(data: bytes) -> bool:
-    return any(word in data for word in _WORDS)
+    from rebsync.reverse.libraries.python import (
+        marks,  # which commands that read no code do without
+    )
+
+    return any(word in data for word in marks())
 
 
 def _module(path: str) -> str:

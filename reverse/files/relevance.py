@@ -11,21 +11,6 @@ import re
 from collections.abc import Mapping
 from functools import cached_property
 
-# Where none of these is, nothing is asked of ROS; `rebsync:` and `Mailbox` are generated code.
-_WORDS = (
-    *(b"ros::", b"ros/", b"NodeHandle", b"nodelet", b"NODELET", b"PLUGINLIB", b"_msgs", b"_srvs"),
-    *(b"ROS_", b"image_transport", b"message_filters", b"dynamic_reconfigure", b"actionlib"),
-    *(b"rclcpp", b"rebsync:", b"Mailbox"),
-)
-# Where none of these is in any file of a package, it has no node: it uses types of messages, or
-# spans of time, or logs.
-_NODES = (
-    *(b"NodeHandle", b"odelet", b"NODELET", b"ros::init", b"ros::spin", b"rclcpp", b"rebsync:"),
-    *(b"Timer", b"Publisher", b"Subscriber", b"ServiceServer", b"ServiceClient", b"Mailbox"),
-    *(b"advertise", b"subscribe", b"Rate", b"param::", b".param", b">param", b"getParam"),
-    *(b"setParam", b"hasParam", b"deleteParam", b"searchParam", b"topic::", b"service::"),
-    *(b"actionlib", b"dynamic_reconfigure", b"message_filters", b"image_transport"),
-)
 _MUCH = 200_000  # bytes, from which on comparing names is quicker than reading it all
 _INCLUDE = re.compile(rb'#[ \t]*include[ \t]*["<](?:[^">\n]*/)?([^">\n/]+)[">]')
 _NAME = re.compile(rb"(?<![\w.])(?<!->)[A-Za-z_]\w*")
@@ -75,11 +60,15 @@ def relevant(code: Mapping[str, bytes], only: str | None = None) -> set[str]:
 
 
 def _of_nodes(data: bytes) -> bool:
-    return any(word in data for word in _NODES)
+    from rebsync.reverse.libraries.cpp import starts  # which commands that read no code do without
+
+    return any(word in data for word in starts())
 
 
 def _of_ros(data: bytes) -> bool:
-    return any(word in data for word in _WORDS)
+    from rebsync.reverse.libraries.cpp import marks
+
+    return any(word in data for word in marks())
 
 
 def _tied(code: Mapping[str, bytes], kept: set[str]) -> set[str]:

@@ -4,15 +4,11 @@ from __future__ import annotations
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.known_functions import (
-    ACTS,
-    CONSOLE,
-    LOGGING,
-    LOOKS,
-    STREAMS,
-    takes_values,
-)
+from rebsync.reverse.bodies.known_functions import takes_values
 from rebsync.reverse.generated.ros2_words import ASKS
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.libraries.tables.standard import STREAMS
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
 
@@ -45,9 +41,10 @@ def _logs(node: Node) -> bool:
     call = call_of(node)
     if call is not None:
         said = text_of(node).startswith("static_cast<void>(")
-        return said or (
-            call.target is None and (call.name.startswith(LOGGING) or call.name in CONSOLE)
+        logs = call.name.startswith(libraries.logging()) or call.name in libraries.names_of(
+            Kind.LOG
         )
+        return said or (call.target is None and logs)
     if node.type == "cast_expression":
         return text_of(part(node, "type")) == "void"
     while node.type == "binary_expression" and text_of(part(node, "operator")) == "<<":
@@ -65,8 +62,8 @@ def _only_looks(node: Node) -> bool:
 
 def _is_look(call: CppCall) -> bool:
     name = call.name.rpartition("::")[2]
-    if name in ACTS:
+    if name in libraries.acting():
         return False
     if call.target is not None:
-        return name in LOOKS or name in _ASKS
+        return name in libraries.looking() or name in _ASKS
     return name in _ASKS or call.name == "static_cast" or takes_values(call)

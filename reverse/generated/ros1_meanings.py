@@ -13,7 +13,7 @@ from tree_sitter import Node
 from rebsync.names import CPP_KEYWORDS
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED, RUNTIME_CLASSES, RUNTIME_HEADERS
-from rebsync.reverse.bodies.known_functions import LOGGING
+from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.syntax.cpp_index import Code, CppClass
 from rebsync.reverse.syntax.cpp_tree import Cpp, by_types, text_of
 
@@ -49,7 +49,7 @@ def other_meanings(code: Code) -> tuple[Meaning, ...]:
     if macros:
         known = RESERVED | CPP_KEYWORDS
         known |= {name for cpp in own for name in (*_declared(cpp), *_of_others(cpp))}
-        found += [m for m in macros if m.name in known or m.name.startswith(LOGGING)]
+        found += [m for m in macros if m.name in known or m.name.startswith(libraries.logging())]
     for (owner, name), functions in code.definitions.items():
         if not owner and name in RESERVED:
             hiding = [f for f in functions if f.cpp in own and f.name != "main"]

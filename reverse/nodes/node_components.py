@@ -6,21 +6,21 @@ import re
 from collections.abc import Iterator, Mapping
 
 from rebsync.reverse.build.cmake import BUILD
-from rebsync.reverse.rclcpp_vocabulary import COMPONENT
+from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.source import Source
 
-_COMPONENT = re.compile(rf"^[ \t]*{COMPONENT}\s*\(\s*([\w:]+)\s*\)", re.MULTILINE)
-_CALL = re.compile(r"\brclcpp_components_register_nodes?\s*\(([^()]*)\)")
 _COMMENT = re.compile(r"#[^\n]*")
 _PROJECT = re.compile(r"\bproject\s*\(\s*(\w+)")
 
 
 def components(code: Code) -> list[str]:
     """The classes that are registered as components, in the order of the files."""
-    word = COMPONENT.encode()
-    texts = (cpp.source.text for cpp in code.files if word in cpp.words)
-    names = (m[1].rpartition("::")[2] for text in texts for m in _COMPONENT.finditer(text))
+    macros = libraries.registering()
+    words = frozenset(macro.encode() for macro in macros)
+    texts = (cpp.source.text for cpp in code.files if words & cpp.words)
+    macro = re.compile(rf"^[ \t]*(?:{'|'.join(macros)})\s*\(\s*([\w:]+)\s*\)", re.MULTILINE)
+    names = (m[1].rpartition("::")[2] for text in texts for m in macro.finditer(text))
     return [name for name in dict.fromkeys(names) if name in code.classes]
 
 
@@ -39,7 +39,8 @@ def _registered(text: str) -> Iterator[tuple[str, str]]:
     project = _PROJECT.search(plain)
     if project is not None:
         plain = plain.replace("${PROJECT_NAME}", project[1])
-    for call in _CALL.finditer(plain):
+    commands = "|".join(libraries.registering_in_builds())
+    for call in re.finditer(rf"\b(?:{commands})\s*\(([^()]*)\)", plain):
         words = [w.strip('"') for w in call[1].split()]
         given = dict(zip(words[1::2], words[2::2], strict=False))
         if "PLUGIN" in given:

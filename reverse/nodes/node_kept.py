@@ -8,6 +8,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from tree_sitter import Node
 
 from rebsync.reverse.graph import PublisherFact
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.cpp_declarations import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
 
@@ -121,7 +123,7 @@ def _element(place: Node) -> int | None:
     literal = len(keys) == 1 and keys[0].type in _KEYS
     if above is not None and above.type == "field_expression":
         field = above.child_by_field_name("field")
-        return 0 if field is not None and text_of(field) == "publish" else None
+        return 0 if field is not None and text_of(field) in libraries.named(Kind.PUBLISH) else None
     if above is not None and above.type == "assignment_expression" and literal:
         left = above.child_by_field_name("left")
         flat = above.parent is not None and above.parent.type == "expression_statement"

@@ -1,13 +1,13 @@
-"""Nodes of rclcpp with a life cycle: what they do when somebody changes their state."""
+"""Nodes with a life cycle: what they do when somebody changes their state."""
 
 from __future__ import annotations
 
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import PublisherFact
+from rebsync.reverse.libraries.cpp import managed
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.syntax.cpp_index import CppFunction
 
-_BASE = "LifecycleNode"
 _TRANSITIONS = frozenset(
     {"on_configure", "on_activate", "on_deactivate", "on_cleanup", "on_shutdown", "on_error"}
 )
@@ -21,7 +21,7 @@ _HINT = (
 
 def has_life_cycle(unit: Unit) -> bool:
     """Whether a unit is a node whose state others change."""
-    return any(_BASE in (*c.roots, *c.bases) for c in unit.lineage)
+    return any(b in managed() for c in unit.lineage for b in (*c.roots, *c.bases))
 
 
 def is_transition(unit: Unit, function: CppFunction) -> bool:

@@ -20,6 +20,7 @@ from rebsync.reverse.graph import (
     SubscriptionFact,
     TimerFact,
 )
+from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_units import Unit, bodies
 from rebsync.reverse.nodes.node_unmodelled import shared_state
@@ -29,14 +30,6 @@ from rebsync.reverse.syntax.cpp_tree import Cpp, inside, text_of
 from rebsync.reverse.unknowns import Open
 from rebsync.source import Span
 
-_THREADS = frozenset(
-    {
-        *("AsyncSpinner", "MultiThreadedSpinner", "NodeletMultiThreaded", "thread", "jthread"),
-        *("async", "pthread_create", "CallbackQueue", "setCallbackQueue"),
-        *("MultiThreadedExecutor", "EventsExecutor"),
-    }
-)
-_THREADED_HANDLE = re.compile(rb"getMT\w*NodeHandle")
 _ENTRIES = frozenset(
     {
         *("ActionServer", "ActionClient", "SimpleActionServer", "SimpleActionClient"),
@@ -44,8 +37,7 @@ _ENTRIES = frozenset(
     }
 )
 _TEXTS = frozenset({"string_literal", "concatenated_string", "raw_string_literal"})
-_NO_NUMBER = re.compile(r"string|char\b|chrono|Duration|NodeHandle|NodeOptions|Node\b|Ptr|_ptr")
-_LISTED = frozenset(name.encode() for name in _THREADS | _ENTRIES)
+_NO_NUMBER = re.compile(r"string|char\b|chrono|Duration|Node[A-Z]\w*|Node\b|Ptr|_ptr")
 _SEVERAL = "its callbacks may run at the same time as others: the model has one at a time"
 
 
@@ -120,10 +112,8 @@ class Listing:
     def _listed(self, cpp: Cpp) -> frozenset[str]:
         """The words of a file that are listed wherever the code names them."""
         if id(cpp) not in self._odd:
-            words = _LISTED & cpp.words
-            if b"getMT" in cpp.original:
-                words |= frozenset(filter(_THREADED_HANDLE.fullmatch, cpp.words))
-            self._odd[id(cpp)] = frozenset(word.decode() for word in words)
+            words = {n for n in _ENTRIES | libraries.threaded() if n.encode() in cpp.words}
+            self._odd[id(cpp)] = frozenset(words)
         return self._odd[id(cpp)]
 
     # --- wiring ---------------------------------------------------------------------------------

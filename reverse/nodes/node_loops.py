@@ -11,26 +11,22 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.known_functions import LOGGING
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import Fact, RateFact, TimerFact
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.cpp_calls import calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, text_of
 
 _LOOPS = frozenset({"while_statement", "do_statement", "for_statement"})
 _LOOP_WORDS = re.compile(rb"\b(?:while|for|do)\b")
-_SPINS = frozenset({"spinOnce", "callAvailable", "callOne", "spin_some", "spin_once", "spin_all"})
-_SERVES = _SPINS | {"spin_until_future_complete", "spin_node_once", "spin_node_some"}
-_WAITS = re.compile("|".join(sorted({"sleep", *_SPINS})).encode())  # what other loops do not name
 _EARLY = "messages are served here, before the program goes on: what they change is not read"
 _STATEMENTS = frozenset(
     {"expression_statement", "declaration", "if_statement", "compound_statement"}
 )
 _BEHIND = "this follows a loop that may end while the node runs: it is not read"
-_ENDS = frozenset({"ros::shutdown", "rclcpp::shutdown", "ros::spin", "rclcpp::spin"})
 _APART = frozenset({"lambda_expression", "switch_statement", "for_range_loop"})
-_AWAKE = frozenset({"ok", "isStarted"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +73,7 @@ def spins(statement: Node) -> bool:
     if statement.type != "expression_statement":
         return False
     names = {c.name.rpartition("::")[2] for c in calls_in(statement)}
-    return bool(names & _SPINS) and len(names) == 1
+    return bool(names & libraries.named(Kind.SERVE)) and len(names) == 1
 
 
 def _loop(function: CppFunction, node: Node, rates: Sequence[RateFact]) -> Loop | None:
@@ -93,7 +89,7 @@ def _loop(function: CppFunction, node: Node, rates: Sequence[RateFact]) -> Loop 
     statements = named(body) if body.type == "compound_statement" else [body]
     guard = tuple(p for p in parts if p not in runs)
     endless = all(text_of(p) in ("true", "1") for p in parts)
-    if not _WAITS.search(body.text or b""):
+    if not _may_wait(body.text or b""):
         whole = Loop(function, node, tuple(statements), (), guard, None, False)
         return None if endless else whole
     at, rate = _sleep(statements, rates)
@@ -108,6 +104,11 @@ def _loop(function: CppFunction, node: Node, rates: Sequence[RateFact]) -> Loop 
         c.name.rpartition("::")[2] in ("sleep", "usleep", "sleep_for") for c in calls_in(body)
     )
     return Loop(function, node, tuple(first), tuple(rest), guard, rate, sleeps)
+
+
+def _may_wait(text: bytes) -> bool:
+    """Whether a loop may sleep or serve messages: others name nothing that does."""
+    return any(word.encode() in text for word in ("sleep", *libraries.named(Kind.SERVE)))
 
 
 def _conjuncts(node: Node) -> Iterator[Node]:
@@ -129,10 +130,11 @@ def _operator(node: Node) -> str:
 
 def _is_awake(node: Node) -> bool:
     text = "".join(text_of(node).split())
-    if text in ("true", "1", "!ros::isShuttingDown()"):
+    if text in ("true", "1", *(f"!{name}()" for name in libraries.ending())):
         return True
     names = {c.name.rpartition("::")[2] for c in calls_in(node)}
-    return node.type == "call_expression" and len(names) == 1 and bool(names & _AWAKE)
+    awake = {name.rpartition("::")[2] for name in libraries.running()}
+    return node.type == "call_expression" and len(names) == 1 and bool(names & awake)
 
 
 def _sleep(
@@ -199,7 +201,7 @@ def served_early(
     if body is None:
         return
     for call in calls_in(body):
-        if call.name.rpartition("::")[2] not in _SERVES:
+        if call.name.rpartition("::")[2] not in libraries.running_callbacks():
             continue
         around = _around(call.node, body)
         if any(n.id in loops for n in around):
@@ -278,7 +280,9 @@ def _is_over(statement: Node) -> bool:
     if statement.type != "expression_statement":
         return False
     names = {c.name for c in calls_in(statement)}
-    return bool(names) and all(n.startswith(LOGGING) or n in _ENDS for n in names)
+    return bool(names) and all(
+        n.startswith(libraries.logging()) or n in libraries.finishing() for n in names
+    )
 
 
 # --- leaving a loop -----------------------------------------------------------------------------

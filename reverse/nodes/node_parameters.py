@@ -9,7 +9,8 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.package import Value
 from rebsync.records import dataclass
-from rebsync.reverse.graph import Access, Fact, ParameterFact, Resolved
+from rebsync.reverse.graph import Fact, ParameterFact, Resolved
+from rebsync.reverse.libraries.routines import Access
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_tree import text_of

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from rebsync.reserved import RUNTIME_CLASSES
 from rebsync.reverse.calls.ros_calls import Asking
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.nodes.node_programs import Program
-from rebsync.reverse.roscpp_vocabulary import Kind
 from rebsync.reverse.syntax.cpp_index import Code, CppClass
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import field
 
@@ -26,6 +25,8 @@ from rebsync.reverse.graph import (
     SubscriptionFact,
     TimerFact,
 )
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.nodes.node_loops import (
     Loop,
     behind,
@@ -50,19 +51,10 @@ from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import inside, named, text_of
 
 Entry = tuple["m.Statement | Stores | Node", ...]
-_WAITS = frozenset(
-    {"spin", "waitForShutdown", "spinOnce", "shutdown", "start", "spin_some", "add_node"}
-)
-_AUDIENCE = frozenset(
-    {"getNumSubscribers", "getNumPublishers", "waitForService", "get_subscription_count"}
-)
-_WAITING = re.compile("|".join(sorted(_WAITS | _AUDIENCE)).encode())
-_ENDS = frozenset({"spin", "waitForShutdown"})
 _PLAIN = (NodeFact, PublisherFact, SubscriptionFact, ServiceFact, ClientFact, RateFact)
 _AGAIN = "a timer that is made again stops the one before; in the model both go on"
 _ROUND = "messages wait for the next round of this loop; in the model they are served at once"
 _CANCELLED = "the executor may be cancelled: what then runs is not read"
-_SPINS = re.compile(rb"spinOnce|spin_some")
 _NESTING = frozenset(
     {"if_statement", "while_statement", "for_statement", "switch_statement", "else_clause"}
 )
@@ -300,7 +292,7 @@ class Setup:
     def _loop(self, function: CppFunction, loop: Loop) -> None:
         parts = (*loop.first, *loop.rest)
         self.instead[loop.node.id] = ()
-        if loop.rate is not None and self.servers and _SPINS.search(loop.node.text or b""):
+        if loop.rate is not None and self.servers and _serves(loop.node):
             place = loop.rate.site.place
             self.findings.approximated(place.source, place.span, _ROUND, within=self.within)
         if parts:
@@ -328,20 +320,23 @@ class Setup:
             return self._pause(loop)
         if not loop.sleeps:
             why = "this loop runs as often as the machine can: the model cannot say how often"
-            unread = Unread(loop.function.cpp.span(loop.node), why, "let it sleep by a ros::Rate")
+            unread = Unread(loop.function.cpp.span(loop.node), why, "let it sleep by a rate")
             self.findings.unreadable(loop.function.cpp.source, unread, self.within)
             return None
         return 0
 
     def _waits(self, function: CppFunction) -> None:
         """What waits for messages, or lets ROS serve them, is nothing in the model."""
-        waits = function.body is not None and _WAITING.search(function.body.text or b"")
+        waits = function.body is not None and _may_wait(function.body)
         for call in self.code.calls_of(function) if waits else ():
             name = call.name.rpartition("::")[2]
-            if name in _AUDIENCE and (loop := loop_around(call.node)) is not None:
+            if (
+                name in libraries.named(Kind.AUDIENCE)
+                and (loop := loop_around(call.node)) is not None
+            ):
                 self.instead[loop.id] = ()
                 continue
-            statement = statement_of(call.node) if name in _WAITS else None
+            statement = statement_of(call.node) if name in libraries.waiting() else None
             if statement is None or not _is_call(statement, call.node):
                 continue
             own = call.target is None and "::" not in call.name
@@ -352,7 +347,7 @@ class Setup:
             if call.target is not None and any(f.name == name for f in self.state.unit.functions):
                 continue
             self.instead[statement.id] = ()
-            if name in _ENDS:
+            if name in libraries.named(Kind.SPIN):
                 if (
                     call.target is not None
                     and cancels(self.code, (*self.state.unit.functions, function), self.facts)
@@ -397,3 +392,15 @@ def _is_call(statement: Node, call: Node) -> bool:
     """Whether a statement is nothing but a call."""
     inner = named(statement)
     return len(inner) == 1 and inner[0].id == call.id
+
+
+def _serves(node: Node) -> bool:
+    """Whether the text of a loop has a word of what lets messages be served."""
+    text = node.text or b""
+    return any(name.encode() in text for name in libraries.serving_once())
+
+
+def _may_wait(body: Node) -> bool:
+    """Whether a body has a word of what waits for messages, or for others."""
+    text = body.text or b""
+    return any(n.encode() in text for n in libraries.waiting() | libraries.named(Kind.AUDIENCE))

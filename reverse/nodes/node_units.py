@@ -25,9 +25,9 @@ from rebsync.reverse.graph import (
     SubscriptionFact,
     TimerFact,
 )
+from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.nodes.node_components import components
 from rebsync.reverse.nodes.node_programs import Made, Objects, Program
-from rebsync.reverse.rclcpp_vocabulary import MARK
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 
@@ -39,8 +39,8 @@ class Unit:
     """What becomes a reactive class.
 
     `functions` are its functions with bodies, of overridden ones the last; `owner` is None for
-    what a program does outside of classes. `code` is what its functions can name. `rclpy` says
-    that it is Python for ROS 2.
+    what a program does outside of classes. `code` is what its functions can name. `own`
+    says of Python that parameters are the node's own.
     """
 
     name: str
@@ -50,7 +50,7 @@ class Unit:
     facts: tuple[Fact, ...]
     code: Code
     program: Program | None = None
-    rclpy: bool = False
+    own: bool = False
 
     @cached_property
     def names(self) -> frozenset[str]:
@@ -64,9 +64,9 @@ class Unit:
     @cached_property
     def flat(self) -> bool:
         """Whether it is for ROS 2, where parameters are the node's own."""
-        if self.rclpy or any(c.roots for c in self.lineage):
+        if self.own or any(c.roots for c in self.lineage):
             return True
-        return any(MARK in f.cpp.data for f in self.functions)
+        return any(libraries.is_flat(f.cpp.data) for f in self.functions)
 
     @cached_property
     def files(self) -> frozenset[str]:

@@ -8,7 +8,6 @@ from dataclasses import field, replace
 
 from rebsync.records import dataclass
 from rebsync.reverse.graph import (
-    Access,
     NodeFact,
     ParameterFact,
     PublisherFact,
@@ -17,6 +16,7 @@ from rebsync.reverse.graph import (
     TimerFact,
 )
 from rebsync.reverse.launch.launched import NOT_GIVEN, Launch, LaunchedNode
+from rebsync.reverse.libraries.routines import Access
 from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_programs import Program
 from rebsync.reverse.nodes.node_servers import Server

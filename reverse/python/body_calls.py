@@ -12,6 +12,8 @@ from rebsync import precedence
 from rebsync.intervals import unsigned
 from rebsync.reverse.bodies.building import bare, binary, chosen, is_calm, tight
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python.body_scope import REAL, TRUTH, WHOLE, Value, literal, unknown
 from rebsync.reverse.python.py_index import arguments_of, last_name
 from rebsync.reverse.python.py_tree import field, named, text_of
@@ -20,11 +22,7 @@ from rebsync.reverse.unknowns import Open
 if TYPE_CHECKING:
     from rebsync.reverse.python.body_expressions import PyExpressions
 
-_CLOCKS = frozenset({"rospy.get_time", "time.time", "time.monotonic", "time.perf_counter"})
 _MOST = 64
-_PARAMETERS = frozenset(
-    {"get_param", "get_param_cached", "get_parameter", "get_parameter_or", "declare_parameter"}
-)
 
 
 def called(reader: PyExpressions, node: Node) -> Value:
@@ -41,12 +39,11 @@ def called(reader: PyExpressions, node: Node) -> Value:
         found = _builtin(reader, name.removeprefix("builtins."), plain, node)
         if found is not None:
             return found
-    if name in _CLOCKS and not plain and reader.reading.second == 1:
+    if name in _clocks() and not plain and reader.reading.second == 1:
         return Value(m.Name("now", reader.frame.span(node)), REAL, True)
-    if name in ("rospy.is_shutdown", "rospy.core.is_shutdown"):
-        return Value(m.BoolLiteral(False), TRUTH)
-    if name == "rclpy.ok":
-        return Value(m.BoolLiteral(True), TRUTH)
+    asked = libraries.function(name)
+    if asked is not None and asked.kind is Kind.RUNNING:
+        return Value(m.BoolLiteral(asked.result == "bool"), TRUTH)
     if name.startswith("random."):
         found = _random(reader, name.removeprefix("random."), plain, node)
         if found is not None:
@@ -54,12 +51,16 @@ def called(reader: PyExpressions, node: Node) -> Value:
     return parameter(reader, node)
 
 
+def _clocks() -> frozenset[str]:
+    """Functions that give the time in seconds."""
+    return libraries.names_of(Kind.CLOCK, result="seconds")
+
+
 def parameter(reader: PyExpressions, node: Node) -> Value:
     """The value of a parameter, as the node starts with it."""
     reading = reader.reading
-    if last_name(field(node, "function")) not in _PARAMETERS and "get_parameter" not in text_of(
-        node
-    ):
+    gives = last_name(field(node, "function")) in libraries.giving_parameters()
+    if not gives and not any(name in text_of(node) for name in libraries.parameter_methods()):
         raise unknown(reader.frame, node, f'what "{text_of(field(node, "function"))}" gives')
     value = reading.instance.value(reading.values.value(node, reader.frame.scope))
     if isinstance(value, Open):

@@ -240,7 +240,7 @@ class PyClass:
         reading = self.reading
         texts = [scope.node.text or b"" for scope in reading.code.modules.values()]
         parallel = all(any(word in text for text in texts) for word in _PARALLEL)
-        if not parallel if reading.unit.is_rclpy else len(self.served) < 2:
+        if len(self.served) < 2 if reading.unit.library.threads else not parallel:
             return
         for served in self.served:
             if served.node is not None and takes_time(m.Block(served.statements)):

@@ -8,37 +8,15 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.graph import Unresolved
+from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.libraries.tables.standard import LOCKS
 from rebsync.reverse.python.body_reading import Reading, nonlocals
 from rebsync.reverse.python.body_scope import Frame, Message, Own, Var
 from rebsync.reverse.python.py_index import Scope, last_name
 from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import Class, Function, Made, Value, Ways
 
-# Calls that wait, end the node, or lead to its callbacks: by the last word of what is called.
-_ACTS = re.compile(
-    r"sleep|wait|spin|publish|shutdown|exit|_exit|abort|kill|cancel|destroy|start|stop|reset|call"
-    r"|shut|run|exec|eval|unregister|register|setattr|delattr|connect|raise|create_(pub|sub|timer|serv|client|rate|node|guard)|input|acquire"
-    r"|set_param|signal|send_goal|add_(node|call|on_|done|list|wait)|execute|getch|readline|read\b|recv|accept|join|get_key"
-)
-# Methods of objects of the client libraries that act, whoever gets them under another name.
-_BOUND = frozenset(
-    {"publish", "cancel", "shutdown", "sleep", "spin", "spin_once", "set_result", "call_async"}
-    | {"set_parameters", "send_goal", "send_goal_async", "destroy_subscription", "destroy_timer"}
-)
-_PLAIN = frozenset(
-    {"print", "str", "repr", "len", "int", "float", "bool", "abs", "min", "max", "sum", "round"}
-    | {"range", "list", "tuple", "dict", "set", "sorted", "reversed", "zip", "map", "filter"}
-    | {"enumerate", "any", "all", "isinstance", "type", "format", "pow", "chr", "ord", "hasattr"}
-    | {"getattr", "append", "join", "strip", "split", "replace", "lower", "upper", "startswith"}
-    | {"endswith", "encode", "decode", "deepcopy"}
-)
-LOG = re.compile(
-    r"(rospy\.)?(log(debug|info|warn|err|fatal)(_once|_throttle|_throttle_identical)?)\Z"
-    r"|(\w+\.)*(get_logger\(\)|_?logger(_)?|_?log)\.(debug|info|warn|warning|error|fatal)\Z"
-)
-_LOCK = re.compile(
-    r"(threading|_thread|thread)\.(R?Lock|Condition|(Bounded)?Semaphore|allocate_lock)"
-)
+_LOCK = re.compile(LOCKS)
 _DEEPEST = 4
 _WORDS = frozenset({"await", "yield", "named_expression"})
 
@@ -46,7 +24,7 @@ _WORDS = frozenset({"await", "yield", "named_expression"})
 def is_log(call: Node) -> bool:
     """Whether a call only writes to a log."""
     called = text_of(field(call, "function"))
-    return LOG.match("".join(called.split())) is not None or called == "print"
+    return libraries.log_calls().match("".join(called.split())) is not None or called == "print"
 
 
 def is_lock(reading: Reading, node: Node, frame: Frame) -> bool:
@@ -74,7 +52,7 @@ def _is_one(reading: Reading, node: Node, frame: Frame) -> bool:
         return True
     function = field(node, "function")
     name = last_name(function)
-    if reading.fact(node, frame) is not None and not _is_parameter(name):
+    if reading.fact(node, frame) is not None and name not in libraries.silent_parameters():
         return False
     own = reading.function(function, frame)
     if own is not None:
@@ -84,7 +62,9 @@ def _is_one(reading: Reading, node: Node, frame: Frame) -> bool:
     ways = reading.values.ways(function, frame.scope)
     if not (all(is_quiet(reading, w) for w in ways) and _are_quiet(reading, name, function, ways)):
         return False
-    return name in _PLAIN or (bool(name) and _ACTS.match(name) is None and _ends(name))
+    return name in libraries.harmless() or (
+        bool(name) and libraries.acting().match(name) is None and _ends(name)
+    )
 
 
 def is_quiet(reading: Reading, way: Value, depth: int = 0) -> bool:
@@ -145,7 +125,11 @@ def _is_quiet_node(reading: Reading, node: Node, scope: Scope, depth: int) -> bo
     if node.type != "call" or is_log(node):
         return True
     name = last_name(field(node, "function"))
-    if not name or (_ACTS.match(name) is not None and name not in _PLAIN) or not _ends(name):
+    if (
+        not name
+        or (libraries.acting().match(name) is not None and name not in libraries.harmless())
+        or not _ends(name)
+    ):
         return False
     function = field(node, "function")
     ways = reading.values.ways(function, scope)
@@ -181,10 +165,9 @@ def _is_never_zero(reading: Reading, node: Node, frame: Frame) -> bool:
     return bool(ways) and all(isinstance(w, int | float) and w for w in ways)
 
 
-def _is_parameter(name: str) -> bool:
-    return name in ("get_param", "get_param_cached", "has_param", "get_parameter") or (
-        name in ("declare_parameter", "declare_parameters", "get_parameter_or", "has_parameter")
-    )
+def _acts(name: str) -> bool:
+    """Whether what has this name may act on the node, if nothing else is known of it."""
+    return libraries.acting().match(name) is not None
 
 
 def _ends(name: str) -> bool:
@@ -206,7 +189,7 @@ def _is_safe_name(reading: Reading, node: Node, frame: Frame) -> bool:
             return False
         if isinstance(meaning, Message):
             return _is_looked_at(node)
-    elif text_of(field(node, "attribute")) in _BOUND:
+    elif text_of(field(node, "attribute")) in libraries.acting_methods():
         return False
     return reading.function(node, frame) is None
 
@@ -217,7 +200,7 @@ def _is_looked_at(node: Node) -> bool:
     while at is not None and not at.type.endswith("statement"):
         if at.type == "call":
             name = last_name(field(at, "function"))
-            return is_log(at) or name in _PLAIN
+            return is_log(at) or name in libraries.harmless()
         at = at.parent
     return True
 

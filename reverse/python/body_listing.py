@@ -32,7 +32,7 @@ _OPEN = "add the package that has the receivers, if they matter"
 _CLOSE = "add the package that publishes it, or a class to the model that sends what may come"
 _CALLS = "add a class to the model that calls it, or message servers that send to it"
 _THREADS = (
-    "rospy runs the callbacks of topics and timers, and loops, in threads of their own;"
+    " runs the callbacks of topics and timers, and loops, in threads of their own;"
     " in the model one runs after the other"
 )
 
@@ -42,9 +42,10 @@ def list_unit(unit: PyUnit, servers: Mapping[int, Server], loops: int, findings:
     for number, fact in enumerate(unit.unit.facts):
         _fact(unit, fact, number in servers, findings)
     served = [f for n, f in enumerate(unit.unit.facts) if n in servers]
-    if not unit.is_rclpy and len(served) + loops > 1 and served:
+    if unit.library.threads and len(served) + loops > 1 and served:
         place = served[-1].site.place
-        findings.approximated(place.source, place.span, _THREADS, within=unit.name)
+        why = unit.library.name + _THREADS
+        findings.approximated(place.source, place.span, why, within=unit.name)
 
 
 def _fact(unit: PyUnit, fact: Fact, served: bool, findings: Findings) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -12,6 +11,8 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import bare, binary
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python.body_effects import is_log
 from rebsync.reverse.python.body_rounds import leaves_nothing
 from rebsync.reverse.python.body_scope import WHOLE, Frame, Key, Value
@@ -23,10 +24,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.python.body_statements import PyStatements
 
 _RANGES = ("builtins.range", "builtins.xrange")
-_OVER = frozenset({"destroy_node", "shutdown", "try_shutdown", "remove_node"})
 _APART = frozenset({"while_statement", "for_statement", "function_definition", "lambda"})
-_ONLY_AWAKE = re.compile(r"\(?(not(?=[(\w])\(?rospy\.is_shutdown\(\)\)?|rclpy\.ok\(\)|True|1)\)?")
-_AWAKE = re.compile(r"is_shutdown\(\)|\bok\(\)|^\(?(True|1)\)?$")
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -44,7 +42,7 @@ def forever(node: Node) -> bool:
     """Whether a loop goes on for as long as the node runs."""
     if node.type != "while_statement":
         return False
-    return _AWAKE.search(text_of(field(node, "condition"))) is not None
+    return libraries.running().search(text_of(field(node, "condition"))) is not None
 
 
 def while_(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
@@ -71,7 +69,10 @@ def while_(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
 
 def _spins(reader: PyStatements, node: Node) -> bool:
     """Whether a loop does nothing but to serve, as `spin` does: for as long as the node runs."""
-    if _ONLY_AWAKE.fullmatch("".join(text_of(field(node, "condition")).split())) is None:
+    if (
+        libraries.only_running().fullmatch("".join(text_of(field(node, "condition")).split()))
+        is None
+    ):
         return False
     called = [c for s in named(field(node, "body")) for c in named(s)]
     if not all(c.type == "call" for c in called):
@@ -79,8 +80,9 @@ def _spins(reader: PyStatements, node: Node) -> bool:
     serving = [c for c in called if not is_log(c)]
     names = [last_name(field(c, "function")) for c in serving]
     known = [reader.reading.external(field(c, "function"), reader.frame) for c in serving]
+    serves = {"", *libraries.names_of(Kind.SERVE)}
     return bool(names) and all(
-        n == "spin_once" and k in ("", "rclpy.spin_once") for n, k in zip(names, known, strict=True)
+        n in libraries.serving() and k in serves for n, k in zip(names, known, strict=True)
     )
 
 
@@ -96,7 +98,7 @@ def _may_end(node: Node) -> bool:
             return True
         if inner.type not in _APART:
             waiting += inner.named_children
-    return _ONLY_AWAKE.fullmatch(condition) is None
+    return libraries.only_running().fullmatch(condition) is None
 
 
 def goes_on(node: Node) -> bool:
@@ -109,7 +111,7 @@ def goes_on(node: Node) -> bool:
         inner = named(behind)
         call = inner[0] if inner and inner[0].type == "call" else None
         name = last_name(field(call, "function")) if call is not None else ""
-        over = name in _OVER or (call is not None and is_log(call))
+        over = name in libraries.over() or (call is not None and is_log(call))
         if not over and behind.type not in ("comment", "pass_statement"):
             return True
         behind = behind.next_named_sibling

@@ -13,6 +13,7 @@ from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.build.message_types import Fields
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import PublisherFact
+from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.python.body_effects import is_harmless
 from rebsync.reverse.python.body_reading import field_key, zero
 from rebsync.reverse.python.body_scope import (
@@ -100,7 +101,9 @@ def arguments_by_name(reader: PyExpressions, call: Node, fields: Fields) -> dict
 def published(reader: PyStatements, call: Node) -> Iterator[m.Statement] | None:
     """`pub.publish(...)` as sends to all that receive it; None for what is no such call."""
     function = field(call, "function")
-    if function.type != "attribute" or text_of(field(function, "attribute")) != "publish":
+    if function.type != "attribute":
+        return None
+    if text_of(field(function, "attribute")) not in libraries.publishing():
         return None
     found = reader.reading.made_by(field(function, "object"), reader.frame)
     number, fact = found if found is not None else (0, None)
@@ -210,8 +213,9 @@ def as_field(
     if value.kind != wanted:
         if value.kind == TRUTH or wanted in (TRUTH, WHOLE):
             raise Unread(span, f'"{path}" of {type_} holds no such value')
-        if reader.reading.unit.is_rclpy and value.kind == WHOLE:
-            raise Unread(span, f'rclpy takes no whole number for "{path}" of {type_}')
+        library = reader.reading.unit.library
+        if library.strict and value.kind == WHOLE:
+            raise Unread(span, f'{library.name} takes no whole number for "{path}" of {type_}')
     if wanted == WHOLE:
         within = bounds(fields, reader.reading.types.widths.get(type_, {}), path)
         found = reader.need(value, node, f"field {path}", within, strict=_BEYOND)

@@ -37,13 +37,13 @@ from rebsync.reverse.python.body_scope import (
     literal,
     unknown,
 )
+from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.py_index import CLASS, FUNCTION, MODULE, PyCode, Scope
 from rebsync.reverse.python.py_lookup import attribute
 from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_values import Values
 from rebsync.reverse.python.py_worth import External, Function, Made, Ways
 from rebsync.reverse.python.py_worth import Instance as Object
-from rebsync.reverse.python.vocabulary import interface_of
 from rebsync.source import Source, Span
 
 

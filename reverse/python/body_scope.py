@@ -16,6 +16,7 @@ from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.scope import Target
 from rebsync.reverse.build.message_types import Fields
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.libraries.routines import Library
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_tree import Py
@@ -97,7 +98,8 @@ class PyUnit:
     """What of Python becomes a reactive class: a class with those above it, or a module.
 
     `lineage` is empty for a module; `calls` are the numbers of its facts by the ids of their calls.
-    `version` is that of the language, 0 where it may be 2 or 3. What was found of functions, by the
+    `library` is the client library that it uses, `version` that of the language, 0 where it may be
+    2 or 3. What was found of functions, by the
     ids of their nodes: whether they are `quiet`, also from how deep, and names to be `kept`.
     """
 
@@ -107,7 +109,7 @@ class PyUnit:
     node: str
     calls: Mapping[tuple[str, int], int]
     version: int
-    is_rclpy: bool
+    library: Library
     quiet: dict[tuple[int, int], bool] = with_default(default_factory=dict)
     kept: dict[int, frozenset[str]] = with_default(default_factory=dict)
 

@@ -10,6 +10,8 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import ParameterFact, RateFact, SubscriptionFact, TimerFact
+from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python import body_calls, body_loops, body_methods
 from rebsync.reverse.python.py_index import CLASS, arguments_of, last_name
 from rebsync.reverse.python.py_tree import field, text_of
@@ -17,13 +19,6 @@ from rebsync.reverse.python.py_worth import Class
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.body_statements import PyStatements
-
-_SLEEPS = frozenset({"rospy.sleep", "time.sleep", "rospy.rostime.sleep"})
-_UNTIL = "rclpy.spin_until_future_complete"
-_SPINS = frozenset({"rospy.spin", "rclpy.spin", _UNTIL})
-_STARTS = frozenset({"rclpy.init", "rclpy.shutdown", "rospy.on_shutdown", "rospy.signal_shutdown"})
-_EXITS = frozenset({"sys.exit", "builtins.exit", "builtins.quit"})
-_ENDS = frozenset({"destroy_node", "spin", "add_node", "shutdown"})
 
 
 def asked(reader: PyStatements, call: Node) -> Iterator[m.Statement] | None:
@@ -34,7 +29,7 @@ def asked(reader: PyStatements, call: Node) -> Iterator[m.Statement] | None:
     function = field(call, "function")
     name = reader.reading.external(function, reader.frame)
     plain, _ = arguments_of(call)
-    if name in _SLEEPS and len(plain) == 1:
+    if libraries.kind_of(name) is Kind.SLEEP and len(plain) == 1:
         return iter((delay(body_calls.units(reader.expressions, plain[0]), reader, call),))
     if last_name(function) == "sleep" and function.type == "attribute":
         made = reader.reading.made_by(field(function, "object"), reader.frame)
@@ -83,16 +78,19 @@ def _started(reader: PyStatements, call: Node, name: str) -> Iterator[m.Statemen
     """What only starts the node, or lets it run."""
     function = field(call, "function")
     last = last_name(function)
-    if name in _SPINS or (last == "spin" and not name):
-        if name == _UNTIL and body_loops.goes_on(call):
+    asked_ = libraries.function(name)
+    kind = asked_.kind if asked_ is not None else None
+    if kind is Kind.SPIN or (last == "spin" and not name):
+        until = asked_ is not None and asked_.result == "future"
+        if until and body_loops.goes_on(call):
             raise Unread(reader.frame.span(call), "what runs when this has come is not read")
         reader.is_over = True
         plain, _ = arguments_of(call)
         made = [a for a in plain if a.type == "call"]
         return asked(reader, made[0]) if made else iter(())
-    if name in _EXITS and len(plain := arguments_of(call)[0]) <= 1 and not reader.frame.depth:
+    if kind is Kind.EXIT and len(plain := arguments_of(call)[0]) <= 1 and not reader.frame.depth:
         return _exit(reader, plain)
-    if name in _STARTS or (last in _ENDS and not name):
+    if kind is Kind.START or (last in libraries.starting() and not name):
         return iter(())
     lineage = reader.reading.unit.lineage
     if last == "__init__":

@@ -10,6 +10,8 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python import body_loops, body_messages, body_methods, body_setup, body_stores
 from rebsync.reverse.python.body_effects import is_harmless, is_lock, is_log
 from rebsync.reverse.python.body_expressions import PyExpressions, short
@@ -259,8 +261,10 @@ class PyStatements:
         name = self.reading.external(field(call, "function"), self.frame)
         made = self.reading.message_type(call, self.frame)
         own = self.reading.function(field(call, "function"), self.frame)
-        publishes = text_of(field(call, "function")).endswith(".publish")
-        return is_log(call) or bool(made) or own is not None or publishes or name == "rospy.sleep"
+        holder, _, method = text_of(field(call, "function")).rpartition(".")
+        publishes = bool(holder) and method in libraries.publishing()
+        sleeps = libraries.kind_of(name) is Kind.SLEEP and libraries.is_of_client(name)
+        return is_log(call) or bool(made) or own is not None or publishes or sleeps
 
     def _with(self, node: Node) -> Iterator[m.Statement]:
         clause = named(node)[0]

@@ -19,6 +19,7 @@ from rebsync.reverse.graph import (
     SubscriptionFact,
     TimerFact,
 )
+from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_units import Unit
@@ -31,9 +32,7 @@ from rebsync.reverse.syntax.cpp_index import Code
 _GIVES = frozenset({"value", "augmented", "loop", "opaque"})
 _CONNECTS = (PublisherFact, SubscriptionFact, TimerFact, ServiceFact)
 _PRINTS = re.compile(r"^\s*print\s+[\"'\w]", re.MULTILINE)
-_THREE = re.compile(
-    r"#!.*python3|^from __future__ import .*division|\bf[\"']|\brclpy\b", re.MULTILINE
-)
+_THREE = re.compile(r"#!.*python3|^from __future__ import .*division|\bf[\"']", re.MULTILINE)
 
 
 def units_of(
@@ -89,10 +88,11 @@ def _unit(
         (f.site.place.source.path, f.site.call.id): number for number, f in enumerate(together)
     }
     text = module.py.source.text
-    is_rclpy = "rclpy" in text
-    unit = Unit(names.give(wish), None, (), (), tuple(together), Code(), rclpy=is_rclpy)
-    version = 3 if _THREE.search(text) else (2 if _PRINTS.search(text) else 0)
-    return PyUnit(unit, family, module, node, calls, version, is_rclpy)
+    library = libraries.client_in(text)
+    unit = Unit(names.give(wish), None, (), (), tuple(together), Code(), own=library.flat)
+    is_new = library.flat or _THREE.search(text)
+    version = 3 if is_new else (2 if _PRINTS.search(text) else 0)
+    return PyUnit(unit, family, module, node, calls, version, library)
 
 
 def _rates_beside(

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterator, Sequence
+from dataclasses import field as with_default
 from dataclasses import replace
 
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.python.log_words import CLOCKS, LOGS, LOOKS, ON_CLOCKS
+from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.python.log_words import LOOKS, ON_CLOCKS
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import CLASS, PyCode, Scope
 from rebsync.reverse.python.py_tree import field, named, text_of
@@ -16,7 +18,6 @@ from rebsync.reverse.python.runtime_files import is_runtime_file
 
 _DESCRIBES = frozenset({"__repr__", "__str__"})
 _STORING = frozenset({"named_expression", "await", "yield", "lambda"})
-_MODULES = frozenset({"rospy", "time"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +29,9 @@ class Looks:
     `makers` what makes messages.
     """
 
-    trusted: frozenset[str] = LOOKS | {"rospy", "self"}
+    trusted: frozenset[str] = with_default(
+        default_factory=lambda: LOOKS | libraries.modules_of_logs() | {"self"}
+    )
     functions: frozenset[str] = frozenset()
     makers: frozenset[str] = frozenset()
 
@@ -44,7 +47,7 @@ class Looks:
         """Whether what is called only looks at its arguments, or at the clock."""
         function = field(call, "function")
         called = text_of(function)
-        if called in CLOCKS:
+        if called in libraries.clocks():
             return called.partition(".")[0] in self.trusted
         if function.type == "identifier":
             return called in self.makers or (called in LOOKS and called in self.trusted)
@@ -59,7 +62,9 @@ class Looks:
         """Whether a call only logs what is there already."""
         called = text_of(field(call, "function"))
         head = called.partition(".")[0]
-        if LOGS.match(called) is None or (head == "rospy" and head not in self.trusted):
+        if libraries.log_words().match(called) is None:
+            return False
+        if head in libraries.modules_of_logs() and head not in self.trusted:
             return False
         if called.startswith("self.get_logger") and not self._is_node:
             return False
@@ -79,8 +84,10 @@ def looks_in(code: PyCode, modules: Sequence[Scope], makers: frozenset[str]) -> 
     paths = {module.py.source.path for module in modules}
     scopes = [s for (path, _), s in code.scopes.items() if path in paths and s.kind != CLASS]
     bound = {name for s in (*modules, *scopes) for name in s.names if not _is_import(s, name)}
-    trusted = LOOKS.union(n for n in _MODULES if all(_is_import(s, n) for s in modules))
-    if any(map(_has_rclpy, modules)):
+    trusted = LOOKS.union(
+        n for n in libraries.clock_modules() if all(_is_import(s, n) for s in modules)
+    )
+    if any(map(_has_nodes, modules)):
         trusted |= {"self"}
     looks = Looks(trusted - (bound - {"self"}), frozenset(code.methods), makers)
     own = (
@@ -103,19 +110,19 @@ def _only_returns(function: Scope, looks: Looks) -> bool:
 def _is_import(scope: Scope, name: str) -> bool:
     """Whether a name of a module is that of a module of Python or ROS, and nothing else."""
     bindings = scope.names.get(name, [])
-    if name not in _MODULES or len(bindings) != 1:
+    if name not in libraries.clock_modules() or len(bindings) != 1:
         return False
     statement = bindings[0].node
     plain = (each.type == "dotted_name" for each in named(statement))
     return statement.type == "import_statement" and all(plain)
 
 
-def _has_rclpy(module: Scope) -> bool:
-    """Whether a module has something from rclpy, or from the run-time part's own node of it."""
+def _has_nodes(module: Scope) -> bool:
+    """Whether a module has something of a library with nodes, or the run-time part's own node."""
     bindings = (b.node for found in module.names.values() for b in found)
     imports = (n for n in bindings if n.type == "import_from_statement")
     names = (text_of(field(n, "module_name")) for n in imports)
-    return any(n.partition(".")[0] == "rclpy" or n.endswith(".lifecycle") for n in names)
+    return any(libraries.of_nodes(n) or n.endswith(".lifecycle") for n in names)
 
 
 def only_logs(node: Node, looks: Looks = _PLAIN) -> bool:

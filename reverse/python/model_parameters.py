@@ -10,6 +10,7 @@ from rebsync import model as m
 from rebsync.package import Value
 from rebsync.records import dataclass
 from rebsync.reverse.generated.own_parameters import OwnParameter
+from rebsync.reverse.libraries.generated_calls import PARAMETER_OF_ROS_1
 from rebsync.reverse.python.model_types import (
     call_parts,
     literal_type,
@@ -19,7 +20,7 @@ from rebsync.reverse.python.model_types import (
 from rebsync.reverse.python.py_tree import field, named, number_of, text_of
 
 # Their names say whose a parameter is: `~` in front in ROS 1, `env.` in ROS 2.
-_READS = frozenset({"rospy.get_param", "declared", "read_array", "declare_array"})
+_READS = frozenset({PARAMETER_OF_ROS_1, "declared", "read_array", "declare_array"})
 _OF_ROS_2 = frozenset({"declared", "declare_array"})
 _DECLARES = frozenset({"self.declare_parameter", "node.declare_parameter"})
 _ASKS = frozenset({"self.get_parameter", "node.get_parameter"})

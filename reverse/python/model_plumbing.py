@@ -14,6 +14,7 @@ from rebsync import model as m
 from rebsync.names import graph_name
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.libraries.generated_calls import LOGGER, PUBLISHERS
 from rebsync.reverse.python.model_constants import constants_of, is_quiet
 from rebsync.reverse.python.model_filled import made_of
 from rebsync.reverse.python.model_helpers import is_transparent
@@ -38,14 +39,13 @@ from rebsync.reverse.python.py_tree import Py, field, named, text_of
 from rebsync.static.types import PRIMITIVES
 
 _MADE = frozenset({"Mailbox", "Drive", "Sensor"})
-_PUBLISHERS = frozenset({"rospy.Publisher", "self.create_publisher", "node.create_publisher"})
 _CONNECTING = frozenset(
     {
         *("advertise", "advertise_all", "subscribe", "subscribe_on_bridge"),
         *OFFERING,
     }
 )
-_NAMED = frozenset({"Server", "logging.getLogger", "getLogger", "rclpy.logging.get_logger"})
+_NAMED = frozenset({"Server", "logging.getLogger", "getLogger", LOGGER})
 _CALLED = frozenset(
     {
         *("self._wire", "super()._wire", "super().__init__", "Node.__init__"),
@@ -197,7 +197,7 @@ class Plumbing:
         method = called.removeprefix("self._mailbox.")
         if method != called:
             return method in _CONNECTING and self._is_connected(member, arguments)
-        return called in _MADE or (called in _PUBLISHERS and member == "_state_pub")
+        return called in _MADE or (called in PUBLISHERS and member == "_state_pub")
 
     def _is_called(self, function: Scope, call: Node) -> bool:
         called, arguments = call_parts(call) or ("", [])

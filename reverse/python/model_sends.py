@@ -9,6 +9,8 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.names import original
+from rebsync.reverse.libraries.routines import Language
+from rebsync.reverse.libraries.tables.runtime import names_in_model
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_builtins import array_elements
 from rebsync.reverse.python.model_overloads import told
@@ -19,13 +21,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.python.model_expressions import Expressions
     from rebsync.reverse.python.model_roles import Sends
 
-_CLOCK = {
-    "now": "now",
-    "arrival": "currentMessageArrival",
-    "expiry": "currentMessageDeadline",
-    "waiting_time": "currentMessageWaitingTime",
-    "sender": "sender",
-}
+_CLOCK = names_in_model(Language.PYTHON)
 
 
 def of_mailbox(reader: Expressions, node: Node, name: str, arguments: list[Node]) -> m.Expression:

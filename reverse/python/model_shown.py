@@ -13,6 +13,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
+from rebsync.reverse.libraries.generated_calls import PUBLISHER_OF_NODE, PUBLISHER_OF_ROS_1
 from rebsync.reverse.python.model_types import call_parts, string_value
 from rebsync.reverse.python.py_index import PyCode, Scope
 from rebsync.reverse.python.py_tree import field, named, text_of
@@ -24,8 +25,8 @@ _VALUES = {"Bool": frozenset({"boolean"}), "Int32": _INTEGERS, "Int64": _INTEGER
 _LITERALS = {"Bool": ("true", "false"), "Int32": ("integer",), "Int64": ("integer",)}
 # What says how many messages may wait: without, rospy waits for those who listen.
 _DEPTH = {
-    "rospy.Publisher": re.compile(r"queue_size=[1-9]\d*"),
-    "self.create_publisher": re.compile(r"[1-9]\d*"),
+    PUBLISHER_OF_ROS_1: re.compile(r"queue_size=[1-9]\d*"),
+    PUBLISHER_OF_NODE: re.compile(r"[1-9]\d*"),
 }
 PUBLISHERS = frozenset(_DEPTH)
 _LATCHED = frozenset({"latch=False", "latch=True"})
@@ -89,7 +90,7 @@ def is_topic(name: str, offered_by: str) -> bool:
     """Whether a name can be that of a topic; `~name` only rospy knows."""
     is_private = name.startswith("~") and not name.startswith("~/")
     return _TOPIC.fullmatch(name) is not None and not (
-        is_private and offered_by == "self.create_publisher"
+        is_private and offered_by == PUBLISHER_OF_NODE
     )
 
 

@@ -14,6 +14,7 @@ from dataclasses import field as with_default
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.libraries.generated_calls import PARAMETER_OF_ROS_1, PUBLISHER_METHOD
 from rebsync.reverse.python.model_logs import Looks, looks_in, only_logs
 from rebsync.reverse.python.model_roles import Roles, is_of_node
 from rebsync.reverse.python.model_shown import PUBLISHERS, Shown, is_topic, shown_by
@@ -143,7 +144,7 @@ def silent_in(
     taken |= looks.functions
     made = {name: value for name, value in _made(functions) if name not in taken}
     members = {name: value for name, value in made.items() if not is_of_node(name)}
-    publishers = {} if "create_publisher" in looks.functions else members
+    publishers = {} if PUBLISHER_METHOD in looks.functions else members
     variables = {name: type_ for r in roles for name, (_, type_, _) in r.state.items()}
     timers = Timers.of(code, {n: functions[n] for n in roles[0].ticking}, looks)
     found = Silent(
@@ -197,9 +198,9 @@ def _own_parameter(node: Node) -> bool:
         is_read = called == "self.declare_parameter" and len(arguments) == 2
     else:
         called, arguments = call_parts(node) or ("", [])
-        is_read = called == "rospy.get_param" and len(arguments) == 2
+        is_read = called == PARAMETER_OF_ROS_1 and len(arguments) == 2
     key = string_value(arguments[0]) if is_read else None
-    if key is None or (called == "rospy.get_param" and not key.startswith("~")):
+    if key is None or (called == PARAMETER_OF_ROS_1 and not key.startswith("~")):
         return False
     is_plain = arguments[1].type in _VALUES | {"true", "false", "integer", "float"}
     section = re.split(r"[./]", key.removeprefix("~"))[0]

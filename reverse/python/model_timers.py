@@ -13,6 +13,7 @@ from dataclasses import field as with_default
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.libraries.generated_calls import DURATIONS, TIMER_OF_NODE, TIMER_OF_ROS_1
 from rebsync.reverse.python.model_logs import Looks, only_logs
 from rebsync.reverse.python.model_types import call_parts, without_parentheses
 from rebsync.reverse.python.py_callbacks import body_of
@@ -20,8 +21,7 @@ from rebsync.reverse.python.py_index import PyCode, Scope
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 # What makes timers, and how many arguments these give their callbacks.
-_MAKES = {"rospy.Timer": 1, "self.create_timer": 0}
-_DURATIONS = frozenset({"rospy.Duration", "rospy.Duration.from_sec"})
+_MAKES = {TIMER_OF_ROS_1: 1, TIMER_OF_NODE: 0}
 _BASES = frozenset({"ABC", "Node", "RebecNode", "object"})
 _NUMBER = re.compile(r"\d+(?:\.\d*)?")
 _LEAST, _MOST = 0.001, 1e6
@@ -68,9 +68,9 @@ class Timers:
         if len(arguments) < 2 or not all(text_of(a) in _FLAGS for a in arguments[2:]):
             return False
         period, callback, *flags = arguments
-        if called == "rospy.Timer":
+        if called == TIMER_OF_ROS_1:
             made, given = call_parts(period) or ("", [])
-            if made not in _DURATIONS or len(given) != 1:
+            if made not in DURATIONS or len(given) != 1:
                 return False
             period = given[0]
         elif flags:

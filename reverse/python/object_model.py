@@ -25,7 +25,6 @@ _PLAIN_DECORATORS = frozenset(
     {"staticmethod", "classmethod", "abstractmethod", "abc.abstractmethod"}
     | {"override", "typing.override", "typing_extensions.override"}
 )
-_PLAIN_BASES = ("object", "Node", "rclpy.node.Node", "ABC", "abc.ABC")
 _DESCRIBES = frozenset({"__get__", "__set__", "__delete__"})
 
 

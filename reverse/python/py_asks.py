@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.libraries.routines import Kind, Routine
 from rebsync.reverse.python.py_index import Scope, arguments_of, last_name
 from rebsync.reverse.python.py_lookup import lineage
 from rebsync.reverse.python.py_tree import field, text_of
@@ -20,25 +22,13 @@ from rebsync.reverse.python.py_worth import (
     Made,
     Value,
 )
-from rebsync.reverse.python.vocabulary import (
-    FILTER,
-    FILTER_OF_RCLPY,
-    FILTER_OF_ROSPY,
-    NODE,
-    NODES,
-    RCLPY,
-    ROSPY,
-    Ask,
-)
-
-_NAMES = frozenset({*NODE, *ROSPY, "__init__", "create_node", "Node", "Subscriber"})
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Asked:
     """A call that asks for something; `given` are its arguments by their roles."""
 
-    ask: Ask
+    ask: Routine
     call: Node
     scope: Scope
     given: dict[str, Node]
@@ -59,17 +49,17 @@ def asked_in(values: Values) -> Iterator[Asked]:
             yield Asked(ask, call, scope, roles(ask, call))
 
 
-def roles(ask: Ask, call: Node) -> dict[str, Node]:
+def roles(ask: Routine, call: Node) -> dict[str, Node]:
     """The arguments of a call by their roles."""
     plain, keywords = arguments_of(call)
     given = {role: node for role, node in zip(ask.arguments, plain, strict=False) if role}
     return given | {ask.role_of(k): v for k, v in keywords.items()}
 
 
-def _ask(values: Values, name: str, call: Node, scope: Scope) -> Ask | None:
+def _ask(values: Values, name: str, call: Node, scope: Scope) -> Routine | None:
     if name == "__init__":
         return _constructor(values, call, scope)
-    if name not in _NAMES and not _may_be_renamed(values, name, scope):
+    if name not in libraries.asking_names() and not _may_be_renamed(values, name, scope):
         return None
     for value in values.ways(field(call, "function"), scope):
         ask = _of(values, value, call)
@@ -84,32 +74,32 @@ def _may_be_renamed(values: Values, name: str, scope: Scope) -> bool:
     return any(b.how in ("import", "value") for b in bindings)
 
 
-def _of(values: Values, value: Value, call: Node) -> Ask | None:
+def _of(values: Values, value: Value, call: Node) -> Routine | None:
     match value:
-        case External(name) if name == FILTER:
-            return FILTER_OF_RCLPY if _is_of_rclpy(call) else FILTER_OF_ROSPY
-        case External(name) if name.startswith("rospy."):
-            return ROSPY.get(name.removeprefix("rospy."))
         case External(name):
-            return RCLPY.get(name)
+            plain, keywords = arguments_of(call)
+            return libraries.asks(name, len(plain), keywords)
         case Bound(Instance(owner), name):
-            return NODE.get(name) if is_node(values, owner) else None
-        case Bound(Made(by), name) if by in RCLPY or by in NODES:
-            return NODE.get(name)
+            classes = set(_names(lineage(values, owner))) & libraries.node_classes()
+            found = (libraries.node_method(name, of) for of in sorted(classes))
+            return next((ask for ask in found if ask is not None), None)
+        case Bound(Made(by), name) if _makes_node(by):
+            return libraries.node_method(name, by)
         case _:
             return None
 
 
-def _is_of_rclpy(call: Node) -> bool:
-    """A subscriber of message_filters is made of a node in ROS 2, of a name in ROS 1."""
-    plain, keywords = arguments_of(call)
-    return len(plain) >= 3 or "qos_profile" in keywords
+def _makes_node(name: str) -> bool:
+    """Whether a call of a function gives a node that is an object."""
+    return name in libraries.node_classes() or (
+        libraries.kind_of(name) is Kind.NODE and libraries.of_nodes(name)
+    )
 
 
-def _by_shape(values: Values, name: str, call: Node, scope: Scope) -> Ask | None:
+def _by_shape(values: Values, name: str, call: Node, scope: Scope) -> Routine | None:
     """A call of a node's method on an object of which nothing is known."""
     called = field(call, "function")
-    ask = NODE.get(name)
+    ask = libraries.node_method(name)
     if ask is None or called.type != "attribute":
         return None
     plain, keywords = arguments_of(call)
@@ -125,26 +115,32 @@ def _by_shape(values: Values, name: str, call: Node, scope: Scope) -> Ask | None
 
 def _is_ros(value: Made | External) -> bool:
     name = value.by if isinstance(value, Made) else value.name
-    return name.startswith(("rclpy.", "rclpy"))
+    return libraries.of_nodes(name)
 
 
-def _constructor(values: Values, call: Node, scope: Scope) -> Ask | None:
+def _constructor(values: Values, call: Node, scope: Scope) -> Routine | None:
     """`super().__init__(name)` in a class that is a node by what is directly above it."""
     owner, called = scope.owner, field(call, "function")
     if owner is None or called.type != "attribute":
         return None
     above = lineage(values, owner)[1:]
     nearest = next((c for c in above if not isinstance(c, Scope) or "__init__" in c.names), None)
-    if not isinstance(nearest, External) or not (set(_names(above)) & NODES):
+    if not isinstance(nearest, External) or not (set(_names(above)) & libraries.node_classes()):
         return None
     holder = field(called, "object")
     if holder.type == "call" and text_of(field(holder, "function")) == "super":
-        return RCLPY["rclpy.node.Node"]
+        return _made(nearest.name)
     ways = values.ways(holder, scope)
-    if any(isinstance(w, External) and w.name in NODES for w in ways):
-        ask = RCLPY["rclpy.node.Node"]
-        return Ask(ask.kind, ("", *ask.arguments), ask.names)
+    if any(isinstance(w, External) and w.name in libraries.node_classes() for w in ways):
+        ask = _made(nearest.name)
+        return Routine(ask.kind, ("", *ask.arguments), ask.keywords)
     return None
+
+
+def _made(name: str) -> Routine:
+    """What makes an object of a class of nodes, or of one above it, asks for."""
+    found = libraries.asks(name, 0, ())
+    return found or libraries.function(libraries.node_class()) or Routine(Kind.NODE, ("name",))
 
 
 def _names(above: list[Scope | External]) -> Iterator[str]:
@@ -152,5 +148,5 @@ def _names(above: list[Scope | External]) -> Iterator[str]:
 
 
 def is_node(values: Values, owner: Scope) -> bool:
-    """Whether the objects of a class are nodes of ROS 2."""
-    return bool(set(_names(lineage(values, owner))) & NODES)
+    """Whether the objects of a class are nodes."""
+    return bool(set(_names(lineage(values, owner))) & libraries.node_classes())

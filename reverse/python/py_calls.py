@@ -26,6 +26,8 @@ from rebsync.reverse.graph import (
     TimerFact,
     Unresolved,
 )
+from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.py_asks import Asked, asked_in
 from rebsync.reverse.python.py_callbacks import callbacks_of, filtered
 from rebsync.reverse.python.py_index import CLASS, FUNCTION, PyCode, Scope, arguments_of
@@ -43,7 +45,6 @@ from rebsync.reverse.python.py_worth import (
     distinct,
     resolved,
 )
-from rebsync.reverse.python.vocabulary import FILTER, Kind, interface_of
 
 
 def graph_of(code: PyCode) -> Graph:
@@ -200,7 +201,7 @@ class _Facts:
         if node is not None:
             return callbacks_of(self.values, node, asked.scope)
         called = text_of(field(asked.call, "function"))
-        found = filtered(self.values, asked) if called.endswith(FILTER.rpartition(".")[2]) else ()
+        found = filtered(self.values, asked) if called.endswith("Subscriber") else ()
         return found or (self._unknown(asked, "the callback is registered elsewhere"),)
 
     def _unknown(self, asked: Asked, why: str) -> Unresolved:

@@ -1,7 +1,6 @@
 """Functions that a client library calls for other reasons than messages, timers, and services.
 
-Each entry names a call of rospy, actionlib, rclpy, or of what they are used with, and the arguments
-that are called later: their places in order and their names.
+The tables of libraries say which arguments of a call are called later.
 """
 
 from __future__ import annotations
@@ -12,6 +11,8 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.graph import Callback, Callbacks, Place
+from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.libraries.routines import Routine
 from rebsync.reverse.python.py_callbacks import callback_name, callbacks_of
 from rebsync.reverse.python.py_index import CLASS, Scope, arguments_of
 from rebsync.reverse.python.py_lookup import lineage
@@ -19,61 +20,7 @@ from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_values import Values
 from rebsync.reverse.python.py_worth import Class, External, Function, Module
 
-
-@dataclass(frozen=True, slots=True)
-class Entry:
-    """The arguments of a call that are called later.
-
-    `of` are the modules that have the function; empty for a method, whose object is not looked at
-    unless its class is in the files.
-    """
-
-    places: tuple[int, ...]
-    names: tuple[str, ...]
-    of: tuple[str, ...] = ()
-
-
-_DONE = ("done_cb", "active_cb", "feedback_cb")
-_EVENTS = ("deadline", "liveliness", "matched", "incompatible_type", "incompatible_qos")
-_IN_EVENTS = ("rclpy.event_handler", "rclpy.qos_event")
-
-ENTRIES: dict[str, tuple[Entry, ...]] = {
-    "on_shutdown": (
-        Entry((0,), ("h",), ("rospy",)),
-        Entry((0,), ("callback",)),
-    ),
-    "add_on_set_parameters_callback": (Entry((0,), ("callback",)),),
-    "add_pre_set_parameters_callback": (Entry((0,), ("callback",)),),
-    "add_post_set_parameters_callback": (Entry((0,), ("callback",)),),
-    "set_parameters_callback": (Entry((0,), ("callback",)),),
-    "SimpleActionServer": (Entry((2,), ("execute_cb",), ("actionlib",)),),
-    "ActionServer": (
-        Entry((2, 3), ("goal_cb", "cancel_cb"), ("actionlib",)),
-        Entry(
-            (3,),
-            (
-                *("execute_callback", "goal_callback", "handle_accepted_callback"),
-                "cancel_callback",
-            ),
-            ("rclpy.action",),
-        ),
-    ),
-    "register_goal_callback": (Entry((0,), ("cb",)),),
-    "register_preempt_callback": (Entry((0,), ("cb",)),),
-    "register_execute_callback": (Entry((0,), ("execute_callback",)),),
-    "register_cancel_callback": (Entry((0,), ("cancel_callback",)),),
-    "register_handle_accepted_callback": (Entry((0,), ("handle_accepted_callback",)),),
-    "send_goal": (Entry((1, 2, 3), _DONE),),
-    "send_goal_async": (Entry((1,), ("feedback_callback",)),),
-    "add_done_callback": (Entry((0,), ("callback",)),),
-    "PublisherEventCallbacks": (Entry((), (*_EVENTS, "liveliness_lost"), _IN_EVENTS),),
-    "SubscriptionEventCallbacks": (Entry((), (*_EVENTS, "message_lost"), _IN_EVENTS),),
-    "create_guard_condition": (Entry((0,), ("callback",)),),
-    "Server": (Entry((1,), ("callback",), ("dynamic_reconfigure.server",)),),
-    "Publisher": (Entry((2,), ("subscriber_listener",), ("rospy",)),),
-}
-# What a node with managed states has that rclpy calls when its state changes.
-_MANAGED = "rclpy.lifecycle."
+# What a node with managed states has that its library calls when its state changes.
 _CHANGES = tuple(
     f"on_{change}"
     for change in ("configure", "activate", "deactivate", "cleanup", "shutdown", "error")
@@ -102,17 +49,19 @@ class Hook:
 def hooks_in(values: Values) -> Iterator[Hook]:
     """All such calls that hand over something, and changes of state: in the order of the text."""
     code = values.code
-    calls = [(call, scope) for name in ENTRIES for call, scope in code.by_callee.get(name, ())]
+    calls = [
+        (call, scope) for name in libraries.hooks() for call, scope in code.by_callee.get(name, ())
+    ]
     found = [hook for call, scope in calls if (hook := _hook(values, call, scope)) is not None]
     found += (hook for scope in code.scopes.values() for hook in _changes(values, scope))
     yield from sorted(found, key=lambda h: (h.place.source.path, h.place.span.start))
 
 
 def _changes(values: Values, owner: Scope) -> Iterator[Hook]:
-    """The methods of a class that rclpy calls when the state of its node changes."""
+    """The methods of a class that its library calls when the state of its node changes."""
     names = [name for name in _CHANGES if name in owner.names] if owner.kind == CLASS else []
     above = lineage(values, owner) if names else []
-    if any(isinstance(c, External) and c.name.startswith(_MANAGED) for c in above):
+    if any(isinstance(c, External) and c.name in libraries.managed() for c in above):
         for name in names:
             method = values.code.scope_of(owner.names[name][-1].node, owner.py)
             word = field(method.node, "name")
@@ -133,23 +82,24 @@ def _hook(values: Values, call: Node, scope: Scope) -> Hook | None:
     return Hook(text_of(word), Place(scope.py.source, scope.py.span(word)), scope, callbacks)
 
 
-def _given(entry: Entry, call: Node) -> list[Node]:
+def _given(entry: Routine, call: Node) -> list[Node]:
     """The arguments that are called later, None left out."""
     plain, keywords = arguments_of(call)
-    given = [plain[at] for at in entry.places if at < len(plain)]
-    given += [keywords[name] for name in entry.names if name in keywords]
+    roles = libraries.hook_roles(entry)
+    given = [node for role, node in zip(entry.arguments, plain, strict=False) if role in roles]
+    given += [keywords[name] for name, role in entry.keywords if role in roles and name in keywords]
     return [node for node in given if node.type != "none"]
 
 
-def _entry(values: Values, name: str, called: Node, scope: Scope) -> Entry | None:
+def _entry(values: Values, name: str, called: Node, scope: Scope) -> Routine | None:
     """The entry that a call is of: by the module of a function, by the name of a method."""
-    entries = ENTRIES[name]
+    entries = libraries.hooks()[name]
     ways = values.ways(called, scope)
     for value in ways:
         if isinstance(value, External):
             module = value.name.rpartition(".")[0]
-            for entry in entries:
-                if any(module == of or module.startswith(f"{of}.") for of in entry.of):
+            for of, entry in entries:
+                if of and (module == of or module.startswith(f"{of}.")):
                     return entry
     if called.type != "attribute" or any(isinstance(v, (Function, Class)) for v in ways):
         return None
@@ -157,4 +107,4 @@ def _entry(values: Values, name: str, called: Node, scope: Scope) -> Entry | Non
     is_known = any(isinstance(h, (External, Module)) for h in values.ways(holder, scope))
     if is_known or text_of(holder).startswith("super("):
         return None
-    return next((e for e in entries if not e.of), None)
+    return next((entry for of, entry in entries if not of), None)

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from tree_sitter import Node
 
 from rebsync.reverse.graph import Resolved, Unresolved
+from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.python.py_asks import Asked
 from rebsync.reverse.python.py_bindings import reaching
 from rebsync.reverse.python.py_index import Scope, arguments_of
@@ -14,7 +15,6 @@ from rebsync.reverse.python.py_lookup import bound
 from rebsync.reverse.python.py_tree import text_of
 from rebsync.reverse.python.py_values import Values
 from rebsync.reverse.python.py_worth import External, Made, Nothing, Value, Ways, distinct, resolved
-from rebsync.reverse.python.vocabulary import PRESETS, PROFILES
 
 _NO_BOUND = "without `queue_size` there is no bound that the code gives"
 _KEPT = ("TRANSIENT_LOCAL", "RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL")
@@ -38,10 +38,10 @@ def _depths(values: Values, way: Value, node: Node, asked: Asked) -> Iterable[Va
             given = _of_profile(values, way, "depth", node, asked.scope)
             return given or [values.unknown("a profile without a depth", node, asked.scope)]
         case External(name):
-            last = name.removesuffix(".value").rpartition(".")[2]
-            table = PRESETS if "QoSPresetProfiles" in name else PROFILES
+            parts = name.removesuffix(".value").split(".")
+            known = libraries.profiles()
             unknown = values.unknown("a profile that is not known", node, asked.scope)
-            return [table.get(last, unknown)]
+            return [known.get(".".join(parts[-2:]), known.get(parts[-1], unknown))]
         case Nothing():
             return []
         case _:

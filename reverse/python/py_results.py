@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, Unresolved
+from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.libraries.routines import Access, Kind
 from rebsync.reverse.python.py_index import LAMBDA, Scope, arguments_of
 from rebsync.reverse.python.py_texts import filled
 from rebsync.reverse.python.py_tree import field, named, text_of
@@ -28,7 +30,6 @@ from rebsync.reverse.python.py_worth import (
     distinct,
     resolved,
 )
-from rebsync.reverse.python.vocabulary import OWN_NAMES, is_time, rclpy_name
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.py_values import Values
@@ -84,23 +85,31 @@ def _external(values: Values, name: str, call: Node, scope: Scope) -> Iterable[V
     last = name.rpartition(".")[2]
     if name.startswith("builtins."):
         return _builtin(values, last, plain, call, scope)
-    if name in OWN_NAMES:
-        return [OWN_NAMES[name]]
+    if name in libraries.own_names():
+        return [libraries.own_names()[name]]
     if name in _PARTIAL:
         return _partial(values, plain, scope)
-    if is_time(name):
+    kind = libraries.kind_of(name)
+    if kind is Kind.SPAN:
         return [_length(values, plain, keywords, call, scope)]
-    if name in ("rospy.get_param", "rospy.get_param_cached"):
+    if _gives_parameter(name):
         return [_parameter(values, plain, keywords, call, scope)]
-    if name == "rospy.resolve_name" and plain:
+    if kind is Kind.RESOLVE and plain:
         return values.ways(plain[0], scope)
     if name == "os.path.join" or name.endswith("os.path.join"):
         parts = [values.ways(p, scope) for p in plain]
         slashed = [w for p in parts for w in (p, ("/",))][:-1]
         return values.join(slashed, call, scope)
-    if rclpy_name(name) or name.startswith(("rospy.", "message_filters.")):
+    if libraries.is_of_client(name):
         return [Made(name, call, scope)]
     return [Made(name, call, scope)] if last[:1].isupper() else [_what(values, name, call, scope)]
+
+
+def _gives_parameter(name: str) -> bool:
+    """Whether a function gives the value of a parameter."""
+    found = libraries.function(name)
+    is_read = found is not None and found.access is Access.GET
+    return found is not None and found.kind is Kind.PARAMETER and is_read
 
 
 def _what(values: Values, name: str, call: Node, scope: Scope) -> Unresolved:
@@ -244,7 +253,7 @@ def _method(values: Values, holder: Value, name: str, call: Node, scope: Scope) 
                 return [values.unknown(why, call, scope)]
             same = name in ("strip", "lstrip", "rstrip", "lower", "upper")
             return [holder] if same else [_what(values, name, call, scope)]
-        case Declared() if name == "get_parameter_value":
+        case Declared() if name in libraries.holding():
             return [holder]
         case Instance() | Made():
             return _object_method(values, holder, name, call, scope)
@@ -300,25 +309,21 @@ def _object_method(
 ) -> Iterable[Value]:
     """Methods of nodes, whose own names and parameters matter."""
     plain, keywords = arguments_of(call)
-    match name:
-        case "get_name":
-            return ["~"]
-        case "get_namespace":
-            return [""]
-        case "get_parameter" | "get_parameter_or" | "declare_parameter" if plain or keywords:
-            named_ = plain[0] if plain else keywords.get("name")
-            if named_ is None:
-                return [values.unknown("the name of a parameter", call, scope)]
-            given = plain[1] if len(plain) > 1 else keywords.get("value")
-            return [Declared(_declared(values, name, named_, given, scope))]
-        case "get_parameter_value" | "get_clock" | "now":
-            return [holder]
-        case _:
-            return [Made(f"{_made_by(holder)}.{name}", call, scope)]
+    if name in libraries.own_name_methods():
+        return [libraries.own_name_methods()[name]]
+    if name in libraries.parameter_methods() and (plain or keywords):
+        named_ = plain[0] if plain else keywords.get("name")
+        if named_ is None:
+            return [values.unknown("the name of a parameter", call, scope)]
+        given = plain[1] if len(plain) > 1 else keywords.get("value")
+        return [Declared(_declared(values, name, named_, given, scope))]
+    if name in libraries.holding():
+        return [holder]
+    return [Made(f"{_made_by(holder)}.{name}", call, scope)]
 
 
 def _made_by(holder: Instance | Made) -> str:
-    return holder.by if isinstance(holder, Made) else "rclpy.node.Node"
+    return holder.by if isinstance(holder, Made) else libraries.node_class()
 
 
 def _declared(
@@ -326,7 +331,7 @@ def _declared(
 ) -> FromParameter:
     """A parameter of ROS 2, whose default is where it is declared."""
     name = values.value(named_, scope)
-    default = given if method == "declare_parameter" else declared_default(values, name)
+    default = given if method in libraries.declaring() else declared_default(values, name)
     if default is None:
         return FromParameter(name)
     found = default if isinstance(default, Node) else default[0]
@@ -339,13 +344,14 @@ def _declared(
 def declared_default(values: Values, name: object) -> tuple[Node, Scope] | None:
     """The default with which the files declare a parameter, if they do so once."""
     found = []
-    for call, scope in values.code.by_callee.get("declare_parameter", []):
+    calls = values.code.by_callee
+    for call, scope in (c for n in sorted(libraries.declaring()) for c in calls.get(n, [])):
         plain, keywords = arguments_of(call)
         first = plain[0] if plain else keywords.get("name")
         second = plain[1] if len(plain) > 1 else keywords.get("value")
         if first is not None and second is not None and values.text(first, scope) == name:
             found.append((second, scope))
-    for call, scope in values.code.by_callee.get("declare_parameters", []):
+    for call, scope in (c for n in libraries.declaring_together() for c in calls.get(n, [])):
         found += [(v, scope) for n, v in declared_together(values, call, scope) if n == name]
     return found[0] if len(found) == 1 else None
 

@@ -8,7 +8,8 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 
 from rebsync.reserved import RUNTIME_HEADERS
-from rebsync.reverse.python.log_words import HARMLESS, LOGS
+from rebsync.reverse.libraries.python import log_words
+from rebsync.reverse.python.log_words import HARMLESS
 from rebsync.source import Source, Span
 
 # The modules of the run-time part.
@@ -57,7 +58,7 @@ def said(body: list[ast.stmt]) -> Iterator[ast.stmt]:
 
 def is_log(call: ast.Call) -> bool:
     """Whether a call only logs what is there already."""
-    if LOGS.match(ast.unparse(call.func)) is None:
+    if log_words().match(ast.unparse(call.func)) is None:
         return False
     inside = [n for a in (*call.args, *call.keywords) for n in ast.walk(a)]
     calls = (n for n in inside if isinstance(n, ast.Call))

@@ -11,8 +11,8 @@ from collections.abc import Iterator
 from functools import lru_cache
 
 from rebsync.records import dataclass
+from rebsync.reverse.libraries.cpp import versions
 
-_NOETIC = (1, 16, 0)
 _KNOWN: dict[str, int | None] = {
     **dict.fromkeys(("__linux__", "__linux", "linux", "__unix__", "__unix", "unix", "__GNUC__")),
     **{"__cplusplus": 201402, "true": 1, "false": 0},
@@ -275,9 +275,10 @@ class _Condition:
                 return None
             arguments.append(self._or())
             self._take(",") or self._take("+", "-", "*", "/", "%")
-        if name != "ROS_VERSION_MINIMUM" or None in arguments:
+        newest = versions().get(name)
+        if newest is None or None in arguments:
             return None
-        return int(tuple(a for a in arguments if a is not None) <= _NOETIC)
+        return int(tuple(a for a in arguments if a is not None) <= newest)
 
 
 def _compare(operator: str, left: int, right: int) -> bool:

@@ -10,6 +10,7 @@ from typing import TypeAlias
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.syntax.cpp_tree import (
     FIELDS,
     Cpp,
@@ -34,9 +35,6 @@ _DECLARATORS = _REFERRING | {"array_declarator"}
 _DECLARATOR, _BODY, _TYPE = FIELDS["declarator"], FIELDS["body"], FIELDS["type"]
 # Declarators, each with the value that follows it.
 Declared: TypeAlias = "list[tuple[Node, Node | None]]"
-# What every node of rclcpp is.
-_ROOTS = frozenset({"rclcpp::Node", "rclcpp_lifecycle::LifecycleNode", "lifecycle::RebecNode"})
-
 # One type, with its scope or, after `using`, without.
 _STD = re.compile(r"^(?:::)?std::(?=\w+\Z)")
 
@@ -290,20 +288,22 @@ def bases_of(node: Node) -> Iterator[str]:
     for clause in node.named_children:
         if clause.type == "base_class_clause":
             for base in clause.named_children:
-                if "".join(text_of(base).split()) in _ROOTS:
+                if _is_root(base):
                     continue
                 if base.type in ("type_identifier", "qualified_identifier", "template_type"):
                     yield unscoped(base)
 
 
 def roots_of(node: Node) -> Iterator[str]:
-    """The classes of rclcpp that a class is derived from itself: `Node` for `rclcpp::Node`."""
+    """The classes of nodes that a class is derived from itself: `Node` for `rclcpp::Node`."""
     for clause in node.named_children:
         if clause.type == "base_class_clause":
-            named_ = (
-                base for base in clause.named_children if "".join(text_of(base).split()) in _ROOTS
-            )
+            named_ = (base for base in clause.named_children if _is_root(base))
             yield from (unscoped(base) for base in named_)
+
+
+def _is_root(base: Node) -> bool:
+    return "".join(text_of(base).split()) in libraries.roots()
 
 
 def with_defaults(function: CppFunction, declared: Sequence[CppFunction]) -> CppFunction:

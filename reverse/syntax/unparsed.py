@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.findings import Finding, Grade
+from rebsync.reverse.libraries.cpp import scopes, telling_words
 from rebsync.reverse.syntax.cpp_conditions import Conditional, alternatives
 from rebsync.reverse.syntax.cpp_declarations import only_braces
 from rebsync.reverse.syntax.cpp_text import has_alternatives, is_split, read_branch
@@ -21,11 +22,8 @@ from rebsync.source import Span
 NO_CPP = "this is no C++ that can be read"
 NO_PYTHON = "this is no Python that can be read"
 _LONGEST = 120
+_WORD = re.compile(r"\w+")
 _DIRECTIVES = re.compile(r"^[ \t]*#(?:[^\n\\]|\\\r?\n|\\.)*", re.MULTILINE)
-_ROS = re.compile(
-    r"\b(?:ros::|NodeHandle|advertise|subscribe|publish|createTimer|createWallTimer|param|getParam"
-    r"|setParam|spin|ROS_ASSERT)\b"
-)
 _HINT = "where only one is ever compiled, take the others out"
 
 
@@ -121,10 +119,16 @@ def _undecided(cpp: Cpp, plain: str, each: Conditional) -> Iterator[Finding]:
         why = f"of the alternatives of `{each.condition}` {which} is read: they overlap other code"
         yield Finding(Grade.UNREADABLE, cpp.source, span, why, _HINT)
         return
-    if _in_body(cpp, each) and not any(_ROS.search(text) for text in code):
+    if _in_body(cpp, each) and not any(map(_asks, code)):
         return  # the reader of the body lists it
     why = f"whether `{each.condition}` holds is not known: all alternatives are read"
     yield Finding(Grade.APPROXIMATED, cpp.source, span, why, _HINT)
+
+
+def _asks(text: str) -> bool:
+    """Whether code may ask for something, or act on the node."""
+    found = frozenset(_WORD.findall(text))
+    return any(s in text for s in scopes()) or not found.isdisjoint(telling_words())
 
 
 def _in_body(cpp: Cpp, each: Conditional) -> bool:

@@ -8,7 +8,7 @@ from dataclasses import field
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.roscpp_vocabulary import HANDLE_TYPE
+from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.syntax.cpp_index import CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.values.cpp_flow import Texts, climb, declaration_of, made_of, nearness
@@ -271,7 +271,7 @@ def _kind(type_: str) -> str:
     name = type_.rpartition("::")[2]
     if name in NUMBERS and name != "char":
         return "number"
-    if name == HANDLE_TYPE:
+    if name in libraries.handles():
         return "handle"
     return "text" if type_ == "std::string" else ""
 

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.rclcpp_vocabulary import CHANGING
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.values.cpp_flow import Texts, declaration_of, is_pointer, made_of
 from rebsync.reverse.values.cpp_flow_types import Variable
@@ -146,7 +147,7 @@ def _by_method(place: Node, access: Node) -> Definition | None:
         return Definition("value", place, given[0])
     if method == "append" and len(given) == 1:
         return Definition("added", place, given[0])
-    if method in CHANGING:
+    if method in libraries.named(Kind.CHANGE):
         return Definition("adjusted", place, call, text=method)
     if method in _CHANGES:
         return Definition("unknown", place, call, text=f"changed by {method}")

@@ -8,8 +8,7 @@ from dataclasses import field
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.rclcpp_vocabulary import MAKERS
-from rebsync.reverse.roscpp_vocabulary import HANDLE_TYPE, OWN_HANDLES
+from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.syntax.cpp_declarations import unscoped
 from rebsync.reverse.syntax.cpp_index import CppClass, CppField, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
@@ -32,6 +31,7 @@ _POINTERS = frozenset(
         *("WeakPtr", "ConstWeakPtr"),
     }
 )
+_OWN_MAKERS = frozenset({"make_shared", "make_unique"})
 _MAKERS = frozenset({"make_shared", "make_unique", "static_pointer_cast", "allocate_shared"})
 
 
@@ -220,8 +220,8 @@ class Types:
 
     def _type_of_call(self, cpp: Cpp, node: Node, depth: int) -> str:
         function = part(node, "function")
-        if text_of(function).rpartition(">")[2] in OWN_HANDLES:
-            return HANDLE_TYPE
+        if text_of(function).rpartition(">")[2] in libraries.own_handles():
+            return next(iter(libraries.handles()))
         if function.type == "field_expression":
             name = unscoped_member(part(function, "field"))
             owner = self.class_of(cpp, part(function, "argument"), depth + 1)
@@ -237,7 +237,7 @@ class Types:
         last = function
         while last.type == "qualified_identifier":
             last = part(last, "name")
-        if last is not function and text_of(last) in MAKERS:
+        if last is not function and text_of(last) in _OWN_MAKERS:
             return "".join(text_of(function).split()).rpartition("::")[0]
         if last.type in ("template_function", "template_type"):
             given = named(part(last, "arguments"))

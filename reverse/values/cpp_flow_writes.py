@@ -8,8 +8,8 @@ from dataclasses import field
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.rclcpp_vocabulary import NODE
-from rebsync.reverse.roscpp_vocabulary import FUNCTIONS, HANDLE, Kind
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.values.cpp_flow import Texts, climb
@@ -100,7 +100,7 @@ class Writes:
         name, scope = called_name(function)
         if role_of(name, scope, definition.index, len(named(part(definition.node, "arguments")))):
             return True
-        if (name in HANDLE and function.type == "field_expression") or name in NODE:
+        if _asks_for(name, function):
             return False
         if name in _READERS and function.type != "field_expression":
             return True
@@ -187,9 +187,10 @@ def called_name(function: Node) -> tuple[str, str]:
 
 def role_of(name: str, scope: str, index: int, count: int) -> str:
     """The role of an argument that a call fills: `format`, or for a parameter; or empty."""
-    ask = HANDLE.get(name) if scope == "." else FUNCTIONS.get((scope, name))
+    on_handles, functions = libraries.handle_methods(), libraries.functions()
+    ask = on_handles.get(name) if scope == "." else functions.get((scope, name))
     if ask is None and scope in ("", "."):
-        ask = NODE.get(name)
+        ask = libraries.node_methods().get(name)
     if name in FORMATS and scope in ("", "std") and index == 0:
         return "format"
     if ask is None or ask.kind is not Kind.PARAMETER or index >= len(ask.arguments):
@@ -198,6 +199,12 @@ def role_of(name: str, scope: str, index: int, count: int) -> str:
     if role == "variable" and "default" in ask.arguments and count == 2:
         return ""  # `param(name, default)`
     return role if role in ("variable", "found") else ""
+
+
+def _asks_for(name: str, function: Node) -> bool:
+    """Whether a call asks for something by a method of a handle or a node."""
+    is_method = function.type == "field_expression"
+    return (is_method and name in libraries.handle_methods()) or name in libraries.node_methods()
 
 
 def _by_reference(parameter: Node) -> bool:

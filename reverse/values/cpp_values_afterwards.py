@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from rebsync.records import dataclass
-from rebsync.reverse.roscpp_vocabulary import ENTRIES
+from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.syntax.cpp_declarations import unscoped
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.values.cpp_flow_types import Variable
@@ -108,7 +108,7 @@ class Afterwards:
 
     def _is_called(self, function: CppFunction) -> bool:
         return (
-            function.name in ENTRIES
+            function.name in libraries.entries()
             or not function.parameters
             or any(not u.handed for u in self.variables.values.calls.uses(function))
         )

@@ -9,16 +9,8 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, Resolved, Unresolved
-from rebsync.reverse.rclcpp_vocabulary import HELD, READING
-from rebsync.reverse.roscpp_vocabulary import (
-    HANDLE,
-    HANDLE_TYPE,
-    OWN_HANDLES,
-    OWN_NAMES,
-    RATES,
-    SPANS,
-    TRANSPORTS,
-)
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.reverse.values.cpp_flow_reach import taken
@@ -42,9 +34,9 @@ from rebsync.reverse.values.cpp_values_plain import (
     pairs,
 )
 from rebsync.reverse.values.cpp_values_ros2 import (
-    MADE,
     changed,
     is_quality_method,
+    makes,
     parameter,
     span,
 )
@@ -109,9 +101,9 @@ def _of_function(
         )
     if scope in ("param", "names") and given:
         return _of_ros(values, node, scope, name, given, frame)
-    if name in OWN_HANDLES and not given:
-        return Handle(OWN_HANDLES[name])
-    if name in OWN_NAMES and not given and not values.calls.functions(frame.cpp, node):
+    if name in libraries.own_handles() and not given:
+        return Handle(libraries.own_handles()[name])
+    if name in libraries.own_names() and not given and not values.calls.functions(frame.cpp, node):
         return OWN_NAME
     if name in _SAME and len(given) == 1:
         return values.value(given[0], frame)
@@ -133,7 +125,7 @@ def _of_function(
         return _of_library(values, node, name, given, frame)
     if (length := span(values, name, types, given, frame)) is not None:
         return length
-    if name in READING and given and not values.calls.functions(frame.cpp, node):
+    if name in libraries.reading() and given and not values.calls.functions(frame.cpp, node):
         return parameter(values, name, given, node, frame)
     if name == "from_rmw" and given:
         return values.value(given[0], frame)
@@ -153,9 +145,11 @@ def _of_own(values: Values, node: Node, name: str, given: tuple[Node, ...], fram
 def _constructed_type(values: Values, node: Node, name: str, frame: Frame) -> str:
     """The type that a call makes an object of, if its function is one."""
     text = "".join(text_of(part(node, "function")).split()).partition("<")[0]
-    if name in (HANDLE_TYPE, "string") or name in SPANS or name in RATES or name in NUMBERS:
+    if name in ("string", "vector") or name in NUMBERS or name.endswith("Options"):
         return text
-    if name in TRANSPORTS or name == "vector" or name.endswith("Options") or name in MADE:
+    if name in libraries.handles() or name in libraries.made_of_handles() or makes(name):
+        return text
+    if name in libraries.spans() or name in libraries.rates():
         return text
     return text if values.texts.class_near(name, frame.cpp) is not None else ""
 
@@ -250,9 +244,9 @@ def _of_method(
 ) -> Value:
     target = part(function, "argument")
     name = unscoped_member(part(function, "field"))
-    if name in OWN_HANDLES and not given:
-        return Handle(OWN_HANDLES[name])
-    if name in OWN_NAMES and target.type == "this":
+    if name in libraries.own_handles() and not given:
+        return Handle(libraries.own_handles()[name])
+    if name in libraries.own_names() and target.type == "this":
         return OWN_NAME
     if name == "str" and not given and is_stream(values.types.type_of(frame.cpp, target)):
         variable = values.types.variable(frame.cpp, target)
@@ -262,7 +256,7 @@ def _of_method(
         return _inside(values, values.value(target, frame), node, name, frame)
     if name in ("empty", "size", "length", "toSec", "expectedCycleTime", "isEmpty"):
         return each(_measure(values, name, node, frame), values.value(target, frame))
-    if name in ("getNamespace", "resolveName", *HANDLE):
+    if name in ("getNamespace", "resolveName", *libraries.handle_methods()):
         handle = values.value(target, frame)
         if isinstance(handle, Handle):
             return _of_handle(values, handle, node, name, given, frame)
@@ -280,9 +274,9 @@ def _of_ros2(
     values: Values, node: Node, name: str, target: Node, given: tuple[Node, ...], frame: Frame
 ) -> Value:
     """What a method of a node, of a parameter or of a quality of service gives."""
-    if name in READING and given:
+    if name in libraries.reading() and given:
         return parameter(values, name, given, node, frame)
-    if name in HELD and not given:
+    if name in libraries.named(Kind.VALUE) and not given:
         held = values.value(target, frame)
         return held if not isinstance(held, Nothing) else values.unknown("a value", node, frame)
     if is_quality_method(name):

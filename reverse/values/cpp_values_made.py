@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, Under, Unresolved
-from rebsync.reverse.roscpp_vocabulary import HANDLE_TYPE, RATES, SPANS
+from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.values.cpp_values_names import name_under, spoken, tidy
 from rebsync.reverse.values.cpp_values_numbers import converted, used
 from rebsync.reverse.values.cpp_values_plain import (
@@ -36,13 +36,13 @@ def constructed(values: Values, type_: str, use: Use, frame: Frame) -> Value:
     """An object of a type, made of arguments in a frame."""
     name = type_.rpartition("::")[2]
     given = use.arguments
-    if name == HANDLE_TYPE:
+    if name in libraries.handles():
         return _handle(values, given, frame)
     if (of_ros2 := made(values, type_, use, frame)) is not None:
         return of_ros2
-    if name in SPANS:
+    if name in libraries.spans():
         return _span(values, given, frame)
-    if name in RATES:
+    if name in libraries.rates():
         return each(_cycle, values.value(given[0], frame)) if given else Nothing()
     if name in _TEXTS and type_ in ("std::string", "string"):
         if not given:
@@ -84,7 +84,7 @@ def _part(values: Values, use: Use, frame: Frame) -> Value:
 
 def default_of(values: Values, type_: str, node: Node, frame: Frame) -> Value:
     """What a variable of a type holds that is declared without a value."""
-    if type_.rpartition("::")[2] == HANDLE_TYPE:
+    if type_.rpartition("::")[2] in libraries.handles():
         return Handle("")
     if not type_ or type_ in NUMBERS or type_ in ("std::string", "string"):
         return Nothing()

@@ -9,18 +9,9 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, Unresolved
-from rebsync.reverse.rclcpp_vocabulary import (
-    CHANGING,
-    FROM,
-    LEAVING,
-    MARK,
-    PROFILES,
-    QUALITIES,
-    RATIOS,
-    SUFFIXES,
-    UNITS,
-    VALUES,
-)
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.libraries.tables.standard import RATIOS, SUFFIXES, UNITS
 from rebsync.reverse.syntax.cpp_calls import string_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.reverse.values.cpp_flow import climb
@@ -42,13 +33,14 @@ from rebsync.reverse.values.cpp_values_plain import (
 if TYPE_CHECKING:
     from rebsync.reverse.values.cpp_values import Values
 
-_SPANS = frozenset({"Duration"})
 _KEPT = re.compile(r"(?:TransientLocal|TRANSIENT_LOCAL)\Z")
 _LOST = re.compile(r"(?:Volatile|VOLATILE)\Z")
-_TYPE = re.compile(r"\b(?:rclcpp|ParameterType)::PARAMETER_[A-Z_]+\Z")
-_DECLARE = "declare_parameter"
-# The classes of which this makes values.
-MADE = frozenset({*QUALITIES, *UNITS, *VALUES})
+_TYPE = re.compile(r"\b\w+::PARAMETER_[A-Z_]+\Z")
+
+
+def makes(name: str) -> bool:
+    """Whether this makes values of a class."""
+    return name in UNITS or name in libraries.qualities() or name in libraries.value_classes()
 
 
 def literal(values: Values, node: Node, frame: Frame) -> Value:
@@ -58,7 +50,7 @@ def literal(values: Values, node: Node, frame: Frame) -> Value:
         suffix = text_of(children[1])
         inner = values.value(children[0], frame)
         if children[0].type == "number_literal" and suffix in SUFFIXES:
-            return each(lambda v: _times(v, SUFFIXES[suffix]), inner)
+            return each(lambda v: _times(v, float(SUFFIXES[suffix])), inner)
         if suffix == "s" and isinstance(inner, str):
             return inner
     return values.unknown("a literal of its own kind", node, frame)
@@ -68,13 +60,13 @@ def made(values: Values, type_: str, use: Use, frame: Frame) -> Value | None:
     """An object of a class of ROS 2 or `std::chrono`, made of arguments; None for other classes."""
     name = type_.rpartition("::")[2]
     given = use.arguments
-    if name in QUALITIES:
+    if name in libraries.qualities():
         return _quality(values, name, use, frame)
     if name in UNITS and given:
-        return each(lambda v: _times(v, UNITS[name]), values.value(given[0], frame))
-    if name in _SPANS and type_.startswith("rclcpp::") and len(given) == 1:
-        return each(lambda v: _times(v, UNITS["nanoseconds"]), values.value(given[0], frame))
-    if name in VALUES and len(given) == 1:
+        return each(lambda v: _times(v, float(UNITS[name])), values.value(given[0], frame))
+    if (unit := libraries.spans().get(type_)) is not None and "::" in type_ and len(given) == 1:
+        return each(lambda v: _times(v, unit), values.value(given[0], frame))
+    if name in libraries.value_classes() and len(given) == 1:
         return values.value(given[0], frame)
     if name == "duration" and type_ == "std::chrono::duration":
         return span(values, name, _declared_types(use.node), given, frame)
@@ -93,7 +85,7 @@ def _declared_types(declarator: Node) -> tuple[Node, ...]:
 
 def unset(type_: str) -> Quality | None:
     """What a variable of a quality of service is that is declared without a value."""
-    depth = QUALITIES.get(type_.rpartition("::")[2])
+    depth = libraries.qualities().get(type_.rpartition("::")[2])
     return Quality(depth) if depth is not None else None
 
 
@@ -108,10 +100,13 @@ def span(
         return None
     if name == "duration_cast":
         return values.value(given[0], frame)
-    unit = FROM.get(name)
+    unit = libraries.spans().get(name) if not name[:1].isupper() else None
     if name == "duration" and types:
         ratio = "".join(text_of(types[1]).split()) if len(types) > 1 else ""
-        unit = RATIOS.get(ratio) if ratio else 1.0
+        unit = 1.0
+        if ratio:
+            known = RATIOS.get(ratio)
+            unit = float(known) if known is not None else None
     if unit is None:
         return None
     return each(lambda v: _times(v, unit), values.value(given[0], frame))
@@ -146,7 +141,7 @@ def _quality(values: Values, name: str, use: Use, frame: Frame) -> Value:
     if name == "QoSInitialization" and len(given) > 1:
         given = given[1:]
     if not given:
-        depth = QUALITIES[name]
+        depth = libraries.qualities()[name]
         unknown = values.unknown("a quality without a depth", use.node, frame)
         return Quality(depth if depth is not None else unknown)
     return each(lambda v: _deep(values, v, use.node, frame), values.value(given[0], frame))
@@ -162,10 +157,10 @@ def _deep(values: Values, value: Value, node: Node, frame: Frame) -> Value:
 
 
 def named_by_ros2(text: str) -> Value | None:
-    """What a name of rmw or rclcpp is: a quality, or a type of parameters that have no value."""
+    """What a name of a library is: a quality, or a type of parameters that have no value."""
     name = text.rpartition("::")[2]
-    if name in PROFILES:
-        return Quality(PROFILES[name])
+    if name in libraries.profiles():
+        return Quality(libraries.profiles()[name])
     return Nothing() if _TYPE.search(text) else None
 
 
@@ -173,7 +168,7 @@ def changed(
     values: Values, value: Value, name: str, given: tuple[Node, ...], node: Node, frame: Frame
 ) -> Value:
     """A quality of service after a method was called on it."""
-    if not isinstance(value, Quality) or name in LEAVING:
+    if not isinstance(value, Quality) or name in libraries.named(Kind.QUALITY):
         return value
     match name:
         case "keep_last" if given:
@@ -208,7 +203,7 @@ def adjusted(values: Values, before: Value, definition: Definition, frame: Frame
 
 def is_quality_method(name: str) -> bool:
     """Whether a method of this name gives the quality of service that it is called on."""
-    return name in CHANGING or name in LEAVING
+    return name in libraries.named(Kind.CHANGE) or name in libraries.named(Kind.QUALITY)
 
 
 # --- parameters ---------------------------------------------------------------------------------
@@ -221,7 +216,7 @@ def parameter(
     from rebsync.reverse.values.cpp_values_calls import from_parameter
 
     key = values.value(given[0], frame)
-    if name == _DECLARE and len(given) > 1:
+    if name in libraries.declaring() and len(given) > 1:
         default = values.value(given[1], frame)
     else:
         default = declared(values, given[0], frame)
@@ -241,7 +236,8 @@ def declared(values: Values, name: Node, frame: Frame) -> Value:
     """The default that the same file, or another, declares a parameter with."""
     text = string_of(name) if name.type == "string_literal" else values.value(name, frame)
     found: list[Value] = []
-    for cpp, place in values.texts.everywhere(_DECLARE) if isinstance(text, str) else ():
+    names = libraries.declaring() if isinstance(text, str) else ()
+    for cpp, place in (found for n in sorted(names) for found in values.texts.everywhere(n)):
         call = climb(place, lambda n: n.type in ("call_expression", "compound_statement"))
         if call is None or call.type != "call_expression":
             continue
@@ -253,6 +249,6 @@ def declared(values: Values, name: Node, frame: Frame) -> Value:
     return known if isinstance(known, (bool, int, float, str)) else Nothing()
 
 
-def uses_rclcpp(values: Values) -> bool:
-    """Whether some file of the code is for ROS 2."""
-    return any(MARK in cpp.original for cpp in values.code.files)
+def uses_flat(values: Values) -> bool:
+    """Whether some file of the code is for a library whose nodes have their own parameters."""
+    return any(libraries.is_flat(cpp.original) for cpp in values.code.files)

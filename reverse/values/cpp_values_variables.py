@@ -9,8 +9,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.graph import Under
-from rebsync.reverse.rclcpp_vocabulary import READING
-from rebsync.reverse.roscpp_vocabulary import HANDLE_TYPE
+from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.syntax.cpp_index import CppClass
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.reverse.values.cpp_flow_definitions import Definition
@@ -264,7 +263,7 @@ class Variables:
             return formatted(self.values, call, frame)
         if role:
             handle: Value = Handle("")
-            if function.type == "field_expression" and name not in READING:
+            if function.type == "field_expression" and name not in libraries.reading():
                 handle = self.values.value(part(function, "argument"), frame)
             key = self.values.value(given[0], frame)
             if role == "found":
@@ -273,7 +272,7 @@ class Variables:
                 default = self._as(variable, path, self.values.value(given[2], frame))
             else:
                 default = Nothing()
-                if name in READING:
+                if name in libraries.reading():
                     default = declared(self.values, given[0], frame)
                 if isinstance(default, Nothing):
                     default = self._at(variable, path, call, frame)
@@ -351,7 +350,7 @@ class Variables:
 
     def _from_outside(self, variable: Variable, frame: Frame) -> Value:
         type_ = self.values.types.plain(variable.cpp, variable.type)
-        if type_.rpartition("::")[2] == HANDLE_TYPE:
+        if type_.rpartition("::")[2] in libraries.handles():
             return Handle(Under("", self._without(variable, frame)))
         return self.values.unknown(_OUTSIDE, variable.name, frame)
 

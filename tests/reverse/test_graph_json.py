@@ -9,7 +9,6 @@ import jsonschema  # type: ignore[import-untyped]
 import pytest
 
 from rebsync.reverse.graph import (
-    Access,
     Callback,
     ClientFact,
     Fact,
@@ -30,6 +29,7 @@ from rebsync.reverse.graph import (
     Unresolved,
 )
 from rebsync.reverse.graph_json import fact_data, graph_data, value_data
+from rebsync.reverse.libraries.routines import Access
 from rebsync.reverse.syntax.cpp_tree import parse
 from rebsync.source import Source, Span
 from tests.consoles import ROOT

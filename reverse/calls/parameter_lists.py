@@ -1,4 +1,4 @@
-"""Facts that only calls of rclcpp have: several parameters at once, types given as texts."""
+"""Facts of calls with several parameters at once, and types of messages given as texts."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.calls.ros_calls_shapes import Asked
-from rebsync.reverse.graph import Access, Fact, ParameterFact, Resolved, Unresolved
-from rebsync.reverse.roscpp_vocabulary import Kind
+from rebsync.reverse.graph import Fact, ParameterFact, Resolved, Unresolved
+from rebsync.reverse.libraries.routines import Access, Kind
 from rebsync.reverse.syntax.cpp_tree import named
 from rebsync.reverse.values.cpp_flow import made_of
 from rebsync.reverse.values.cpp_values import Values

@@ -1,4 +1,4 @@
-"""What a word of rclcpp's vocabulary asks for where it stands: of nodes, and nodes themselves."""
+"""What a word of a library without node handles asks for: of nodes, and nodes themselves."""
 
 from __future__ import annotations
 
@@ -7,23 +7,17 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.calls.ros_calls_shapes import (
+    MAKERS,
     TEMPLATES,
     Asked,
     called_as,
+    handed_on,
     objects_of,
     types_of,
 )
 from rebsync.reverse.calls.ros_calls_sites import site_of
-from rebsync.reverse.rclcpp_vocabulary import (
-    FUNCTIONS,
-    MAKERS,
-    NAMED,
-    NODE,
-    NODE_CLASSES,
-    NODE_SCOPES,
-    TIMERS,
-)
-from rebsync.reverse.roscpp_vocabulary import Ask, Kind
+from rebsync.reverse.libraries.cpp_calls import Calls
+from rebsync.reverse.libraries.routines import Kind, Routine
 from rebsync.reverse.syntax.cpp_index import CppClass
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.values.cpp_flow import climb
@@ -35,13 +29,15 @@ _CALLED = frozenset({"template_method", "template_function", "dependent_name"})
 _MAKING = frozenset({Kind.PUBLISHER, Kind.SUBSCRIPTION, Kind.TIMER, Kind.SERVICE, Kind.CLIENT})
 
 
-def asked_of_ros2(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
+def asked_of_nodes(
+    calls: Calls, values: Values, cpp: Cpp, place: Node, name: str
+) -> Iterator[Asked]:
     """What a word asks for, if anything."""
-    if name in NODE_CLASSES:
-        yield from _node(values, cpp, place, name)
+    if name in calls.nodes:
+        yield from _node(calls, values, cpp, place, name)
         return
-    if name in TIMERS:
-        yield from _timer(values, cpp, place, TIMERS[name])
+    if name in calls.objects:
+        yield from _object(calls, values, cpp, place, name)
         return
     node, above = place, place.parent
     while above is not None and above.type in _CALLED:
@@ -51,20 +47,26 @@ def asked_of_ros2(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[
     if above.type == "field_expression" and part(above, "field") == node:
         call = above.parent
         if call is not None and call.type == "call_expression" and part(call, "function") == above:
-            yield from _of_method(values, cpp, place, call, node, part(above, "argument"))
+            yield from _of_method(calls, values, cpp, place, call, node, part(above, "argument"))
     else:
-        yield from _of_function(values, cpp, place, node, above, name)
+        yield from _of_function(calls, values, cpp, place, node, above, name)
 
 
 # --- calls --------------------------------------------------------------------------------------
 
 
 def _of_method(
-    values: Values, cpp: Cpp, place: Node, call: Node, called: Node, target: Node
+    calls: Calls,
+    values: Values,
+    cpp: Cpp,
+    place: Node,
+    call: Node,
+    called: Node,
+    target: Node,
 ) -> Iterator[Asked]:
     """`node->create_publisher<T>("x", 10)`."""
     name = unscoped_member(called)
-    ask = NODE.get(name)
+    ask = calls.on_nodes.get(name)
     if ask is None:
         return
     given = tuple(named(part(call, "arguments")))
@@ -73,25 +75,25 @@ def _of_method(
     if class_ is not None:
         meant = _may_be_node(values, class_, name)
     else:
-        meant = type_ in NODE_CLASSES or _says_enough(ask, given)
+        meant = type_ in calls.nodes or _says_enough(ask, given)
     if meant:
         yield Asked(ask, site_of(values, cpp, place, call), given, types_of(called), target)
 
 
 def _of_function(
-    values: Values, cpp: Cpp, place: Node, node: Node, above: Node, name: str
+    calls: Calls, values: Values, cpp: Cpp, place: Node, node: Node, above: Node, name: str
 ) -> Iterator[Asked]:
-    """`create_publisher<T>("x", 10)` in a class of nodes, `rclcpp::create_timer(...)`."""
+    """`create_publisher<T>("x", 10)` in a class of nodes, `library::create_timer(...)`."""
     called = called_as(node, above)
     if called is None:
         return
     scope, call = called
-    ask = FUNCTIONS.get((scope, name))
-    if ask is None and scope in ("", *NODE_CLASSES):
+    ask = calls.functions.get((scope, name))
+    if ask is None and scope in ("", *calls.nodes):
         function = values.texts.function_around(cpp, place)
         class_ = values.texts.class_of(function)
         if class_ is not None and _may_be_node(values, class_, name):
-            ask = NODE.get(name)
+            ask = calls.on_nodes.get(name)
     if ask is not None:
         given = tuple(named(part(call, "arguments")))
         yield Asked(ask, site_of(values, cpp, place, call), given, types_of(node))
@@ -112,24 +114,25 @@ def _may_be_node(values: Values, class_: CppClass, method: str) -> bool:
     return any("Node" in b for b in bases)
 
 
-def _says_enough(ask: Ask, given: tuple[Node, ...]) -> bool:
+def _says_enough(ask: Routine, given: tuple[Node, ...]) -> bool:
     return ask.kind in _MAKING and len(given) >= ask.least
 
 
 # --- nodes --------------------------------------------------------------------------------------
 
 
-def _node(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
+def _node(calls: Calls, values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
     """`: Node("x")`, `rclcpp::Node::make_shared("x")`, `std::make_shared<rclcpp::Node>("x")`."""
     if values.texts.code.all_classes.get(name):
         return  # a class of that name of their own
+    named_ = calls.nodes[name]
     scope, node, above = "", place, place.parent
     while above is not None and above.type == "qualified_identifier":
         written = above.child_by_field_name("scope")
         if written is not None and part(above, "name") == node:
             scope = text_of(written)
         elif written == node and above.parent is not None:
-            yield from _by_own_maker(values, cpp, place, above)
+            yield from _by_own_maker(values, cpp, place, above, named_)
             return
         node, above = above, above.parent
     if above is None:
@@ -139,26 +142,34 @@ def _node(values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
         if class_ is not None and name in (*class_.roots, *class_.bases):
             lists = [n for n in above.named_children if n.type.endswith("_list")]
             given = tuple(named(lists[-1])) if lists else ()
-            yield Asked(NAMED, site_of(values, cpp, place, above), given)
-    elif scope.rpartition("::")[2] in NODE_SCOPES:
-        yield from _made(values, cpp, place, node, above)
+            yield Asked(named_, site_of(values, cpp, place, above), given)
+    elif scope.rpartition("::")[2] in calls.node_scopes:
+        yield from _made(values, cpp, place, node, above, named_)
 
 
-def _timer(values: Values, cpp: Cpp, place: Node, ask: Ask) -> Iterator[Asked]:
-    """`rclcpp::GenericTimer<F>::make_shared(clock, period, f)`, without a node's help."""
+def _object(calls: Calls, values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
+    """`rclcpp::GenericTimer<F>::make_shared(clock, period, f)`, `rclcpp::Rate rate(10)`."""
+    ask, scopes = calls.objects[name]
     node, above = place, place.parent
+    scope = ""
     while above is not None and above.type in (*TEMPLATES, "qualified_identifier"):
         if above.type == "qualified_identifier" and part(above, "name") != node:
             yield from _by_own_maker(values, cpp, place, above, ask)
             return
+        if above.type == "qualified_identifier" and not scope:
+            written = above.child_by_field_name("scope")
+            scope = text_of(written) if written is not None else ""
         node, above = above, above.parent
-    if above is not None:
-        for call, given in objects_of(node, above):
+    is_rate = ask.kind is Kind.RATE
+    if above is None or (is_rate and scope not in scopes):
+        return
+    for call, given in objects_of(node, above):
+        if not is_rate or (given and not handed_on(call)):
             yield Asked(ask, site_of(values, cpp, place, call), given)
 
 
 def _by_own_maker(
-    values: Values, cpp: Cpp, place: Node, above: Node, ask: Ask = NAMED
+    values: Values, cpp: Cpp, place: Node, above: Node, ask: Routine
 ) -> Iterator[Asked]:
     """`rclcpp::Node::make_shared("x")`; `above` is the name with the class before it."""
     if unscoped_member(part(above, "name")) not in MAKERS:
@@ -169,8 +180,10 @@ def _by_own_maker(
         yield Asked(ask, site_of(values, cpp, place, call), given)
 
 
-def _made(values: Values, cpp: Cpp, place: Node, node: Node, above: Node) -> Iterator[Asked]:
+def _made(
+    values: Values, cpp: Cpp, place: Node, node: Node, above: Node, ask: Routine
+) -> Iterator[Asked]:
     """An object that is declared, made by `new` or by a function of the standard library."""
     for call, given in objects_of(node, above):
         if given or above.type == "type_descriptor":
-            yield Asked(NAMED, site_of(values, cpp, place, call), given)
+            yield Asked(ask, site_of(values, cpp, place, call), given)

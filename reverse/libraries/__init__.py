@@ -1,0 +1,1 @@
+"""What the callables of libraries do: tables, and what the other rooms ask of them."""

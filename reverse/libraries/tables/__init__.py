@@ -1,0 +1,1 @@
+"""One module for each library: every module here is found, and gives its `LIBRARIES`."""

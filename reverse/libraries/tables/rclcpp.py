@@ -1,0 +1,179 @@
+"""rclcpp, and what is used with it: rclcpp_lifecycle, rclcpp_components, image_transport."""
+
+from __future__ import annotations
+
+from rebsync.reverse.libraries.routines import (
+    Access,
+    Effect,
+    Kind,
+    Language,
+    Library,
+    Routine,
+    Table,
+)
+
+
+def _asks(
+    kind: Kind,
+    *arguments: str,
+    access: Access | None = None,
+    wall: bool = False,
+    least: int = 9,
+    result: str = "",
+) -> Routine:
+    return Routine(kind, arguments, access=access, wall=wall, flat=True, least=least, result=result)
+
+
+def _image(kind: Kind, *arguments: str) -> Routine:
+    return Routine(
+        kind, arguments, type="sensor_msgs/Image", transport="image_transport", flat=True
+    )
+
+
+def _does(effect: Effect, *names: str, kind: Kind = Kind.OTHER) -> dict[str, Routine]:
+    return dict.fromkeys(names, Routine(kind, does=effect))
+
+
+_SENT = "rclcpp::Publisher"
+_NODE = {
+    "create_publisher": _asks(Kind.PUBLISHER, "name", "depth", least=2, result=_SENT),
+    "create_generic_publisher": _asks(
+        Kind.PUBLISHER, "name", "interface", "depth", least=3, result=_SENT
+    ),
+    "create_subscription": _asks(Kind.SUBSCRIPTION, "name", "depth", "callback", least=3),
+    "create_generic_subscription": _asks(
+        Kind.SUBSCRIPTION, "name", "interface", "depth", "callback", least=4
+    ),
+    "create_wall_timer": _asks(
+        Kind.TIMER, "period", "callback", "", "autostart", wall=True, least=2
+    ),
+    "create_timer": _asks(Kind.TIMER, "period", "callback", least=2),
+    "create_service": _asks(Kind.SERVICE, "name", "callback", least=2),
+    "create_client": _asks(Kind.CLIENT, "name", least=1, result="rclcpp::Client"),
+    "declare_parameter": _asks(Kind.PARAMETER, "name", "default", access=Access.DECLARE, least=1),
+    "declare_parameters": _asks(Kind.DECLARED, "name", "default", access=Access.DECLARE),
+    "get_parameter": _asks(Kind.PARAMETER, "name", "variable", access=Access.GET),
+    "get_parameter_or": _asks(Kind.PARAMETER, "name", "variable", "default", access=Access.GET),
+    "get_parameters": _asks(Kind.READ, "name", access=Access.GET),
+    "has_parameter": _asks(Kind.PARAMETER, "name", access=Access.HAS),
+    "undeclare_parameter": _asks(Kind.PARAMETER, "name", access=Access.DELETE),
+    "set_parameter": _asks(Kind.SET, "name", access=Access.SET),
+    "now": Routine(Kind.CLOCK),
+    **_does(Effect.NONE, "get_logger"),
+}
+_NAMED = _asks(Kind.NODE, "name")
+_FUNCTIONS = {
+    "rclcpp::Node": _NAMED,
+    "rclcpp::LifecycleNode": _NAMED,
+    "rclcpp_lifecycle::Node": _NAMED,
+    "rclcpp_lifecycle::LifecycleNode": _NAMED,
+    "rclcpp::create_publisher": _asks(Kind.PUBLISHER, "", "name", "depth"),
+    "rclcpp::create_subscription": _asks(Kind.SUBSCRIPTION, "", "name", "depth", "callback"),
+    "rclcpp::create_timer": _asks(Kind.TIMER, "", "", "period", "callback"),
+    "rclcpp::create_wall_timer": _asks(Kind.TIMER, "period", "callback", wall=True),
+    # Classes of timers, which a program may make by itself and then add to a node.
+    "rclcpp::GenericTimer": _asks(Kind.TIMER, "", "period", "callback"),
+    "rclcpp::WallTimer": _asks(Kind.TIMER, "period", "callback", wall=True),
+    "rclcpp::Rate": Routine(Kind.RATE, ("hz",)),
+    "rclcpp::WallRate": Routine(Kind.RATE, ("hz",), wall=True),
+    "image_transport::create_publisher": _image(Kind.PUBLISHER, "", "name", "depth"),
+    "image_transport::create_camera_publisher": _image(Kind.PUBLISHER, "", "name", "depth"),
+    "image_transport::create_subscription": _image(
+        Kind.SUBSCRIPTION, "", "name", "callback", "", "depth"
+    ),
+    "image_transport::create_camera_subscription": _image(
+        Kind.SUBSCRIPTION, "", "name", "callback", "", "depth"
+    ),
+    "rclcpp::init": Routine(Kind.START),
+    "rclcpp::spin": Routine(Kind.SPIN),
+    "rclcpp::spin_some": Routine(Kind.SERVE),
+    "rclcpp::spin_all": Routine(Kind.SERVE, ("timeout",)),
+    "rclcpp::spin_once": Routine(Kind.SERVE, ("timeout",)),
+    "rclcpp::spin_node_some": Routine(does=Effect.RUNS),
+    "rclcpp::spin_node_once": Routine(does=Effect.RUNS),
+    "rclcpp::spin_until_future_complete": Routine(does=Effect.RUNS),
+    "rclcpp::shutdown": Routine(Kind.SHUTDOWN),
+    "rclcpp::ok": Routine(Kind.RUNNING, result="bool"),
+    "rclcpp::to_yaml": Routine(),
+    "rclcpp::Duration": Routine(Kind.SPAN),
+}
+_METHODS = {
+    "rclcpp::Node": _NODE,
+    _SENT: {
+        "publish": Routine(Kind.PUBLISH, ("message",)),
+        **_does(Effect.NONE, "get_topic_name", "is_activated"),
+        **_does(Effect.NONE, "get_subscription_count", kind=Kind.AUDIENCE),
+        **_does(Effect.NONE, "assert_liveliness", "get_network_flow_endpoints", "get_actual_qos"),
+        **_does(Effect.NONE, "can_loan_messages", "get_gid"),
+    },
+    "rclcpp::Subscription": _does(
+        Effect.NONE, "get_publisher_count", "get_content_filter", "is_cft_enabled"
+    ),
+    "rclcpp::TimerBase": _does(Effect.NONE, "is_canceled", "time_until_trigger"),
+    "rclcpp::Client": {
+        **_does(Effect.NONE, "service_is_ready"),
+        **_does(Effect.WAITS, "wait_for_service", "wait_for_action_server"),
+    },
+    "rclcpp::Clock": {"now": Routine(Kind.CLOCK)},
+    "rclcpp::Rate": {"sleep": Routine(Kind.SLEEP)},
+    "rclcpp::Executor": {"add_node": Routine(Kind.START), "spin": Routine(Kind.SPIN)},
+    "rclcpp::Time": _does(Effect.NONE, "nanoseconds", "seconds"),
+    "rclcpp::QoS": {
+        # Those that change what is read of a quality of service, and those that leave it alone.
+        **dict.fromkeys(("keep_last", "keep_all", "history", "durability"), Routine(Kind.CHANGE)),
+        **dict.fromkeys(("transient_local", "durability_volatile"), Routine(Kind.CHANGE)),
+        **_does(Effect.NONE, "reliable", "best_effort", "reliability", kind=Kind.QUALITY),
+        **_does(Effect.NONE, "deadline", "lifespan", "liveliness", kind=Kind.QUALITY),
+        **_does(Effect.NONE, "liveliness_lease_duration", kind=Kind.QUALITY),
+        **_does(Effect.NONE, "avoid_ros_namespace_conventions", kind=Kind.QUALITY),
+        **_does(Effect.NONE, "get_rmw_qos_profile", kind=Kind.QUALITY),
+        **_does(Effect.NONE, "reliability_best_available", kind=Kind.QUALITY),
+        **_does(Effect.NONE, "durability_best_available", kind=Kind.QUALITY),
+    },
+    "rclcpp::Parameter": {
+        **dict.fromkeys(("as_bool", "as_int", "as_double", "as_string"), Routine(Kind.VALUE)),
+        **dict.fromkeys(("as_bool_array", "as_integer_array"), Routine(Kind.VALUE)),
+        **dict.fromkeys(("as_double_array", "as_string_array"), Routine(Kind.VALUE)),
+        **dict.fromkeys(("get_value", "get_parameter_value"), Routine(Kind.VALUE)),
+    },
+}
+_QUALITIES: dict[str, int | None] = {
+    **{"QoS": None, "QoSInitialization": None, "KeepLast": None, "KeepAll": 0},
+    **{"SensorDataQoS": 5, "ServicesQoS": 10, "ParametersQoS": 1000, "ParameterEventsQoS": 1000},
+    **{"RosoutQoS": 1000, "ClockQoS": 1, "SystemDefaultsQoS": 0, "BestAvailableQoS": 10},
+}
+_PROFILES = {
+    "rmw_qos_profile_default": 10,
+    "rmw_qos_profile_sensor_data": 5,
+    "rmw_qos_profile_services_default": 10,
+    "rmw_qos_profile_parameters": 1000,
+    "rmw_qos_profile_parameter_events": 1000,
+    "rmw_qos_profile_system_default": 0,
+    "rmw_qos_profile_best_available": 10,
+}
+
+LIBRARIES = (
+    Library(
+        "rclcpp",
+        Language.CPP,
+        _FUNCTIONS,
+        _METHODS,
+        nodes=frozenset({"rclcpp::Node", "rclcpp_lifecycle::LifecycleNode"}),
+        managed=frozenset({"rclcpp_lifecycle::LifecycleNode"}),
+        plain=frozenset({"ParameterValue"}),
+        marks=("rclcpp",),
+        starts=("rclcpp",),
+        logs=(
+            *("RCLCPP_DEBUG", "RCLCPP_INFO", "RCLCPP_WARN", "RCLCPP_ERROR", "RCLCPP_FATAL"),
+            *("RCLCPP_LOG", "RCUTILS_LOG"),
+        ),
+        registers="RCLCPP_COMPONENTS_REGISTER_NODE",
+        commands=("rclcpp_components_register_node", "rclcpp_components_register_nodes"),
+        threaded=frozenset({"MultiThreadedExecutor", "EventsExecutor"}),
+        table=Table(
+            _QUALITIES,
+            _PROFILES,
+            spans={"rclcpp::Duration": 1e-9, "from_seconds": 1.0, "from_nanoseconds": 1e-9},
+        ),
+    ),
+)
