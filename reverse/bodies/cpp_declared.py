@@ -13,7 +13,7 @@ from rebsync.static.constants import constant
 from rebsync.static.types import BOOLEAN, INT
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statements import CppStatements
+    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,7 @@ def only_value(declared: Declared) -> Node | None:
     return value
 
 
-def number_of(reader: CppStatements, declared: Declared) -> m.Expression | None:
+def number_of(reader: CppStatementReader, declared: Declared) -> m.Expression | None:
     """The whole number, or truth value, that a constant of a function is, whatever calls it."""
     kept, value = reader.scope.carried(declared.type), only_value(declared)
     plain = kept is not None and kept.type in (INT, BOOLEAN) and not (kept.bits or kept.wide)

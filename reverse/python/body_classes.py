@@ -20,11 +20,11 @@ from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_servers import Carried, Server
 from rebsync.reverse.nodes.node_starts import started_late
 from rebsync.reverse.nodes.node_tidying import tidy
-from rebsync.reverse.python.body_loops import Loop
 from rebsync.reverse.python.body_messages import PROBE
-from rebsync.reverse.python.body_methods import without_returns
+from rebsync.reverse.python.body_node_loops import Loop
 from rebsync.reverse.python.body_proof import Bodies, Proved, proved
 from rebsync.reverse.python.body_reading import Reading
+from rebsync.reverse.python.body_returns import without_returns
 from rebsync.reverse.python.body_scope import (
     TYPES,
     WHOLE,

@@ -12,12 +12,14 @@ from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.tables.standard import LOCKS
 from rebsync.reverse.python.body_reading import Reading, nonlocals
 from rebsync.reverse.python.body_scope import Frame, Message, Own, Var
+from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_index import Scope, last_name
 from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import Class, Function, Made, Value, Ways
 
 _LOCK = re.compile(LOCKS)
 _DEEPEST = 4
+HARMLESS_DECORATORS = frozenset({"staticmethod"})
 _WORDS = frozenset({"await", "yield", "named_expression"})
 
 
@@ -56,8 +58,6 @@ def _is_one(reading: Reading, node: Node, frame: Frame) -> bool:
         return False
     own = reading.function(function, frame)
     if own is not None:
-        from rebsync.reverse.python.body_methods import is_still
-
         return is_still(reading, own)
     ways = reading.values.ways(function, frame.scope)
     if not (all(is_quiet(reading, w) for w in ways) and _are_quiet(reading, name, function, ways)):
@@ -211,3 +211,23 @@ def _all(node: Node) -> Iterator[Node]:
         current = waiting.pop()
         yield current
         waiting += current.named_children
+
+
+def is_still(reading: Reading, own: Scope) -> bool:
+    """Whether a function of the node changes nothing: it only computes what it gives."""
+    if not set(own.decorators) <= HARMLESS_DECORATORS:
+        return False
+    return is_quiet_body(reading, own, 0) and not any(
+        b.how in ("value", "augmented") and scope_of_binding(b, own)
+        for above in reading.unit.lineage
+        for of in above.attributes.values()
+        for b in of
+    )
+
+
+def scope_of_binding(binding: Binding, own: Scope) -> bool:
+    """Whether a binding stands in a function."""
+    return (
+        own.node.start_byte <= binding.node.start_byte
+        and binding.node.end_byte <= own.node.end_byte
+    )

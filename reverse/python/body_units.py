@@ -24,8 +24,8 @@ from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.python.body_scope import PyUnit
+from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_index import CLASS, LAMBDA, PyCode, Scope
-from rebsync.reverse.python.py_lookup import lineage
 from rebsync.reverse.python.py_values import Values
 from rebsync.reverse.syntax.cpp_index import Code
 

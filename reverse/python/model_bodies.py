@@ -22,16 +22,11 @@ from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.sensors import list_unseen
 from rebsync.reverse.python.model_constants import constants_in, constants_of, enumerations_of
-from rebsync.reverse.python.model_expressions import Expressions, Names
-from rebsync.reverse.python.model_filled import Filling, fillings_of
-from rebsync.reverse.python.model_helpers import (
-    Helper,
-    called_in,
-    first_of,
-    own_name,
-    without_object,
-)
+from rebsync.reverse.python.model_expressions import Expressions
+from rebsync.reverse.python.model_filled import fillings_of
+from rebsync.reverse.python.model_helpers import called_in, first_of, own_name, without_object
 from rebsync.reverse.python.model_kinds import kind_of, literal_kind
+from rebsync.reverse.python.model_names import Filling, Helper, Names
 from rebsync.reverse.python.model_overloads import resolved
 from rebsync.reverse.python.model_posts import own_posts
 from rebsync.reverse.python.model_roles import Roles, Sends, plain_name

@@ -27,8 +27,8 @@ from rebsync.reverse.python.model_queues import length_of
 from rebsync.reverse.python.model_roles import EnvUse, Roles, Sends, plain_name, roles_of
 from rebsync.reverse.python.model_silent import silent_in
 from rebsync.reverse.python.model_types import class_name, markers_above, messages_of
+from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_index import PyCode, Scope, classes_in
-from rebsync.reverse.python.py_lookup import lineage
 from rebsync.reverse.python.py_tree import named, text_of
 from rebsync.reverse.python.py_values import Values
 from rebsync.reverse.python.runtime_files import is_runtime_file

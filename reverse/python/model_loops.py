@@ -17,17 +17,19 @@ from rebsync.reverse.python.model_types import call_parts
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.model_statements import Statements
+    from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 
 
-def counted(reader: Statements, node: Node, name: str) -> m.For:
+def counted(reader: ModelStatementReader, node: Node, name: str) -> m.For:
     """`for i in range(...)`."""
     start, end, step = idioms.rounds(reader.expressions, node)
     body = _body(reader, node, name, m.Type("int"), ())
     return _for(reader, node, reader.local(name), start, end, step, body)
 
 
-def through(reader: Statements, node: Node, called: str, arguments: list[Node]) -> m.For | None:
+def through(
+    reader: ModelStatementReader, node: Node, called: str, arguments: list[Node]
+) -> m.For | None:
     """`enumerate`, `zip` and `reversed(range(...))`, and a tuple of numbers; None for others."""
     left, right = field(node, "left"), field(node, "right")
     names = [text_of(n) for n in (named(left) if left.type == "pattern_list" else [left])]
@@ -45,7 +47,7 @@ def through(reader: Statements, node: Node, called: str, arguments: list[Node]) 
 
 
 def _numbered(
-    reader: Statements, node: Node, number: str, names: list[str], arrays: list[Node]
+    reader: ModelStatementReader, node: Node, number: str, names: list[str], arrays: list[Node]
 ) -> m.For:
     """A loop through several arrays at once; the variable `number` counts, if it has a name."""
     each_ = [builtins.array_elements(reader.expressions, a) for a in arrays]
@@ -67,7 +69,7 @@ def _numbered(
     return _for(reader, node, index, zero, m.IntLiteral(length), one, body)
 
 
-def _listed(reader: Statements, node: Node, name: str, values: list[Node]) -> m.For:
+def _listed(reader: ModelStatementReader, node: Node, name: str, values: list[Node]) -> m.For:
     """A loop over numbers, each in its turn."""
     read = [reader.expressions.read(v) for v in values]
     kinds = {reader.expressions.kind(e) for e in read}
@@ -84,7 +86,7 @@ def _listed(reader: Statements, node: Node, name: str, values: list[Node]) -> m.
     return _for(reader, node, index, zero, m.IntLiteral(count_), one, body)
 
 
-def _backwards(reader: Statements, node: Node, name: str, inner: Node) -> m.For:
+def _backwards(reader: ModelStatementReader, node: Node, name: str, inner: Node) -> m.For:
     """`for i in reversed(range(n))`, of numbers that count up by one."""
     called, arguments = call_parts(inner) or ("", [])
     if called != "range" or not 1 <= len(arguments) <= 2:
@@ -104,7 +106,7 @@ def _backwards(reader: Statements, node: Node, name: str, inner: Node) -> m.For:
 
 
 def _round(
-    reader: Statements,
+    reader: ModelStatementReader,
     node: Node,
     counting: list[tuple[str, m.Type]],
     index: str,
@@ -130,7 +132,7 @@ def _round(
     return replace(found, statements=(*declared, *found.statements))
 
 
-def each(reader: Statements, node: Node, name: str) -> m.For:
+def each(reader: ModelStatementReader, node: Node, name: str) -> m.For:
     """`for x in self._values` goes through an array of one dimension."""
     values = reader.expressions.read(field(node, "right"))
     is_whole = isinstance(values, m.Name | m.Member)
@@ -149,7 +151,7 @@ def each(reader: Statements, node: Node, name: str) -> m.For:
     return _for(reader, node, index, zero, end, one, body)
 
 
-def _assert_kept(reader: Statements, node: Node, array: Node) -> None:
+def _assert_kept(reader: ModelStatementReader, node: Node, array: Node) -> None:
     """Python goes on through the array that there was at the start. Unread: another is stored."""
     body, name = field(node, "body"), text_of(array)
     store = re.compile(rf"(?<![\w.]){re.escape(name)}(?:, [^\n=]+)?\s*=(?!=)")
@@ -165,7 +167,7 @@ def _assert_kept(reader: Statements, node: Node, array: Node) -> None:
         raise reader.expressions.unread(node, why)
 
 
-def _free(reader: Statements, node: Node, name: str) -> str:
+def _free(reader: ModelStatementReader, node: Node, name: str) -> str:
     """A name for the index of a loop, which nothing in it has."""
     taken = {*reader.expressions.locals.values(), *reader.expressions.names.types}
     taken |= {name, *idioms.stored_in(field(node, "body"))}
@@ -174,7 +176,11 @@ def _free(reader: Statements, node: Node, name: str) -> str:
 
 
 def _body(
-    reader: Statements, node: Node, name: str, type_: m.Type, first: tuple[m.Statement, ...]
+    reader: ModelStatementReader,
+    node: Node,
+    name: str,
+    type_: m.Type,
+    first: tuple[m.Statement, ...],
 ) -> m.Block:
     """The body of a loop over something, whose variable is known in it only."""
     body, known = field(node, "body"), reader.expressions.locals
@@ -189,7 +195,7 @@ def _body(
 
 
 def _for(
-    reader: Statements,
+    reader: ModelStatementReader,
     node: Node,
     index: str,
     start: m.Expression,
@@ -212,7 +218,7 @@ def _for(
     return m.For(declared, condition, (update,), body, span=span)
 
 
-def match(reader: Statements, node: Node) -> list[m.Statement]:
+def match(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     """`match` as the chain of conditions that it is."""
     subject = next(c for c in named(node) if c.type not in ("block", "case_clause"))
     branches: list[tuple[m.Expression | None, m.Block]] = []
@@ -234,7 +240,7 @@ def match(reader: Statements, node: Node) -> list[m.Statement]:
 
 
 def _guarded(
-    reader: Statements,
+    reader: ModelStatementReader,
     subject: Node,
     asked: m.Expression | None,
     guard: tuple[str, Node | None],

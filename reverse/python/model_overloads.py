@@ -24,7 +24,7 @@ from rebsync.reverse.python.py_tree import field, named
 from rebsync.static.types import is_floating, is_integer
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expressions import Expressions
+    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 
 
 def families(lines: Iterable[tuple[Scope, Iterable[Roles]]]) -> dict[str, dict[str, str]]:
@@ -54,7 +54,7 @@ def resolved(served: Served, owner: Scope, sends: Sends, function: Scope) -> Sen
 
 
 def told(
-    reader: Expressions, node: Node, sends: Sends, values: tuple[m.Expression, ...]
+    reader: ModelExpressionReader, node: Node, sends: Sends, values: tuple[m.Expression, ...]
 ) -> tuple[m.Expression, ...]:
     """What is sent, by which the model chooses this server. Unread: the types are not known."""
     if not sends.rivals:

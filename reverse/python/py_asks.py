@@ -9,8 +9,8 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind, Routine
+from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_index import Scope, arguments_of, last_name
-from rebsync.reverse.python.py_lookup import lineage
 from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_values import Values
 from rebsync.reverse.python.py_worth import (

@@ -8,8 +8,8 @@ from tree_sitter import Node
 
 from rebsync.reverse.graph import Callback, Callbacks, Place, Unresolved
 from rebsync.reverse.python.py_asks import Asked
+from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_index import LAMBDA, Scope, arguments_of, last_name
-from rebsync.reverse.python.py_lookup import lineage
 from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.python.py_values import Values
 from rebsync.reverse.python.py_worth import (

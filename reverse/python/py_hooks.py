@@ -14,8 +14,8 @@ from rebsync.reverse.graph import Callback, Callbacks, Place
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Routine
 from rebsync.reverse.python.py_callbacks import callback_name, callbacks_of
+from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_index import CLASS, Scope, arguments_of
-from rebsync.reverse.python.py_lookup import lineage
 from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_values import Values
 from rebsync.reverse.python.py_worth import Class, External, Function, Module
