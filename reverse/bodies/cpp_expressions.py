@@ -31,7 +31,7 @@ from rebsync.reverse.bodies.cpp_conversions import (
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_literals import in_range, is_bare_macro, literal
-from rebsync.reverse.bodies.cpp_misread import Chain, Operand, Operation, chain_of, is_misread
+from rebsync.reverse.bodies.cpp_misread import Chain, ChainOperand, Operation, chain_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_stores import kept
 from rebsync.reverse.bodies.cpp_time import written
@@ -286,9 +286,9 @@ class CppExpressions(CppExpressionReader):
     def _joined(self, whole: Node, chain: Chain) -> m.Expression:
         """A chain of operators of which the grammar took a part for a cast."""
         match chain:
-            case Operand(cpp, node) if cpp is self.cpp:
+            case ChainOperand(cpp, node) if cpp is self.cpp:
                 return self.read(node)
-            case Operand(cpp, node):
+            case ChainOperand(cpp, node):
                 try:
                     value = replace(self, cpp=cpp).read(node)
                 except Unread as unread:
@@ -298,7 +298,7 @@ class CppExpressions(CppExpressionReader):
             case Operation(operator, left, right):
                 sides = self._joined(whole, left), self._joined(whole, right)
                 for side in (left, right):
-                    if isinstance(side, Operand) and cpp_widths.is_wide(self, side):
+                    if isinstance(side, ChainOperand) and cpp_widths.is_wide(self, side):
                         raise self.unknown(whole, "what this gives depends on how wide it is")
                 return binary(*operands(self.scope, operator, *sides))
 

@@ -13,7 +13,7 @@ from rebsync import model as m
 from rebsync.reverse.bodies import cpp_bindings, cpp_captures, cpp_messages, cpp_plain_locals
 from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_conversions import type_in
-from rebsync.reverse.bodies.cpp_declared import Declared, number_of, only_value, taken_apart
+from rebsync.reverse.bodies.cpp_declared import DeclaratorParts, number_of, only_value, taken_apart
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_references import is_made, stays
@@ -82,14 +82,14 @@ def tested(reader: CppStatementReader, node: Node) -> Iterator[m.Statement]:
         raise reader.unread(node, "the model has no pointers and references")
     type_ = part(node, "type")
     text, name = text_of(type_), text_of(declarator)
-    declared = Declared(node, type_, name, "identifier", value, None, False, text)
+    declared = DeclaratorParts(node, type_, name, "identifier", value, None, False, text)
     try:
         yield from _declared(reader, declared)
     except Unread as unread:
         _outside(reader, declared, unread)
 
 
-def _static(reader: CppStatementReader, declared: Declared) -> None:
+def _static(reader: CppStatementReader, declared: DeclaratorParts) -> None:
     """A local that keeps its value: a state variable, or a value that nobody knows."""
     if isinstance(reader.scope.members.get(declared.name), Variable | Record):
         return
@@ -99,12 +99,12 @@ def _static(reader: CppStatementReader, declared: Declared) -> None:
     reader.meaning(declared.name, _hidden(reader, declared))
 
 
-def _hidden(reader: CppStatementReader, declared: Declared) -> Outside:
+def _hidden(reader: CppStatementReader, declared: DeclaratorParts) -> Outside:
     kept = reader.scope.carried(declared.type)
     return Outside(kept.type if kept is not None else None, indexed=is_matrix(declared.text))
 
 
-def _outside(reader: CppStatementReader, declared: Declared, unread: Unread) -> None:
+def _outside(reader: CppStatementReader, declared: DeclaratorParts, unread: Unread) -> None:
     """A local of which the model knows no value: only what sets it may matter."""
     try:
         if declared.value is not None:
@@ -123,7 +123,7 @@ def _outside(reader: CppStatementReader, declared: Declared, unread: Unread) -> 
     reader.meaning(declared.name, _hidden(reader, declared))
 
 
-def _check_value(reader: CppStatementReader, effects: Effects, declared: Declared) -> None:
+def _check_value(reader: CppStatementReader, effects: Effects, declared: DeclaratorParts) -> None:
     value = declared.value
     assert value is not None
     meaning = resolve(reader.scope, value)
@@ -139,7 +139,7 @@ def _check_value(reader: CppStatementReader, effects: Effects, declared: Declare
         effects.check(value)
 
 
-def _declared(reader: CppStatementReader, declared: Declared) -> Iterator[m.Statement]:
+def _declared(reader: CppStatementReader, declared: DeclaratorParts) -> Iterator[m.Statement]:
     if declared.name in reader.shared.demoted:
         raise reader.unread(declared.node, "the model cannot know its values")
     value = only_value(declared)
@@ -171,12 +171,12 @@ def _declared(reader: CppStatementReader, declared: Declared) -> Iterator[m.Stat
     yield from _typed(reader, declared, kept, value)
 
 
-def _copies(declared: Declared) -> bool:
+def _copies(declared: DeclaratorParts) -> bool:
     """Whether a declaration makes variables of its own."""
     return declared.kind not in _REFERS
 
 
-def _is_auto(declared: Declared) -> bool:
+def _is_auto(declared: DeclaratorParts) -> bool:
     return declared.text in ("auto", "const auto") or declared.type.type.startswith("placeholder")
 
 
@@ -184,7 +184,7 @@ def _is_auto(declared: Declared) -> bool:
 
 
 def _typed(
-    reader: CppStatementReader, declared: Declared, kept: Carried, value: Node | None
+    reader: CppStatementReader, declared: DeclaratorParts, kept: Carried, value: Node | None
 ) -> Iterator[m.Statement]:
     local = place_of(reader.fresh(declared.name), kept)
     initial: m.Initializer | None = None
@@ -204,7 +204,7 @@ def _typed(
     yield reader.local(declared.node, local, initial)
 
 
-def _array(reader: CppStatementReader, declared: Declared) -> Carried | None:
+def _array(reader: CppStatementReader, declared: DeclaratorParts) -> Carried | None:
     """The array that `int a[3]` or a vector of fixed size is."""
     if declared.kind == "array_declarator":
         inner = reader.scope.carried(declared.type)
@@ -242,7 +242,7 @@ def _length(reader: CppStatementReader, node: Node) -> int:
 
 
 def _message(
-    reader: CppStatementReader, declared: Declared, type_: str, value: Node | None
+    reader: CppStatementReader, declared: DeclaratorParts, type_: str, value: Node | None
 ) -> Iterator[m.Statement]:
     pointer = cpp_messages.is_pointer(declared.text)
     if value is not None and value.type in ("null", "initializer_list"):
@@ -251,7 +251,7 @@ def _message(
 
 
 def _inferred(
-    reader: CppStatementReader, declared: Declared, value: Node | None
+    reader: CppStatementReader, declared: DeclaratorParts, value: Node | None
 ) -> Iterator[m.Statement]:
     if value is None:
         raise reader.unread(declared.node, "the type of this is not written")
@@ -314,7 +314,7 @@ def _is_made_pointer(reader: CppStatementReader, value: Node) -> bool:
 
 
 def _reference(
-    reader: CppStatementReader, declared: Declared, value: Node | None
+    reader: CppStatementReader, declared: DeclaratorParts, value: Node | None
 ) -> Iterator[m.Statement]:
     """`auto& x = member_;`: another name of a place."""
     if value is None:
@@ -340,7 +340,7 @@ def _reference(
     raise reader.unread(declared.node, "the model has no pointers and references")
 
 
-def _called_or_made(reader: CppStatementReader, declared: Declared) -> Iterator[m.Statement]:
+def _called_or_made(reader: CppStatementReader, declared: DeclaratorParts) -> Iterator[m.Statement]:
     """`int k(other);`, which the grammar takes for a function: an object made from names."""
     declarator = declared.node
     arguments = [text_of(c) for c in named(part(declarator, "parameters"))]

@@ -16,7 +16,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.intervals import Interval, exactly
 from rebsync.reverse.bodies.cpp_conversions import type_in
-from rebsync.reverse.bodies.cpp_misread import Operand
+from rebsync.reverse.bodies.cpp_misread import ChainOperand
 from rebsync.reverse.bodies.cpp_ranges import (
     COMPARES,
     INT_BITS,
@@ -57,7 +57,7 @@ def wide_of(reader: CppExpressionReader, node: Node) -> int:
     return found.bits if found is not None and found.bits > INT_BITS else 0
 
 
-def is_wide(reader: CppExpressionReader, operand: Operand) -> bool:
+def is_wide(reader: CppExpressionReader, operand: ChainOperand) -> bool:
     """Whether an operand is of a type that is wider than an int, or has no sign."""
     found = range_of(operand.cpp, reader.scope, operand.node) if reader.scope.open else None
     return found is not None and found.bits > INT_BITS

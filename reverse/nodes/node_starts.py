@@ -24,7 +24,7 @@ _ENTRY = "onInit"
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class StartStatements:
     """Statements of a function that run when a node starts.
 
     `arguments` are what the function's parameters get, with the file that says so.
@@ -43,7 +43,7 @@ class Opening:
     `objects` are the names that `entry` has for the object itself, and for others.
     """
 
-    steps: tuple[Step, ...]
+    steps: tuple[StartStatements, ...]
     entry: CppFunction | None = None
     objects: Mapping[str, Member] = field(default_factory=dict)
 
@@ -108,8 +108,10 @@ def opening(unit: Unit, state: State, start: Start | None, together: Sequence[St
     """What runs when a rebec of a unit starts, `together` with others in one program."""
     if unit.program is not None:
         main = unit.program.main
-        return Opening((Step(main, _statements(main), _arguments(main)),), main, _objects(together))
-    steps: list[Step] = []
+        return Opening(
+            (StartStatements(main, _statements(main), _arguments(main)),), main, _objects(together)
+        )
+    steps: list[StartStatements] = []
     given: dict[str, list[tuple[Cpp, Node]]] = {}
     for owner in unit.lineage:  # each says what its bases get, which are made before it
         made = start.made if start is not None and owner is unit.lineage[0] else None
@@ -122,10 +124,10 @@ def opening(unit: Unit, state: State, start: Start | None, together: Sequence[St
             own = list(_constructed(constructor, state, passed))
             given |= {n: v for step in own for n, v in _to_bases(step)}
             steps = [*own, *steps]
-    steps += [Step(f, _statements(f)) for f in unit.functions if f.name == _ENTRY]
+    steps += [StartStatements(f, _statements(f)) for f in unit.functions if f.name == _ENTRY]
     if start is None or start.entry is None or start.made is None:
         return Opening(tuple(steps))
-    steps += [Step(start.entry, (statement,)) for statement in used_in_main(start)]
+    steps += [StartStatements(start.entry, (statement,)) for statement in used_in_main(start)]
     objects = _objects(together)
     if start.made.variable:
         objects[start.made.variable] = Itself()
@@ -176,7 +178,7 @@ def _constructor(unit: Unit, owner: CppClass, count: int) -> CppFunction | None:
     return found[0] if found else None
 
 
-def _to_bases(step: Step) -> Iterator[tuple[str, list[tuple[Cpp, Node]]]]:
+def _to_bases(step: StartStatements) -> Iterator[tuple[str, list[tuple[Cpp, Node]]]]:
     """What the initialisers of a constructor give to those of others, by their classes."""
     for entry in step.nodes:
         inner = named(entry)
@@ -203,7 +205,7 @@ def _passed(function: CppFunction, start: Start | None) -> dict[str, tuple[Cpp, 
 
 def _constructed(
     function: CppFunction, state: State, arguments: Mapping[str, tuple[Cpp, Node]]
-) -> Iterator[Step]:
+) -> Iterator[StartStatements]:
     """The initialisers of a constructor, then its body; first another that it hands on to."""
     nodes = []
     instead: dict[int, tuple[Stores, ...]] = {}
@@ -226,8 +228,8 @@ def _constructed(
             instead[entry.id] = (stores,)
         elif not values:
             instead[entry.id] = state.zeros(meaning)
-    yield Step(function, tuple(nodes), instead, arguments)
-    yield Step(function, _statements(function), {}, arguments)
+    yield StartStatements(function, tuple(nodes), instead, arguments)
+    yield StartStatements(function, _statements(function), {}, arguments)
 
 
 # --- starting late ------------------------------------------------------------------------------

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
-from rebsync.reverse.python.py_index import Parameter, Scope, arguments_of
+from rebsync.reverse.python.py_index import PyParameter, Scope, arguments_of
 from rebsync.reverse.python.py_tree import field, text_of
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 def arguments(
     own: Scope, call: Node, span: object
-) -> Iterator[tuple[Parameter, Node | None, bool]]:
+) -> Iterator[tuple[PyParameter, Node | None, bool]]:
     """The parameters of a function with what a call gives; False for what it is by default."""
     plain, keywords = arguments_of(call)
     parameters = own.parameters

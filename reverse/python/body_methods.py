@@ -18,7 +18,7 @@ from rebsync.reverse.python.body_returns import without_returns
 from rebsync.reverse.python.body_scope import Frame, Message, Nobody, Own, Var
 from rebsync.reverse.python.body_variables import give
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import Parameter, Scope, has_splat
+from rebsync.reverse.python.py_index import PyParameter, Scope, has_splat
 from rebsync.reverse.python.py_tree import text_of
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ def _kept_names(own: Scope) -> frozenset[str]:
 def _bound(
     reader: BodyStatementReader,
     inner: BodyStatementReader,
-    parameter: Parameter,
+    parameter: PyParameter,
     node: Node | None,
     given: bool,
 ) -> Iterator[m.Statement]:

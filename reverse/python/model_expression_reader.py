@@ -12,7 +12,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python.model_cuts import Cuts
 from rebsync.reverse.python.model_kinds import kind_of
-from rebsync.reverse.python.model_names import Names
+from rebsync.reverse.python.model_names import ModelNames
 from rebsync.reverse.python.py_tree import Py
 
 
@@ -26,7 +26,7 @@ class ModelExpressionReader(ABC):
     """
 
     py: Py
-    names: Names
+    names: ModelNames
     locals: dict[str, str] = with_default(default_factory=dict)
     kept: dict[str, Node] = with_default(default_factory=dict)
     types: dict[str, m.Type] = with_default(default_factory=dict)

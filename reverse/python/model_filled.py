@@ -16,12 +16,12 @@ from rebsync.reverse.python.py_tree import field, named, text_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
-    from rebsync.reverse.python.model_roles import Roles, Sends
+    from rebsync.reverse.python.model_roles import PyRoles, PySends
 
 _PUBLISH = "self._mailbox.publish"
 
 
-def fillings_of(roles: Roles, sends: Mapping[str, Sends]) -> dict[str, Filling]:
+def fillings_of(roles: PyRoles, sends: Mapping[str, PySends]) -> dict[str, Filling]:
     """What each publisher of a class sends, by its attribute, from the function that does it."""
     found = {}
     for name, own in roles.sends.items():

@@ -16,7 +16,7 @@ from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_names import Helper
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_imports import module_named, module_of
-from rebsync.reverse.python.py_index import FUNCTION, Parameter, PyCode, Scope
+from rebsync.reverse.python.py_index import FUNCTION, PyCode, PyParameter, Scope
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ def first_of(function: Scope) -> int:
     return 0 if not function.is_method or STATIC in function.decorators else 1
 
 
-def parameters_of(function: Scope, own: str = "") -> list[Parameter]:
+def parameters_of(function: Scope, own: str = "") -> list[PyParameter]:
     """The parameters of a function of the model, without the object."""
     return function.parameters[1 if own else first_of(function) :]
 

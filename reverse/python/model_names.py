@@ -8,13 +8,13 @@ from dataclasses import field as with_default
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.python.model_posts import Post
-from rebsync.reverse.python.model_roles import Sends
+from rebsync.reverse.python.model_roles import PySends
 from rebsync.reverse.python.model_silent import NOTHING, Silent
 from rebsync.reverse.python.py_index import Scope
 
 
 @dataclass(frozen=True, slots=True)
-class Names:
+class ModelNames:
     """What the names of a class stand for: attributes, sends and functions, ancestors included.
 
     `servers` are those of the functions that serve messages; `constants` what names of the module,
@@ -26,7 +26,7 @@ class Names:
     """
 
     variables: Mapping[str, str]
-    sends: Mapping[str, Sends]
+    sends: Mapping[str, PySends]
     functions: Mapping[str, str]
     servers: frozenset[str] = frozenset()
     constants: Mapping[str, m.Expression] = with_default(default_factory=dict)
@@ -58,6 +58,6 @@ class Filling:
     """
 
     message: str
-    sends: Sends
+    sends: PySends
     fields: tuple[tuple[str, str], ...]
     others: tuple[tuple[str, str], ...]

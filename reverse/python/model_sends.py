@@ -19,7 +19,7 @@ from rebsync.reverse.python.py_tree import named, text_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
-    from rebsync.reverse.python.model_roles import Sends
+    from rebsync.reverse.python.model_roles import PySends
 
 _CLOCK = names_in_model(Language.PYTHON)
 
@@ -72,7 +72,7 @@ def _posted(reader: ModelExpressionReader, node: Node) -> m.Expression:
 
 
 def sent(
-    reader: ModelExpressionReader, node: Node, sends: Sends, arguments: list[Node]
+    reader: ModelExpressionReader, node: Node, sends: PySends, arguments: list[Node]
 ) -> m.Expression:
     """What a function that sends is given, as a send of the model."""
     span, is_to_any = reader.py.span(node), sends.known is None

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync.reverse.python.py_evaluator import lineage
-from rebsync.reverse.python.py_index import LAMBDA, Parameter, Scope, arguments_of, classes_in
+from rebsync.reverse.python.py_index import LAMBDA, PyParameter, Scope, arguments_of, classes_in
 from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import Class, Function, Instance, Ways, distinct
 
@@ -41,13 +41,13 @@ def argument(values: PyEvaluator, function: Scope, index: int) -> Ways:
     return distinct(w for ways in found for w in ways)
 
 
-def _default(values: PyEvaluator, function: Scope, parameter: Parameter, why: str) -> Ways:
+def _default(values: PyEvaluator, function: Scope, parameter: PyParameter, why: str) -> Ways:
     if parameter.default is not None:
         return values.ways(parameter.default, function.parent or function)
     return (values.unknown(why, function.node, function),)
 
 
-def _given(call: Node, function: Scope, index: int, parameter: Parameter) -> Node | None:
+def _given(call: Node, function: Scope, index: int, parameter: PyParameter) -> Node | None:
     plain, keywords = arguments_of(call)
     if parameter.name in keywords:
         return keywords[parameter.name]

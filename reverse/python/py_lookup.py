@@ -24,7 +24,7 @@ from rebsync.reverse.python.py_worth import (
     Items,
     Made,
     Module,
-    Nothing,
+    NoneValue,
     Table,
     Value,
     Ways,
@@ -197,7 +197,7 @@ def attribute(
             yield holder if holder.partial is None else Unresolved(holder.why, holder.place)
         case FromParameter() | str() | Items() | Table() | tuple():
             yield Bound(holder, name)
-        case Nothing():
+        case NoneValue():
             return
         case _:
             yield values.unknown(f"`{text_of(node)}` is not followed", node, scope)

@@ -18,13 +18,13 @@ from rebsync.reverse.python.py_worth import (
     Bound,
     Class,
     Declared,
+    Duration,
     External,
     Function,
     Instance,
     Items,
-    Length,
     Made,
-    Nothing,
+    NoneValue,
     Table,
     Value,
     Ways,
@@ -74,8 +74,8 @@ def returned(values: PyEvaluator, function: Scope) -> Ways:
     found: list[Value] = []
     for node in function.returns:
         inner = named(node)
-        found += values.ways(inner[0], function) if inner else [Nothing()]
-    return distinct(found) or (Nothing(),)
+        found += values.ways(inner[0], function) if inner else [NoneValue()]
+    return distinct(found) or (NoneValue(),)
 
 
 # --- what is not in the files -------------------------------------------------------------------
@@ -212,10 +212,10 @@ def _length(
     nanoseconds = parts.get("nsecs", parts.get("nanoseconds"))
     total = values.value(seconds, scope) if seconds is not None else 0
     if nanoseconds is None:
-        return Length(total)
+        return Duration(total)
     more = values.value(nanoseconds, scope)
     if isinstance(total, (int, float)) and isinstance(more, (int, float)):
-        return Length(total + more / 1e9)
+        return Duration(total + more / 1e9)
     return values.unknown("a time that is computed", call, scope)
 
 
@@ -227,7 +227,7 @@ def _parameter(
     if "param_name" not in given:
         return values.unknown("the name of a parameter", call, scope)
     default = values.ways(given["default"], scope) if "default" in given else ()
-    known = [v for v in default if not isinstance(v, Nothing)]
+    known = [v for v in default if not isinstance(v, NoneValue)]
     unknown = values.unknown("a default that is computed", call, scope)
     stands_in = resolved(tuple(known), unknown) if known else None
     return FromParameter(values.value(given["param_name"], scope), stands_in)
@@ -333,7 +333,7 @@ def _declared(
         return FromParameter(name)
     found = default if isinstance(default, Node) else default[0]
     where = scope if isinstance(default, Node) else default[1]
-    known = [v for v in values.ways(found, where) if not isinstance(v, (Nothing, External))]
+    known = [v for v in values.ways(found, where) if not isinstance(v, (NoneValue, External))]
     unknown = values.unknown("a default that is computed", found, where)
     return FromParameter(name, resolved(tuple(known), unknown) if known else None)
 

@@ -14,9 +14,9 @@ from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_tree import field, named, number_of, string_parts, text_of
 from rebsync.reverse.python.py_worth import (
     MOST,
+    Duration,
     Items,
-    Length,
-    Nothing,
+    NoneValue,
     Table,
     Value,
     Ways,
@@ -28,11 +28,11 @@ from rebsync.reverse.python.py_worth import (
 
 _DEEPEST = 60
 _MOST_STEPS = 4000  # expressions that are followed for one value
-_CONSTANTS: dict[str, Value] = {"true": True, "false": False, "none": Nothing()}
+_CONSTANTS: dict[str, Value] = {"true": True, "false": False, "none": NoneValue()}
 
 
 @dataclass(eq=False, slots=True)
-class Values(PyEvaluator):
+class PyValues(PyEvaluator):
     """The values of expressions in some files; what was found is kept."""
 
     def ways(self, node: Node, scope: Scope) -> Ways:
@@ -208,9 +208,9 @@ class Values(PyEvaluator):
                 return used(a, "", f" {operator} {b!r}", lambda v: on(v, b))
             case ((int() | float()), FromParameter()):
                 return used(b, f"{a!r} {operator} ", "", lambda v: on(a, v))
-            case Length(seconds), (int() | float()) if isinstance(seconds, (int, float)):
+            case Duration(seconds), (int() | float()) if isinstance(seconds, (int, float)):
                 return _length(on(seconds, b)) or none()
-            case ((int() | float()), Length(seconds)) if isinstance(seconds, (int, float)):
+            case ((int() | float()), Duration(seconds)) if isinstance(seconds, (int, float)):
                 return _length(on(a, seconds)) or none()
             case Items(first), Items(second) if operator == "+":
                 return Items((*first, *second))
@@ -220,5 +220,5 @@ class Values(PyEvaluator):
                 return none()
 
 
-def _length(value: Value) -> Length | None:
-    return Length(value) if isinstance(value, (int, float)) else None
+def _length(value: Value) -> Duration | None:
+    return Duration(value) if isinstance(value, (int, float)) else None

@@ -30,7 +30,7 @@ from rebsync.reverse.values.cpp_values_plain import (
     Frame,
     Function,
     Nothing,
-    Open,
+    OpenCallers,
     Use,
     Value,
     choice,
@@ -96,7 +96,7 @@ class Values(CppEvaluator):
             current = waiting.pop(0)
             try:
                 result = do(current)
-            except Open as asked:
+            except OpenCallers as asked:
                 if asked.frame is not current.root:
                     raise
                 waiting += self._called(current)

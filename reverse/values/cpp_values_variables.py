@@ -42,7 +42,7 @@ from rebsync.reverse.values.cpp_values_plain import (
     Frame,
     Handle,
     Nothing,
-    Open,
+    OpenCallers,
     Use,
     Value,
     choice,
@@ -317,7 +317,7 @@ class Variables(CppAssignments):
         function = frame.function
         if frame.call is None or frame.caller is None or function is None:
             if not frame.outside:
-                raise Open(frame)
+                raise OpenCallers(frame)
             return self._from_outside(variable, frame)
         given = frame.call.arguments
         if variable.index < len(given):

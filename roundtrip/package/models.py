@@ -10,7 +10,7 @@ from rebsync.diagnostics import Findings, RebsyncError
 from rebsync.files import read_source
 from rebsync.records import dataclass
 from rebsync.roundtrip.diff.difference import Place
-from rebsync.roundtrip.diff.operands import SourcedModel, Unread
+from rebsync.roundtrip.diff.operands import SourcedModel, UnreadPlace
 from rebsync.roundtrip.package.cache.store import key_of, load, save
 from rebsync.roundtrip.package.digests import digest_of
 from rebsync.roundtrip.package.managed import ManagedPackage
@@ -22,7 +22,7 @@ from rebsync.terminal import encoded
 
 
 @dataclass(frozen=True, slots=True)
-class Code:
+class CodeModel:
     """What the code of a package tells: a model, and what is not in it exactly.
 
     `findings` are all these places, of which those in `given.unread` the model lacks.
@@ -58,17 +58,17 @@ def parsed(source: Source) -> m.Model:
     return parsed.model
 
 
-def read_code(package: ManagedPackage, state: PackageState) -> Code:
+def read_code(package: ManagedPackage, state: PackageState) -> CodeModel:
     """What the code of a package tells. RebsyncError: a merge left conflicts in it."""
     key = key_of("code", package.root, *state.told)
-    code = load(key, Code)
+    code = load(key, CodeModel)
     if code is None:
         code = _extracted(state)
         save(key, code)
     return code
 
 
-def _extracted(state: PackageState) -> Code:
+def _extracted(state: PackageState) -> CodeModel:
     from rebsync.reverse.files.reading import read
     from rebsync.reverse.findings import Grade
     from rebsync.reverse.recovery import extract
@@ -81,10 +81,10 @@ def _extracted(state: PackageState) -> Code:
     extracted = extract(chosen.files, memory=ClassCache())
     findings = (*chosen.findings, *extracted.findings)
     unread = tuple(
-        Unread(Place(f.source, f.span), f.why, f.within)
+        UnreadPlace(Place(f.source, f.span), f.why, f.within)
         for f in findings
         if f.grade is Grade.UNREADABLE
     )
     source = Source(state.listing.root, "")
     given = SourcedModel(extracted.model, source, unread)
-    return Code(given, diagnostics(findings))
+    return CodeModel(given, diagnostics(findings))

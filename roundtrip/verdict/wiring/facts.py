@@ -44,7 +44,7 @@ from rebsync.roundtrip.verdict.wiring.defaults import is_always_given
 from rebsync.roundtrip.verdict.wiring.fields import hand_on_alike, is_told_of
 from rebsync.roundtrip.verdict.wiring.names import (
     TOPICS,
-    Joined,
+    JoinedTopics,
     is_about,
     joined,
     leads_in,
@@ -256,8 +256,8 @@ class _Excuses:
     of_code: Comparison
     groups: frozenset[str]
     files: frozenset[str]
-    before: Joined | None
-    now: Joined | None
+    before: JoinedTopics | None
+    now: JoinedTopics | None
 
     def hold(self, key: tuple[str, str, str]) -> bool:
         """Whether the facts of a key need not be as they were."""
