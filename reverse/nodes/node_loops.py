@@ -235,16 +235,6 @@ def loop_around(node: Node) -> Node | None:
     return None
 
 
-def identifiers(node: Node) -> Iterator[Node]:
-    """The identifiers in a node."""
-    waiting = [node]
-    while waiting:
-        current = waiting.pop()
-        if current.type == "identifier":
-            yield current
-        waiting += current.named_children
-
-
 def cancels(code: Code, functions: Sequence[CppFunction], facts: Sequence[Fact]) -> bool:
     """Whether anything but a timer is cancelled: an executor, which then ends to serve."""
     kept = {f.site.kept.removeprefix("this->") for f in facts if isinstance(f, TimerFact)}

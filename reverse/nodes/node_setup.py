@@ -10,6 +10,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.package import Value
 from rebsync.records import dataclass
+from rebsync.reverse.bodies.cpp_roots import identifiers_in
 from rebsync.reverse.bodies.cpp_timers import SWITCHING
 from rebsync.reverse.bodies.cpp_types import carried
 from rebsync.reverse.bodies.scope import Outside, Stores, Switch, TimerOf, Variable
@@ -32,7 +33,6 @@ from rebsync.reverse.nodes.node_loops import (
     behind,
     cancels,
     ended_early,
-    identifiers,
     later,
     loop_around,
     loops_in,
@@ -122,7 +122,7 @@ class Setup:
                 continue
             function = around(server.body, self.state.unit.functions)
             if function is not None:
-                mentioned = {text_of(n) for n in identifiers(server.body)}
+                mentioned = {text_of(n) for n in identifiers_in(server.body)}
                 self.instead |= self.state.outlive(function, mentioned, False)
 
     def _is_first(self, fact: Fact) -> bool:
@@ -296,7 +296,7 @@ class Setup:
             place = loop.rate.site.place
             self.findings.approximated(place.source, place.span, _ROUND, within=self.within)
         if parts:
-            mentioned = {text_of(n) for p in parts for n in identifiers(p)}
+            mentioned = {text_of(n) for p in parts for n in identifiers_in(p)}
             self.instead |= self.state.outlive(function, mentioned, False, loop.node)
             self.instead[loop.node.id] = ()
             name = self.names.give("loop" if function.name == "main" else function.name)

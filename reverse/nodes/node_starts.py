@@ -9,6 +9,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
+from rebsync.reverse.bodies.cpp_roots import identifiers_in
 from rebsync.reverse.bodies.rewriting import renamed
 from rebsync.reverse.bodies.scope import Itself, Member, Outside, Stores
 from rebsync.reverse.graph import TimerFact
@@ -153,17 +154,8 @@ def _arguments(main: CppFunction) -> dict[int, tuple[m.Statement, ...]]:
         for n in _statements(main)
         if n.type == "if_statement"
         and (condition := n.child_by_field_name("condition")) is not None
-        and any(text_of(i) == count for i in _identifiers(condition))
+        and any(text_of(i) == count for i in identifiers_in(condition))
     }
-
-
-def _identifiers(node: Node) -> Iterator[Node]:
-    waiting = [node]
-    while waiting:
-        current = waiting.pop()
-        if current.type == "identifier":
-            yield current
-        waiting += current.named_children
 
 
 def _statements(function: CppFunction) -> tuple[Node, ...]:

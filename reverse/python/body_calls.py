@@ -10,7 +10,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync import precedence
 from rebsync.intervals import unsigned
-from rebsync.reverse.bodies.building import bare, binary, chosen, is_calm, tight
+from rebsync.reverse.bodies.building import bare, binary, chosen, is_calm, tight, whole_number
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import python as libraries
@@ -150,7 +150,7 @@ def _random(
     match name, arguments:
         case "randint", [low, high]:
             bounds = [bare(reader.read(n).expression) for n in (low, high)]
-            first, last = (_number_of(b) for b in bounds)
+            first, last = (whole_number(b) for b in bounds)
             if first is None or last is None or not first <= last < first + _MOST:
                 return None
             options = tuple(literal(n) for n in range(first, last + 1))
@@ -161,16 +161,6 @@ def _random(
             if len(kinds) != 1:
                 return None
             return Value(m.Choice(tuple(v.expression for v in values), span), kinds.pop())
-        case _:
-            return None
-
-
-def _number_of(expression: m.Expression) -> int | None:
-    match expression:
-        case m.IntLiteral(value):
-            return value
-        case m.Unary("-", m.IntLiteral(value)):
-            return -value
         case _:
             return None
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
 from tree_sitter import Node
 
@@ -14,7 +13,7 @@ from rebsync.reverse.python.body_reading import Reading, nonlocals
 from rebsync.reverse.python.body_scope import Frame, Message, Own, Var
 from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_index import Scope, last_name
-from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.reverse.python.py_tree import field, nodes_in, text_of
 from rebsync.reverse.python.py_worth import Class, Function, Made, Value, Ways
 
 _LOCK = re.compile(LOCKS)
@@ -40,7 +39,7 @@ def is_lock(reading: Reading, node: Node, frame: Frame) -> bool:
 
 def is_harmless(reading: Reading, node: Node, frame: Frame) -> bool:
     """Whether evaluating an expression changes nothing of the model, and takes no time."""
-    return all(_is_one(reading, n, frame) for n in _all(node))
+    return all(_is_one(reading, n, frame) for n in nodes_in(node))
 
 
 def _is_one(reading: Reading, node: Node, frame: Frame) -> bool:
@@ -111,7 +110,7 @@ def is_quiet_body(reading: Reading, scope: Scope, depth: int) -> bool:
 def _is_quiet(reading: Reading, scope: Scope, depth: int) -> bool:
     if depth > _DEEPEST or scope.outer or nonlocals(scope):
         return False
-    return all(_is_quiet_node(reading, n, scope, depth) for n in _all(scope.node))
+    return all(_is_quiet_node(reading, n, scope, depth) for n in nodes_in(scope.node))
 
 
 def _is_quiet_node(reading: Reading, node: Node, scope: Scope, depth: int) -> bool:
@@ -203,14 +202,6 @@ def _is_looked_at(node: Node) -> bool:
             return is_log(at) or name in libraries.harmless()
         at = at.parent
     return True
-
-
-def _all(node: Node) -> Iterator[Node]:
-    waiting = [node]
-    while waiting:
-        current = waiting.pop()
-        yield current
-        waiting += current.named_children
 
 
 def is_still(reading: Reading, own: Scope) -> bool:

@@ -5,6 +5,9 @@ What was read once is kept in the user's cache, so that only what has changed is
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
 from rebsync import model as m
 from rebsync.diagnostics import Findings, RebsyncError
 from rebsync.files import read_source
@@ -19,6 +22,9 @@ from rebsync.roundtrip.package.state import PackageState
 from rebsync.roundtrip.package.units import as_one
 from rebsync.source import Source
 from rebsync.terminal import encoded
+
+if TYPE_CHECKING:
+    from rebsync.reverse.findings import Finding
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,21 +76,27 @@ def read_code(package: ManagedPackage, state: PackageState) -> CodeModel:
 
 def _extracted(state: PackageState) -> CodeModel:
     from rebsync.reverse.files.reading import read
-    from rebsync.reverse.findings import Grade
     from rebsync.reverse.recovery import extract
-    from rebsync.reverse.report import diagnostics
     from rebsync.roundtrip.package.cache.classes import ClassCache
 
     chosen = read(as_one(state.listing))
     if conflicts := [c for s in chosen.files.values() if (c := conflict_in(s)) is not None]:
         raise RebsyncError(conflicts)
     extracted = extract(chosen.files, memory=ClassCache())
-    findings = (*chosen.findings, *extracted.findings)
+    return code_model(state.listing.root, extracted.model, (*chosen.findings, *extracted.findings))
+
+
+def code_model(
+    path: str, model: m.Model, findings: Sequence[Finding], *, partial: bool = False
+) -> CodeModel:
+    """An extracted model, whose spans without a file are of `path`, with what is not in it."""
+    from rebsync.reverse.findings import Grade
+    from rebsync.reverse.report import diagnostics
+
     unread = tuple(
         UnreadPlace(Place(f.source, f.span), f.why, f.within)
         for f in findings
         if f.grade is Grade.UNREADABLE
     )
-    source = Source(state.listing.root, "")
-    given = SourcedModel(extracted.model, source, unread)
-    return CodeModel(given, diagnostics(findings))
+    given = SourcedModel(model, Source(path, ""), unread, partial)
+    return CodeModel(given, tuple(diagnostics(findings)))

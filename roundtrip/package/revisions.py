@@ -16,10 +16,8 @@ from rebsync.files import STANDARD_INPUT, decode, operating_on
 from rebsync.git import finished, git, git_without_files
 from rebsync.git_objects import revision as objects_of
 from rebsync.reverse.files.stores import Disk, Store, join
-from rebsync.roundtrip.diff.difference import Place
-from rebsync.roundtrip.diff.operands import SourcedModel, UnreadPlace
-from rebsync.roundtrip.package.models import CodeModel, parsed, read_model
-from rebsync.source import Source
+from rebsync.roundtrip.diff.operands import SourcedModel
+from rebsync.roundtrip.package.models import CodeModel, code_model, parsed, read_model
 
 if TYPE_CHECKING:
     from rebsync.reverse.files.reading import Chosen
@@ -82,23 +80,15 @@ def _model(path: str, store: Store | None) -> CodeModel:
 
 def _code(path: str, store: Store | None) -> CodeModel:
     """What the code of a package or of one file says."""
-    from rebsync.reverse.findings import Grade
     from rebsync.reverse.recovery import extract
-    from rebsync.reverse.report import diagnostics
 
     chosen = _chosen(path, store)
     extracted = extract(chosen.files, chosen.only)
     if not extracted.model.classes:
         raise RebsyncError.of(path, "RS943", "no class of a model was found here")
     findings = (*chosen.findings, *extracted.findings)
-    unread = tuple(
-        UnreadPlace(Place(f.source, f.span), f.why, f.within)
-        for f in findings
-        if f.grade is Grade.UNREADABLE
-    )
     partial = chosen.only is not None and extracted.model.main is None
-    given = SourcedModel(extracted.model, Source(path, ""), unread, partial)
-    return CodeModel(given, diagnostics(findings))
+    return code_model(path, extracted.model, findings, partial=partial)
 
 
 def _chosen(path: str, store: Store | None) -> Chosen:
