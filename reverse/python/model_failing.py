@@ -14,6 +14,7 @@ from rebsync import model as m
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_expressions import Expressions
+from rebsync.reverse.python.model_logs import own_method
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 _DIVIDING = frozenset({"/", "//", "%"})
@@ -22,14 +23,14 @@ _LATER = frozenset({"generator_expression", "lambda", "list_comprehension", "set
 
 
 def may_fail(expressions: Expressions, node: Node) -> bool:
-    """Whether there is something in a statement that may fail."""
-    if _is_division(node) or _is_element(expressions, node):
+    """Whether there is something in a statement that may fail, or is a method of the model."""
+    if _is_division(node) or _is_element(expressions, node) or _is_method(expressions, node):
         return True
     return any(may_fail(expressions, child) for child in node.named_children)
 
 
 def failing(expressions: Expressions, node: Node) -> Iterator[m.Statement]:
-    """What may fail in an expression, in the order in which it is evaluated.
+    """What may fail in an expression, and calls of methods, in the order of evaluation.
 
     Unread: the model has no expression for it.
     """
@@ -46,12 +47,25 @@ def failing(expressions: Expressions, node: Node) -> Iterator[m.Statement]:
         left, right = field(node, "left"), field(node, "right")
         yield from _guarded(expressions, left, *((right, None) if is_and else (None, right)))
         return
+    if _is_method(expressions, node):
+        yield m.ExpressionStatement(expressions.read(node), span=expressions.py.span(node))
+        return
     for child in node.named_children:
         yield from failing(expressions, child)
     if _is_division(node):
         yield _divided(expressions, field(node, "right"))
     elif _is_element(expressions, node):
         yield m.ExpressionStatement(expressions.read(node), span=expressions.py.span(node))
+
+
+def methods_of(expressions: Expressions) -> frozenset[str]:
+    """The methods of the model, by their names in Python."""
+    names = expressions.names
+    return frozenset(names.functions) - names.servers - names.sends.keys() - names.properties
+
+
+def _is_method(expressions: Expressions, node: Node) -> bool:
+    return own_method(node) in methods_of(expressions)
 
 
 def _guarded(

@@ -28,7 +28,7 @@ HERE = Path(__file__).parent
 FILES = (
     *("python.toml", "rclcpp.toml", "cpp.toml", "mixed.toml"),
     *("harmless.toml", "library.toml", "forms.toml", "posts.toml", "shown.toml"),
-    *("messages.toml", "natural.toml"),
+    *("messages.toml", "natural.toml", "natural_python.toml"),
 )
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 
