@@ -29,6 +29,7 @@ FILES = (
     *("python.toml", "rclcpp.toml", "cpp.toml", "mixed.toml"),
     *("harmless.toml", "library.toml", "forms.toml", "posts.toml", "shown.toml"),
     *("messages.toml", "natural.toml", "natural_python.toml"),
+    "natural_rclpy.toml",
 )
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 
