@@ -119,18 +119,21 @@ def _fields(package: ManagedPackage, record: Record, now: PackageState) -> Itera
             continue
         from rebsync.reverse.build.messages import read_message
 
+        message = name.rpartition("/")[2].removesuffix(".msg")
         for before, source in _sides(package, record, now, name):
             old, new = (read_message(each, "", "").fields for each in (before, source))
             lost = {f.name for f in old} - {f.name for f in new}
             for field in sorted(lost):
-                if any(_sets(code, field) for _, code in _codes(now)):
+                if any(_sets(code, message, field) for _, code in _codes(now)):
                     last = len(source.text.rstrip())
                     span = Span(max(last - 1, 0), last)
                     yield finding(source, span, f"the field {field} is gone, and code sets it")
 
 
-def _sets(code: Source, field: str) -> bool:
-    return re.search(rf"\bmsg\s*\.\s*{field}\b", code.text) is not None
+def _sets(code: Source, message: str, field: str) -> bool:
+    """Whether code fills a field of a message, which it then names."""
+    is_of = re.search(rf"\b{message}\b", code.text) is not None
+    return is_of and re.search(rf"\bmsg\s*\.\s*{field}\b", code.text) is not None
 
 
 def _packages(package: ManagedPackage, record: Record, now: PackageState) -> Iterator[Findings]:
