@@ -123,6 +123,8 @@ def _is_of_a_body(difference: Difference) -> bool:
     match difference:
         case StatementInserted() | StatementRemoved() | StatementMoved():
             return True
+        case Changed(aspect=Aspect.ANNOTATION, old=old, new=new):
+            return all(note.startswith("@Move(") for note in (old, new))  # of a statement
         case Changed(aspect=aspect, of=of):
             return aspect in _OF_STATEMENTS or bool(of)
         case Added() | Removed():

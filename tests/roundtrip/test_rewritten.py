@@ -73,6 +73,10 @@ SAME = {
         {"step": "if (k > 0) { @Move(X + 1, Y); } else { @Move(X - 1, Y); }"},
         {"step": "int d = k > 0 ? 1 : -1; @Move(X + d, Y);"},
     ),
+    "a move by the same cells": (
+        {"step": "if (k > 0) { @Move(X + 1, Y); } else if (k < 0) { @Move(X - 1, Y); }"},
+        {"step": "if (k != 0) { @Move(X + (k < 0 ? -1 : 1), Y); }"},
+    ),
     "a move in a loop": (
         {"step": "@Move(X, Y + STEP); delay(2); @Move(X, Y + STEP); delay(2);"},
         {"step": "for (int i = 0; i < 2; i++) { @Move(X, Y + STEP); delay(2); }"},
@@ -88,6 +92,10 @@ DIFFERENT = {
     "a move by what a local holds": (
         {"step": "int d = 1; @Move(X + d, Y); n = k;"},
         {"step": "int d = 2; @Move(X + d, Y); n = k;"},
+    ),
+    "a move by other cells for one number": (
+        {"step": "if (k > 0) { @Move(X + 1, Y); } else if (k < 0) { @Move(X - 1, Y); }"},
+        {"step": "if (k != 0) { @Move(X + (k < 1 ? 1 : -1), Y); }"},
     ),
     "a move along the other axis": (
         {"step": "int d = 1; @Move(X + d, Y); n = k;"},
