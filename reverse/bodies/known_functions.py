@@ -11,6 +11,13 @@ from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
 from rebsync.reverse.syntax.cpp_tree import text_of
 
+# Functions of the standard library that wait for somebody, start something, or end the program.
+_WAITING = frozenset(
+    {
+        *("system", "popen", "getchar", "getc", "fgetc", "gets", "fgets", "scanf", "fscanf"),
+        *("getline", "async", "call_once", "signal", "atexit", "at_quick_exit", "longjmp"),
+    }
+)
 _CONVERSION = re.compile(
     r"(?:::)?(?:u?int(?:8|16|32|64)?(?:_t)?|float|double|bool|char|long|short|unsigned|size_t)\Z"
 )
@@ -37,6 +44,14 @@ def acts(call: CppCall) -> str | None:
     if call.target is None and name in libraries.named(Kind.POLL):
         return Effect.WAITS.value
     return libraries.acting().get(name)
+
+
+def is_known(call: CppCall) -> bool:
+    """Whether a free function of a library acts on nothing but what it gets, and ends soon."""
+    plain = call.name.partition("<")[0].rpartition("::")[2]
+    if plain in _WAITING:
+        return False
+    return takes_values(call) or _is_of_library(call.name)
 
 
 def takes_values(call: CppCall) -> bool:
