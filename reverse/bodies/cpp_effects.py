@@ -288,6 +288,12 @@ class Effects:
             raise self._touches(call.node, f'"{name}" may change what the model has')
         return not any(known_functions.may_change(p) for f in meant for p in f.parameters)
 
+    def _is_stranger(self, call: CppCall, name: str, of: str) -> bool:
+        """Whether a body of generated code calls a function of an object that nobody knows."""
+        if not has_mailbox(self.scope) or not of or of in self._inner or name in LOOKS:
+            return False
+        return not known_functions.is_of_library(of)
+
     def _is_known(self, call: CppCall, name: str) -> bool:
         """Whether it is known of a function of others that it touches nothing but what it gets."""
         if call.target is not None or name in self._inner or self.scope.meaning(name) is not None:
@@ -330,6 +336,8 @@ class Effects:
         target = call.target
         assert target is not None
         match meaning:
+            case None if self._is_stranger(call, name, of):
+                raise self._touches(call.node, f'nobody here knows what "{text_of(target)}" is')
             case None | Outside(reaches=False):
                 if name in libraries.named(Kind.PUBLISH) and (
                     meaning is not None or not of or of in self._inner

@@ -54,6 +54,12 @@ def is_known(call: CppCall) -> bool:
     return takes_values(call) or _is_of_library(call.name)
 
 
+def is_of_library(name: str) -> bool:
+    """Whether an object or a function by a name is of a library, and waits for nobody."""
+    waits = name.rpartition("::")[2] in ("cin", "wcin")
+    return name in STREAMS or (_LIBRARIES.match(name) is not None and not waits)
+
+
 def takes_values(call: CppCall) -> bool:
     """Whether a function is known to change none of its arguments."""
     return _takes_values(call.name, call.target is not None)
