@@ -290,9 +290,11 @@ class Effects:
 
     def _is_stranger(self, call: CppCall, name: str, of: str) -> bool:
         """Whether a body of generated code calls a function of an object that nobody knows."""
-        if not has_mailbox(self.scope) or not of or of in self._inner or name in LOOKS:
+        if not has_mailbox(self.scope) or not of or of in self._inner:
             return False
-        return not known_functions.is_of_library(of)
+        if name in libraries.looking():
+            return False
+        return not known_functions.is_harmless_object(of)
 
     def _is_known(self, call: CppCall, name: str) -> bool:
         """Whether it is known of a function of others that it touches nothing but what it gets."""

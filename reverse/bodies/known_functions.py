@@ -7,6 +7,7 @@ from functools import lru_cache
 
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Effect, Kind
+from rebsync.reverse.libraries.tables.standard import STREAMS
 from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
 from rebsync.reverse.syntax.cpp_tree import text_of
@@ -54,10 +55,10 @@ def is_known(call: CppCall) -> bool:
     return takes_values(call) or _is_of_library(call.name)
 
 
-def is_of_library(name: str) -> bool:
-    """Whether an object or a function by a name is of a library, and waits for nobody."""
+def is_harmless_object(name: str) -> bool:
+    """Whether an object by a name is of a library, and waits for nobody."""
     waits = name.rpartition("::")[2] in ("cin", "wcin")
-    return name in STREAMS or (_LIBRARIES.match(name) is not None and not waits)
+    return name in STREAMS or (_is_of_library(name) and not waits)
 
 
 def takes_values(call: CppCall) -> bool:
