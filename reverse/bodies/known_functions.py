@@ -19,6 +19,8 @@ _WAITING = frozenset(
         *("getline", "async", "call_once", "signal", "atexit", "at_quick_exit", "longjmp"),
     }
 )
+# Functions that a node of ROS 2 inherits, and that only tell of it.
+_OF_NODE = frozenset({"get_clock", "get_name", "get_namespace", "get_fully_qualified_name"})
 _CONVERSION = re.compile(
     r"(?:::)?(?:u?int(?:8|16|32|64)?(?:_t)?|float|double|bool|char|long|short|unsigned|size_t)\Z"
 )
@@ -52,7 +54,8 @@ def is_known(call: CppCall) -> bool:
     plain = call.name.partition("<")[0].rpartition("::")[2]
     if plain in _WAITING:
         return False
-    return takes_values(call) or _is_of_library(call.name)
+    of_node = call.name in _OF_NODE or call.name in libraries.looking()
+    return of_node or takes_values(call) or _is_of_library(call.name)
 
 
 def is_harmless_object(name: str) -> bool:
