@@ -58,26 +58,18 @@ class CppExpressions:
     def text(self, expression: m.Expression) -> str:
         """The expression in C++, its parentheses as in the model."""
         match expression:
-            case m.IntLiteral():
-                return str(expression.value)
-            case m.FloatLiteral():
-                return float_literal(expression.text)
-            case m.BoolLiteral():
-                return "true" if expression.value else "false"
-            case m.StringLiteral():
-                return expression.text.replace("??", "?\\?")  # no trigraphs
-            case m.NullLiteral():
-                return "kNull"
+            case m.IntLiteral() | m.FloatLiteral() | m.BoolLiteral():
+                return _literal(expression)
+            case m.StringLiteral() | m.NullLiteral():
+                return _literal(expression)
             case m.Name():
                 return self._name(expression)
             case m.Self():
                 return "mailbox_.self()"
             case m.Super():
                 return "*this"
-            case m.Member(target=m.Self(), name=name):
-                return f"this->{self.names.members[name]}"
-            case m.Member(target=target, name=name):
-                return f"{self.text(target)}.{name}"
+            case m.Member():
+                return self._member(expression)
             case m.Index():
                 return self._index(expression)
             case m.Call():
@@ -108,6 +100,11 @@ class CppExpressions:
                 raise ValueError("an expression that the analysis reports as an error")
             case _:
                 assert_never(expression)
+
+    def _member(self, member: m.Member) -> str:
+        if isinstance(member.target, m.Self):
+            return f"this->{self.names.members[member.name]}"
+        return f"{self.text(member.target)}.{member.name}"
 
     def stored(self, expression: m.Expression, type_: m.Type) -> str:
         """The expression as it is stored in a variable of a type: narrowed where C++ widens it."""
@@ -353,3 +350,21 @@ class CppExpressions:
         """
         stores = "".join(f"const auto op{i}_ = {v}; " for i, v in enumerate(values, 1))
         return f"[&] {{ {stores}return {result}; }}()"
+
+
+def _literal(
+    literal: m.IntLiteral | m.FloatLiteral | m.BoolLiteral | m.StringLiteral | m.NullLiteral,
+) -> str:
+    match literal:
+        case m.IntLiteral():
+            return str(literal.value)
+        case m.FloatLiteral():
+            return float_literal(literal.text)
+        case m.BoolLiteral():
+            return "true" if literal.value else "false"
+        case m.StringLiteral():
+            return literal.text.replace("??", "?\\?")  # no trigraphs
+        case m.NullLiteral():
+            return "kNull"
+        case _:
+            assert_never(literal)

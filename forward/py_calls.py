@@ -10,7 +10,7 @@ from rebsync.static.symbols import MethodSymbol
 from rebsync.unions import assert_never
 
 if TYPE_CHECKING:
-    from rebsync.forward.py_expressions import PyExpressions
+    from rebsync.forward.py_expression_writer import PyExpressionWriter
 
 _BUILT_IN = {
     "pow": "power",
@@ -20,7 +20,7 @@ _BUILT_IN = {
 }
 
 
-def call(e: PyExpressions, expression: m.Call) -> str:
+def call(e: PyExpressionWriter, expression: m.Call) -> str:
     """A call; Python evaluates its arguments from left to right, as the model does."""
     send = send_of(expression, e.analysis)
     if send is None:
@@ -41,7 +41,7 @@ def _bare(target: m.Expression) -> m.Expression:
     return _bare(target.inner) if isinstance(target, m.Paren) else target
 
 
-def _helper(e: PyExpressions, send: Send) -> str:
+def _helper(e: PyExpressionWriter, send: Send) -> str:
     key = e.topics.called(send.server).key
     match send.target:
         case ToSelf():
@@ -54,7 +54,7 @@ def _helper(e: PyExpressions, send: Send) -> str:
             assert_never(send.target)
 
 
-def _function(e: PyExpressions, expression: m.Call) -> str:
+def _function(e: PyExpressionWriter, expression: m.Call) -> str:
     symbol = e.analysis.symbols.get(id(expression))
     if isinstance(symbol, MethodSymbol):
         parameters = symbol.declaration.parameters

@@ -6,12 +6,10 @@ rounds is wrapped by `int32(...)` and its kin, at the latest where the value is 
 
 from __future__ import annotations
 
-from dataclasses import field
-
 from rebsync import model as m
 from rebsync import precedence
 from rebsync.forward.py_calls import call
-from rebsync.forward.py_names import PyNames
+from rebsync.forward.py_expression_writer import PyExpressionWriter
 from rebsync.forward.py_operators import (
     ATOM,
     BINARY,
@@ -27,11 +25,9 @@ from rebsync.forward.py_operators import (
 from rebsync.forward.py_places import assigned, stepped
 from rebsync.forward.py_ranges import fits, is_distance, value_range
 from rebsync.forward.py_types import py_format
-from rebsync.forward.topics import Topics
 from rebsync.intervals import Interval
 from rebsync.names import graph_name
 from rebsync.records import dataclass
-from rebsync.static import Analysis
 from rebsync.static.constants import constant
 from rebsync.static.symbols import BuiltinSymbol, EnvSymbol, KnownRebecSymbol, StateSymbol
 from rebsync.static.types import DOUBLE, FLOAT, INT, is_boolean, is_floating, is_integer, wider
@@ -58,20 +54,12 @@ _EXACT = 2**24  # integers below are floats as well
 
 
 @dataclass(slots=True)
-class PyExpressions:
+class PyExpressions(PyExpressionWriter):
     """Prints the expressions of one class.
 
     `seen` has what samples the sensor of a draw; `locals` the names of local variables, by their
     declaration; `temporaries` counts those that a body needs to keep the order of evaluation.
     """
-
-    analysis: Analysis
-    topics: Topics
-    names: PyNames
-    class_types: dict[str, str]
-    seen: dict[int, str]
-    locals: dict[int, str] = field(default_factory=dict)
-    temporaries: int = 0
 
     def text(self, expression: m.Expression) -> str:
         """The expression, of exactly the value that it has in the model."""
@@ -89,19 +77,10 @@ class PyExpressions:
             return f"{py_format(type_)}({raw})" if narrow else raw
         return self._converted(expression, type_).text
 
-    def type_of(self, expression: m.Expression) -> m.Type | None:
-        """The static type of an expression."""
-        return self.analysis.types.get(id(expression))
-
     def is_whole(self, expression: m.Expression) -> bool:
         """Whether an expression is of integers."""
         type_ = self.type_of(expression)
         return type_ is not None and is_integer(type_)
-
-    def temporary(self) -> str:
-        """A name for a value that is needed twice."""
-        self.temporaries += 1
-        return f"op{self.temporaries}_"
 
     def operand(self, expression: m.Expression, least: int, exact: bool = True) -> str:
         """The expression as an operand of an operator that binds at a level."""

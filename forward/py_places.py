@@ -12,7 +12,7 @@ from rebsync.static.effects import assigns_apart
 from rebsync.static.types import INT
 
 if TYPE_CHECKING:
-    from rebsync.forward.py_expressions import PyExpressions
+    from rebsync.forward.py_expression_writer import PyExpressionWriter
 
 _METHODS = {
     "+=": "add",
@@ -33,30 +33,30 @@ def bare(target: m.Expression) -> m.Expression:
     return bare(target.inner) if isinstance(target, m.Paren) else target
 
 
-def is_in_order(e: PyExpressions, expression: m.Assign) -> bool:
+def is_in_order(e: PyExpressionWriter, expression: m.Assign) -> bool:
     """Whether Python's order, the value before the target's index, is as good as the model's."""
     if not isinstance(bare(expression.target), m.Index):
         return True
     return not assigns_apart(expression, e.analysis)
 
 
-def compound(e: PyExpressions, expression: m.Assign, target: str) -> str:
+def compound(e: PyExpressionWriter, expression: m.Assign, target: str) -> str:
     """What `target += value` and its kin store, `target` being what is read."""
     value = e.text(expression.value)
     return f"{_format(e, expression.target)}.{_METHODS[expression.operator]}({target}, {value})"
 
 
-def step(e: PyExpressions, expression: m.Unary | m.Postfix, target: str) -> str:
+def step(e: PyExpressionWriter, expression: m.Unary | m.Postfix, target: str) -> str:
     """What `++` and `--` store."""
     method = _METHODS[f"{expression.operator[0]}="]
     return f"{_format(e, expression.operand)}.{method}({target}, 1)"
 
 
-def _format(e: PyExpressions, target: m.Expression) -> str:
+def _format(e: PyExpressionWriter, target: m.Expression) -> str:
     return py_format(e.type_of(target) or INT)
 
 
-def assigned(e: PyExpressions, expression: m.Assign) -> str:
+def assigned(e: PyExpressionWriter, expression: m.Assign) -> str:
     """An assignment whose value is used, or whose target must be found before the value is."""
     target = bare(expression.target)
     if expression.operator != "=":
@@ -70,7 +70,7 @@ def assigned(e: PyExpressions, expression: m.Assign) -> str:
     return _store(e, target, e.stored(expression.value, type_))
 
 
-def stepped(e: PyExpressions, expression: m.Unary | m.Postfix) -> str:
+def stepped(e: PyExpressionWriter, expression: m.Unary | m.Postfix) -> str:
     """`++` and `--` whose value is used."""
     target = bare(expression.operand)
     if isinstance(expression, m.Unary):
@@ -85,7 +85,7 @@ def stepped(e: PyExpressions, expression: m.Unary | m.Postfix) -> str:
     return f"before({name}, {_store(e, target, step(e, expression, name))})"
 
 
-def _updated(e: PyExpressions, target: m.Expression, new: Callable[[str], str]) -> str:
+def _updated(e: PyExpressionWriter, target: m.Expression, new: Callable[[str], str]) -> str:
     """A store of what is made of the value that is there."""
     if isinstance(target, m.Index):
         values, at = e.temporary(), e.temporary()
@@ -95,7 +95,7 @@ def _updated(e: PyExpressions, target: m.Expression, new: Callable[[str], str]) 
     return _store(e, target, new(e.operand(target, ATOM)))
 
 
-def _store(e: PyExpressions, target: m.Expression, value: str) -> str:
+def _store(e: PyExpressionWriter, target: m.Expression, value: str) -> str:
     name = e.operand(target, ATOM)
     if name.startswith("self."):
         return f'put(self, "{name.removeprefix("self.")}", {value})'

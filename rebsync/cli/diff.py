@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from rebsync.diagnostics import Findings
     from rebsync.roundtrip.diff.behaviour import Behaviour
     from rebsync.roundtrip.diff.difference import Comparison
-    from rebsync.roundtrip.package.models import Code
+    from rebsync.roundtrip.package.models import CodeModel
 
 FORMATS = ("text", "json", "sarif", "github", "html")
 _DONE = {
@@ -90,7 +90,7 @@ def command(
     return Status.CLEAN if comparison.is_empty and not loose else Status.FINDINGS
 
 
-def _loose(side: Code) -> Iterator[Findings]:
+def _loose(side: CodeModel) -> Iterator[Findings]:
     """Where the model allows more than the code does: there equal models do not tell all."""
     for found in side.findings:
         loose = tuple(d for d in found.diagnostics if d.code == "RS942")
@@ -104,7 +104,7 @@ def _counted(comparison: Comparison) -> str:
     return counted(comparison)
 
 
-def _behaviour(comparison: Comparison, sides: tuple[Code, Code], most: int) -> Behaviour:
+def _behaviour(comparison: Comparison, sides: tuple[CodeModel, CodeModel], most: int) -> Behaviour:
     from rebsync.roundtrip.behaviour.bisimulation import compare_behaviour
     from rebsync.roundtrip.diff.behaviour import SAME
 
@@ -115,7 +115,7 @@ def _behaviour(comparison: Comparison, sides: tuple[Code, Code], most: int) -> B
 
 def _text(
     comparison: Comparison,
-    sides: tuple[Code, Code],
+    sides: tuple[CodeModel, CodeModel],
     names: tuple[str, str],
     depth: str,
     style: str,

@@ -81,12 +81,8 @@ def _type_of(expression: Expression, body: Body) -> Type | None:
             return _assign(expression, body)
         case Paren(inner):
             return type_of(inner, body)
-        case BoolLiteral():
-            return BOOLEAN
-        case FloatLiteral():
-            return DOUBLE if expression.is_double else FLOAT
-        case NullLiteral():
-            return NULL
+        case BoolLiteral() | FloatLiteral() | NullLiteral():
+            return _literal(expression)
         case Unary():
             return _unary(expression, body)
         case Postfix():
@@ -101,13 +97,31 @@ def _type_of(expression: Expression, body: Body) -> Type | None:
             return _choice(expression, body)
         case Super():
             return super_type(expression, body)
+        case StringLiteral() | New() | Broken():
+            _misplaced(expression, body)
+            return None
+
+
+def _literal(literal: BoolLiteral | FloatLiteral | NullLiteral) -> Type:
+    match literal:
+        case BoolLiteral():
+            return BOOLEAN
+        case FloatLiteral():
+            return DOUBLE if literal.is_double else FLOAT
+        case NullLiteral():
+            return NULL
+
+
+def _misplaced(expression: StringLiteral | New | Broken, body: Body) -> None:
+    """Reports what has no value in a model."""
+    match expression:
         case StringLiteral():
-            return _string(expression, body)
+            message = "a text may stand only as the second argument of assertion"
+            body.facts.error("RS317", expression.span, message)
         case New():
-            return _new(expression, body)
+            _new(expression, body)
         case Broken():
             body.facts.incomplete = True
-            return None
 
 
 def _integer(literal: Expression, value: int, body: Body) -> Type | None:
@@ -118,18 +132,11 @@ def _integer(literal: Expression, value: int, body: Body) -> Type | None:
     return None
 
 
-def _string(literal: StringLiteral, body: Body) -> Type | None:
-    message = "a text may stand only as the second argument of assertion"
-    body.facts.error("RS317", literal.span, message)
-    return None
-
-
-def _new(expression: New, body: Body) -> Type | None:
+def _new(expression: New, body: Body) -> None:
     for part in (*expression.bindings, *expression.arguments):
         type_of(part, body)
     message = f'"new {expression.type.name}" is not supported: a ROS system has fixed nodes'
     body.facts.error("RS110", expression.span, message, "declare the rebec in main")
-    return None
 
 
 def _self(expression: Self, body: Body) -> Type | None:

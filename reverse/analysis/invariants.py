@@ -24,7 +24,7 @@ _PLAIN_ROUNDS = 3
 _MOST_ROUNDS = 40
 
 
-class Entry(Enum):
+class BodyStart(Enum):
     """When a body starts: before anything else, between two messages, or in another body."""
 
     FIRST = auto()
@@ -40,7 +40,7 @@ class Body:
     """
 
     name: str
-    entry: Entry
+    entry: BodyStart
     statements: Sequence[m.Statement]
     types: Mapping[str, m.Type]
     parameters: Collection[str] = ()
@@ -142,15 +142,15 @@ class _Round:
 
     def over(self, bodies: Sequence[Body]) -> _Round:
         for body in bodies:
-            self._follow(body, Entry.WITHIN if body.name in self.called else body.entry)
+            self._follow(body, BodyStart.WITHIN if body.name in self.called else body.entry)
         return self
 
-    def _follow(self, body: Body, entry: Entry) -> None:
+    def _follow(self, body: Body, entry: BodyStart) -> None:
         names = self.held.always.keys()
         known: Mapping[str, Interval] = {}
-        if entry is Entry.FIRST:
+        if entry is BodyStart.FIRST:
             known = dict.fromkeys(names, exactly(0))
-        elif entry is Entry.BETWEEN:
+        elif entry is BodyStart.BETWEEN:
             known = self.held.between
         IntervalAnalysis(
             self.widths,
@@ -158,7 +158,7 @@ class _Round:
             {**known, **body.arguments},
             {**self.fixed, **self.held.always},
             parameters=body.parameters,
-            state=() if body.entry is Entry.WITHIN else names,
+            state=() if body.entry is BodyStart.WITHIN else names,
             called=set(body.types) if self.changed is None else self.changed,
             needs=body.needs,
             wraps=self.wraps,

@@ -126,3 +126,14 @@ def cell(axis: str, offset: m.Expression) -> m.Expression:
             return m.Binary("-", m.Name(axis), operand)
         case _:
             return m.Binary("+", m.Name(axis), offset)
+
+
+def whole_number(expression: m.Expression | None) -> int | None:
+    """The number that a literal stands for, with its sign; None of all else."""
+    match expression:
+        case m.IntLiteral(value):
+            return value
+        case m.Unary("-", m.IntLiteral(value)):
+            return -value
+        case _:
+            return None

@@ -19,7 +19,7 @@ from rebsync.reverse.syntax.cpp_tree import text_of
 from rebsync.static.types import INT, is_integer
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 _EXTREMES = {"std::max_element": ">", "std::min_element": "<"}
 _BEGINS, _ENDS = ("begin", "cbegin"), ("end", "cend")
@@ -27,7 +27,7 @@ _MOST = 4  # elements of which a choice is written: each one more doubles what i
 _LONGEST = 32  # elements that are added up, or counted
 
 
-def dereferenced(reader: CppExpressions, node: Node) -> m.Expression | None:
+def dereferenced(reader: CppExpressionReader, node: Node) -> m.Expression | None:
     """`*std::max_element(a.begin(), a.end())` over a whole array; None for another `*e`."""
     argument = node.child_by_field_name("argument")
     call_ = call_of(argument) if argument is not None else None
@@ -41,7 +41,7 @@ def dereferenced(reader: CppExpressions, node: Node) -> m.Expression | None:
 
 
 def call(
-    reader: CppExpressions, node: Node, name: str, arguments: Sequence[Node]
+    reader: CppExpressionReader, node: Node, name: str, arguments: Sequence[Node]
 ) -> m.Expression | None:
     """What `std::accumulate` or `std::count` gives for a whole array; None for other calls."""
     if name not in ("accumulate", "count") or len(arguments) != 3:
@@ -66,7 +66,7 @@ def _added(summands: Sequence[m.Expression]) -> m.Expression:
 
 
 def _sum(
-    reader: CppExpressions, node: Node, start: m.Expression, elements: Sequence[m.Expression]
+    reader: CppExpressionReader, node: Node, start: m.Expression, elements: Sequence[m.Expression]
 ) -> m.Expression | None:
     """All of them added to what the sum begins with, whose type the sum has."""
     types = {type_in(reader.scope, x) for x in elements}
@@ -79,7 +79,7 @@ def _sum(
 
 
 def _elements(
-    reader: CppExpressions, bounds: Sequence[Node], most: int
+    reader: CppExpressionReader, bounds: Sequence[Node], most: int
 ) -> list[m.Expression] | None:
     """The elements from one iterator to another: all of one array of numbers, and not too many."""
     array = whole_array(bounds)
@@ -98,7 +98,7 @@ def whole_array(bounds: Sequence[Node]) -> Node | None:
     return arrays[0]
 
 
-def plain_type(reader: CppExpressions, array: Node) -> m.Type | None:
+def plain_type(reader: CppExpressionReader, array: Node) -> m.Type | None:
     """The type of an array in one dimension whose elements are as the model has them."""
     place = resolve(reader.scope, array)
     if not isinstance(place, Variable) or place.type is None or place.bits or place.wide:

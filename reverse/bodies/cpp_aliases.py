@@ -20,12 +20,12 @@ from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.types import BYTE, INT, SHORT
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statements import CppStatements
+    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _HINT = "say its type: static_cast<int32_t>(...)"
 
 
-def declares_nothing(reader: CppStatements, node: Node) -> bool:
+def declares_nothing(reader: CppStatementReader, node: Node) -> bool:
     """Whether a statement only declares something; a type has the name from here on."""
     if node.type not in NOTHING:
         return False
@@ -38,7 +38,7 @@ def declares_nothing(reader: CppStatements, node: Node) -> bool:
 
 
 def instantiated(
-    reader: CppStatements, node: Node, function: CppFunction, arguments: Sequence[Node]
+    reader: CppStatementReader, node: Node, function: CppFunction, arguments: Sequence[Node]
 ) -> Mapping[str, Carried | None]:
     """The types that the parameters of a template stand for in a call; nothing of no template.
 
@@ -69,7 +69,7 @@ def instantiated(
     return found
 
 
-def _parameters(reader: CppStatements, node: Node, template: Node) -> Iterator[str]:
+def _parameters(reader: CppStatementReader, node: Node, template: Node) -> Iterator[str]:
     """The names of the types that a template takes."""
     for parameter in named(part(template, "parameters")):
         if parameter.type != "type_parameter_declaration" or len(named(parameter)) != 1:
@@ -79,7 +79,7 @@ def _parameters(reader: CppStatements, node: Node, template: Node) -> Iterator[s
         raise reader.unread(node, "the model knows no template with such parameters")
 
 
-def _deduced(reader: CppStatements, argument: Node) -> Carried:
+def _deduced(reader: CppStatementReader, argument: Node) -> Carried:
     """The type that a parameter of a template gets by an argument."""
     unread = reader.unread(argument, "the type of this argument is not known", _HINT)
     try:

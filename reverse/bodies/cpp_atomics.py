@@ -18,14 +18,14 @@ from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.syntax.cpp_tree import text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 _ORDER = ("std::memory_order", "memory_order")
 _ADDS = {"fetch_add": "+", "fetch_sub": "-"}
 
 
 def call(
-    reader: CppExpressions, node: Node, target: Node, name: str, arguments: Sequence[Node]
+    reader: CppExpressionReader, node: Node, target: Node, name: str, arguments: Sequence[Node]
 ) -> m.Expression | None:
     """`x.load()`, and as statements `x.store(e)`, `x.fetch_add(e)`; None for other calls."""
     given = [a for a in arguments if not text_of(a).startswith(_ORDER)]

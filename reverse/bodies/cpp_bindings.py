@@ -9,14 +9,14 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies.cpp_conversions import type_in
-from rebsync.reverse.bodies.cpp_effects import Touches
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.scope import Outside, Record, Variable
+from rebsync.reverse.bodies.touches import Touches
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statements import CppStatements
+    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _BINDING = "structured_binding_declarator"
 
@@ -30,7 +30,7 @@ def names_in(declarator: Node) -> tuple[str, ...] | None:
 
 
 def bound(
-    reader: CppStatements, node: Node, names: Sequence[str], value: Node | None, copies: bool
+    reader: CppStatementReader, node: Node, names: Sequence[str], value: Node | None, copies: bool
 ) -> Iterator[m.Statement]:
     """The locals that have the elements, or what the names of references stand for."""
     if value is None:

@@ -26,7 +26,7 @@ from rebsync.reverse.bodies.scope import (
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 _OPERATIONS = {
     "divide": "/",
@@ -39,7 +39,7 @@ _MATHEMATICS = frozenset({"pow", "sqrt"})
 _WIDTHS = frozenset({"narrow", "widen"})
 
 
-def called(reader: CppExpressions, node: Node) -> m.Expression:
+def called(reader: CppExpressionReader, node: Node) -> m.Expression:
     """What the call of any function means."""
     function, arguments = part(node, "function"), named(part(node, "arguments"))
     match function.type:
@@ -62,7 +62,7 @@ def called(reader: CppExpressions, node: Node) -> m.Expression:
 
 
 def by_name(
-    reader: CppExpressions,
+    reader: CppExpressionReader,
     node: Node,
     name: str,
     arguments: Sequence[Node],
@@ -99,7 +99,7 @@ def by_name(
 
 
 def _other(
-    reader: CppExpressions, node: Node, name: str, arguments: Sequence[Node], why: str
+    reader: CppExpressionReader, node: Node, name: str, arguments: Sequence[Node], why: str
 ) -> m.Expression:
     """A function that the code does not have: one of a library."""
     read = cpp_idioms.call(reader, node, name.removeprefix("::"), arguments)
@@ -111,7 +111,7 @@ def _other(
 
 
 def _local_method(
-    reader: CppExpressions,
+    reader: CppExpressionReader,
     node: Node,
     target: m.Expression | None,
     called: Called,
@@ -125,7 +125,7 @@ def _local_method(
 
 
 def _template(
-    reader: CppExpressions, node: Node, function: Node, arguments: Sequence[Node]
+    reader: CppExpressionReader, node: Node, function: Node, arguments: Sequence[Node]
 ) -> m.Expression:
     """A call with types: conversions, casts."""
     name, types = text_of(part(function, "name")), named(part(function, "arguments"))
@@ -144,7 +144,7 @@ def _template(
 
 
 def _qualified(
-    reader: CppExpressions, node: Node, function: Node, arguments: Sequence[Node]
+    reader: CppExpressionReader, node: Node, function: Node, arguments: Sequence[Node]
 ) -> m.Expression:
     """A call of a function of a class or of a library, by its full name."""
     owner, _, name = "".join(text_of(function).split()).rpartition("::")
@@ -163,7 +163,7 @@ def _qualified(
 
 
 def _of_object(
-    reader: CppExpressions, node: Node, function: Node, arguments: Sequence[Node]
+    reader: CppExpressionReader, node: Node, function: Node, arguments: Sequence[Node]
 ) -> m.Expression:
     """A call of a function of some object."""
     target, name = part(function, "argument"), part(function, "field")

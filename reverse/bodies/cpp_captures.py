@@ -29,7 +29,7 @@ from rebsync.static.constants import constant
 from rebsync.static.types import BYTE, INT, SHORT
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statements import CppStatements
+    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _INITIALISED = "lambda_capture_initializer"
 # What makes a value of its own of what stands in it, or decides by it.
@@ -42,7 +42,7 @@ _READS = frozenset(
 )
 
 
-def declared(reader: CppStatements, node: Node) -> tuple[Lambda, list[m.Statement]]:
+def declared(reader: CppStatementReader, node: Node) -> tuple[Lambda, list[m.Statement]]:
     """The function that a local holds, and the locals of the model for `[n = e]` in it."""
     names: dict[str, Meaning] = {}
     statements: list[m.Statement] = []
@@ -64,7 +64,7 @@ def declared(reader: CppStatements, node: Node) -> tuple[Lambda, list[m.Statemen
     return Lambda(node, reader.scope.with_locals(names), frozenset(names)), statements
 
 
-def check(reader: CppStatements, held: Lambda) -> None:
+def check(reader: CppStatementReader, held: Lambda) -> None:
     """Raises `Unread` where a lambda may hold another value than the one that a name has now."""
     node = held.node
     captures = part(node, "captures")
@@ -102,7 +102,7 @@ def _copied(held: Lambda) -> Iterator[str]:
         yield from (used & known) - held.own if held.scope is not None else used
 
 
-def _is_copy(reader: CppStatements, scope: Scope, node: Node, name: str) -> bool:
+def _is_copy(reader: CppStatementReader, scope: Scope, node: Node, name: str) -> bool:
     """Whether the copy of a local has the value of the local whenever the lambda is called."""
     meaning = scope.locals.get(name)
     if isinstance(meaning, Lambda):

@@ -17,10 +17,10 @@ from rebsync.reverse.syntax.cpp_tree import text_of
 from rebsync.static.types import BOOLEAN, INT, is_boolean, is_integer
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 
-def cast(reader: CppExpressions, to: Node, operand: Node, node: Node) -> m.Expression:
+def cast(reader: CppExpressionReader, to: Node, operand: Node, node: Node) -> m.Expression:
     """A value that is converted by a cast of whatever kind."""
     plain = type_of(to)
     if plain is not None and not plain.dimensions and not reader.scope.open:

@@ -14,13 +14,13 @@ from rebsync.static.constants import constant
 from rebsync.static.types import BOOLEAN, BYTE, DOUBLE, INT, SHORT, is_integer
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 _BITS = {BYTE: 7, SHORT: 15, INT: 31}
 _EXACT = 2**24  # whole numbers up to here are numbers of a `float`
 
 
-def of_constant(reader: CppExpressions, value: Node) -> m.Expression:
+def of_constant(reader: CppExpressionReader, value: Node) -> m.Expression:
     """What a constant is whose value is written so; `reader` can name what the value can.
 
     Unread: its type holds another number, or the model has no number of that type.
@@ -41,7 +41,7 @@ def of_constant(reader: CppExpressions, value: Node) -> m.Expression:
     return made
 
 
-def _whole(reader: CppExpressions, read: m.Expression, kept: Carried) -> m.Expression | None:
+def _whole(reader: CppExpressionReader, read: m.Expression, kept: Carried) -> m.Expression | None:
     number, of = constant(read), type_in(reader.scope, read)
     if number is None:
         return read if of == kept.type == INT and not kept.bits else None
@@ -52,7 +52,7 @@ def _whole(reader: CppExpressions, read: m.Expression, kept: Carried) -> m.Expre
     return read if is_kept else None
 
 
-def _decimal(reader: CppExpressions, read: m.Expression, kept: Carried) -> m.Expression | None:
+def _decimal(reader: CppExpressionReader, read: m.Expression, kept: Carried) -> m.Expression | None:
     of, number = type_in(reader.scope, read), constant(read)
     if of == kept.type:
         return read

@@ -16,11 +16,11 @@ from rebsync.reverse.bodies.written import annotations_in
 from rebsync.reverse.syntax.cpp_tree import markers_in, named, part, text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statements import CppStatements
+    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 
 def branches(
-    reader: CppStatements, node: Node, annotations: tuple[m.Annotation, ...]
+    reader: CppStatementReader, node: Node, annotations: tuple[m.Annotation, ...]
 ) -> Iterator[m.Statement]:
     """`if`, with what its head declares before it."""
     outside, clause = reader.scope, part(node, "condition")
@@ -46,7 +46,7 @@ def branches(
         yield read
 
 
-def _else(reader: CppStatements, body: Node) -> m.Statement:
+def _else(reader: CppStatementReader, body: Node) -> m.Statement:
     """The other branch; `else if` goes on without braces where nothing stands before it."""
     if body.type != "if_statement":
         return reader.branch(body)
@@ -58,7 +58,7 @@ def _else(reader: CppStatements, body: Node) -> m.Statement:
     return read[0]
 
 
-def counted(reader: CppStatements, node: Node, annotations: tuple[m.Annotation, ...]) -> m.For:
+def counted(reader: CppStatementReader, node: Node, annotations: tuple[m.Annotation, ...]) -> m.For:
     """`for` with its three parts."""
     outside = reader.scope
     first = node.child_by_field_name("initializer")
@@ -76,7 +76,7 @@ def counted(reader: CppStatements, node: Node, annotations: tuple[m.Annotation, 
     return m.For(initial, condition, updates, body, annotations, reader.cpp.span(node))
 
 
-def _counter(reader: CppStatements, node: Node) -> m.Declaration:
+def _counter(reader: CppStatementReader, node: Node) -> m.Declaration:
     """The declaration at the head of a loop."""
     if not reader.scope.open and cpp_plain_locals.is_plain(node):
         return cpp_plain_locals.declared(reader, node)
@@ -87,7 +87,7 @@ def _counter(reader: CppStatements, node: Node) -> m.Declaration:
     return m.Declaration(read[0].type, declarators, span=reader.cpp.span(node))
 
 
-def _listed(reader: CppStatements, node: Node) -> Iterator[m.Expression]:
+def _listed(reader: CppStatementReader, node: Node) -> Iterator[m.Expression]:
     """The expressions that commas part."""
     if node.type == "comma_expression":
         for child in named(node):
@@ -96,7 +96,9 @@ def _listed(reader: CppStatements, node: Node) -> Iterator[m.Expression]:
         yield reader.effect(node)
 
 
-def switched(reader: CppStatements, node: Node, annotations: tuple[m.Annotation, ...]) -> m.Switch:
+def switched(
+    reader: CppStatementReader, node: Node, annotations: tuple[m.Annotation, ...]
+) -> m.Switch:
     """`switch`."""
     clause = part(node, "condition")
     subject = cpp_special.subject(reader, part(clause, "value"), part(node, "body"))
@@ -107,7 +109,7 @@ def switched(reader: CppStatements, node: Node, annotations: tuple[m.Annotation,
     return m.Switch(subject, tuple(cases), annotations, reader.cpp.span(node))
 
 
-def _default_last(reader: CppStatements, node: Node, cases: list[m.Case]) -> list[m.Case]:
+def _default_last(reader: CppStatementReader, node: Node, cases: list[m.Case]) -> list[m.Case]:
     """The cases with `default` at the end, where the model wants it, if nothing falls through."""
     places = [index for index, case in enumerate(cases) if case.value is None]
     if not places or places[0] == len(cases) - 1:
@@ -128,7 +130,7 @@ def _leaves(case: m.Case) -> bool:
     )
 
 
-def _cases(reader: CppStatements, body: Node) -> Iterator[m.Case]:
+def _cases(reader: CppStatementReader, body: Node) -> Iterator[m.Case]:
     """The cases, each with the annotations in the comments above it."""
     comments: list[str] = []
     for child in body.named_children:
@@ -140,7 +142,7 @@ def _cases(reader: CppStatements, body: Node) -> Iterator[m.Case]:
         comments = []
 
 
-def _case(reader: CppStatements, node: Node, annotations: tuple[m.Annotation, ...]) -> m.Case:
+def _case(reader: CppStatementReader, node: Node, annotations: tuple[m.Annotation, ...]) -> m.Case:
     """One case with its statements."""
     if node.type != "case_statement":
         raise reader.unread(node, "this stands before the first case")
@@ -156,7 +158,7 @@ def _case(reader: CppStatements, node: Node, annotations: tuple[m.Annotation, ..
 
 
 def returned(
-    reader: CppStatements, node: Node, annotations: tuple[m.Annotation, ...]
+    reader: CppStatementReader, node: Node, annotations: tuple[m.Annotation, ...]
 ) -> Iterator[m.Statement]:
     """`return`: its value goes where the function's value is kept."""
     values = named(node)

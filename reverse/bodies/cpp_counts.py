@@ -14,13 +14,13 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statements import CppStatements
+    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 # What is in these may be evaluated later, or not at all.
 _PERHAPS = frozenset({"lambda_expression", "conditional_expression"})
 
 
-def counted(reader: CppStatements, node: Node) -> list[m.Statement] | None:
+def counted(reader: CppStatementReader, node: Node) -> list[m.Statement] | None:
     """The counts of a statement that does nothing else to the model; None for other statements."""
     inner = named(node)
     if node.type != "expression_statement" or len(inner) != 1:

@@ -13,11 +13,11 @@ from rebsync.static.constants import constant
 from rebsync.static.types import BOOLEAN, INT
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statements import CppStatements
+    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 
 @dataclass(frozen=True, slots=True)
-class Declared:
+class DeclaratorParts:
     """One declarator of a declaration, taken apart."""
 
     node: Node
@@ -30,7 +30,7 @@ class Declared:
     text: str  # of the type
 
 
-def taken_apart(declarator: Node, type_: Node, text: str, constant_: bool) -> Declared:
+def taken_apart(declarator: Node, type_: Node, text: str, constant_: bool) -> DeclaratorParts:
     """A declarator of a declaration, with what it declares."""
     value, target = None, declarator
     if declarator.type == "init_declarator":
@@ -43,10 +43,10 @@ def taken_apart(declarator: Node, type_: Node, text: str, constant_: bool) -> De
         if inner is None and not named(target):
             break
         target = inner if inner is not None else named(target)[-1]
-    return Declared(declarator, type_, text_of(target), kind, value, length, constant_, text)
+    return DeclaratorParts(declarator, type_, text_of(target), kind, value, length, constant_, text)
 
 
-def only_value(declared: Declared) -> Node | None:
+def only_value(declared: DeclaratorParts) -> Node | None:
     """The initial value: `= e`, `(e)` or `{e}`."""
     value = declared.value
     if value is not None and value.type == "argument_list":
@@ -54,7 +54,7 @@ def only_value(declared: Declared) -> Node | None:
     return value
 
 
-def number_of(reader: CppStatements, declared: Declared) -> m.Expression | None:
+def number_of(reader: CppStatementReader, declared: DeclaratorParts) -> m.Expression | None:
     """The whole number, or truth value, that a constant of a function is, whatever calls it."""
     kept, value = reader.scope.carried(declared.type), only_value(declared)
     plain = kept is not None and kept.type in (INT, BOOLEAN) and not (kept.bits or kept.wide)

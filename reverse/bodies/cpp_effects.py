@@ -11,7 +11,7 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.bodies import cpp_roots, known_functions
 from rebsync.reverse.bodies.cpp_kinds import LEAVES, PLAIN, REPEATED
-from rebsync.reverse.bodies.cpp_macros import is_harmless
+from rebsync.reverse.bodies.cpp_macros import macro_bodies
 from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_misread import first_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this
@@ -33,6 +33,7 @@ from rebsync.reverse.bodies.scope import (
     Variable,
     meant_by,
 )
+from rebsync.reverse.bodies.touches import Touches
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
@@ -40,15 +41,6 @@ from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_declarations import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.syntax.macros import hides
-
-
-class Touches(Unread):
-    """What a piece of code does to the model.
-
-    `at` are the bytes that do it, if they do whatever stands for the names of other locals.
-    """
-
-    at: tuple[int, int] | None = None
 
 
 @dataclass(slots=True)
@@ -275,7 +267,7 @@ class Effects:
         meant: tuple[CppFunction, ...] = ()
         match self.scope.functions.get(name):
             case None if hides(name):
-                if is_harmless(self, name):
+                if self._is_calm_macro(name):
                     return True
                 raise self._touches(call.node, f'"{name}" may be a macro that hides statements')
             case None | Ignored():
@@ -317,6 +309,17 @@ class Effects:
             raise self._touches(node, f'"{name}" may change what the model has')
         return False
 
+    def _is_calm_macro(self, name: str) -> bool:
+        """Whether a macro only looks at what it gets, and touches nothing else, at this place."""
+        bodies = macro_bodies(self.scope, self.cpp.source.path, name)
+        try:
+            for each in bodies:
+                inside = Effects(each.cpp, each.scope, _inner=self._inner - each.parameters)
+                inside.check(each.statements)
+        except Unread:
+            return False
+        return bool(bodies)
+
     def _is_calm(self, function: CppFunction) -> bool:
         """Whether a body touches nothing but what it declares, or gets."""
         if function.body is None:
@@ -325,8 +328,8 @@ class Effects:
         return scope.calm.of(function.body.id, scope.members, scope.functions, looks)
 
     def _looks(self, function: CppFunction, body: Node) -> bool:
-        inside = Effects(function.cpp, replace(self.scope, locals={}), returning=True)
-        inside._inner = {p.name for p in function.parameters}
+        inner, scope = {p.name for p in function.parameters}, replace(self.scope, locals={})
+        inside = Effects(function.cpp, scope, returning=True, _inner=inner)
         try:
             inside.check(body)
         except (Touches, RecursionError):  # what leads too deep may do anything
@@ -368,12 +371,11 @@ class Effects:
     def _arguments(self, arguments: tuple[Node, ...] | list[Node]) -> None:
         """Arguments of a function that is not known: it may keep or change what it gets."""
         for argument in arguments:
-            type_ = argument.type
-            if type_ == "lambda_expression":
+            if argument.type == "lambda_expression":
                 self._handed(argument)
                 continue
             name, meaning = self._root(argument)
-            is_value = type_ == "call_expression" and not cpp_roots.is_element(argument)
+            is_value = argument.type == "call_expression" and not cpp_roots.is_element(argument)
             if is_value or not is_modelled(argument, meaning):
                 self.check(argument)
             elif isinstance(meaning, Record) and meaning.constant:
@@ -389,8 +391,7 @@ class Effects:
     def _handed(self, function: Node) -> None:
         """A function that is handed on: it may run at any time."""
         outer, loops = self._inner, self._loops
-        self._inner, self._loops = set(outer), 0
-        self._inner.update(cpp_roots.parameters_of(function))
+        self._inner, self._loops = {*outer, *cpp_roots.parameters_of(function)}, 0
         for child in named(part(function, "body")):
             for each in named(child) if child.type == "return_statement" else [child]:
                 self.check(each)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import field, replace
+from collections.abc import Sequence
+from dataclasses import replace
 
 from tree_sitter import Node
 
@@ -29,8 +29,9 @@ from rebsync.reverse.bodies.cpp_conversions import (
     type_in,
 )
 from rebsync.reverse.bodies.cpp_effects import Effects
+from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_literals import in_range, is_bare_macro, literal
-from rebsync.reverse.bodies.cpp_misread import Chain, Operand, Operation, chain_of, is_misread
+from rebsync.reverse.bodies.cpp_misread import Chain, ChainOperand, Operation, chain_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_stores import kept
 from rebsync.reverse.bodies.cpp_time import written
@@ -39,18 +40,15 @@ from rebsync.reverse.bodies.scope import (
     Inline,
     Itself,
     Lambda,
-    Meaning,
     Outside,
     Publishes,
     Record,
     Runtime,
-    Scope,
     TimerOf,
     Variable,
 )
-from rebsync.reverse.findings import Findings, Unread
-from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
-from rebsync.source import Span
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.types import BOOLEAN, converts, is_boolean, is_floating
 
 _PREFIX = frozenset({"+", "-", "!", "~"})
@@ -61,25 +59,15 @@ _ONE_OF = "it is one of the values in the comment"
 _STANDS = "stands for all that comparisons do not tell apart"
 MOVE = cpp_mailbox.MOVE
 
-# Reads the call of a function whose body stands in its place: what the call gives, if anything.
-Inlines = Callable[[Node, Inline | Lambda, Sequence[Node]], Meaning | None]
-
 
 @dataclass(frozen=True, slots=True)
-class CppExpressions:
+class CppExpressions(CppExpressionReader):
     """Reads the expressions of one body. What has no meaning in the model raises `Unread`.
 
     A value that the model cannot know raises `Unknown`, unless its place allows for a choice:
     that is listed in `findings`. Without `inlines` no function's body can stand for its call.
     `subscripts` gets the places of elements whose indices nobody tests, with the lengths.
     """
-
-    cpp: Cpp
-    scope: Scope
-    findings: Findings | None = None
-    within: str = ""
-    inlines: Inlines | None = None
-    subscripts: dict[Span, int] = field(default_factory=dict)
 
     def read(self, node: Node) -> m.Expression:
         """The expression, with parentheses where the code has them or the model needs them."""
@@ -173,29 +161,6 @@ class CppExpressions:
         Effects(self.cpp, self.scope).check(node)
         source = self.cpp.source
         self.findings.approximated(source, unread.span, unread.why, unread.hint, self.within)
-
-    def operand(self, node: Node, binding: int) -> m.Expression:
-        """An operand that binds at least so tightly, in parentheses if it does not."""
-        expression = self.read(node)
-        if precedence.binding(expression) < binding:
-            return m.Paren(expression, self.cpp.span(node))
-        return expression
-
-    def unread(self, node: Node, why: str, hint: str = "") -> Unread:
-        """What to raise where a node has no meaning in the model."""
-        return Unread(self.cpp.span(node), why, hint)
-
-    def unknown(self, node: Node, why: str) -> Unread:
-        """What to raise for a value that the model cannot know, where there can be such values."""
-        kind = Unknown if self.scope.open else Unread
-        return kind(self.cpp.span(node), why)
-
-    def only(self, node: Node) -> Node:
-        """The one expression in a node."""
-        children = named(node)
-        if len(children) != 1:
-            raise self.unread(node, "this is not one expression")
-        return children[0]
 
     # --- names ----------------------------------------------------------------------------------
 
@@ -321,9 +286,9 @@ class CppExpressions:
     def _joined(self, whole: Node, chain: Chain) -> m.Expression:
         """A chain of operators of which the grammar took a part for a cast."""
         match chain:
-            case Operand(cpp, node) if cpp is self.cpp:
+            case ChainOperand(cpp, node) if cpp is self.cpp:
                 return self.read(node)
-            case Operand(cpp, node):
+            case ChainOperand(cpp, node):
                 try:
                     value = replace(self, cpp=cpp).read(node)
                 except Unread as unread:
@@ -333,7 +298,7 @@ class CppExpressions:
             case Operation(operator, left, right):
                 sides = self._joined(whole, left), self._joined(whole, right)
                 for side in (left, right):
-                    if isinstance(side, Operand) and cpp_widths.is_wide(self, side):
+                    if isinstance(side, ChainOperand) and cpp_widths.is_wide(self, side):
                         raise self.unknown(whole, "what this gives depends on how wide it is")
                 return binary(*operands(self.scope, operator, *sides))
 
@@ -391,10 +356,3 @@ class CppExpressions:
                 raise self.unread(node, "what this gives is no value of the model")
             case expression:
                 return expression
-
-    def calls(
-        self, node: Node, target: m.Expression | None, name: str, arguments: Sequence[Node]
-    ) -> m.Call:
-        """A call with all arguments as they are."""
-        values = tuple(self.read(a) for a in arguments)
-        return m.Call(target, name, values, span=self.cpp.span(node))

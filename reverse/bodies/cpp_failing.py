@@ -19,11 +19,11 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expressions import CppExpressions
-    from rebsync.reverse.bodies.cpp_statements import CppStatements
+    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
+    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 
-def may_fail(reader: CppStatements, node: Node) -> bool:
+def may_fail(reader: CppStatementReader, node: Node) -> bool:
     """Whether there is something in a statement that may fail."""
     if node.type == "lambda_expression":
         return False
@@ -32,7 +32,7 @@ def may_fail(reader: CppStatements, node: Node) -> bool:
     return any(may_fail(reader, child) for child in named(node))
 
 
-def failing(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
+def failing(reader: CppStatementReader, node: Node) -> Iterator[m.Statement]:
     """What may fail in an expression, each under what must hold for it to be evaluated.
 
     Unread: the model has no expression for it.
@@ -62,13 +62,13 @@ def failing(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
         yield m.ExpressionStatement(element, span=span)
 
 
-def _plain(reader: CppStatements) -> CppExpressions:
+def _plain(reader: CppStatementReader) -> CppExpressionReader:
     """Reads expressions alone, with no statements before them."""
     return replace(reader.expressions, findings=None, inlines=None)
 
 
 def _guarded(
-    reader: CppStatements, condition: Node, then: Node | None, otherwise: Node | None
+    reader: CppStatementReader, condition: Node, then: Node | None, otherwise: Node | None
 ) -> Iterator[m.Statement]:
     yield from failing(reader, condition)
     ways = [list(failing(reader, n)) if n is not None else [] for n in (then, otherwise)]
@@ -79,7 +79,7 @@ def _guarded(
         yield m.If(read, blocks[0], other, span=reader.cpp.span(condition))
 
 
-def _is_division(reader: CppStatements, node: Node) -> bool:
+def _is_division(reader: CppStatementReader, node: Node) -> bool:
     """Whether an integer is divided by one that may be zero."""
     if node.type != "binary_expression" or text_of(part(node, "operator")) not in ("/", "%"):
         return False
@@ -87,7 +87,7 @@ def _is_division(reader: CppStatements, node: Node) -> bool:
     return left is not None and right is not None and right.values.includes(exactly(0))
 
 
-def _element(reader: CppStatements, node: Node) -> m.Index | None:
+def _element(reader: CppStatementReader, node: Node) -> m.Index | None:
     """The element of an array of the model, by an index that is checked."""
     if node.type != "call_expression" or len(named(part(node, "arguments"))) != 1:
         return None

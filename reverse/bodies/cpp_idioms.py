@@ -31,7 +31,7 @@ from rebsync.static.constants import constant
 from rebsync.static.types import DOUBLE, INT, is_floating, is_integer
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 _LEAST = -0x80000000
 _LARGE = 200  # parts of an expression
@@ -63,7 +63,7 @@ def constant_named(name: str, span: Span) -> m.Expression | None:
 
 
 def call(
-    reader: CppExpressions, node: Node, name: str, arguments: Sequence[Node]
+    reader: CppExpressionReader, node: Node, name: str, arguments: Sequence[Node]
 ) -> m.Expression | None:
     """The call of a function of a library, if the model can say what it gives."""
     span, count = reader.cpp.span(node), len(arguments)
@@ -105,7 +105,7 @@ def call(
     return time_called(reader, node, name, list(arguments))
 
 
-def _check_explicit(reader: CppExpressions, node: Node, arguments: Sequence[Node]) -> None:
+def _check_explicit(reader: CppExpressionReader, node: Node, arguments: Sequence[Node]) -> None:
     """Raises where `std::min<int8_t>(a, b)` makes other numbers of what it is given."""
     function = _function(node)
     while function.type == "qualified_identifier":
@@ -127,7 +127,7 @@ def _function(node: Node) -> Node:
     return node.children_by_field_name("function")[0]
 
 
-def _calm(reader: CppExpressions, nodes: Sequence[Node]) -> list[m.Expression]:
+def _calm(reader: CppExpressionReader, nodes: Sequence[Node]) -> list[m.Expression]:
     """Operands that may be evaluated more than once."""
     read = [as_number(reader.scope, reader.read(n)) for n in nodes]
     for node, value in zip(nodes, read, strict=True):
@@ -142,7 +142,7 @@ def _is_large(value: m.Expression) -> bool:
     return len(list(islice(m.walk(value), _LARGE))) == _LARGE
 
 
-def _least(reader: CppExpressions, nodes: Sequence[Node], name: str) -> m.Expression:
+def _least(reader: CppExpressionReader, nodes: Sequence[Node], name: str) -> m.Expression:
     """The least, or the greatest, of some values."""
     first, *others = _calm(reader, nodes)
     for other in others:
@@ -151,7 +151,7 @@ def _least(reader: CppExpressions, nodes: Sequence[Node], name: str) -> m.Expres
 
 
 def _lesser(
-    reader: CppExpressions, left: m.Expression, right: m.Expression, sign: str
+    reader: CppExpressionReader, left: m.Expression, right: m.Expression, sign: str
 ) -> m.Expression:
     """The one of two values that is first by `sign`; of equal ones the first."""
     opposite = {"<": ">", ">": "<"}[sign]
@@ -159,7 +159,7 @@ def _lesser(
     return chosen(binary(opposite, low, high), right, left)
 
 
-def _magnitude(reader: CppExpressions, node: Node, name: str) -> m.Expression:
+def _magnitude(reader: CppExpressionReader, node: Node, name: str) -> m.Expression:
     (value,) = _calm(reader, [node])
     of = type_in(reader.scope, value)
     if name.startswith("f") and of is not None and is_integer(of):
@@ -173,14 +173,14 @@ def _magnitude(reader: CppExpressions, node: Node, name: str) -> m.Expression:
     return chosen(binary("<", value, zero), m.Unary("-", tight(value, 13)), value)
 
 
-def _rounded(reader: CppExpressions, node: Node) -> m.Expression | None:
+def _rounded(reader: CppExpressionReader, node: Node) -> m.Expression | None:
     """Rounding changes nothing of an integer; the model cannot round others."""
     value = reader.read(node)
     of = type_in(reader.scope, value)
     return cast(DOUBLE, value) if of is not None and is_integer(of) else None
 
 
-def drawn(reader: CppExpressions, node: Node, sides: Sequence[Node]) -> m.Expression | None:
+def drawn(reader: CppExpressionReader, node: Node, sides: Sequence[Node]) -> m.Expression | None:
     """`rand() % n` as a choice of `0` to `n - 1`; None for another remainder."""
     left, right = sides
     while left.type == "parenthesized_expression":
@@ -201,7 +201,7 @@ def drawn(reader: CppExpressions, node: Node, sides: Sequence[Node]) -> m.Expres
 
 
 def member_call(
-    reader: CppExpressions, node: Node, target: Node, name: str, arguments: Sequence[Node]
+    reader: CppExpressionReader, node: Node, target: Node, name: str, arguments: Sequence[Node]
 ) -> m.Expression | None:
     """The call of a function of an array, an atomic object, a time or a node handle."""
     if (held := cpp_atomics.call(reader, node, target, name, arguments)) is not None:
@@ -249,7 +249,7 @@ def _asks_now(target: Node) -> bool:
 
 
 def passed(
-    reader: CppExpressions, node: Node, called: Called, arguments: Sequence[Node]
+    reader: CppExpressionReader, node: Node, called: Called, arguments: Sequence[Node]
 ) -> tuple[m.Expression, ...]:
     """What a local method gets of the arguments of a call."""
     found: list[m.Expression] = []
@@ -276,7 +276,7 @@ def passed(
 
 
 def left_out(
-    reader: CppExpressions, node: Node, parameter: CppParameter, place: Variable
+    reader: CppExpressionReader, node: Node, parameter: CppParameter, place: Variable
 ) -> m.Expression:
     """What a parameter is that a call leaves out, where nothing of the caller's is in it."""
     if parameter.default is None:
@@ -291,7 +291,9 @@ def left_out(
         raise reader.unread(node, f"what is left out of this call: {unread.why}") from None
 
 
-def fields_of(reader: CppExpressions, argument: Node, paths: Sequence[str]) -> list[m.Expression]:
+def fields_of(
+    reader: CppExpressionReader, argument: Node, paths: Sequence[str]
+) -> list[m.Expression]:
     """Fields of a message by their paths."""
     if not paths:
         return []

@@ -37,14 +37,14 @@ from rebsync.static.constants import constant as constant_of
 from rebsync.static.types import converts, is_boolean, is_integer, is_numeric
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statements import CppStatements
+    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _DEEPEST = 8
 _GUARDED = frozenset({"conditional_expression", "while_statement", "for_statement", "do_statement"})
 
 
 def inlined(
-    reader: CppStatements, node: Node, function: Inline | Lambda, arguments: Sequence[Node]
+    reader: CppStatementReader, node: Node, function: Inline | Lambda, arguments: Sequence[Node]
 ) -> Meaning | None:
     """Puts the statements of a function before the one that is read; what the call gives."""
     inside, body, parameters, result = _entered(reader, node, function, arguments)
@@ -77,7 +77,7 @@ def inlined(
     return found
 
 
-def dropped(reader: CppStatements, node: Node, given: Meaning | None) -> Iterator[m.Statement]:
+def dropped(reader: CppStatementReader, node: Node, given: Meaning | None) -> Iterator[m.Statement]:
     """What is left of a value that a function gives and nobody takes: what it changes."""
     if isinstance(given, m.Expression):
         if is_effect(given):
@@ -104,7 +104,7 @@ def _single(body: Node) -> Node | None:
 
 
 def _value(
-    reader: CppStatements, inside: CppStatements, node: Node, result: Node | None
+    reader: CppStatementReader, inside: CppStatementReader, node: Node, result: Node | None
 ) -> Meaning:
     """What such a function gives: the value itself, where it is called."""
     text = text_of(result) if result is not None else "auto"
@@ -125,7 +125,7 @@ def _value(
 
 
 def _as(
-    reader: CppStatements, inside: CppStatements, value: m.Expression, place: Variable
+    reader: CppStatementReader, inside: CppStatementReader, value: m.Expression, place: Variable
 ) -> m.Expression | None:
     """A value of generated code as one of a type where the model stores it nowhere.
 
@@ -148,8 +148,8 @@ def _as(
 
 
 def _entered(
-    reader: CppStatements, call: Node, function: Inline | Lambda, arguments: Sequence[Node]
-) -> tuple[CppStatements, Node, Sequence[CppParameter], Node | None]:
+    reader: CppStatementReader, call: Node, function: Inline | Lambda, arguments: Sequence[Node]
+) -> tuple[CppStatementReader, Node, Sequence[CppParameter], Node | None]:
     """A reader for the body of a function, the body, its parameters and the type of its result."""
     match function:
         case Inline(called, constants):
@@ -172,8 +172,8 @@ def _entered(
 
 
 def _of_member(
-    reader: CppStatements, node: Node
-) -> tuple[CppStatements, Node, Sequence[CppParameter], Node | None]:
+    reader: CppStatementReader, node: Node
+) -> tuple[CppStatementReader, Node, Sequence[CppParameter], Node | None]:
     """The same for a lambda that a member holds."""
     top = node
     while top.parent is not None:
@@ -205,7 +205,7 @@ def _trailing(declarator: Node | None) -> Node | None:
     return None
 
 
-def _check_place(reader: CppStatements, node: Node) -> None:
+def _check_place(reader: CppStatementReader, node: Node) -> None:
     """Raises `Unread` where the call is not run once, and first of all in its statement."""
     below, above = node, node.parent
     while above is not None and not below.type.endswith(("_statement", "declaration")):
@@ -225,8 +225,8 @@ def _check_place(reader: CppStatements, node: Node) -> None:
 
 
 def _bound(
-    reader: CppStatements,
-    inside: CppStatements,
+    reader: CppStatementReader,
+    inside: CppStatementReader,
     parameter: CppParameter,
     argument: Node,
     once: bool,
@@ -272,7 +272,7 @@ def _bound(
 
 
 def _left_out(
-    reader: CppStatements, inside: CppStatements, parameter: CppParameter, node: Node
+    reader: CppStatementReader, inside: CppStatementReader, parameter: CppParameter, node: Node
 ) -> Iterator[m.Statement]:
     """A parameter that a call leaves out."""
     if not parameter.name:
@@ -289,7 +289,7 @@ def _left_out(
 
 
 def _copied(
-    reader: CppStatements, inside: CppStatements, name: str, type_: str, argument: Node
+    reader: CppStatementReader, inside: CppStatementReader, name: str, type_: str, argument: Node
 ) -> Iterator[m.Statement]:
     before = reader.scope
     yield from declare(reader, argument, name, type_, argument, pointer=False, inlining=True)
@@ -298,8 +298,8 @@ def _copied(
 
 
 def _valued(
-    reader: CppStatements,
-    inside: CppStatements,
+    reader: CppStatementReader,
+    inside: CppStatementReader,
     name: str,
     place: Variable,
     argument: Node,
@@ -331,7 +331,7 @@ def _valued(
 
 
 def _body(
-    reader: CppStatements, inside: CppStatements, body: Node, result: Node | None
+    reader: CppStatementReader, inside: CppStatementReader, body: Node, result: Node | None
 ) -> Meaning | None:
     place = _result(reader, inside, body, result)
     statements = inside.read(body.named_children)
@@ -345,7 +345,7 @@ def _body(
 
 
 def _result(
-    reader: CppStatements, inside: CppStatements, body: Node, result: Node | None
+    reader: CppStatementReader, inside: CppStatementReader, body: Node, result: Node | None
 ) -> Meaning | None:
     """Where the value that a function returns is kept; sets what `return` does in it."""
     if result is None or text_of(result) in ("auto", ""):

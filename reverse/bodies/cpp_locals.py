@@ -13,8 +13,8 @@ from rebsync import model as m
 from rebsync.reverse.bodies import cpp_bindings, cpp_captures, cpp_messages, cpp_plain_locals
 from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_conversions import type_in
-from rebsync.reverse.bodies.cpp_declared import Declared, number_of, only_value, taken_apart
-from rebsync.reverse.bodies.cpp_effects import Effects, Touches
+from rebsync.reverse.bodies.cpp_declared import DeclaratorParts, number_of, only_value, taken_apart
+from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_references import is_made, stays
 from rebsync.reverse.bodies.cpp_roots import specifiers_of
@@ -22,20 +22,21 @@ from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.cpp_widths import place_of, wide_of
 from rebsync.reverse.bodies.known_functions import is_matrix, type_takes_values
 from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Variable
+from rebsync.reverse.bodies.touches import Touches
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_tree import markers_in, named, part, text_of
 from rebsync.static.constants import constant
 from rebsync.static.types import BYTE, INT, SHORT
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statements import CppStatements
+    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _VECTOR = re.compile(r"(?:std::)?vector<(.*)>\Z")
 _RESIZES = ("push_back", "emplace_back", "resize", "insert", "erase", "clear", "assign", "swap")
 _REFERS = ("reference_declarator", "pointer_declarator")
 
 
-def declarations(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
+def declarations(reader: CppStatementReader, node: Node) -> Iterator[m.Statement]:
     """The locals of a declaration; what the model has nothing like is outside from here on."""
     type_ = part(node, "type")
     text = text_of(type_)
@@ -74,21 +75,21 @@ def _looks_around(value: Node | None) -> bool:
     return is_name or any(map(_looks_around, named(value)))
 
 
-def tested(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
+def tested(reader: CppStatementReader, node: Node) -> Iterator[m.Statement]:
     """`if (int x = f())`: the local that the condition declares."""
     declarator, value = part(node, "declarator"), part(node, "value")
     if declarator.type != "identifier":
         raise reader.unread(node, "the model has no pointers and references")
     type_ = part(node, "type")
     text, name = text_of(type_), text_of(declarator)
-    declared = Declared(node, type_, name, "identifier", value, None, False, text)
+    declared = DeclaratorParts(node, type_, name, "identifier", value, None, False, text)
     try:
         yield from _declared(reader, declared)
     except Unread as unread:
         _outside(reader, declared, unread)
 
 
-def _static(reader: CppStatements, declared: Declared) -> None:
+def _static(reader: CppStatementReader, declared: DeclaratorParts) -> None:
     """A local that keeps its value: a state variable, or a value that nobody knows."""
     if isinstance(reader.scope.members.get(declared.name), Variable | Record):
         return
@@ -98,12 +99,12 @@ def _static(reader: CppStatements, declared: Declared) -> None:
     reader.meaning(declared.name, _hidden(reader, declared))
 
 
-def _hidden(reader: CppStatements, declared: Declared) -> Outside:
+def _hidden(reader: CppStatementReader, declared: DeclaratorParts) -> Outside:
     kept = reader.scope.carried(declared.type)
     return Outside(kept.type if kept is not None else None, indexed=is_matrix(declared.text))
 
 
-def _outside(reader: CppStatements, declared: Declared, unread: Unread) -> None:
+def _outside(reader: CppStatementReader, declared: DeclaratorParts, unread: Unread) -> None:
     """A local of which the model knows no value: only what sets it may matter."""
     try:
         if declared.value is not None:
@@ -122,7 +123,7 @@ def _outside(reader: CppStatements, declared: Declared, unread: Unread) -> None:
     reader.meaning(declared.name, _hidden(reader, declared))
 
 
-def _check_value(reader: CppStatements, effects: Effects, declared: Declared) -> None:
+def _check_value(reader: CppStatementReader, effects: Effects, declared: DeclaratorParts) -> None:
     value = declared.value
     assert value is not None
     meaning = resolve(reader.scope, value)
@@ -138,7 +139,7 @@ def _check_value(reader: CppStatements, effects: Effects, declared: Declared) ->
         effects.check(value)
 
 
-def _declared(reader: CppStatements, declared: Declared) -> Iterator[m.Statement]:
+def _declared(reader: CppStatementReader, declared: DeclaratorParts) -> Iterator[m.Statement]:
     if declared.name in reader.shared.demoted:
         raise reader.unread(declared.node, "the model cannot know its values")
     value = only_value(declared)
@@ -170,12 +171,12 @@ def _declared(reader: CppStatements, declared: Declared) -> Iterator[m.Statement
     yield from _typed(reader, declared, kept, value)
 
 
-def _copies(declared: Declared) -> bool:
+def _copies(declared: DeclaratorParts) -> bool:
     """Whether a declaration makes variables of its own."""
     return declared.kind not in _REFERS
 
 
-def _is_auto(declared: Declared) -> bool:
+def _is_auto(declared: DeclaratorParts) -> bool:
     return declared.text in ("auto", "const auto") or declared.type.type.startswith("placeholder")
 
 
@@ -183,7 +184,7 @@ def _is_auto(declared: Declared) -> bool:
 
 
 def _typed(
-    reader: CppStatements, declared: Declared, kept: Carried, value: Node | None
+    reader: CppStatementReader, declared: DeclaratorParts, kept: Carried, value: Node | None
 ) -> Iterator[m.Statement]:
     local = place_of(reader.fresh(declared.name), kept)
     initial: m.Initializer | None = None
@@ -203,7 +204,7 @@ def _typed(
     yield reader.local(declared.node, local, initial)
 
 
-def _array(reader: CppStatements, declared: Declared) -> Carried | None:
+def _array(reader: CppStatementReader, declared: DeclaratorParts) -> Carried | None:
     """The array that `int a[3]` or a vector of fixed size is."""
     if declared.kind == "array_declarator":
         inner = reader.scope.carried(declared.type)
@@ -233,7 +234,7 @@ def _template(type_: Node) -> Node:
     return type_
 
 
-def _length(reader: CppStatements, node: Node) -> int:
+def _length(reader: CppStatementReader, node: Node) -> int:
     value = constant(reader.expressions.read(node))
     if not isinstance(value, int) or isinstance(value, bool) or not 0 < value <= 4096:
         raise reader.unread(node, "the length of this array is not known")
@@ -241,7 +242,7 @@ def _length(reader: CppStatements, node: Node) -> int:
 
 
 def _message(
-    reader: CppStatements, declared: Declared, type_: str, value: Node | None
+    reader: CppStatementReader, declared: DeclaratorParts, type_: str, value: Node | None
 ) -> Iterator[m.Statement]:
     pointer = cpp_messages.is_pointer(declared.text)
     if value is not None and value.type in ("null", "initializer_list"):
@@ -250,7 +251,7 @@ def _message(
 
 
 def _inferred(
-    reader: CppStatements, declared: Declared, value: Node | None
+    reader: CppStatementReader, declared: DeclaratorParts, value: Node | None
 ) -> Iterator[m.Statement]:
     if value is None:
         raise reader.unread(declared.node, "the type of this is not written")
@@ -279,7 +280,7 @@ def _inferred(
     yield reader.local(declared.node, local, read)
 
 
-def _lasts(reader: CppStatements, read: m.Expression) -> bool:
+def _lasts(reader: CppStatementReader, read: m.Expression) -> bool:
     """Whether nothing that a value is made of is written in the body."""
     names = {n.name for n in m.walk(read) if isinstance(n, m.Name | m.Member)}
     return not any(
@@ -287,7 +288,7 @@ def _lasts(reader: CppStatements, read: m.Expression) -> bool:
     )
 
 
-def _message_of(reader: CppStatements, value: Node) -> str | None:
+def _message_of(reader: CppStatementReader, value: Node) -> str | None:
     """The type of message that an expression is, if it is one that the model knows."""
     match resolve(reader.scope, value):
         case Record(type=type_) if type_:
@@ -305,7 +306,7 @@ def _message_of(reader: CppStatements, value: Node) -> str | None:
     return None
 
 
-def _is_made_pointer(reader: CppStatements, value: Node) -> bool:
+def _is_made_pointer(reader: CppStatementReader, value: Node) -> bool:
     if value.type == "new_expression" or "::make_shared<" in text_of(value).partition("(")[0]:
         return True
     meaning = resolve(reader.scope, value)
@@ -313,7 +314,7 @@ def _is_made_pointer(reader: CppStatements, value: Node) -> bool:
 
 
 def _reference(
-    reader: CppStatements, declared: Declared, value: Node | None
+    reader: CppStatementReader, declared: DeclaratorParts, value: Node | None
 ) -> Iterator[m.Statement]:
     """`auto& x = member_;`: another name of a place."""
     if value is None:
@@ -339,7 +340,7 @@ def _reference(
     raise reader.unread(declared.node, "the model has no pointers and references")
 
 
-def _called_or_made(reader: CppStatements, declared: Declared) -> Iterator[m.Statement]:
+def _called_or_made(reader: CppStatementReader, declared: DeclaratorParts) -> Iterator[m.Statement]:
     """`int k(other);`, which the grammar takes for a function: an object made from names."""
     declarator = declared.node
     arguments = [text_of(c) for c in named(part(declarator, "parameters"))]

@@ -19,7 +19,7 @@ from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.types import BOOLEAN
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statements import CppStatements
+    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _ONE, _ZERO = m.IntLiteral(1), m.IntLiteral(0)
 # What has a `continue` of its own.
@@ -29,7 +29,7 @@ _APART = frozenset(
 
 
 def range_loop(
-    reader: CppStatements, node: Node, annotations: tuple[m.Annotation, ...]
+    reader: CppStatementReader, node: Node, annotations: tuple[m.Annotation, ...]
 ) -> Iterator[m.Statement]:
     """`for (auto x : array)` as a loop over the indices."""
     span, over = reader.cpp.span(node), part(node, "right")
@@ -55,7 +55,7 @@ def range_loop(
     yield m.For(initial, bound, (m.Postfix("++", counter),), inner, annotations, span)
 
 
-def _listed(reader: CppStatements, node: Node, over: Node) -> tuple[m.Expression, m.Statement]:
+def _listed(reader: CppStatementReader, node: Node, over: Node) -> tuple[m.Expression, m.Statement]:
     """The array that holds the values of `for (int x : {1, 2, 3})`."""
     values = named(over)
     kept = reader.scope.carried(part(node, "type"))
@@ -68,7 +68,7 @@ def _listed(reader: CppStatements, node: Node, over: Node) -> tuple[m.Expression
 
 
 def _element(
-    reader: CppStatements, node: Node, element: m.Expression, of: m.Type
+    reader: CppStatementReader, node: Node, element: m.Expression, of: m.Type
 ) -> tuple[m.Statement, ...]:
     """What the name of the element stands for: the place itself, or a copy."""
     declarator = part(node, "declarator")
@@ -87,7 +87,7 @@ def _element(
     return (reader.local(declarator, local, element),)
 
 
-def filled(reader: CppStatements, node: Node) -> m.Statement | None:
+def filled(reader: CppStatementReader, node: Node) -> m.Statement | None:
     """`array.fill(x)`, or `std::fill(array.begin(), array.end(), x)`; None for other statements."""
     call = call_of(node)
     if call is None or call.name != ("fill" if call.target is not None else "std::fill"):
@@ -115,7 +115,7 @@ def _names(expression: m.Expression) -> set[str]:
 
 
 def do_loop(
-    reader: CppStatements, node: Node, annotations: tuple[m.Annotation, ...]
+    reader: CppStatementReader, node: Node, annotations: tuple[m.Annotation, ...]
 ) -> Iterator[m.Statement]:
     """`do { ... } while (c);`: the test ends a loop that has none at its start."""
     span, body, condition = reader.cpp.span(node), part(node, "body"), part(node, "condition")
@@ -135,7 +135,7 @@ def do_loop(
 
 
 def _first_time(
-    reader: CppStatements, node: Node, annotations: tuple[m.Annotation, ...]
+    reader: CppStatementReader, node: Node, annotations: tuple[m.Annotation, ...]
 ) -> m.Statement:
     """`for (boolean first = true; first || c; first = false)`: `continue` goes to the test."""
     outside = reader.scope
@@ -168,7 +168,7 @@ def _breaks(node: Node) -> bool:
     return any(_breaks(c) for c in named(node) if c.type not in others)
 
 
-def condition_of(reader: CppStatements, node: Node) -> m.Expression:
+def condition_of(reader: CppStatementReader, node: Node) -> m.Expression:
     """The condition of a loop, which the model must know."""
     value = node if node.type != "condition_clause" else part(node, "value")
     while reader.scope.open and value.type == "parenthesized_expression":

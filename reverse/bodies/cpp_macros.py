@@ -1,58 +1,49 @@
-"""Macros that the files define: whether a call of one touches what the model has."""
+"""Macros that the files define, as the statements that stand for a call of one."""
 
 from __future__ import annotations
 
 import re
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.scope import Variable
-from rebsync.reverse.findings import Unread
+from rebsync.records import dataclass
+from rebsync.reverse.bodies.scope import Scope, Variable
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, parse, text_of
 from rebsync.source import Source
 from rebsync.static.types import INT
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_effects import Effects
 
 _REST = "__VA_ARGS__"
 _JOINED = re.compile(rf"##\s*{_REST}")
 _CONTINUED = re.compile(r"\\\r?\n")
 
 
-def is_harmless(effects: Effects, name: str) -> bool:
-    """Whether a macro only looks at what it gets, and touches nothing else, at this place.
+@dataclass(frozen=True, slots=True)
+class MacroBody:
+    """The statements that stand for a call of a macro, with its parameters as locals of a scope."""
 
-    All that define it count, and there must be one.
-    """
-    found = effects.scope.macros.get(name, ())
-    return bool(found) and all(_is_calm(effects, name, node) for node in found)
+    cpp: Cpp
+    statements: Node
+    scope: Scope
+    parameters: frozenset[str]
 
 
-def _is_calm(effects: Effects, name: str, defined: Node) -> bool:
-    body = _body(effects.cpp.source.path, defined)
-    if body is None or _may_be_of_others(name, defined):
-        return False
-    given = {text_of(p) for p in named(_part(defined, "parameters"))} | {_REST}
-    scope = effects.scope.with_locals({p: Variable(p, INT) for p in given})
+def macro_bodies(scope: Scope, path: str, name: str) -> tuple[MacroBody, ...]:
+    """The bodies of all that define a macro; none where one is not known as whole statements."""
+    found = [_macro_body(scope, path, name, defined) for defined in scope.macros.get(name, ())]
+    known = tuple(body for body in found if body is not None)
+    return known if len(known) == len(found) else ()
+
+
+def _macro_body(scope: Scope, path: str, name: str, defined: Node) -> MacroBody | None:
+    cpp = _body(path, defined)
+    if cpp is None or _may_be_of_others(name, defined):
+        return None
+    given = frozenset({text_of(p) for p in named(_part(defined, "parameters"))} | {_REST})
+    scope = scope.with_locals({p: Variable(p, INT) for p in given})
     macros = {n: found for n, found in scope.macros.items() if n != name}
-    inside = replace(
-        effects,
-        cpp=body,
-        scope=replace(scope, macros=macros),
-        own=frozenset(),
-        everything=False,
-        returning=False,
-        _inner=effects._inner - given,
-        _loops=0,
-    )
-    try:
-        inside.check(_part(body.root.named_children[0], "body"))
-    except Unread:
-        return False
-    return True
+    statements = _part(cpp.root.named_children[0], "body")
+    return MacroBody(cpp, statements, replace(scope, macros=macros), given)
 
 
 def _body(path: str, defined: Node) -> Cpp | None:

@@ -21,7 +21,7 @@ from rebsync.reverse.syntax.cpp_calls import string_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 _CLOCK = names_in_model(Language.CPP)
 # The function under which a statement of `@Move` is read, until it is one.
@@ -30,7 +30,7 @@ _LITERALS = frozenset({"number_literal", "char_literal", "true", "false"})
 _HINT = "send it by a function that only sends"
 
 
-def is_runtime(reader: CppExpressions, node: Node) -> bool:
+def is_runtime(reader: CppExpressionReader, node: Node) -> bool:
     """Whether an expression names a member of the run-time part."""
     name = text_of(node)
     own = name.removeprefix("this->")
@@ -44,7 +44,7 @@ def has_mailbox(scope: Scope) -> bool:
 
 
 def built_in(
-    reader: CppExpressions, node: Node, target: Node, name: Node, arguments: Sequence[Node]
+    reader: CppExpressionReader, node: Node, target: Node, name: Node, arguments: Sequence[Node]
 ) -> m.Expression:
     """A call of a function of the run-time part."""
     member = reader.scope.members[text_of(target).removeprefix("this->")]
@@ -72,7 +72,7 @@ def built_in(
             raise reader.unread(node, f'the model has no function "{function}"')
 
 
-def _posted(reader: CppExpressions, node: Node) -> m.Expression:
+def _posted(reader: CppExpressionReader, node: Node) -> m.Expression:
     """`mailbox_.post(kX, after(1), text(a), [=] { x(a); })`, which a function that sends does."""
     posted = reader.scope.posts.get(node.id)
     if posted is None:
@@ -91,7 +91,7 @@ def _is_copied(scope: Scope, argument: Node) -> bool:
     return argument.type in _LITERALS or isinstance(local, Variable | m.Name)
 
 
-def _class_named(reader: CppExpressions, node: Node) -> str:
+def _class_named(reader: CppExpressionReader, node: Node) -> str:
     """The class whose name a literal holds."""
     name = string_of(node)
     if name is None:
@@ -99,7 +99,7 @@ def _class_named(reader: CppExpressions, node: Node) -> str:
     return original(name)
 
 
-def in_order(reader: CppExpressions, function: Node) -> m.Expression:
+def in_order(reader: CppExpressionReader, function: Node) -> m.Expression:
     """`[&] { const auto op1_ = a; return f(op1_); }()`: operands in the order of the model."""
     captured = named(part(function, "captures"))
     if any(c.type == "lambda_capture_initializer" for c in captured):
@@ -128,7 +128,7 @@ def in_order(reader: CppExpressions, function: Node) -> m.Expression:
 
 
 def send(
-    reader: CppExpressions, node: Node, sends: Sends, arguments: Sequence[Node], implicit: bool
+    reader: CppExpressionReader, node: Node, sends: Sends, arguments: Sequence[Node], implicit: bool
 ) -> m.Expression:
     """The call of a function that sends."""
     expected = sends.arguments + (sends.known is None)
@@ -158,7 +158,7 @@ def send(
     return m.Call(target, sends.server, told, after, deadline, reader.cpp.span(node))
 
 
-def times(reader: CppExpressions, node: Node) -> dict[str, m.Expression]:
+def times(reader: CppExpressionReader, node: Node) -> dict[str, m.Expression]:
     """`after(a).deadline(d)`; `When()` is neither."""
     if node.type != "call_expression":
         raise reader.unread(node, "this is no time of a send")
@@ -177,6 +177,6 @@ def times(reader: CppExpressions, node: Node) -> dict[str, m.Expression]:
     return found | {text_of(name): reader.read(arguments[0])}
 
 
-def _is_of_runtime(reader: CppExpressions, name: str) -> bool:
+def _is_of_runtime(reader: CppExpressionReader, name: str) -> bool:
     """Whether nothing nearer has the name of a function of the run-time part."""
     return reader.scope.meaning(name) is None and name not in reader.scope.functions

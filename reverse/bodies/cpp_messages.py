@@ -36,7 +36,7 @@ from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.types import is_boolean
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statements import CppStatements
+    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _POINTER = re.compile(r"(?:::)?(?:Const)?(?:Shared|Unique|Weak)?Ptr$")
 _SHARED = re.compile(r"(?:::)?(?:boost|std)::(?:shared|unique)_ptr<(.*)>$")
@@ -89,7 +89,7 @@ def zero_of(type_: m.Type) -> m.Expression | None:
 # --- the fields of a message --------------------------------------------------------------------
 
 
-def given(reader: CppStatements, node: Node) -> tuple[Record, bool]:
+def given(reader: CppStatementReader, node: Node) -> tuple[Record, bool]:
     """The message that an expression is, and whether it is a new one, all of it zero.
 
     Raises `Unknown` for one that the model cannot know.
@@ -115,7 +115,7 @@ def _filled(node: Node) -> bool:
     return inner is not None and bool(named(inner))
 
 
-def _called(reader: CppStatements, node: Node) -> tuple[Record, bool]:
+def _called(reader: CppStatementReader, node: Node) -> tuple[Record, bool]:
     function, arguments = part(node, "function"), named(part(node, "arguments"))
     text = text_of(function)
     makes = _MAKES.match(text)
@@ -133,7 +133,7 @@ def _called(reader: CppStatements, node: Node) -> tuple[Record, bool]:
     raise Unknown(reader.cpp.span(node), f'the model cannot know what "{text}" gives')
 
 
-def needed(reader: CppStatements, type_: str) -> Mapping[str, m.Type]:
+def needed(reader: CppStatementReader, type_: str) -> Mapping[str, m.Type]:
     """The fields of a message type that matter to the model in the body that is read."""
     sent: set[str] = set()
     for member in reader.scope.members.values():
@@ -174,7 +174,7 @@ def _read_in(text: str) -> frozenset[str]:
 
 
 def declare(
-    reader: CppStatements,
+    reader: CppStatementReader,
     node: Node,
     name: str,
     type_: str,
@@ -210,12 +210,12 @@ def declare(
     reader.meaning(name, Record(fields, type_, pointer=pointer), own=True)
 
 
-def _is_demoted(reader: CppStatements, field: str) -> bool:
+def _is_demoted(reader: CppStatementReader, field: str) -> bool:
     """Whether a field, or a part of the message that it is in, gets values that nobody knows."""
     return any(field == d or field.startswith(f"{d}.") for d in reader.shared.demoted)
 
 
-def assign(reader: CppStatements, target: Node, value: Node) -> Iterator[m.Statement] | None:
+def assign(reader: CppStatementReader, target: Node, value: Node) -> Iterator[m.Statement] | None:
     """`message = other`: each field; None where the target is no message."""
     record = resolve(reader.scope, target)
     if not isinstance(record, Record):
@@ -224,7 +224,7 @@ def assign(reader: CppStatements, target: Node, value: Node) -> Iterator[m.State
 
 
 def _copied(
-    reader: CppStatements, target: Node, record: Record, value: Node
+    reader: CppStatementReader, target: Node, record: Record, value: Node
 ) -> Iterator[m.Statement]:
     if record.pointer and target.type != "pointer_expression":
         raise Unread(reader.cpp.span(target), "a pointer to a message gets another message")
@@ -243,7 +243,7 @@ def _copied(
 
 
 def _unknown_field(
-    reader: CppStatements, target: Node, value: Node, path: str, variable: Variable
+    reader: CppStatementReader, target: Node, value: Node, path: str, variable: Variable
 ) -> m.Expression:
     """What a field gets from a message of which the model lacks it."""
     before = path_in(target)
@@ -260,7 +260,7 @@ def _unknown_field(
 
 
 def unknown_value(
-    reader: CppStatements, node: Node, type_: m.Type | None, why: str
+    reader: CppStatementReader, node: Node, type_: m.Type | None, why: str
 ) -> m.Expression | None:
     """A choice for a value that the model cannot know; None where too many are possible."""
     values = domain_near(node) if reader.cpp.has_markers else None
@@ -275,7 +275,7 @@ def unknown_value(
 # --- publishers ---------------------------------------------------------------------------------
 
 
-def published(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
+def published(reader: CppStatementReader, node: Node) -> Iterator[m.Statement] | None:
     """`publisher.publish(message)`: a send to each receiver; None for another call."""
     function = part(node, "function")
     if function.type != "field_expression":
@@ -298,7 +298,7 @@ def published(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None
 
 
 def _sends(
-    reader: CppStatements,
+    reader: CppStatementReader,
     node: Node,
     publishes: Publishes,
     argument: Node,
@@ -326,7 +326,7 @@ def _sends(
 
 
 def _told(
-    reader: CppStatements,
+    reader: CppStatementReader,
     node: Node,
     target: Target,
     values: tuple[m.Expression, ...],
@@ -350,7 +350,7 @@ def _moved(argument: Node) -> Node:
 
 
 def _values(
-    reader: CppStatements, node: Node, target: Target, record: Record, fresh: bool, type_: str
+    reader: CppStatementReader, node: Node, target: Target, record: Record, fresh: bool, type_: str
 ) -> tuple[m.Expression, ...]:
     types = reader.scope.messages.get(type_ or record.type, {})
     found: list[m.Expression] = []
@@ -372,7 +372,7 @@ def _values(
     return tuple(found)
 
 
-def _check_sent(reader: CppStatements, node: Node, path: str, name: str) -> None:
+def _check_sent(reader: CppStatementReader, node: Node, path: str, name: str) -> None:
     """Lists a number that the receiver takes for another: an `int` does not hold it."""
     if name in reader.scope.overflowing:
         why = f'"{path}" may wrap, or be more than the model\'s int can be: others get it wrong'

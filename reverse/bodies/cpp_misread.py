@@ -15,7 +15,7 @@ _SIGNS = frozenset({"+", "-", "&", "*"})
 
 
 @dataclass(frozen=True, slots=True)
-class Operand:
+class ChainOperand:
     """An operand of a chain of operators, in the file that it was read from."""
 
     cpp: Cpp
@@ -31,8 +31,8 @@ class Operation:
     right: Chain
 
 
-Chain = Operand | Operation
-_Flat = list["Operand | str"]
+Chain = ChainOperand | Operation
+_Flat = list["ChainOperand | str"]
 
 
 def is_misread(scope: Scope, node: Node) -> bool:
@@ -46,10 +46,10 @@ def is_misread(scope: Scope, node: Node) -> bool:
             return False
 
 
-def first_of(cpp: Cpp, scope: Scope, node: Node) -> Operand:
+def first_of(cpp: Cpp, scope: Scope, node: Node) -> ChainOperand:
     """The first operand of a misread cast."""
     first = _flat(cpp, scope, node)[0]
-    assert isinstance(first, Operand)
+    assert isinstance(first, ChainOperand)
     return first
 
 
@@ -91,28 +91,28 @@ def _flat(cpp: Cpp, scope: Scope, node: Node) -> _Flat:
     first = _inner(scope, node) if node.type == "cast_expression" else None
     if first is None and node.type == "cast_expression" and _holds_misread(scope, node):
         operand, *others = _flat(cpp, scope, part(node, "value"))
-        assert isinstance(operand, Operand)
+        assert isinstance(operand, ChainOperand)
         return [_cast(cpp, part(node, "type"), operand.node), *others]
     if first is None:
-        return [Operand(cpp, node)]
+        return [ChainOperand(cpp, node)]
     value = part(node, "value")
     text = f"auto x = {text_of(part(node, 'type'))};"
-    before = Operand(parse(Source(cpp.source.path, text)), first)
+    before = ChainOperand(parse(Source(cpp.source.path, text)), first)
     return [before, text_of(part(value, "operator")), *_flat(cpp, scope, part(value, "argument"))]
 
 
-def _cast(cpp: Cpp, type_: Node, operand: Node) -> Operand:
+def _cast(cpp: Cpp, type_: Node, operand: Node) -> ChainOperand:
     """An operand that is cast."""
     text = f"auto x = ({text_of(type_)})({text_of(operand)});"
     made = parse(Source(cpp.source.path, text))
     declarator = part(made.root.named_children[0], "declarator")
-    return Operand(made, part(declarator, "value"))
+    return ChainOperand(made, part(declarator, "value"))
 
 
 def _climbed(flat: _Flat, least: int) -> Chain:
     """What the next operators join that bind at least so tightly; takes them from the list."""
     left = flat.pop(0)
-    assert isinstance(left, Operand)
+    assert isinstance(left, ChainOperand)
     joined: Chain = left
     while flat and precedence.BINARY[str(flat[0])] >= least:
         operator = str(flat.pop(0))

@@ -8,19 +8,20 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies import cpp_messages, cpp_special
+from rebsync.reverse.bodies import cpp_messages
 from rebsync.reverse.bodies.cpp_types import type_of
 from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.bodies.shared import WORDS
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.source import Span
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statements import CppStatements
+    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _MOST_LEFT_OUT = 1000  # elements of an array; each becomes a statement of its own
 
 
-def late(reader: CppStatements, node: Node) -> m.Declaration | None:
+def late(reader: CppStatementReader, node: Node) -> m.Declaration | None:
     """The assignment that is the declaration of a local which C++ declares before a switch."""
     if not reader.hoisted or node.type != "assignment_expression":
         return None
@@ -38,7 +39,7 @@ def late(reader: CppStatements, node: Node) -> m.Declaration | None:
     return m.Declaration(type_, (declarator,), span=reader.cpp.span(node))
 
 
-def declared(reader: CppStatements, node: Node) -> m.Declaration:
+def declared(reader: CppStatementReader, node: Node) -> m.Declaration:
     """The declaration; its names are locals from here on."""
     type_ = type_of(part(node, "type"))
     assert type_ is not None
@@ -48,14 +49,14 @@ def declared(reader: CppStatements, node: Node) -> m.Declaration:
     return m.Declaration(type_, tuple(declarators), span=reader.cpp.span(node))
 
 
-def _declarator(reader: CppStatements, node: Node, type_: m.Type) -> m.Declarator:
+def _declarator(reader: CppStatementReader, node: Node, type_: m.Type) -> m.Declarator:
     """One local, with its first value."""
     name, initial = node, None
     if node.type == "init_declarator":
         name = part(node, "declarator")
     reader.scope = reader.scope.declare(text_of(name))
     local = reader.scope.local(text_of(name))
-    if local in cpp_special.WORDS and not reader.scope.open:
+    if local in WORDS and not reader.scope.open:
         raise reader.unread(node, f'"{local}" is a word of the model', "give it another name")
     if node.type == "init_declarator":
         value = part(node, "value")
@@ -69,7 +70,7 @@ def _declarator(reader: CppStatements, node: Node, type_: m.Type) -> m.Declarato
     return m.Declarator(local, initial, reader.cpp.span(node), reader.cpp.span(name))
 
 
-def braces(reader: CppStatements, node: Node, type_: m.Type) -> m.Initializer | None:
+def braces(reader: CppStatementReader, node: Node, type_: m.Type) -> m.Initializer | None:
     """`{}` is no initial value; arrays have a pair of braces around the elements, or two."""
     values = named(node)
     if not values:
@@ -94,7 +95,7 @@ def braces(reader: CppStatements, node: Node, type_: m.Type) -> m.Initializer | 
     return m.ArrayInitializer(tuple(read), reader.cpp.span(node))
 
 
-def _element(reader: CppStatements, value: Node, type_: m.Type) -> m.Expression:
+def _element(reader: CppStatementReader, value: Node, type_: m.Type) -> m.Expression:
     if type_.dimensions:
         return reader.expressions.read(value)
     return reader.expressions.stored(value, Variable("", type_))

@@ -10,11 +10,11 @@ from tree_sitter import Node
 from rebsync import model as m
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statements import CppStatements
+    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 
 def without_returns(
-    reader: CppStatements,
+    reader: CppStatementReader,
     node: Node,
     statements: Sequence[m.Statement],
     result: m.Expression | None,

@@ -18,7 +18,7 @@ from rebsync.reverse.bodies import (
 )
 from rebsync.reverse.bodies.building import bare, is_calm, negated
 from rebsync.reverse.bodies.cpp_conversions import as_boolean, as_number, converted_to, place_of
-from rebsync.reverse.bodies.cpp_effects import Effects, Touches, touching
+from rebsync.reverse.bodies.cpp_effects import Effects, touching
 from rebsync.reverse.bodies.cpp_failing import failing
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_time import pause, units
@@ -35,6 +35,7 @@ from rebsync.reverse.bodies.scope import (
     Variable,
     meant_by,
 )
+from rebsync.reverse.bodies.touches import Touches
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
@@ -44,25 +45,15 @@ from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.constants import constant
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statements import CppStatements
+    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _TRUTH = m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)))
-# Words of the model that are none of C++.
-WORDS = frozenset(
-    {
-        *("abstract", "after", "deadline", "env", "extends", "featurevar", "implements", "import"),
-        *("instanceof", "interface", "knownrebecs", "main", "msgsrv", "null", "package", "byte"),
-        *("reactiveclass", "record", "self", "sender", "statevars", "super", "boolean", "now"),
-        *("delay", "assertion", "currentMessageArrival", "currentMessageDeadline", "String"),
-        *("currentMessageWaitingTime", "Timer", "ArrayList", "ReactiveClass"),
-    }
-)
 
 
 # --- statements ---------------------------------------------------------------------------------
 
 
-def read(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
+def read(reader: CppStatementReader, node: Node) -> Iterator[m.Statement] | None:
     """The statements that stand for an expression; None for one that stands for itself."""
     match node.type:
         case "comma_expression" if reader.scope.open:
@@ -89,11 +80,11 @@ def read(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
             return None
 
 
-def _is_message(reader: CppStatements, node: Node) -> bool:
+def _is_message(reader: CppStatementReader, node: Node) -> bool:
     return isinstance(resolve(reader.scope, node), Record)
 
 
-def _each(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
+def _each(reader: CppStatementReader, node: Node) -> Iterator[m.Statement]:
     for child in named(node):
         inner = read(reader, child)
         if inner is not None:
@@ -102,7 +93,7 @@ def _each(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
             yield m.ExpressionStatement(reader.expressions.read(child), (), reader.cpp.span(child))
 
 
-def _either(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
+def _either(reader: CppStatementReader, node: Node) -> Iterator[m.Statement]:
     """`c ? f() : g();`."""
     condition, then, otherwise = named(node)
     test = reader.expressions.condition(condition)
@@ -113,7 +104,7 @@ def _joins(node: Node) -> bool:
     return text_of(part(node, "operator")) in ("&&", "||", "and", "or")
 
 
-def _guarded(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
+def _guarded(reader: CppStatementReader, node: Node) -> Iterator[m.Statement]:
     """`c && f();`, and `c || f();`."""
     test = reader.expressions.condition(part(node, "left"))
     if text_of(part(node, "operator")) in ("||", "or"):
@@ -121,7 +112,7 @@ def _guarded(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
     yield m.If(test, _way(reader, part(node, "right")), None, (), reader.cpp.span(node))
 
 
-def _way(reader: CppStatements, node: Node) -> m.Block:
+def _way(reader: CppStatementReader, node: Node) -> m.Block:
     """What one branch of an expression does, and what must run before that only there."""
     around, reader.before = reader.before, []
     inner = read(reader, node)
@@ -142,7 +133,7 @@ def _streams(node: Node) -> bool:
     return text_of(node) in STREAMS
 
 
-def _called(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
+def _called(reader: CppStatementReader, node: Node) -> Iterator[m.Statement] | None:
     function = part(node, "function")
     name = text_of(function)
     if (sends := cpp_messages.published(reader, node)) is not None:
@@ -172,7 +163,7 @@ def _called(reader: CppStatements, node: Node) -> Iterator[m.Statement] | None:
     return None
 
 
-def _inline(reader: CppStatements, function: Node, count: int) -> Inline | Lambda | None:
+def _inline(reader: CppStatementReader, function: Node, count: int) -> Inline | Lambda | None:
     """The function that is called for what it does, if its body stands in here.
 
     Of several with this name the one that takes so many arguments.
@@ -196,7 +187,7 @@ def _inline(reader: CppStatements, function: Node, count: int) -> Inline | Lambd
     return found if isinstance(found, Inline) else None
 
 
-def _checked(reader: CppStatements, node: Node) -> m.Expression:
+def _checked(reader: CppStatementReader, node: Node) -> m.Expression:
     """What is asserted; a choice would be an assertion that fails."""
     try:
         return reader.expressions.read(node)
@@ -205,7 +196,7 @@ def _checked(reader: CppStatements, node: Node) -> m.Expression:
         raise Unread(unknown.span, why, unknown.hint) from None
 
 
-def _from_seconds(reader: CppStatements, node: Node) -> m.Expression | None:
+def _from_seconds(reader: CppStatementReader, node: Node) -> m.Expression | None:
     """`duration.fromSec(2.0)`: a variable gets a span of time."""
     function, arguments = part(node, "function"), named(part(node, "arguments"))
     if function.type != "field_expression" or len(arguments) != 1:
@@ -218,7 +209,7 @@ def _from_seconds(reader: CppStatements, node: Node) -> m.Expression | None:
 
 
 def _statement(
-    reader: CppStatements, node: Node, expression: m.Expression
+    reader: CppStatementReader, node: Node, expression: m.Expression
 ) -> Iterator[m.Statement]:
     yield m.ExpressionStatement(expression, (), reader.cpp.span(node))
 
@@ -226,7 +217,7 @@ def _statement(
 # --- timers -------------------------------------------------------------------------------------
 
 
-def _timer(reader: CppStatements, node: Node) -> TimerOf | None:
+def _timer(reader: CppStatementReader, node: Node) -> TimerOf | None:
     """The timer that a call makes."""
     if node.type != "call_expression" or b"Timer" not in (node.text or b""):
         return None
@@ -245,7 +236,7 @@ def _timer(reader: CppStatements, node: Node) -> TimerOf | None:
     return None
 
 
-def _starts(reader: CppStatements, node: Node, timer: TimerOf) -> Iterator[m.Statement]:
+def _starts(reader: CppStatementReader, node: Node, timer: TimerOf) -> Iterator[m.Statement]:
     """`timer = createTimer(Duration(e), callback, this, true)`: `self.callback() after(e)`."""
     if timer.periodic:
         hint = "create it in the constructor, or one-shot timers one after the other"
@@ -261,7 +252,7 @@ def _starts(reader: CppStatements, node: Node, timer: TimerOf) -> Iterator[m.Sta
 # --- exceptions ---------------------------------------------------------------------------------
 
 
-def tried(reader: CppStatements, node: Node) -> Iterator[m.Statement]:
+def tried(reader: CppStatementReader, node: Node) -> Iterator[m.Statement]:
     """`try`: what is outside may throw; what the model has does not.
 
     So nothing has happened in the model where a handler starts, if all that may throw is first.
@@ -306,7 +297,7 @@ def _unknown(node: Node) -> bool:
 # --- switch -------------------------------------------------------------------------------------
 
 
-def subject(reader: CppStatements, node: Node, body: Node) -> m.Expression:
+def subject(reader: CppStatementReader, node: Node, body: Node) -> m.Expression:
     """What a switch looks at; one of the cases, or another value, where that is not known."""
     expressions = reader.expressions
     try:
@@ -334,7 +325,7 @@ def _literal(value: int) -> m.Expression:
 # --- the rest -----------------------------------------------------------------------------------
 
 
-def stores(reader: CppStatements, node: Node, known: Stores) -> Iterator[m.Statement]:
+def stores(reader: CppStatementReader, node: Node, known: Stores) -> Iterator[m.Statement]:
     """A value that is stored, as is known from elsewhere; nothing where it is stored outside."""
     expressions, span = reader.expressions, reader.cpp.span(node)
     target, value = known.target, known.value
@@ -366,7 +357,7 @@ def without_ok(condition: m.Expression) -> m.Expression:
     return condition
 
 
-def returned(reader: CppStatements, node: Node, record: Record) -> Iterator[m.Statement]:
+def returned(reader: CppStatementReader, node: Node, record: Record) -> Iterator[m.Statement]:
     """`return message;` where the caller has a message for it."""
     source, fresh = cpp_messages.given(reader, node)
     span = reader.cpp.span(node)
@@ -379,7 +370,7 @@ def returned(reader: CppStatements, node: Node, record: Record) -> Iterator[m.St
         yield m.ExpressionStatement(m.Assign("=", m.Name(variable.name), value), (), span)
 
 
-def opened(reader: CppStatements, node: Node, unread: Unread) -> set[str]:
+def opened(reader: CppStatementReader, node: Node, unread: Unread) -> set[str]:
     """The members that a statement gives a value that the model cannot know."""
     if not isinstance(unread, Unknown | Touches) or node.type != "expression_statement":
         return set()

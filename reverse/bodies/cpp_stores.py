@@ -13,10 +13,12 @@ from rebsync.reverse.findings import Unread
 from rebsync.static.types import BOOLEAN
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 
-def kept(reader: CppExpressions, node: Node, value: m.Expression, place: Variable) -> m.Expression:
+def kept(
+    reader: CppExpressionReader, node: Node, value: m.Expression, place: Variable
+) -> m.Expression:
     """A value as a variable holds it.
 
     A truth value of a message is a byte in the code: other numbers than 0 and 1 in it are listed.

@@ -23,14 +23,14 @@ from rebsync.static.constants import constant
 from rebsync.static.types import DOUBLE, is_integer
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 _SECOND = Fraction(1)
 _OTHER_CLOCK = "this clock is not the time of the model, at which a message server stands still"
 
 
 def time_called(
-    reader: CppExpressions, node: Node, name: str, arguments: list[Node]
+    reader: CppExpressionReader, node: Node, name: str, arguments: list[Node]
 ) -> m.Expression | None:
     """`ros::Time::now()`, `ros::Duration(0.5)`, `std::chrono::milliseconds(20)`."""
     if not arguments and (
@@ -57,12 +57,12 @@ def time_called(
             return None
 
 
-def is_flat(reader: CppExpressions) -> bool:
+def is_flat(reader: CppExpressionReader) -> bool:
     """Whether the code may use a library whose nodes and clocks have a method `now`."""
     return libraries.is_flat(reader.cpp.data)
 
 
-def written(reader: CppExpressions, node: Node) -> m.Expression | None:
+def written(reader: CppExpressionReader, node: Node) -> m.Expression | None:
     """`500ms`; None for a literal that is no span of time."""
     if node.type != "user_defined_literal":
         return None
@@ -81,7 +81,7 @@ def seconds_of(name: str) -> Fraction | None:
     return _SECOND if plain in libraries.seconds() else UNITS.get(plain)
 
 
-def units(reader: CppExpressions, node: Node, seconds: Fraction) -> m.Expression:
+def units(reader: CppExpressionReader, node: Node, seconds: Fraction) -> m.Expression:
     """So many seconds, times the number that a node is, in units of the model's time."""
     value = reader.read(node)
     check_whole(reader, node)
@@ -93,7 +93,9 @@ def units(reader: CppExpressions, node: Node, seconds: Fraction) -> m.Expression
     return whole
 
 
-def in_units(reader: CppExpressions, value: m.Expression, seconds: Fraction) -> m.Expression | None:
+def in_units(
+    reader: CppExpressionReader, value: m.Expression, seconds: Fraction
+) -> m.Expression | None:
     """The same for a value of the model; None where it need not be whole."""
     factor = seconds / reader.scope.unit
     number = constant(value)
@@ -116,7 +118,7 @@ def _whole(number: Fraction) -> m.Expression | None:
     return m.IntLiteral(int(number)) if number >= 0 else m.Unary("-", m.IntLiteral(-int(number)))
 
 
-def to_seconds(reader: CppExpressions, target: Node) -> m.Expression | None:
+def to_seconds(reader: CppExpressionReader, target: Node) -> m.Expression | None:
     """`duration.toSec()`: units of the model's time as seconds; None for what is no time."""
     value = reader.read(target)
     of = type_in(reader.scope, value)
@@ -130,7 +132,7 @@ def to_seconds(reader: CppExpressions, target: Node) -> m.Expression | None:
     return binary("*", cast(DOUBLE, value), m.FloatLiteral(f"{float(unit)}d"))
 
 
-def pause(reader: CppExpressions, call: Node) -> m.Expression | None:
+def pause(reader: CppExpressionReader, call: Node) -> m.Expression | None:
     """How long a call sleeps: `ros::Duration(1.0).sleep()`; None for one that does not."""
     if call.type != "call_expression":
         return None
@@ -150,7 +152,7 @@ def pause(reader: CppExpressions, call: Node) -> m.Expression | None:
     return units(reader, arguments[0], unit)
 
 
-def _own_pause(reader: CppExpressions, target: Node, name: str) -> m.Expression | None:
+def _own_pause(reader: CppExpressionReader, target: Node, name: str) -> m.Expression | None:
     if name != "sleep":
         return None
     if target.type == "call_expression":

@@ -18,7 +18,7 @@ from rebsync.reverse.bodies.scope import Switch, TimerOf
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statements import CppStatements
+    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 # Methods that stop a timer, or let it go on.
 SWITCHING = frozenset({"start", "stop", "cancel", "reset"})
@@ -27,7 +27,9 @@ _WHY = "the model cannot stop, start or change what it sent itself for later"
 _HINT = "let the callback look at a variable that says whether it is wanted"
 
 
-def switched(reader: CppStatements, node: Node, function: Node) -> Iterator[m.Statement] | None:
+def switched(
+    reader: CppStatementReader, node: Node, function: Node
+) -> Iterator[m.Statement] | None:
     """`timer.stop()`, `timer.start()`; None for a call of something else.
 
     In ROS 2 `timer->cancel()` and `timer->reset()`; `timer.reset()` ends the timer.

@@ -21,11 +21,11 @@ from rebsync.reverse.libraries.tables.standard import STREAMS
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statements import CppStatements
+    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 
 def block_after(
-    reader: CppStatements, markers: Sequence[str], before: Effects | None
+    reader: CppStatementReader, markers: Sequence[str], before: Effects | None
 ) -> Effects | None:
     """The user's block in which the statement behind some markers stands; None outside of one.
 
@@ -40,7 +40,7 @@ def block_after(
     return before
 
 
-def check_names(reader: CppStatements, node: Node) -> None:
+def check_names(reader: CppStatementReader, node: Node) -> None:
     """Raises `Unread` where a declaration in a user's block hides what the model has."""
     if node.type == "declaration":
         for name in declared_names(node):
@@ -48,7 +48,7 @@ def check_names(reader: CppStatements, node: Node) -> None:
                 raise reader.unread(node, f'this hides "{name}" from what follows')
 
 
-def only_logs(reader: CppStatements, node: Node) -> bool:
+def only_logs(reader: CppStatementReader, node: Node) -> bool:
     """Whether a branch of generated code does nothing but to log, and cannot fail.
 
     Raises `Unread` where that does more to the model than to look at it.
@@ -81,7 +81,7 @@ def is_logging(node: Node) -> bool:
             return False
 
 
-def is_log(reader: CppStatements, statement: Node, node: Node) -> bool:
+def is_log(reader: CppStatementReader, statement: Node, node: Node) -> bool:
     """Whether the expression of a statement logs, or says of a variable that nothing uses it.
 
     Raises `Unread` where that does more to the model than to look at it.

@@ -16,7 +16,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.intervals import Interval, exactly
 from rebsync.reverse.bodies.cpp_conversions import type_in
-from rebsync.reverse.bodies.cpp_misread import Operand
+from rebsync.reverse.bodies.cpp_misread import ChainOperand
 from rebsync.reverse.bodies.cpp_ranges import (
     COMPARES,
     INT_BITS,
@@ -34,7 +34,7 @@ from rebsync.static.constants import constant
 from rebsync.static.types import is_floating
 
 if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 _MAY_BE_WIDE = re.compile(
     r"size\(\)|sizeof|size_t|\blong\b|unsigned|uint|int64|\b(?:0x[\da-f]+|\d+)[ul]", re.IGNORECASE
@@ -51,13 +51,13 @@ def place_of(name: str, kept: Carried) -> Variable:
     return Variable(name, kept.type, kept.bits, (), kept.wide)
 
 
-def wide_of(reader: CppExpressions, node: Node) -> int:
+def wide_of(reader: CppExpressionReader, node: Node) -> int:
     """The `wide` of a variable that `auto` makes for a value."""
     found = range_of(reader.cpp, reader.scope, node)
     return found.bits if found is not None and found.bits > INT_BITS else 0
 
 
-def is_wide(reader: CppExpressions, operand: Operand) -> bool:
+def is_wide(reader: CppExpressionReader, operand: ChainOperand) -> bool:
     """Whether an operand is of a type that is wider than an int, or has no sign."""
     found = range_of(operand.cpp, reader.scope, operand.node) if reader.scope.open else None
     return found is not None and found.bits > INT_BITS
@@ -66,7 +66,7 @@ def is_wide(reader: CppExpressions, operand: Operand) -> bool:
 # --- what looks at whole numbers ----------------------------------------------------------------
 
 
-def exact(reader: CppExpressions, operator: str, sides: Sequence[Node]) -> str:
+def exact(reader: CppExpressionReader, operator: str, sides: Sequence[Node]) -> str:
     """`!=` for `>` where a number of 32 bits without a sign is compared with 0."""
     if operator != ">" or not _is_asked(reader, *sides):
         return operator
@@ -76,7 +76,7 @@ def exact(reader: CppExpressions, operator: str, sides: Sequence[Node]) -> str:
     return "!=" if right.values == exactly(0) and right.bits <= 32 else operator
 
 
-def check(reader: CppExpressions, node: Node, operator: str, sides: Sequence[Node]) -> None:
+def check(reader: CppExpressionReader, node: Node, operator: str, sides: Sequence[Node]) -> None:
     """Raises where an operator looks at a number that an `int` need not hold."""
     if not _is_asked(reader, node):
         return
@@ -105,21 +105,23 @@ def check(reader: CppExpressions, node: Node, operator: str, sides: Sequence[Nod
             _raise(reader, side)
 
 
-def check_whole(reader: CppExpressions, node: Node) -> None:
+def check_whole(reader: CppExpressionReader, node: Node) -> None:
     """Raises where an integer is none that an `int` is sure to hold."""
     found = range_of(reader.cpp, reader.scope, node) if _is_asked(reader, node) else None
     if found is not None and not found.fits:
         _raise(reader, node)
 
 
-def check_truth(reader: CppExpressions, node: Node) -> None:
+def check_truth(reader: CppExpressionReader, node: Node) -> None:
     """Raises where a number of more than 32 bits need not be an `int`, and so may be another 0."""
     found = range_of(reader.cpp, reader.scope, node) if _is_asked(reader, node) else None
     if found is not None and found.bits > 32 and not found.fits:
         _raise(reader, node)
 
 
-def check_stored(reader: CppExpressions, node: Node, value: m.Expression, place: Variable) -> None:
+def check_stored(
+    reader: CppExpressionReader, node: Node, value: m.Expression, place: Variable
+) -> None:
     """Raises where a floating variable gets an integer that an `int` need not hold, one of these
     a floating number, or one of 64 bits what may have wrapped at 32.
     """
@@ -133,7 +135,7 @@ def check_stored(reader: CppExpressions, node: Node, value: m.Expression, place:
             _raise(reader, node)
 
 
-def check_wide_call(reader: CppExpressions, node: Node) -> None:
+def check_wide_call(reader: CppExpressionReader, node: Node) -> None:
     """Raises where `std::max<unsigned>(a, b)` may make other numbers of what it compares."""
     name, arguments = text_of(part(node, "function")), named(part(node, "arguments"))
     if not reader.scope.open or not NAMES_WIDE.search(name.partition("<")[2]):
@@ -155,7 +157,7 @@ def _wraps_first(node: Node, found: Ranged, bits: int) -> bool:
     return whole and node.type not in _PLACES
 
 
-def _is_asked(reader: CppExpressions, *nodes: Node) -> bool:
+def _is_asked(reader: CppExpressionReader, *nodes: Node) -> bool:
     """Whether there may be such numbers: generated code has none, unless people wrote them.
 
     A constant by its name may be of any type.
@@ -167,6 +169,6 @@ def _is_asked(reader: CppExpressions, *nodes: Node) -> bool:
     return not (words.isdisjoint(scope.constants) and words.isdisjoint(scope.enumerators))
 
 
-def _raise(reader: CppExpressions, node: Node) -> None:
+def _raise(reader: CppExpressionReader, node: Node) -> None:
     why = f'"{" ".join(text_of(node).split())}" may wrap, or be more than the model\'s int can be'
     raise reader.unknown(node, why)

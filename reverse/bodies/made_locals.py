@@ -18,7 +18,7 @@ def tidied(statements: tuple[m.Statement, ...], made: Collection[str]) -> tuple[
     if not made:
         return statements
     inner = [_inside(s, made) for s in statements]
-    names = _Names()
+    names = _NameCounts()
     return tuple(_used(list(_declared_late(inner, made, names)), made, names))
 
 
@@ -38,7 +38,7 @@ def _inside(statement: m.Statement, made: Collection[str]) -> m.Statement:
             return statement
 
 
-class _Names:
+class _NameCounts:
     """How often statements name variables: each is looked through once."""
 
     def __init__(self) -> None:
@@ -71,7 +71,7 @@ def _local(statement: m.Statement, made: Collection[str]) -> m.Declarator | None
 
 
 def _declared_late(
-    statements: list[m.Statement], made: Collection[str], names: _Names
+    statements: list[m.Statement], made: Collection[str], names: _NameCounts
 ) -> Iterator[m.Statement]:
     """Declares a local where it gets its first value, if that is in the same block."""
     changed: dict[int, m.Statement | None] = {}
@@ -97,7 +97,7 @@ def _is_calm_initial(initial: m.Initializer | None) -> bool:
     return initial is None or (not isinstance(initial, m.ArrayInitializer) and is_calm(initial))
 
 
-def _first_value(statement: m.Statement, name: str, names: _Names) -> m.Expression | None:
+def _first_value(statement: m.Statement, name: str, names: _NameCounts) -> m.Expression | None:
     match statement:
         case m.ExpressionStatement(m.Assign("=", m.Name(written), value), ()):
             return value if written == name and not names.mentions(value, name) else None
@@ -109,7 +109,7 @@ def _first_value(statement: m.Statement, name: str, names: _Names) -> m.Expressi
 
 
 def _used(
-    statements: list[m.Statement], made: Collection[str], names: _Names
+    statements: list[m.Statement], made: Collection[str], names: _NameCounts
 ) -> Iterator[m.Statement]:
     """Puts the value of a local where it is used: once, with nothing done in between."""
     for index, statement in enumerate(statements):

@@ -7,8 +7,26 @@ from dataclasses import field
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.scope import Meaning, Member, Publishes, Record, Scope, Variable
+from rebsync.reverse.bodies.scope import (
+    Meaning,
+    Member,
+    Publishes,
+    Record,
+    Scope,
+    Variable,
+)
 from rebsync.source import Span
+
+# Words of the model that are none of C++.
+WORDS = frozenset(
+    {
+        *("abstract", "after", "deadline", "env", "extends", "featurevar", "implements", "import"),
+        *("instanceof", "interface", "knownrebecs", "main", "msgsrv", "null", "package", "byte"),
+        *("reactiveclass", "record", "self", "sender", "statevars", "super", "boolean", "now"),
+        *("delay", "assertion", "currentMessageArrival", "currentMessageDeadline", "String"),
+        *("currentMessageWaitingTime", "Timer", "ArrayList", "ReactiveClass"),
+    }
+)
 
 
 @dataclass(slots=True)

@@ -13,7 +13,7 @@ from rebsync.source import Source, Span
 
 
 @dataclass(frozen=True, slots=True)
-class Target:
+class BuildTarget:
     """An executable or library.
 
     `file` is the name of the program that it makes (`OUTPUT_NAME`), by which `rosrun` and launch
@@ -43,7 +43,7 @@ class BuildFiles:
     """
 
     project: str | None
-    targets: tuple[Target, ...]
+    targets: tuple[BuildTarget, ...]
     messages: tuple[str, ...]
     services: tuple[str, ...]
     actions: tuple[str, ...]
@@ -59,23 +59,23 @@ class BuildFiles:
         is_open = any(t.missing for t in self.targets)
         return bool(self.targets) and not (is_open or self.unknowns or self.foreign)
 
-    def executable(self, file: str) -> Target | None:
+    def executable(self, file: str) -> BuildTarget | None:
         """The target that makes the program of this name."""
         return next((t for t in self.targets if t.executable and t.file == file), None)
 
-    def target(self, name: str) -> Target | None:
+    def target(self, name: str) -> BuildTarget | None:
         """The target of this name in CMake."""
         return next((t for t in self.targets if t.name == name), None)
 
-    def sources_of(self, target: Target) -> tuple[str, ...]:
+    def sources_of(self, target: BuildTarget) -> tuple[str, ...]:
         """The sources of a target and of all targets of the package that it is linked with."""
         return tuple(dict.fromkeys(s for t in self._linked(target) for s in t.sources))
 
-    def missing_of(self, target: Target) -> tuple[Open, ...]:
+    def missing_of(self, target: BuildTarget) -> tuple[Open, ...]:
         """Why `sources_of` is not all, if it is not."""
         return tuple(dict.fromkeys(m for t in self._linked(target) for m in t.missing))
 
-    def _linked(self, target: Target) -> tuple[Target, ...]:
+    def _linked(self, target: BuildTarget) -> tuple[BuildTarget, ...]:
         found = {target.name: target}
         waiting = [target]
         while waiting:

@@ -18,7 +18,7 @@ from rebsync.reverse.build.cmake_targets import (
     Maker,
 )
 from rebsync.reverse.build.cmake_text import Block, Command, Item, Quote, read_cmake
-from rebsync.reverse.build.cmake_values import Variables, known, sections
+from rebsync.reverse.build.cmake_values import CmakeVariables, known, sections
 from rebsync.reverse.unknowns import Open, Text
 from rebsync.source import Source, Span
 
@@ -60,11 +60,11 @@ def read_build(source: Source, folder: Folder | None = None) -> BuildFiles:
     """What the CMakeLists.txt of a package and those of its subdirectories say."""
     maker = Maker(folder or Folder())
     runner = _Runner(maker, [source])
-    runner.file(source, Variables(values=dict(_PLATFORM)))
+    runner.file(source, CmakeVariables(values=dict(_PLATFORM)))
     if runner.steps > _MOST_STEPS:
         start = Command("", (), Span(0, 0))
         why = "too many commands are carried out; the rest is not read"
-        maker.unknown("the build files", why, Call(start, [], Variables(), source))
+        maker.unknown("the build files", why, Call(start, [], CmakeVariables(), source))
     return BuildFiles(
         runner.project,
         tuple(maker.targets.values()),
@@ -88,12 +88,12 @@ class _Runner:
     depth: int = 0
     steps: int = 0
 
-    def file(self, source: Source, variables: Variables) -> None:
+    def file(self, source: Source, variables: CmakeVariables) -> None:
         read = read_cmake(source)
         self.maker.unknowns += read.unknowns
         self._run(read.items, variables, source)
 
-    def _run(self, items: Sequence[Item], variables: Variables, source: Source) -> None:
+    def _run(self, items: Sequence[Item], variables: CmakeVariables, source: Source) -> None:
         for item in items:
             self.steps += 1
             if self.steps > _MOST_STEPS:
@@ -111,7 +111,7 @@ class _Runner:
 
     # --- blocks -----------------------------------------------------------------------------------
 
-    def _if(self, block: Block, variables: Variables, source: Source) -> None:
+    def _if(self, block: Block, variables: CmakeVariables, source: Source) -> None:
         branches: list[tuple[str, tuple[Item, ...]]] = []
         opening = " ".join(source.slice(block.head.span).split())
         for head, body in ((block.head, block.body), *block.others):
@@ -129,14 +129,14 @@ class _Runner:
     def _branches(
         self,
         branches: Sequence[tuple[str, tuple[Item, ...]]],
-        variables: Variables,
+        variables: CmakeVariables,
         source: Source,
     ) -> None:
         """Carries out each of the bodies; what they set differently is open afterwards."""
         before, conditions = dict(variables.values), self.maker.only_if
         for condition, body in branches:
             self.maker.only_if = (*conditions, condition)
-            inside = Variables(variables.folder, dict(before))
+            inside = CmakeVariables(variables.folder, dict(before))
             self._run(body, inside, source)
             for name in before.keys() | inside.values.keys():
                 if before.get(name) != inside.values.get(name):
@@ -146,7 +146,7 @@ class _Runner:
             variables.exported |= dict.fromkeys(inside.exported, (unsure,))
         self.maker.only_if = conditions
 
-    def _foreach(self, block: Block, variables: Variables, source: Source) -> None:
+    def _foreach(self, block: Block, variables: CmakeVariables, source: Source) -> None:
         words = variables.words(block.head.arguments)
         if not words or isinstance(words[0], Open):
             return
@@ -190,7 +190,7 @@ class _Runner:
 
     # --- commands ---------------------------------------------------------------------------------
 
-    def _command(self, command: Command, variables: Variables, source: Source) -> None:
+    def _command(self, command: Command, variables: CmakeVariables, source: Source) -> None:
         words = variables.words(command.arguments)
         call = Call(command, words, variables, source)
         match command.name:
@@ -237,7 +237,7 @@ class _Runner:
                 if name not in TARGETLESS:
                     self.maker.foreign.add(name)
 
-    def _project(self, words: list[Text], variables: Variables) -> None:
+    def _project(self, words: list[Text], variables: CmakeVariables) -> None:
         name = words[0] if words else Open("`project()` has no name")
         variables.values["PROJECT_NAME"] = (name,)
         if not variables.folder:
@@ -245,7 +245,7 @@ class _Runner:
             if isinstance(name, str) and self.project is None:
                 self.project = name
 
-    def _value(self, command: str, words: list[Text], variables: Variables) -> None:
+    def _value(self, command: str, words: list[Text], variables: CmakeVariables) -> None:
         """Commands that work a variable out."""
         match command, words:
             case "list", ["APPEND" | "PREPEND" as way, str(name), *values]:
@@ -258,7 +258,7 @@ class _Runner:
             case _:
                 variables.blur(known(words), f"`{command}(...)` may have changed it")
 
-    def _glob(self, way: str, patterns: list[Text], variables: Variables) -> list[Text]:
+    def _glob(self, way: str, patterns: list[Text], variables: CmakeVariables) -> list[Text]:
         if "RELATIVE" in patterns:
             at = patterns.index("RELATIVE")
             patterns = patterns[:at] + patterns[at + 2 :]
@@ -304,7 +304,7 @@ class _Runner:
                 call.variables.values[variable] = (Open("an included file may have set it"),)
 
 
-def _set(words: list[Text], variables: Variables) -> None:
+def _set(words: list[Text], variables: CmakeVariables) -> None:
     if not words or isinstance(words[0], Open):
         return
     name, values = words[0], words[1:]
@@ -319,7 +319,7 @@ def _set(words: list[Text], variables: Variables) -> None:
         variables.values.pop(name, None)
 
 
-def _decided(head: Command, variables: Variables) -> bool | None:
+def _decided(head: Command, variables: CmakeVariables) -> bool | None:
     """The value of a condition that is a constant, also in a variable or behind NOT."""
     arguments = head.arguments
     negated = bool(arguments) and arguments[0].text == "NOT"

@@ -7,9 +7,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import field, replace
 
 from rebsync.records import dataclass
-from rebsync.reverse.build.build_files import Target
+from rebsync.reverse.build.build_files import BuildTarget
 from rebsync.reverse.build.cmake_text import Command
-from rebsync.reverse.build.cmake_values import Unset, Variables, known, sections
+from rebsync.reverse.build.cmake_values import CmakeVariables, Unset, known, sections
 from rebsync.reverse.libraries.cpp import registering_in_builds
 from rebsync.reverse.unknowns import Open, Text, Unknown
 from rebsync.source import Source
@@ -108,7 +108,7 @@ class Call:
 
     command: Command
     words: list[Text]
-    variables: Variables
+    variables: CmakeVariables
     source: Source
 
 
@@ -120,7 +120,7 @@ class Maker:
     """
 
     folder: Folder
-    targets: dict[str, Target] = field(default_factory=dict)
+    targets: dict[str, BuildTarget] = field(default_factory=dict)
     programs: list[str] = field(default_factory=list)
     interfaces: dict[str, list[str]] = field(
         default_factory=lambda: {"msg": [], "srv": [], "action": []}
@@ -145,7 +145,7 @@ class Maker:
         if _LIKE_LIBRARY & set(known(call.words)):
             return
         executable, span = call.command.name in EXECUTABLE, call.command.span
-        target = Target(name, executable, name, (), (), (), self.only_if, call.source, span)
+        target = BuildTarget(name, executable, name, (), (), (), self.only_if, call.source, span)
         rest = [word for word in call.words[1:] if word not in _KINDS]
         target = _with_sources(target, rest, call.variables, self.folder)
         earlier = self.targets.get(name)
@@ -245,8 +245,8 @@ class Maker:
 
 
 def _with_sources(
-    target: Target, words: list[Text], variables: Variables, folder: Folder
-) -> Target:
+    target: BuildTarget, words: list[Text], variables: CmakeVariables, folder: Folder
+) -> BuildTarget:
     paths = [word if isinstance(word, Open) else variables.path(word) for word in words]
     paths = [path if isinstance(path, Open) else _with_ending(path, folder) for path in paths]
     return replace(

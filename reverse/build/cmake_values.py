@@ -35,7 +35,7 @@ class Unset(Open):
 
 
 @dataclass(slots=True)
-class Variables:
+class CmakeVariables:
     """The variables at one point of a file, and the folder of the file within the package.
 
     A value is a list of words, each of which may be open. `exported` are those that the scope
@@ -46,9 +46,9 @@ class Variables:
     values: dict[str, tuple[Text, ...]] = field(default_factory=dict)
     exported: dict[str, tuple[Text, ...]] = field(default_factory=dict)
 
-    def copy(self, folder: str | None = None) -> Variables:
+    def copy(self, folder: str | None = None) -> CmakeVariables:
         """The same values, in the same folder or another."""
-        return Variables(self.folder if folder is None else folder, dict(self.values))
+        return CmakeVariables(self.folder if folder is None else folder, dict(self.values))
 
     def get(self, name: str) -> tuple[Text, ...]:
         """The words of a variable."""

@@ -6,7 +6,7 @@ from functools import lru_cache
 
 from rebsync.package import Maintainer
 from rebsync.records import dataclass
-from rebsync.reverse.launch.xml_tree import Element, read_xml, text_below
+from rebsync.reverse.launch.xml_tree import XmlElement, read_xml, text_below
 from rebsync.reverse.unknowns import Unknown
 from rebsync.source import Source, Span
 
@@ -87,12 +87,12 @@ def _only(texts: dict[str, list[str]], name: str) -> str | None:
     return next(iter(texts.get(name, ())), None) or None
 
 
-def _line(element: Element) -> str:
+def _line(element: XmlElement) -> str:
     """All text in an element, on one line: a description may hold tags of HTML."""
     return " ".join(_all_text(element).split())
 
 
-def _all_text(element: Element) -> str:
+def _all_text(element: XmlElement) -> str:
     if not element.elements():
         return element.text
     return " ".join([element.text, *map(_all_text, element.elements())])

@@ -13,7 +13,7 @@ from rebsync.reverse.calls.ros_calls_filters import registered
 from rebsync.reverse.calls.ros_calls_handles import namespace_of, usual_depth
 from rebsync.reverse.calls.ros_calls_options import Given, options_of
 from rebsync.reverse.calls.ros_calls_shapes import Asked, distinct, given_to, nodelets_of, truth_of
-from rebsync.reverse.calls.ros_calls_types import MessageTypes
+from rebsync.reverse.calls.ros_calls_types import CppMessageTypes
 from rebsync.reverse.graph import (
     Callback,
     ClientFact,
@@ -68,12 +68,12 @@ class Facts:
 
     values: Values
     callbacks: Callbacks = field(init=False)
-    types: MessageTypes = field(init=False)
+    types: CppMessageTypes = field(init=False)
     _frames: dict[int, list[Frame]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.callbacks = Callbacks(self.values)
-        self.types = MessageTypes(self.values)
+        self.types = CppMessageTypes(self.values)
 
     def of(self, asked: Asked) -> list[Fact]:
         """The facts of a call."""

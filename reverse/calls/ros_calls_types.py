@@ -37,7 +37,7 @@ _ENDINGS = ("ConstPtr", "Ptr", "Request", "Response")
 
 
 @dataclass(slots=True)
-class MessageTypes:
+class CppMessageTypes:
     """Finds out which message a type of C++ is."""
 
     values: Values

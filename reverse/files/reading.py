@@ -11,10 +11,11 @@ from rebsync.diagnostics import RebsyncError
 from rebsync.files import BOM, operating_on, os_mistake
 from rebsync.long_numbers import MOST_DIGITS, long_number
 from rebsync.records import dataclass
+from rebsync.reverse.files.contents import contents
 from rebsync.reverse.files.packages import CODE, Listing, listings, shown, suffix_of
 from rebsync.reverse.files.python_files import SUFFIX, is_script, relevant_python
 from rebsync.reverse.files.relevance import relevant
-from rebsync.reverse.files.stores import Store, contents
+from rebsync.reverse.files.stores import Store
 from rebsync.reverse.findings import Finding, Grade
 from rebsync.source import NOWHERE, Source, Span
 from rebsync.terminal import controls_in_text

@@ -96,7 +96,7 @@ def _tied(code: Mapping[str, bytes], kept: set[str]) -> set[str]:
 
 def _named(code: Mapping[str, bytes], kept: set[str], others: set[str]) -> set[str]:
     """Some files and those of others that the names in them tie to them."""
-    names = {name: _Names(code[name]) for name in kept | others}
+    names = {name: _FileNames(code[name]) for name in kept | others}
     types = frozenset[bytes]().union(*(n.types for n in names.values()))
     used, made = set[bytes](), set[bytes]()
     kept, others, fresh = set(kept), set(others), set(kept)
@@ -114,7 +114,7 @@ def _named(code: Mapping[str, bytes], kept: set[str], others: set[str]) -> set[s
     return kept
 
 
-class _Names:
+class _FileNames:
     """The names in a file: which it uses, and which it declares or defines."""
 
     def __init__(self, data: bytes) -> None:

@@ -32,7 +32,7 @@ _USERS = "rebsync: user"  # what stands in such a block is nobody else's
 
 
 @dataclass(frozen=True, slots=True)
-class Bodies:
+class GeneratedBodies:
     """Reads functions and lambdas of one class; `scope` is what they can name.
 
     `by_hand` makes of that what people's own code can name. `sensors` are the bodies that ask one.

@@ -30,7 +30,7 @@ from rebsync.reverse.generated.ros1_annotations import (
     class_annotations,
     server_annotations,
 )
-from rebsync.reverse.generated.ros1_bodies import Bodies
+from rebsync.reverse.generated.ros1_bodies import GeneratedBodies
 from rebsync.reverse.generated.ros1_hand import acts, as_by_hand, is_passive, only_logs, stands_in
 from rebsync.reverse.generated.ros1_handed import as_handed_on
 from rebsync.reverse.generated.ros1_inherited import is_declared, list_hiding, only_forwards
@@ -336,10 +336,10 @@ class Classes:
         if not found and (given or started):
             yield m.Constructor(name, (), m.Block((*given, *started)))
 
-    def _bodies(self, owner: CppClass) -> Bodies:
+    def _bodies(self, owner: CppClass) -> GeneratedBodies:
         by_hand = partial(as_by_hand, self.code, owner, self.shown)
         sensors = frozenset(f"{owner.name}.{name}" for name in self.roles[owner.name].sensors)
-        return Bodies(self.code, self.scope(owner), self.findings, by_hand, sensors)
+        return GeneratedBodies(self.code, self.scope(owner), self.findings, by_hand, sensors)
 
     # --- names ----------------------------------------------------------------------------------
 

@@ -26,7 +26,7 @@ _SERVER = "ros::param::"
 
 
 @dataclass(frozen=True, slots=True)
-class _Read:
+class _ParameterRead:
     """What a statement of a constructor, or an initialiser, reads into a member, and no more."""
 
     member: str
@@ -43,13 +43,13 @@ class _Asked:
     for_all: bool
     into: str = ""
 
-    def read(self, member: str, statement: Node) -> Iterator[_Read]:
+    def read(self, member: str, statement: Node) -> Iterator[_ParameterRead]:
         """What a member gets by it, if the model can say so."""
         if self.default is not None:
             widens = not self.for_all
             own = OwnParameter(self.key, self.default, widens, self.for_all)
             if own.is_plain:
-                yield _Read(member, own, statement)
+                yield _ParameterRead(member, own, statement)
 
 
 def own_parameters(code: Code, owner: CppClass) -> tuple[dict[str, OwnParameter], set[int]]:
@@ -73,9 +73,11 @@ def own_parameters(code: Code, owner: CppClass) -> tuple[dict[str, OwnParameter]
     return own, {r.statement.id for r in reads if r.member in own}
 
 
-def _parameters_read(code: Code, owner: CppClass, constructor: CppFunction) -> Iterator[_Read]:
+def _parameters_read(
+    code: Code, owner: CppClass, constructor: CppFunction
+) -> Iterator[_ParameterRead]:
     """What a constructor reads into members, whatever their types."""
-    reader = _Reader(code, constructor, dict(_starts(code, owner)), {})
+    reader = _ParameterReader(code, constructor, dict(_starts(code, owner)), {})
     for initialiser in named(constructor.initialisers) if constructor.initialisers else ():
         name, *_, values = [*named(initialiser), initialiser]
         if len(named(values)) == 1:
@@ -99,7 +101,7 @@ def _starts(code: Code, owner: CppClass) -> Iterator[tuple[str, Value | None]]:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Reader:
+class _ParameterReader:
     """Reads statements in turn; `declared` are the parameters that earlier ones have declared."""
 
     code: Code
@@ -107,7 +109,7 @@ class _Reader:
     starts: Mapping[str, Value | None]
     declared: dict[str, _Asked]
 
-    def statement(self, inner: Node, statement: Node) -> Iterator[_Read]:
+    def statement(self, inner: Node, statement: Node) -> Iterator[_ParameterRead]:
         if inner.type == "assignment_expression":
             member = text_of(part(inner, "left")).removeprefix("this->")
             yield from self.assigned(member, part(inner, "right"), statement)
@@ -120,7 +122,7 @@ class _Reader:
         elif asked is not None:
             yield from asked.read(asked.into, statement)
 
-    def assigned(self, member: str, value: Node, statement: Node) -> Iterator[_Read]:
+    def assigned(self, member: str, value: Node, statement: Node) -> Iterator[_ParameterRead]:
         """What a member gets that a value is assigned to."""
         call, kind = call_of(_plain(value)), None
         if call is not None and call.name in _GIVES and call.target is not None:

@@ -30,7 +30,7 @@ _AROUND = frozenset({"construct", "mailbox", "publishState"})
 
 
 @dataclass(frozen=True, slots=True)
-class Post:
+class CppPost:
     """`mailbox_.post(kServer, when, text(given), [=] { handler(given); })`."""
 
     server: str
@@ -41,7 +41,7 @@ class Post:
     when: Node
 
 
-def post_of(code: Code, owner: CppClass, function: CppFunction, call: CppCall) -> Post | None:
+def post_of(code: Code, owner: CppClass, function: CppFunction, call: CppCall) -> CppPost | None:
     """What a call in a function posts; None where it posts nothing, or not just that."""
     if call.name != "post" or call.on != "mailbox_" or len(call.arguments) != 4:
         return None
@@ -57,7 +57,7 @@ def post_of(code: Code, owner: CppClass, function: CppFunction, call: CppCall) -
     if own & {constant, handler} or _hides(function, {constant, handler, "mailbox_", "text"}):
         return None
     priority = tuple(priority_of(code, cpp, constant))
-    return Post(server, constant, priority, handler, tuple(given), when)
+    return CppPost(server, constant, priority, handler, tuple(given), when)
 
 
 def _hides(function: CppFunction, names: Collection[str]) -> bool:
@@ -114,7 +114,7 @@ def own_post(
     all_roles: Mapping[str, Roles],
     function: CppFunction,
     call: CppCall,
-) -> Post | None:
+) -> CppPost | None:
     """A post to a server of a class, by the function that serves it, with its priority."""
     post = post_of(code, owner, function, call)
     if post is None or _handlers(code, owner, all_roles).get(post.handler) != post.server:
@@ -134,7 +134,7 @@ def _handlers(code: Code, owner: CppClass, all_roles: Mapping[str, Roles]) -> di
 
 
 def _serving(
-    code: Code, owner: CppClass, post: Post, types: tuple[str, ...] = ()
+    code: Code, owner: CppClass, post: CppPost, types: tuple[str, ...] = ()
 ) -> list[CppFunction]:
     """The functions that may serve what is posted: of overloads that of these types, if any."""
     every = (f for c in code.lineage(owner.name) for f in c.functions if f.name == post.handler)
@@ -204,7 +204,9 @@ def learn_servers(
                 all_roles[above.name].annotations[key] = [post.priority]
 
 
-def _declaring(code: Code, owner: CppClass, post: Post, types: frozenset[str]) -> CppClass | None:
+def _declaring(
+    code: Code, owner: CppClass, post: CppPost, types: frozenset[str]
+) -> CppClass | None:
     """The topmost class with the function that serves a post; None for what can be no server."""
     found = [
         (c, f) for c in code.lineage(owner.name) for f in c.functions if f.name == post.handler
@@ -220,7 +222,7 @@ def _declaring(code: Code, owner: CppClass, post: Post, types: frozenset[str]) -
     return found[-1][0] if found and may_serve else None
 
 
-def _is_free(code: Code, owner: CppClass, all_roles: Mapping[str, Roles], post: Post) -> bool:
+def _is_free(code: Code, owner: CppClass, all_roles: Mapping[str, Roles], post: CppPost) -> bool:
     """Whether nothing else serves the messages of a server, nor this function those of others."""
     lineage = [all_roles[c.name] for c in code.lineage(owner.name)]
     if any(post.handler in roles.shims for roles in lineage):

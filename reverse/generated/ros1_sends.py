@@ -19,7 +19,7 @@ from rebsync.reverse.bodies.scope import Sends
 from rebsync.reverse.generated.ros1_descriptors import server_of
 from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_names import declared_type
-from rebsync.reverse.generated.ros1_posts import Post, own_post, rivals_of
+from rebsync.reverse.generated.ros1_posts import CppPost, own_post, rivals_of
 from rebsync.reverse.generated.ros1_roles import Advertised, Roles
 from rebsync.reverse.generated.ros1_shims import Fields, is_kept
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
@@ -167,7 +167,7 @@ def _odd_send(
     function: CppFunction,
     sends: Sends,
     message: str,
-    post: Callable[[CppCall], Post | None],
+    post: Callable[[CppCall], CppPost | None],
     fields: Mapping[str, Collection[str]],
     senders: Collection[str],
 ) -> list[Node]:
@@ -190,7 +190,7 @@ def _odd_send(
 def _odd_in_send(
     function: CppFunction,
     sends: Sends,
-    post: Callable[[CppCall], Post | None],
+    post: Callable[[CppCall], CppPost | None],
     fields: Sequence[str] | None,
 ) -> Iterator[Node]:
     """Statements that do not put each parameter into its field of the message, or send it once.

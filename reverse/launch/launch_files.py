@@ -14,11 +14,11 @@ from rebsync.records import dataclass
 from rebsync.reverse.launch.graph_names import canonical, join
 from rebsync.reverse.launch.launch_nodes import NodeTag, environment, marker, node_tag
 from rebsync.reverse.launch.launch_parameters import settings
-from rebsync.reverse.launch.launch_scope import Reading, Scope
+from rebsync.reverse.launch.launch_scope import LaunchReading, LaunchScope
 from rebsync.reverse.launch.launch_values import Surroundings
 from rebsync.reverse.launch.launched import Launch, LaunchedNode
 from rebsync.reverse.launch.parameters import Parameter
-from rebsync.reverse.launch.xml_tree import Comment, Element, read_xml
+from rebsync.reverse.launch.xml_tree import Comment, XmlElement, read_xml
 from rebsync.reverse.unknowns import Open, Text, Unknown
 from rebsync.source import Source
 
@@ -32,21 +32,21 @@ _INCLUDE = frozenset({"file", "ns", "clear_params", "pass_all_args"})
 def read_launch(source: Source, surroundings: Surroundings | None = None) -> Launch:
     """What a launch file and all that it includes start and set."""
     outside = surroundings or Surroundings()
-    reading = Reading(outside, sources=[source])
+    reading = LaunchReading(outside, sources=[source])
     loader = _Loader(reading)
-    loader.file(Scope(reading, source, arguments=dict(outside.arguments)))
+    loader.file(LaunchScope(reading, source, arguments=dict(outside.arguments)))
     return loader.result()
 
 
 @dataclass(slots=True)
 class _Loader:
-    reading: Reading
+    reading: LaunchReading
     started: list[tuple[int, NodeTag]] = field(default_factory=list)
     server: dict[str, tuple[int, Parameter]] = field(default_factory=dict)
     paths: set[str] = field(default_factory=set)
     step: int = 0
 
-    def file(self, scope: Scope) -> None:
+    def file(self, scope: LaunchScope) -> None:
         """Reads the file of a scope."""
         root = read_xml(scope.source)
         if isinstance(root, Unknown):
@@ -56,7 +56,7 @@ class _Loader:
         else:
             self._tags(root, scope)
 
-    def _tags(self, parent: Element, scope: Scope) -> None:
+    def _tags(self, parent: XmlElement, scope: LaunchScope) -> None:
         markers: list[str] = []
         for child in parent.children:
             if isinstance(child, Comment):
@@ -67,7 +67,7 @@ class _Loader:
                 self._tag(child, scope, markers)
                 markers = []
 
-    def _tag(self, element: Element, scope: Scope, markers: list[str]) -> None:
+    def _tag(self, element: XmlElement, scope: LaunchScope, markers: list[str]) -> None:
         match element.name:
             case "arg":
                 self._arg(element, scope, scope)
@@ -91,7 +91,7 @@ class _Loader:
                     f"the tag <{element.name}>", "roslaunch does not know it", element.span
                 )
 
-    def _arg(self, element: Element, scope: Scope, declared_in: Scope) -> None:
+    def _arg(self, element: XmlElement, scope: LaunchScope, declared_in: LaunchScope) -> None:
         """An `<arg>`, whose value is worked out in one scope and belongs to another."""
         scope.check(element, _ARG)
         condition = scope.condition(element)
@@ -110,7 +110,7 @@ class _Loader:
         if wrong:
             scope.unknown(f"the argument `{name}`", wrong, element.span)
 
-    def _group(self, element: Element, scope: Scope) -> None:
+    def _group(self, element: XmlElement, scope: LaunchScope) -> None:
         scope.check(element, _GROUP)
         condition = scope.condition(element)
         if condition is False:
@@ -118,7 +118,7 @@ class _Loader:
         namespace = self._namespace(element, scope)
         self._tags(element, scope.group(namespace, () if condition is True else condition))
 
-    def _namespace(self, element: Element, scope: Scope) -> Text:
+    def _namespace(self, element: XmlElement, scope: LaunchScope) -> Text:
         namespace = scope.below(scope.text(element, "ns"))
         if isinstance(namespace, Open) and "ns" in element.attributes:
             what = f"the namespace of a <{element.name}>"
@@ -127,7 +127,7 @@ class _Loader:
 
     # --- <include> --------------------------------------------------------------------------------
 
-    def _include(self, element: Element, scope: Scope) -> None:
+    def _include(self, element: XmlElement, scope: LaunchScope) -> None:
         scope.check(element, _INCLUDE)
         condition = scope.condition(element)
         path = scope.needed(element, "file") if condition else None
@@ -156,15 +156,17 @@ class _Loader:
             why = f"it declares no argument {', '.join(f'`{name}`' for name in unused)}"
             scope.unknown(f"the file `{path}`", why, element.span)
 
-    def _included(self, path: str, scope: Scope) -> Source | Open:
+    def _included(self, path: str, scope: LaunchScope) -> Source | Open:
         if scope.depth >= _DEEPEST or len(self.reading.sources) >= _MOST_FILES:
             return Open("files include each other too often to be read")
         source = self.reading.load(path)
         return Open("it is not at hand") if source is None else source
 
-    def _passed(self, element: Element, scope: Scope, *, passes_all: bool) -> dict[str, Text]:
+    def _passed(
+        self, element: XmlElement, scope: LaunchScope, *, passes_all: bool
+    ) -> dict[str, Text]:
         """The arguments that the tags in an `<include>` pass."""
-        receiver = Scope(self.reading, scope.source, passes_all=passes_all)
+        receiver = LaunchScope(self.reading, scope.source, passes_all=passes_all)
         for tag in element.elements():
             match tag.name.lower():
                 case "arg":
@@ -177,7 +179,7 @@ class _Loader:
 
     # --- parameters and nodes ---------------------------------------------------------------------
 
-    def _set(self, parameter: Parameter, scope: Scope) -> None:
+    def _set(self, parameter: Parameter, scope: LaunchScope) -> None:
         """Sets a parameter of a scope: a `~` one for the nodes that follow, others at once."""
         if parameter.name.startswith("~"):
             scope.private.pop(parameter.name, None)
@@ -192,7 +194,7 @@ class _Loader:
             parameter = replace(parameter, value=Open(f"it is set only `{scope.only_if[-1]}`"))
         self.server[canonical(name)] = (self.step, replace(parameter, name=canonical(name)))
 
-    def _node(self, tag: NodeTag | None, scope: Scope) -> None:
+    def _node(self, tag: NodeTag | None, scope: LaunchScope) -> None:
         if tag is None:
             return
         path = tag.node.path

@@ -10,10 +10,10 @@ from dataclasses import field, replace
 from rebsync.records import dataclass
 from rebsync.reverse.launch.graph_names import canonical
 from rebsync.reverse.launch.launch_parameters import settings
-from rebsync.reverse.launch.launch_scope import Scope
+from rebsync.reverse.launch.launch_scope import LaunchScope
 from rebsync.reverse.launch.launched import LaunchedNode, LaunchedRemap, Nodelet
 from rebsync.reverse.launch.parameters import Parameter
-from rebsync.reverse.launch.xml_tree import Element
+from rebsync.reverse.launch.xml_tree import XmlElement
 from rebsync.reverse.unknowns import Open, Text
 from rebsync.source import Span
 
@@ -52,7 +52,7 @@ class _Inside:
     outside: list[Parameter] = field(default_factory=list)
 
 
-def node_tag(element: Element, scope: Scope, markers: Sequence[str]) -> NodeTag | None:
+def node_tag(element: XmlElement, scope: LaunchScope, markers: Sequence[str]) -> NodeTag | None:
     """The node that a `<node>` or `<test>` starts; None where roslaunch starts none."""
     test = element.name == "test"
     scope.check(element, _TEST if test else _NODE)
@@ -94,7 +94,7 @@ def node_tag(element: Element, scope: Scope, markers: Sequence[str]) -> NodeTag 
     return NodeTag(node, tuple(own.values()), tuple(given.params.values()), tuple(inside.outside))
 
 
-def _required(element: Element, attribute: str, scope: Scope) -> Text | None:
+def _required(element: XmlElement, attribute: str, scope: LaunchScope) -> Text | None:
     """The value of a necessary attribute; None, and noted, where there is none."""
     value = scope.text(element, attribute)
     if not value:
@@ -106,7 +106,7 @@ def _required(element: Element, attribute: str, scope: Scope) -> Text | None:
     return value
 
 
-def _name(element: Element, scope: Scope) -> Text | None:
+def _name(element: XmlElement, scope: LaunchScope) -> Text | None:
     attribute = "test-name" if element.name == "test" and not element.get("name") else "name"
     name = _required(element, attribute, scope)
     if isinstance(name, str) and "/" in name:
@@ -116,7 +116,7 @@ def _name(element: Element, scope: Scope) -> Text | None:
     return name
 
 
-def _private(scope: Scope) -> dict[str, Parameter]:
+def _private(scope: LaunchScope) -> dict[str, Parameter]:
     return {p.name: p for p in map(_relative, scope.private.values())}
 
 
@@ -126,7 +126,7 @@ def _relative(parameter: Parameter) -> Parameter:
     return replace(parameter, name=name)
 
 
-def _inside(element: Element, scope: Scope) -> _Inside:
+def _inside(element: XmlElement, scope: LaunchScope) -> _Inside:
     inside = _Inside(dict(scope.remaps))
     for tag in element.elements():
         match tag.name.lower():
@@ -149,7 +149,7 @@ def _inside(element: Element, scope: Scope) -> _Inside:
     return inside
 
 
-def environment(element: Element, scope: Scope) -> None:
+def environment(element: XmlElement, scope: LaunchScope) -> None:
     """Notes an `<env>` that changes what names mean; others do not matter to ROS."""
     name = scope.text(element, "name")
     if name == "ROS_NAMESPACE" and scope.condition(element) is not False:
@@ -170,7 +170,7 @@ def _words(text: Text) -> tuple[str, ...] | Open:
 
 
 def _command_line(
-    words: tuple[str, ...] | Open, scope: Scope, place: Span
+    words: tuple[str, ...] | Open, scope: LaunchScope, place: Span
 ) -> tuple[_Inside, tuple[str, ...] | Open]:
     """Remappings and private parameters (`_x:=1`) of the arguments, and the arguments left."""
     given = _Inside({})

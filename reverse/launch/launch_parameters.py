@@ -10,10 +10,10 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from rebsync.reverse.launch.graph_names import canonical, join
-from rebsync.reverse.launch.launch_scope import Scope
+from rebsync.reverse.launch.launch_scope import LaunchScope
 from rebsync.reverse.launch.launch_values import stored
 from rebsync.reverse.launch.parameters import Parameter, Parameters, read_parameters
-from rebsync.reverse.launch.xml_tree import Element
+from rebsync.reverse.launch.xml_tree import XmlElement
 from rebsync.reverse.unknowns import Open, Text
 from rebsync.source import Span
 
@@ -22,7 +22,7 @@ _PARAM = frozenset({"name", "type", *_CONTENTS})
 _ROSPARAM = frozenset({"command", "file", "ns", "param", "subst_value"})
 
 
-def settings(element: Element, scope: Scope) -> tuple[Parameter, ...]:
+def settings(element: XmlElement, scope: LaunchScope) -> tuple[Parameter, ...]:
     """What a `<param>` or `<rosparam>` sets; open where its condition is."""
     param = element.name.lower() == "param"
     scope.check(element, _PARAM if param else _ROSPARAM)
@@ -39,7 +39,7 @@ def settings(element: Element, scope: Scope) -> tuple[Parameter, ...]:
 # --- <param> --------------------------------------------------------------------------------------
 
 
-def _param(element: Element, scope: Scope) -> tuple[Parameter, ...]:
+def _param(element: XmlElement, scope: LaunchScope) -> tuple[Parameter, ...]:
     given = [a for a in _CONTENTS if a in element.attributes]
     name = scope.needed(element, "name")
     if name is None:
@@ -61,7 +61,7 @@ def _param(element: Element, scope: Scope) -> tuple[Parameter, ...]:
     return (Parameter(name, value, scope.source, place),)
 
 
-def _content(element: Element, kind: str, scope: Scope) -> Text:
+def _content(element: XmlElement, kind: str, scope: LaunchScope) -> Text:
     given = scope.text(element, kind)
     if given is None or isinstance(given, Open):
         return given or Open("it has no value")
@@ -77,7 +77,7 @@ def _content(element: Element, kind: str, scope: Scope) -> Text:
             return Open("the output of a command is known only when it runs")
 
 
-def _read(read: Parameters, scope: Scope) -> tuple[Parameter, ...]:
+def _read(read: Parameters, scope: LaunchScope) -> tuple[Parameter, ...]:
     scope.reading.unknowns.extend(read.unknowns)
     return read.entries
 
@@ -94,7 +94,7 @@ def _below(name: str, inner: str) -> str:
 # --- <rosparam> -----------------------------------------------------------------------------------
 
 
-def _rosparam(element: Element, scope: Scope) -> tuple[Parameter, ...]:
+def _rosparam(element: XmlElement, scope: LaunchScope) -> tuple[Parameter, ...]:
     """`dump` and `delete` set nothing: they act before roslaunch sets any parameter."""
     command = scope.text(element, "command") or "load"
     if command in ("dump", "delete"):
@@ -121,7 +121,7 @@ def _rosparam(element: Element, scope: Scope) -> tuple[Parameter, ...]:
     return _named(name, entries) if name else entries
 
 
-def _rosparam_content(element: Element, scope: Scope) -> Parameters | Open:
+def _rosparam_content(element: XmlElement, scope: LaunchScope) -> Parameters | Open:
     path = scope.text(element, "file")
     if isinstance(path, Open):
         return path
@@ -140,7 +140,7 @@ def _rosparam_content(element: Element, scope: Scope) -> Parameters | Open:
     return read_parameters(scope.source, substituted, place)
 
 
-def _substituted(element: Element, text: str, scope: Scope) -> Text:
+def _substituted(element: XmlElement, text: str, scope: LaunchScope) -> Text:
     """The text with `$(...)` replaced, where the tag asks for that."""
     wanted = scope.text(element, "subst_value")
     if isinstance(wanted, Open):

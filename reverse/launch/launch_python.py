@@ -21,9 +21,9 @@ from rebsync.reverse.launch.ros2_actions import (
     Group,
     Include,
     Let,
+    NodeAction,
     Only,
     Push,
-    Start,
     Unlisted,
 )
 from rebsync.reverse.launch.ros2_words import Path, Words
@@ -219,9 +219,9 @@ class _File:
         inner = (n for n in ast.walk(call) if isinstance(n, ast.Call))
         return any(called(n) in _NODES for n in inner)
 
-    def _start(self, call: ast.Call, given: dict[str, ast.expr]) -> Start:
+    def _start(self, call: ast.Call, given: dict[str, ast.expr]) -> NodeAction:
         values = self._values
-        return Start(
+        return NodeAction(
             name=values.words_of(given.get("name")),
             namespace=values.words_of(given.get("namespace")),
             package=values.words_of(given.get("package")),

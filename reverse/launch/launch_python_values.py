@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from rebsync.reverse.launch.parameters import ParameterValue
 from rebsync.reverse.launch.ros2_actions import (
     FromFile,
-    Given,
+    LaunchParameter,
     ParameterSource,
     Remapping,
     Unlisted,
@@ -21,9 +21,9 @@ from rebsync.reverse.launch.ros2_words import (
     Computed,
     Environment,
     Here,
+    LaunchVariable,
     Path,
     Share,
-    Variable,
     Word,
     Words,
     Worked,
@@ -140,7 +140,7 @@ class PythonValues:
         match name:
             case "LaunchConfiguration":
                 key = inner(first or given.get("variable_name"))
-                return Variable(key, inner(given.get("default"))) if key else COMPUTED
+                return LaunchVariable(key, inner(given.get("default"))) if key else COMPUTED
             case "EnvironmentVariable":
                 key = inner(first or given.get("name"))
                 default = given.get("default_value", args[1] if len(args) > 1 else None)
@@ -181,7 +181,7 @@ class PythonValues:
         known = called(call) in ("LaunchConfigurationEquals", "LaunchConfigurationNotEquals")
         if not known or "name" not in given or "value" not in given:
             return None
-        variable = Words((Variable(self.words(given["name"])),), self.span(call))
+        variable = Words((LaunchVariable(self.words(given["name"])),), self.span(call))
         return Words((Worked("same", (variable, self.words(given["value"]))),), self.span(call))
 
     def _single(self, words: Words | None) -> Word:
@@ -237,12 +237,12 @@ class PythonValues:
             else:
                 yield self.given(Words((path,), self.span(key or item)), item)
 
-    def given(self, name: Words, item: ast.expr) -> Given:
+    def given(self, name: Words, item: ast.expr) -> LaunchParameter:
         """A parameter with the value that an expression gives it."""
         value, span = self.resolved(item), self.span(item)
         found = literal(value)
         if found is not None:
-            return Given(name, found, span)
+            return LaunchParameter(name, found, span)
         typed = False
         if isinstance(value, ast.Call) and called(value) == "ParameterValue" and value.args:
             kind = keywords(value).get("value_type")
@@ -250,7 +250,7 @@ class PythonValues:
             value = self.resolved(value.args[0])
         parts = tuple(self._parts(value, 0))
         known = parts != (COMPUTED,) and not isinstance(value, ast.Constant)
-        return Given(name, Words(parts, span) if known else None, span, typed)
+        return LaunchParameter(name, Words(parts, span) if known else None, span, typed)
 
     def remaps(self, value: ast.expr | None) -> Iterator[Remapping | Unlisted]:
         """The remappings of a node."""

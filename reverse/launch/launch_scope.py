@@ -14,13 +14,13 @@ from rebsync.reverse.launch.graph_names import as_namespace, canonical, is_legal
 from rebsync.reverse.launch.launch_values import Substitution, Surroundings, truth
 from rebsync.reverse.launch.launched import LaunchedRemap
 from rebsync.reverse.launch.parameters import Parameter
-from rebsync.reverse.launch.xml_tree import Element
+from rebsync.reverse.launch.xml_tree import XmlElement
 from rebsync.reverse.unknowns import Open, Text, Unknown
 from rebsync.source import Source, Span
 
 
 @dataclass(slots=True)
-class Reading:
+class LaunchReading:
     """What the scopes of one reading share: the outside, and what has been found so far.
 
     `taken` are the names made up for `$(anon)`.
@@ -40,14 +40,14 @@ class Reading:
 
 
 @dataclass(slots=True)
-class Scope:
+class LaunchScope:
     """The state of a scope while its tags are read in order.
 
     `private` are the `~` parameters that later nodes get, by name. `only_if` are the conditions
     around the scope that cannot be decided.
     """
 
-    reading: Reading
+    reading: LaunchReading
     source: Source
     namespace: Text = "/"
     arguments: dict[str, Text] = field(default_factory=dict)
@@ -59,9 +59,9 @@ class Scope:
     only_if: tuple[str, ...] = ()
     depth: int = 0
 
-    def group(self, namespace: Text, condition: tuple[str, ...]) -> Scope:
+    def group(self, namespace: Text, condition: tuple[str, ...]) -> LaunchScope:
         """The scope of a `<group>`."""
-        return Scope(
+        return LaunchScope(
             self.reading,
             self.source,
             namespace,
@@ -82,9 +82,9 @@ class Scope:
         condition: tuple[str, ...],
         *,
         passes_all: bool,
-    ) -> Scope:
+    ) -> LaunchScope:
         """The scope of a file that an `<include>` reads, with the arguments passed to it."""
-        return Scope(
+        return LaunchScope(
             self.reading,
             source,
             namespace,
@@ -130,12 +130,12 @@ class Scope:
             self.reading.taken,
         ).of(text)
 
-    def text(self, element: Element, attribute: str) -> Text | None:
+    def text(self, element: XmlElement, attribute: str) -> Text | None:
         """The value of an attribute with its `$(...)` replaced; None where there is none."""
         value = element.get(attribute)
         return None if value is None else self.substituted(value)
 
-    def needed(self, element: Element, attribute: str) -> str | None:
+    def needed(self, element: XmlElement, attribute: str) -> str | None:
         """The value of an attribute that has to be known; if it is not, that is noted."""
         value = self.text(element, attribute)
         if isinstance(value, str):
@@ -144,7 +144,7 @@ class Scope:
         self.unknown(f"the `{attribute}` of a <{element.name}>", why, element.place_of(attribute))
         return None
 
-    def condition(self, element: Element) -> bool | tuple[str, ...]:
+    def condition(self, element: XmlElement) -> bool | tuple[str, ...]:
         """Whether a tag counts by its `if` and `unless`; as a text where that is open."""
         given = [a for a in ("if", "unless") if a in element.attributes]
         if not given:
@@ -163,14 +163,14 @@ class Scope:
         """Notes something that cannot be known or read."""
         self.reading.unknowns.append(Unknown(what, why, self.source, span))
 
-    def check(self, element: Element, attributes: frozenset[str]) -> None:
+    def check(self, element: XmlElement, attributes: frozenset[str]) -> None:
         """Notes the attributes that roslaunch does not know; it ignores them."""
         for name, attribute in element.attributes.items():
             if name not in attributes and name not in ("if", "unless"):
                 what = f"the attribute `{name}` of <{element.name}>"
                 self.unknown(what, "roslaunch does not know it", attribute.span)
 
-    def remap(self, element: Element, remaps: dict[str, LaunchedRemap]) -> None:
+    def remap(self, element: XmlElement, remaps: dict[str, LaunchedRemap]) -> None:
         """Puts a `<remap>` last among these, in the place of one of the same name."""
         self.check(element, frozenset({"from", "to"}))
         condition = self.condition(element)

@@ -14,20 +14,20 @@ from rebsync.reverse.launch.ros2_actions import (
     Declare,
     ForAll,
     FromFile,
-    Given,
     Group,
     Include,
+    LaunchParameter,
     Let,
+    NodeAction,
     Only,
     ParameterSource,
     Push,
     Remapping,
-    Start,
     Unlisted,
 )
 from rebsync.reverse.launch.ros2_words import Words
 from rebsync.reverse.launch.tag_words import tag_words
-from rebsync.reverse.launch.xml_tree import Comment, Element, read_xml
+from rebsync.reverse.launch.xml_tree import Comment, XmlElement, read_xml
 from rebsync.reverse.unknowns import Unknown
 from rebsync.source import Source, Span
 
@@ -89,7 +89,7 @@ def actions_of_yaml(source: Source) -> tuple[Action, ...] | Unknown:
     return Unknown("the launch file", "it has no list `launch`", source, Span(0, 0))
 
 
-def _of_element(element: Element, markers: tuple[str, ...]) -> Tag:
+def _of_element(element: XmlElement, markers: tuple[str, ...]) -> Tag:
     inner: list[Tag] = []
     above: list[str] = []
     for child in element.children:
@@ -170,7 +170,7 @@ def _made(tag: Tag) -> Iterator[Action]:
         case "set_remap" if "from" in given and "to" in given:
             yield ForAll(remaps=(Remapping(given["from"], given["to"], tag.span),))
         case "set_parameter" if "name" in given and "value" in given:
-            yield ForAll(parameters=(Given(given["name"], given["value"], tag.span),))
+            yield ForAll(parameters=(LaunchParameter(given["name"], given["value"], tag.span),))
         case "set_parameters_from_file" if "filename" in given:
             yield ForAll(parameters=(FromFile(given["filename"]),))
         case "group":
@@ -190,9 +190,9 @@ def _made(tag: Tag) -> Iterator[Action]:
             yield Unlisted(f"the tag <{name}>", tag.span, why)
 
 
-def _start(tag: Tag) -> Start:
+def _start(tag: Tag) -> NodeAction:
     given = tag.given
-    return Start(
+    return NodeAction(
         name=given.get("name"),
         namespace=given.get("namespace"),
         package=given.get("pkg"),
@@ -217,7 +217,7 @@ def _parameters(tag: Tag, prefix: str) -> Iterator[ParameterSource]:
     if "value" in given:
         kind = given.get("type")
         typed = kind is not None and _shown(kind) == "str"
-        yield Given(name, given["value"], tag.span, typed)
+        yield LaunchParameter(name, given["value"], tag.span, typed)
     below = _shown(name)
     for inner in tag.children("param"):
         yield from _parameters(inner, f"{below}/")

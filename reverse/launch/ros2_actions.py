@@ -23,7 +23,7 @@ class Condition:
 
 
 @dataclass(frozen=True, slots=True)
-class Given:
+class LaunchParameter:
     """A parameter; a text that is not `typed` is read as YAML, as launch_ros does.
 
     None as the value: it is computed.
@@ -51,7 +51,7 @@ class Unlisted:
     why: str = "it is computed when the file runs"
 
 
-ParameterSource: TypeAlias = "Given | FromFile | Unlisted"
+ParameterSource: TypeAlias = "LaunchParameter | FromFile | Unlisted"
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +64,7 @@ class Remapping:
 
 
 @dataclass(frozen=True, slots=True)
-class Start:
+class NodeAction:
     """A node, or a component that a container runs; None for what is not given."""
 
     name: Words | None
@@ -133,4 +133,4 @@ class Only:
     action: Action
 
 
-Action: TypeAlias = "Start | Declare | Let | Push | ForAll | Group | Include | Only | Unlisted"
+Action: TypeAlias = "NodeAction | Declare | Let | Push | ForAll | Group | Include | Only | Unlisted"

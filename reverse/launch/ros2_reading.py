@@ -16,18 +16,18 @@ from rebsync.reverse.launch.ros2_actions import (
     Declare,
     ForAll,
     FromFile,
-    Given,
     Group,
     Include,
+    LaunchParameter,
     Let,
+    NodeAction,
     Only,
     ParameterSource,
     Push,
     Remapping,
-    Start,
     Unlisted,
 )
-from rebsync.reverse.launch.ros2_words import Known, Words, below_share, evaluated
+from rebsync.reverse.launch.ros2_words import LaunchContext, Words, below_share, evaluated
 from rebsync.reverse.launch.ros2_worked import FALSE, TRUE
 from rebsync.reverse.unknowns import Open, Text, Unknown
 from rebsync.source import Source, Span
@@ -68,7 +68,7 @@ class _Scope:
         )
 
     def text(self, words: Words) -> Text:
-        return evaluated(words, Known(self.variables, self.source.path))
+        return evaluated(words, LaunchContext(self.variables, self.source.path))
 
 
 @dataclass(slots=True)
@@ -104,7 +104,7 @@ class Reader:
 
     def _action(self, action: Action, scope: _Scope, depth: int) -> None:
         match action:
-            case Start():
+            case NodeAction():
                 self.nodes.append(self._node(action, scope))
             case Declare(name, default):
                 self._declared(name, default, scope)
@@ -170,7 +170,7 @@ class Reader:
 
     # --- nodes ----------------------------------------------------------------------------------
 
-    def _node(self, start: Start, scope: _Scope) -> LaunchedNode:
+    def _node(self, start: NodeAction, scope: _Scope) -> LaunchedNode:
         name = self._given(start.name, "the name of a node", scope)
         namespace = self._namespace(start.namespace, scope)
         package = self._given(start.package, "the package of a node", scope)
@@ -229,7 +229,7 @@ class Reader:
     ) -> Iterator[Parameter]:
         """The node's own; those of files for all nodes go to `common`."""
         match source:
-            case Given():
+            case LaunchParameter():
                 found = self._parameter(source, scope)
                 if found is not None:
                     yield found
@@ -240,7 +240,7 @@ class Reader:
             case _:
                 assert_never(source)
 
-    def _parameter(self, given: Given, scope: _Scope) -> Parameter | None:
+    def _parameter(self, given: LaunchParameter, scope: _Scope) -> Parameter | None:
         name = self._text(given.name, "the name of a parameter", scope)
         if isinstance(name, Open):
             return None

@@ -21,7 +21,7 @@ SHARE = "share:/"
 
 
 @dataclass(frozen=True, slots=True)
-class Variable:
+class LaunchVariable:
     """What a launch configuration holds: `default` where nothing sets it."""
 
     name: Words
@@ -72,7 +72,7 @@ class Worked:
     parts: tuple[Words, ...]
 
 
-Word: TypeAlias = "str | Variable | Environment | Share | Here | Path | Computed | Worked"
+Word: TypeAlias = "str | LaunchVariable | Environment | Share | Here | Path | Computed | Worked"
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,14 +84,14 @@ class Words:
 
 
 @dataclass(frozen=True, slots=True)
-class Known:
+class LaunchContext:
     """What is known where a text is worked out: the configurations, and the file it is in."""
 
     variables: Mapping[str, Text]
     file: str
 
 
-def evaluated(words: Words, known: Known) -> Text:
+def evaluated(words: Words, known: LaunchContext) -> Text:
     """The text; open where a part of it is, with the reason of the first."""
     found = ""
     for word in words.parts:
@@ -102,11 +102,11 @@ def evaluated(words: Words, known: Known) -> Text:
     return found
 
 
-def _part(word: Word, known: Known) -> Text:
+def _part(word: Word, known: LaunchContext) -> Text:
     match word:
         case str():
             return word
-        case Variable(name, default):
+        case LaunchVariable(name, default):
             return _variable(name, default, known)
         case Environment(_, default):
             none = Open("it depends on the environment")
@@ -129,7 +129,7 @@ def _part(word: Word, known: Known) -> Text:
             assert_never(word)
 
 
-def _variable(name: Words, default: Words | None, known: Known) -> Text:
+def _variable(name: Words, default: Words | None, known: LaunchContext) -> Text:
     key = evaluated(name, known)
     if isinstance(key, Open):
         return key
@@ -140,7 +140,7 @@ def _variable(name: Words, default: Words | None, known: Known) -> Text:
     return Open(f"nothing here gives the argument `{key}`")
 
 
-def _path(parts: tuple[Words, ...], known: Known) -> Text:
+def _path(parts: tuple[Words, ...], known: LaunchContext) -> Text:
     found = [evaluated(part, known) for part in parts]
     texts = [f for f in found if isinstance(f, str)]
     if len(texts) < len(found):

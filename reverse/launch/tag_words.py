@@ -8,8 +8,8 @@ from rebsync.reverse.launch.ros2_words import (
     Computed,
     Environment,
     Here,
+    LaunchVariable,
     Share,
-    Variable,
     Word,
     Words,
     Worked,
@@ -61,7 +61,7 @@ def _word(name: str, inner: list[Word], span: Span) -> Word:
     first = arguments[0] if arguments else None
     match name:
         case "var" if first is not None:
-            return Variable(first)
+            return LaunchVariable(first)
         case "env" | "optenv" if first is not None:
             default = arguments[1] if len(arguments) > 1 else None
             return Environment(first, default)

@@ -39,7 +39,7 @@ class Comment:
 
 
 @dataclass(frozen=True, slots=True)
-class Element:
+class XmlElement:
     """A tag with what it holds.
 
     `span` is the place of the opening tag. `text` joins the pieces of text directly inside;
@@ -53,9 +53,9 @@ class Element:
     pieces: tuple[tuple[int, int], ...]
     span: Span
 
-    def elements(self) -> tuple[Element, ...]:
+    def elements(self) -> tuple[XmlElement, ...]:
         """The tags directly inside."""
-        return tuple(c for c in self.children if isinstance(c, Element))
+        return tuple(c for c in self.children if isinstance(c, XmlElement))
 
     def get(self, name: str) -> str | None:
         """The value of an attribute, or None."""
@@ -78,7 +78,7 @@ class Element:
         return place + offset - begin
 
 
-Child: TypeAlias = "Element | Comment"
+Child: TypeAlias = "XmlElement | Comment"
 
 
 class _Refused(Exception):
@@ -95,14 +95,14 @@ class _Open:
     pieces: list[tuple[int, int]] = field(default_factory=list)
     length: int = 0
 
-    def closed(self) -> Element:
+    def closed(self) -> XmlElement:
         text = "".join(self.texts)
-        return Element(
+        return XmlElement(
             self.name, self.attributes, tuple(self.children), text, tuple(self.pieces), self.span
         )
 
 
-def read_xml(source: Source) -> Element | Unknown:
+def read_xml(source: Source) -> XmlElement | Unknown:
     """The root of the tree, or what makes the text no XML that is read."""
     builder = _Builder(source)
     try:
@@ -136,7 +136,7 @@ def text_below(source: Source, name: str) -> str | None:
 
 class _Builder:
     def __init__(self, source: Source) -> None:
-        self.root: Element | None = None
+        self.root: XmlElement | None = None
         self._source = source
         self._open: list[_Open] = []
         self._starts = _byte_offsets(source.text)

@@ -67,12 +67,20 @@ def _calls_of(library: Library) -> Calls:
     names |= {n for scope, n in functions if not scope or library.flat}
     words = frozenset(n.encode() for n in (*names, *objects, *macros, *nodes))
     return Calls(
-        *(library, functions, objects),
-        frozenset(n for n, (r, _) in objects.items() if r.kind is Kind.SUBSCRIPTION),
-        *(macros, nodes, frozenset(map(_scope, made)), on_nodes, on_handles, others),
-        *(frozenset({*objects, *nodes}), words),
-        frozenset(n.encode() for _, n in functions) - words,
-        frozenset(n.partition("::")[0] for n in library.handles | library.nodes),
+        library=library,
+        functions=functions,
+        objects=objects,
+        filters=frozenset(n for n, (r, _) in objects.items() if r.kind is Kind.SUBSCRIPTION),
+        macros=macros,
+        nodes=nodes,
+        node_scopes=frozenset(map(_scope, made)),
+        on_nodes=on_nodes,
+        on_handles=on_handles,
+        methods=others,
+        classes=frozenset({*objects, *nodes}),
+        words=words,
+        scoped_words=frozenset(n.encode() for _, n in functions) - words,
+        scopes=frozenset(n.partition("::")[0] for n in library.handles | library.nodes),
     )
 
 

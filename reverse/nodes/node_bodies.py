@@ -39,11 +39,11 @@ from rebsync.reverse.graph import (
 )
 from rebsync.reverse.nodes.node_held import Held, held
 from rebsync.reverse.nodes.node_kept import elements
-from rebsync.reverse.nodes.node_loops import Loop, left
+from rebsync.reverse.nodes.node_loops import NodeLoop, left
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_setup import Setup, around, send
 from rebsync.reverse.nodes.node_signatures import Signatures
-from rebsync.reverse.nodes.node_starts import Opening, Step
+from rebsync.reverse.nodes.node_starts import Opening, StartStatements
 from rebsync.reverse.nodes.node_state import State
 from rebsync.reverse.nodes.node_tidying import without_values
 from rebsync.reverse.nodes.node_units import Unit
@@ -243,7 +243,7 @@ class Bodies:
         variable = self.state.types.variable
         return Record({p: variable(server.type, p, n, t) for p, n, t in given}, server.type)
 
-    def loop(self, loop: Loop, name: str) -> Iterator[m.MessageServer]:
+    def loop(self, loop: NodeLoop, name: str) -> Iterator[m.MessageServer]:
         """The server of a loop, and one for what comes after its sleep where both do something."""
         scope = self.scope(loop.function.cpp, loop.function, chooses=True, server=name)
         pause = self.setup.pause(loop)
@@ -297,7 +297,7 @@ class Bodies:
             found += reader.read(step.nodes)
         return without_values(m.Block(without_end(tuple(found))))
 
-    def _arguments(self, step: Step) -> dict[str, Meaning]:
+    def _arguments(self, step: StartStatements) -> dict[str, Meaning]:
         """What the parameters of a constructor are for the object that is made."""
         found: dict[str, Meaning] = {}
         for parameter in step.function.parameters:

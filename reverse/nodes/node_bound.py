@@ -12,7 +12,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.calm import Calm
-from rebsync.reverse.bodies.cpp_effects import Effects, Touches
+from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_roots import is_modelled, root
 from rebsync.reverse.bodies.known_functions import may_change
 from rebsync.reverse.bodies.scope import (
@@ -25,6 +25,7 @@ from rebsync.reverse.bodies.scope import (
     Scope,
     Variable,
 )
+from rebsync.reverse.bodies.touches import Touches
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.nodes.node_bodies import Bodies
 from rebsync.reverse.nodes.node_reach import called_by

@@ -42,7 +42,7 @@ _SEVERAL = "its callbacks may run at the same time as others: the model has one 
 
 
 @dataclass(slots=True)
-class Listing:
+class FindingList:
     """Lists places in findings, each once with the same reason."""
 
     findings: Findings

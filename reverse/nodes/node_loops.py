@@ -30,7 +30,7 @@ _APART = frozenset({"lambda_expression", "switch_statement", "for_range_loop"})
 
 
 @dataclass(frozen=True, slots=True)
-class Loop:
+class NodeLoop:
     """A loop that runs as long as the node does.
 
     Between `first` and `rest` of its body it sleeps, as `rate` says, or not at all. `guard` are
@@ -46,7 +46,7 @@ class Loop:
     sleeps: bool
 
 
-def loops_in(function: CppFunction, rates: Sequence[RateFact]) -> Iterator[Loop]:
+def loops_in(function: CppFunction, rates: Sequence[RateFact]) -> Iterator[NodeLoop]:
     """The loops of a function that run as long as the node does, outer ones only."""
     body = function.body
     if body is None:
@@ -76,7 +76,7 @@ def spins(statement: Node) -> bool:
     return bool(names & libraries.named(Kind.SERVE)) and len(names) == 1
 
 
-def _loop(function: CppFunction, node: Node, rates: Sequence[RateFact]) -> Loop | None:
+def _loop(function: CppFunction, node: Node, rates: Sequence[RateFact]) -> NodeLoop | None:
     body, condition = node.child_by_field_name("body"), node.child_by_field_name("condition")
     if body is None:
         return None
@@ -90,7 +90,7 @@ def _loop(function: CppFunction, node: Node, rates: Sequence[RateFact]) -> Loop 
     guard = tuple(p for p in parts if p not in runs)
     endless = all(text_of(p) in ("true", "1") for p in parts)
     if not _may_wait(body.text or b""):
-        whole = Loop(function, node, tuple(statements), (), guard, None, False)
+        whole = NodeLoop(function, node, tuple(statements), (), guard, None, False)
         return None if endless else whole
     at, rate = _sleep(statements, rates)
     serving = [spins(s) for s in statements]
@@ -103,7 +103,7 @@ def _loop(function: CppFunction, node: Node, rates: Sequence[RateFact]) -> Loop 
     sleeps = at is not None or any(
         c.name.rpartition("::")[2] in ("sleep", "usleep", "sleep_for") for c in calls_in(body)
     )
-    return Loop(function, node, tuple(first), tuple(rest), guard, rate, sleeps)
+    return NodeLoop(function, node, tuple(first), tuple(rest), guard, rate, sleeps)
 
 
 def _may_wait(text: bytes) -> bool:
@@ -170,7 +170,7 @@ def _variable(call: Node) -> str:
 # --- behind a loop ------------------------------------------------------------------------------
 
 
-def behind(loop: Loop) -> Iterator[tuple[Node, Unread | None]]:
+def behind(loop: NodeLoop) -> Iterator[tuple[Node, Unread | None]]:
     """What stands behind a loop, each with why it must be listed.
 
     Where the loop goes on for as long as the node, nothing of it matters to the model.
@@ -235,16 +235,6 @@ def loop_around(node: Node) -> Node | None:
     return None
 
 
-def identifiers(node: Node) -> Iterator[Node]:
-    """The identifiers in a node."""
-    waiting = [node]
-    while waiting:
-        current = waiting.pop()
-        if current.type == "identifier":
-            yield current
-        waiting += current.named_children
-
-
 def cancels(code: Code, functions: Sequence[CppFunction], facts: Sequence[Fact]) -> bool:
     """Whether anything but a timer is cancelled: an executor, which then ends to serve."""
     kept = {f.site.kept.removeprefix("this->") for f in facts if isinstance(f, TimerFact)}
@@ -257,7 +247,7 @@ def ended_early(statement: Node, without: Collection[int]) -> bool:
     return any(n.id not in without and not _is_over(n) for n in later(statement))
 
 
-def _may_end(loop: Loop) -> bool:
+def _may_end(loop: NodeLoop) -> bool:
     """Whether a loop may end while the node still runs."""
     return bool(loop.guard) or any(_jumps_out(s) for s in (*loop.first, *loop.rest))
 

@@ -21,7 +21,7 @@ TypeOf = Callable[[Node], m.Type | None]
 
 
 @dataclass(frozen=True, slots=True)
-class Given:
+class ConstructorParameter:
     """A parameter of the constructor, with its value for each rebec (None: not known)."""
 
     name: str
@@ -30,7 +30,7 @@ class Given:
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class ParameterRequest:
     """What a call asks: the node that is set (None: the call itself is the value), and whether
     there is such a parameter (None: in some of the rebecs).
     """
@@ -47,7 +47,7 @@ def asked(
     instances: Sequence[Instance],
     type_of: TypeOf,
     facts: Sequence[Fact] = (),
-) -> Asked | None:
+) -> ParameterRequest | None:
     """What a call that reads a parameter asks; None where it is no such call.
 
     `facts` may declare it with a default.
@@ -71,7 +71,7 @@ def asked(
     ]
     type_ = type_of(target) if target is not None else _of_values(raw, call)
     values = tuple(_as(v, type_) if type_ is not None else None for v in raw)
-    return Asked(call, target, type_, values, found)
+    return ParameterRequest(call, target, type_, values, found)
 
 
 def _declared(fact: ParameterFact, facts: Sequence[Fact]) -> Resolved | None:

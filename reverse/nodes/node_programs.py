@@ -39,7 +39,7 @@ class Program:
 
 
 @dataclass(frozen=True, slots=True)
-class Made:
+class NodeObject:
     """An object of a node class, or None for the program itself: where it is made and with what.
 
     `statement` is the statement of `main` that makes it, if it is one; `variable` its name there.
@@ -103,7 +103,7 @@ class Objects:
     _seen: set[str] = field(default_factory=set)
     _named: dict[int, frozenset[str]] = field(default_factory=dict)
 
-    def made_by(self, program: Program) -> list[Made]:
+    def made_by(self, program: Program) -> list[NodeObject]:
         """The objects that `main` makes, and those that functions and classes it uses make."""
         if not self.wanted:
             return []
@@ -120,17 +120,19 @@ class Objects:
                 pointer = plain is None or "*" in text_of(plain) or not _is_plain(variable.type)
                 if not pointer:
                     found += [
-                        Made(n, None, name, ()) for n in _types(variable.type) if n in self.wanted
+                        NodeObject(n, None, name, ())
+                        for n in _types(variable.type)
+                        if n in self.wanted
                     ]
         return found
 
-    def made_by_class(self, owner: CppClass, entry: CppFunction | None) -> list[Made]:
+    def made_by_class(self, owner: CppClass, entry: CppFunction | None) -> list[NodeObject]:
         """The objects that a class makes, a nodelet's; `entry` is the function that starts it."""
         self._seen = {owner.name}
         first = list(self._in(entry, True)) if entry is not None else []
         return first + list(self._members(owner, entry))
 
-    def _in(self, function: CppFunction, in_main: bool) -> Iterator[Made]:
+    def _in(self, function: CppFunction, in_main: bool) -> Iterator[NodeObject]:
         for node in self._types_in(function):
             name = text_of(node)
             if name in self.wanted and (made := _made(node, name, in_main)) is not None:
@@ -150,13 +152,13 @@ class Objects:
         found = self.code.named(cpp, body, self._named[id(cpp)])
         return [n for n in found if n.type == "type_identifier"]
 
-    def _members(self, owner: CppClass, entry: CppFunction | None = None) -> Iterator[Made]:
+    def _members(self, owner: CppClass, entry: CppFunction | None = None) -> Iterator[NodeObject]:
         """The objects that are members of another, or made by its functions."""
         for above in self.code.lineage(owner.name):
             for member in (*above.fields, *above.others):
                 for name in _types(member.type) if _is_plain(member.type) else ():
                     if name in self.wanted and "*" not in text_of(member.node):
-                        yield Made(name, None, member.name, ())
+                        yield NodeObject(name, None, member.name, ())
             for function in self.code.functions_of(above):
                 if entry is None or function.node.id != entry.node.id:
                     yield from self._in(function, False)
@@ -183,7 +185,7 @@ def _makes(node: Node) -> bool:
     )
 
 
-def _made(node: Node, name: str, in_main: bool) -> Made | None:
+def _made(node: Node, name: str, in_main: bool) -> NodeObject | None:
     """The object that is made where a class's name stands, if one is."""
     around: Node | None = node.parent
     pointer = False
@@ -205,7 +207,7 @@ def _made(node: Node, name: str, in_main: bool) -> Made | None:
     return None
 
 
-def _declared(node: Node, name: str, in_main: bool) -> Made | None:
+def _declared(node: Node, name: str, in_main: bool) -> NodeObject | None:
     """`Talker t;`, `Talker t(nh);` (which may parse as a function), `Talker t{nh};`."""
     declarator = node.child_by_field_name("declarator")
     if declarator is None or declarator.type in ("pointer_declarator", "reference_declarator"):
@@ -224,7 +226,7 @@ def _declared(node: Node, name: str, in_main: bool) -> Made | None:
     return _object(node, name, [], in_main)
 
 
-def _object(node: Node, name: str, arguments: list[Node], in_main: bool) -> Made:
+def _object(node: Node, name: str, arguments: list[Node], in_main: bool) -> NodeObject:
     statement: Node | None = node
     while statement is not None and not (
         statement.type.endswith("_statement") or statement.type == "declaration"
@@ -235,7 +237,7 @@ def _object(node: Node, name: str, arguments: list[Node], in_main: bool) -> Made
         repeated = repeated or around.type in _LOOPS
         around = around.parent
     variable = _variable(statement) if statement is not None else ""
-    return Made(name, statement if in_main else None, variable, tuple(arguments), repeated)
+    return NodeObject(name, statement if in_main else None, variable, tuple(arguments), repeated)
 
 
 def _variable(statement: Node) -> str:

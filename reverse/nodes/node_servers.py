@@ -26,7 +26,7 @@ _PLACE = re.compile(r"(^|::)_\d$")
 
 
 @dataclass(frozen=True, slots=True)
-class Carried:
+class ParameterField:
     """A field of a message that a server gets as a parameter."""
 
     path: str
@@ -49,7 +49,7 @@ class Server:
     message: str
     arguments: tuple[tuple[str, Node], ...]
     type: str | None = None
-    parameters: tuple[Carried, ...] = ()
+    parameters: tuple[ParameterField, ...] = ()
     subscriptions: tuple[SubscriptionFact, ...] = ()
     timers: tuple[TimerFact, ...] = ()
     service: ServiceFact | None = None
@@ -218,14 +218,14 @@ def _parameters(callback: Callback) -> list[tuple[str, str]]:
 
 def _carried(
     code: Code, fields: Fields, message: str, body: tuple[Cpp, Node], taken: set[str]
-) -> Iterator[Carried]:
+) -> Iterator[ParameterField]:
     """The fields of the model's types that a body uses, in the order of the message."""
     used = set(_used_paths(fields, uses(code, *body, message)))
     carried = [(path, type_) for path, type_ in fields.items() if path in used]
     names = Names.beside(declared(code, *body) | taken if carried else ())
     for path, type_ in carried:
         if type_ is not None:
-            yield Carried(path, names.give(path.replace(".", "_")), type_)
+            yield ParameterField(path, names.give(path.replace(".", "_")), type_)
 
 
 def _used_paths(fields: Fields, uses: Iterable[Node]) -> Iterator[str]:

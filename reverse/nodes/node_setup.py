@@ -10,6 +10,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.package import Value
 from rebsync.records import dataclass
+from rebsync.reverse.bodies.cpp_roots import identifiers_in
 from rebsync.reverse.bodies.cpp_timers import SWITCHING
 from rebsync.reverse.bodies.cpp_types import carried
 from rebsync.reverse.bodies.scope import Outside, Stores, Switch, TimerOf, Variable
@@ -28,23 +29,22 @@ from rebsync.reverse.graph import (
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.nodes.node_loops import (
-    Loop,
+    NodeLoop,
     behind,
     cancels,
     ended_early,
-    identifiers,
     later,
     loop_around,
     loops_in,
     served_early,
 )
 from rebsync.reverse.nodes.node_names import Names
-from rebsync.reverse.nodes.node_parameters import Given, asked
+from rebsync.reverse.nodes.node_parameters import ConstructorParameter, asked
 from rebsync.reverse.nodes.node_reach import reached
 from rebsync.reverse.nodes.node_servers import Server, replaced, share_variable
 from rebsync.reverse.nodes.node_state import State
 from rebsync.reverse.nodes.node_times import Times
-from rebsync.reverse.nodes.node_units import Facts
+from rebsync.reverse.nodes.node_units import UnitFacts
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.syntax.cpp_declarations import declared_name
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
@@ -71,7 +71,7 @@ class Setup:
     """
 
     code: Code
-    package: Facts
+    package: UnitFacts
     state: State
     servers: Sequence[Server]
     facts: Sequence[Fact]
@@ -86,8 +86,8 @@ class Setup:
     timers: dict[int, TimerOf] = field(default_factory=dict)
     periodic: dict[str, int] = field(default_factory=dict)
     switches: dict[str, Switch] = field(default_factory=dict)
-    parameters: list[Given] = field(default_factory=list)
-    loops: list[tuple[Loop, str]] = field(default_factory=list)
+    parameters: list[ConstructorParameter] = field(default_factory=list)
+    loops: list[tuple[NodeLoop, str]] = field(default_factory=list)
     running: list[Node] = field(default_factory=list)
 
     def prepare(self) -> None:
@@ -122,7 +122,7 @@ class Setup:
                 continue
             function = around(server.body, self.state.unit.functions)
             if function is not None:
-                mentioned = {text_of(n) for n in identifiers(server.body)}
+                mentioned = {text_of(n) for n in identifiers_in(server.body)}
                 self.instead |= self.state.outlive(function, mentioned, False)
 
     def _is_first(self, fact: Fact) -> bool:
@@ -257,7 +257,7 @@ class Setup:
         wish = fact.name.rpartition("/")[2].lstrip("~").replace(".", "_") or "value"
         free = [w for w in (wish, f"{wish}_given") if w not in self.state.taken]
         name = self.names.give(*free, f"{wish}_value")
-        self.parameters.append(Given(name, type_, values))
+        self.parameters.append(ConstructorParameter(name, type_, values))
         return (Stores(target if target is not None else fact.site.call, m.Name(name)),)
 
     def _type(self, target: Node, fact: ParameterFact) -> m.Type | None:
@@ -289,14 +289,14 @@ class Setup:
                 self.running.append(loop.node)
                 self._loop(function, loop)
 
-    def _loop(self, function: CppFunction, loop: Loop) -> None:
+    def _loop(self, function: CppFunction, loop: NodeLoop) -> None:
         parts = (*loop.first, *loop.rest)
         self.instead[loop.node.id] = ()
         if loop.rate is not None and self.servers and _serves(loop.node):
             place = loop.rate.site.place
             self.findings.approximated(place.source, place.span, _ROUND, within=self.within)
         if parts:
-            mentioned = {text_of(n) for p in parts for n in identifiers(p)}
+            mentioned = {text_of(n) for p in parts for n in identifiers_in(p)}
             self.instead |= self.state.outlive(function, mentioned, False, loop.node)
             self.instead[loop.node.id] = ()
             name = self.names.give("loop" if function.name == "main" else function.name)
@@ -308,13 +308,13 @@ class Setup:
             if unread is not None:
                 self.findings.unreadable(function.cpp.source, unread, self.within)
 
-    def _pause(self, loop: Loop) -> int | None:
+    def _pause(self, loop: NodeLoop) -> int | None:
         """The time that a loop sleeps in each round, in units."""
         if loop.rate is None:
             return None
         return self.times.units(loop.rate, self.instances, self.findings, self.within)
 
-    def pause(self, loop: Loop) -> int | None:
+    def pause(self, loop: NodeLoop) -> int | None:
         """The time between two rounds of a loop, in units; None, and listed, where it is open."""
         if loop.rate is not None:
             return self._pause(loop)

@@ -9,6 +9,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
+from rebsync.reverse.bodies.cpp_roots import identifiers_in
 from rebsync.reverse.bodies.rewriting import renamed
 from rebsync.reverse.bodies.scope import Itself, Member, Outside, Stores
 from rebsync.reverse.graph import TimerFact
@@ -24,7 +25,7 @@ _ENTRY = "onInit"
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class StartStatements:
     """Statements of a function that run when a node starts.
 
     `arguments` are what the function's parameters get, with the file that says so.
@@ -43,7 +44,7 @@ class Opening:
     `objects` are the names that `entry` has for the object itself, and for others.
     """
 
-    steps: tuple[Step, ...]
+    steps: tuple[StartStatements, ...]
     entry: CppFunction | None = None
     objects: Mapping[str, Member] = field(default_factory=dict)
 
@@ -108,8 +109,10 @@ def opening(unit: Unit, state: State, start: Start | None, together: Sequence[St
     """What runs when a rebec of a unit starts, `together` with others in one program."""
     if unit.program is not None:
         main = unit.program.main
-        return Opening((Step(main, _statements(main), _arguments(main)),), main, _objects(together))
-    steps: list[Step] = []
+        return Opening(
+            (StartStatements(main, _statements(main), _arguments(main)),), main, _objects(together)
+        )
+    steps: list[StartStatements] = []
     given: dict[str, list[tuple[Cpp, Node]]] = {}
     for owner in unit.lineage:  # each says what its bases get, which are made before it
         made = start.made if start is not None and owner is unit.lineage[0] else None
@@ -122,10 +125,10 @@ def opening(unit: Unit, state: State, start: Start | None, together: Sequence[St
             own = list(_constructed(constructor, state, passed))
             given |= {n: v for step in own for n, v in _to_bases(step)}
             steps = [*own, *steps]
-    steps += [Step(f, _statements(f)) for f in unit.functions if f.name == _ENTRY]
+    steps += [StartStatements(f, _statements(f)) for f in unit.functions if f.name == _ENTRY]
     if start is None or start.entry is None or start.made is None:
         return Opening(tuple(steps))
-    steps += [Step(start.entry, (statement,)) for statement in used_in_main(start)]
+    steps += [StartStatements(start.entry, (statement,)) for statement in used_in_main(start)]
     objects = _objects(together)
     if start.made.variable:
         objects[start.made.variable] = Itself()
@@ -151,17 +154,8 @@ def _arguments(main: CppFunction) -> dict[int, tuple[m.Statement, ...]]:
         for n in _statements(main)
         if n.type == "if_statement"
         and (condition := n.child_by_field_name("condition")) is not None
-        and any(text_of(i) == count for i in _identifiers(condition))
+        and any(text_of(i) == count for i in identifiers_in(condition))
     }
-
-
-def _identifiers(node: Node) -> Iterator[Node]:
-    waiting = [node]
-    while waiting:
-        current = waiting.pop()
-        if current.type == "identifier":
-            yield current
-        waiting += current.named_children
 
 
 def _statements(function: CppFunction) -> tuple[Node, ...]:
@@ -176,7 +170,7 @@ def _constructor(unit: Unit, owner: CppClass, count: int) -> CppFunction | None:
     return found[0] if found else None
 
 
-def _to_bases(step: Step) -> Iterator[tuple[str, list[tuple[Cpp, Node]]]]:
+def _to_bases(step: StartStatements) -> Iterator[tuple[str, list[tuple[Cpp, Node]]]]:
     """What the initialisers of a constructor give to those of others, by their classes."""
     for entry in step.nodes:
         inner = named(entry)
@@ -203,7 +197,7 @@ def _passed(function: CppFunction, start: Start | None) -> dict[str, tuple[Cpp, 
 
 def _constructed(
     function: CppFunction, state: State, arguments: Mapping[str, tuple[Cpp, Node]]
-) -> Iterator[Step]:
+) -> Iterator[StartStatements]:
     """The initialisers of a constructor, then its body; first another that it hands on to."""
     nodes = []
     instead: dict[int, tuple[Stores, ...]] = {}
@@ -226,8 +220,8 @@ def _constructed(
             instead[entry.id] = (stores,)
         elif not values:
             instead[entry.id] = state.zeros(meaning)
-    yield Step(function, tuple(nodes), instead, arguments)
-    yield Step(function, _statements(function), {}, arguments)
+    yield StartStatements(function, tuple(nodes), instead, arguments)
+    yield StartStatements(function, _statements(function), {}, arguments)
 
 
 # --- starting late ------------------------------------------------------------------------------

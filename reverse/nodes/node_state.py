@@ -18,7 +18,7 @@ from rebsync.reverse.bodies.scope import Member, Outside, Record, Stores, Variab
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.nodes.node_names import Names, model_word
-from rebsync.reverse.nodes.node_taken import Taken
+from rebsync.reverse.nodes.node_taken import UsedNames
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.syntax.cpp_declarations import CppField, declared_name
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
@@ -27,7 +27,7 @@ from rebsync.static.types import BOOLEAN, INT
 
 
 @dataclass(frozen=True, slots=True)
-class Unset:
+class UnsetVariable:
     """A variable that is made without a value, by its name in the code."""
 
     name: str
@@ -68,15 +68,15 @@ class State:
     local: dict[int, dict[str, Member]] = field(default_factory=dict)
     initial: list[tuple[Cpp, Stores]] = field(default_factory=list)
     wide: dict[str, Wide] = field(default_factory=dict)
-    unset: dict[str, Unset] = field(default_factory=dict)
+    unset: dict[str, UnsetVariable] = field(default_factory=dict)
     switches: dict[str, tuple[str, str]] = field(default_factory=dict)
-    taken: Taken = field(init=False)  # the names that the unit's functions have
+    taken: UsedNames = field(init=False)  # the names that the unit's functions have
     _outlived: dict[tuple[int, frozenset[str], bool], dict[int, tuple[Stores, ...]]] = field(
         default_factory=dict
     )
 
     def __post_init__(self) -> None:
-        self.taken = Taken(self.code, self.unit.functions)
+        self.taken = UsedNames(self.code, self.unit.functions)
         for member in self._globals():
             self._add(member)
         for above in reversed(self.unit.lineage):
@@ -111,7 +111,7 @@ class State:
         """Keeps in mind that a variable has no value yet: times and messages have theirs."""
         match meaning:
             case Variable(of_model) if not is_time(type_):
-                self.unset[of_model] = Unset(name, meaning, cpp, node)
+                self.unset[of_model] = UnsetVariable(name, meaning, cpp, node)
             case Record(fields, ""):
                 owner = self.code.classes.get(text_of(type_).rpartition("::")[2])
                 for member in owner.fields if owner is not None else ():

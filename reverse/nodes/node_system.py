@@ -23,9 +23,9 @@ from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_hidden import note_hidden
 from rebsync.reverse.nodes.node_joined import Joined, Part
 from rebsync.reverse.nodes.node_lifecycle import note_life_cycle
-from rebsync.reverse.nodes.node_listing import Listing
+from rebsync.reverse.nodes.node_listing import FindingList
 from rebsync.reverse.nodes.node_names import Names, class_word
-from rebsync.reverse.nodes.node_parameters import Given
+from rebsync.reverse.nodes.node_parameters import ConstructorParameter
 from rebsync.reverse.nodes.node_presence import STAND_IN, makes_generated
 from rebsync.reverse.nodes.node_programs import Program
 from rebsync.reverse.nodes.node_servers import servers
@@ -35,7 +35,7 @@ from rebsync.reverse.nodes.node_starts import first_functions, opening
 from rebsync.reverse.nodes.node_state import State
 from rebsync.reverse.nodes.node_taken import declares
 from rebsync.reverse.nodes.node_times import Times
-from rebsync.reverse.nodes.node_units import Facts, Start, Unit, Units
+from rebsync.reverse.nodes.node_units import Start, Unit, UnitFacts, Units
 from rebsync.reverse.nodes.node_unmodelled import note_unmodelled
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.nodes.node_views import all_units
@@ -66,7 +66,7 @@ def unit_of_time(files: Mapping[str, Source]) -> Fraction:
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class CppNodes:
     """The nodes of a package's C++ before their bodies are read; `rebecs` are those that start."""
 
     programs: tuple[Program, ...]
@@ -96,7 +96,7 @@ class NodeSystem:
     generated: bool = False
     _states: dict[str, State] = field(default_factory=dict)
 
-    def find(self) -> Found | None:
+    def find(self) -> CppNodes | None:
         """The nodes without their bodies, to be wired with those of other languages."""
         found = self.programs
         if self.generated:
@@ -117,15 +117,15 @@ class NodeSystem:
         rebecs = instances(starts, self.launch, self.package, names, known_as)
         all_of = (*rebecs, *idle(units, starts, rebecs, names))
         part = Part(names, classes, all_of, served)
-        return Found(tuple(found), tuple(units), tuple(starts), types, common, rebecs, part)
+        return CppNodes(tuple(found), tuple(units), tuple(starts), types, common, rebecs, part)
 
-    def read(self, found: Found, joined: Joined) -> Nodes:
+    def read(self, found: CppNodes, joined: Joined) -> Nodes:
         """All of them, with whom they are `joined`; what has no place in the model is listed."""
         units, served = found.units, found.part.servers
-        reading = Units(self.code, Facts.of(self.graph), found.programs, self.generated)
-        reader = _Reader(self, found, reading, joined)
+        reading = Units(self.code, UnitFacts.of(self.graph), found.programs, self.generated)
+        reader = _ClassReader(self, found, reading, joined)
         read = tuple(c for u in units if self._is_wanted(u) for c in reader.classes_of(u))
-        listing = Listing(self.findings, found.types)
+        listing = FindingList(self.findings, found.types)
         others = found.programs
         if self.generated:
             others = tuple(p for p in others if not makes_generated(self.code, p))
@@ -170,16 +170,16 @@ class NodeSystem:
 
 
 @dataclass(slots=True)
-class _Reader:
+class _ClassReader:
     """Reads the classes of units, for each kind of their rebecs one."""
 
     system: NodeSystem
-    found: Found
+    found: CppNodes
     reading: Units
     joined: Joined
     times: Times = field(default_factory=lambda: Times(Fraction(1), Fraction(1)))
     _helpers: Helpers = field(default_factory=lambda: Helpers(()))
-    _parameters: dict[str, tuple[list[Given], int]] = field(default_factory=dict)
+    _parameters: dict[str, tuple[list[ConstructorParameter], int]] = field(default_factory=dict)
     # What starts, by the ids of the units, and by what runs it: see `Start.process`.
     _of_units: dict[int, list[Start]] = field(default_factory=dict)
     _together: dict[Hashable, list[Start]] = field(default_factory=dict)
@@ -362,7 +362,7 @@ class _Reader:
         return m.Rebec(m.Type(class_), instance.name, known, given, (), span)
 
 
-def _value(parameter: Given, index: int) -> bool | int | float | str:
+def _value(parameter: ConstructorParameter, index: int) -> bool | int | float | str:
     value = parameter.values[index] if index < len(parameter.values) else None
     if isinstance(value, bool | int | float | str):
         return value

@@ -18,7 +18,7 @@ _WORD = re.compile(r"[A-Za-z_0-9]+\Z")
 
 
 @dataclass(frozen=True)
-class Taken:
+class UsedNames:
     """The names of some functions and of their parameters, and those that their bodies declare."""
 
     code: Code

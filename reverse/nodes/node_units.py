@@ -27,7 +27,7 @@ from rebsync.reverse.graph import (
 )
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.nodes.node_components import components
-from rebsync.reverse.nodes.node_programs import Made, Objects, Program
+from rebsync.reverse.nodes.node_programs import NodeObject, Objects, Program
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 
@@ -84,7 +84,7 @@ class Start:
 
     unit: Unit
     program: Program | None
-    made: Made | None
+    made: NodeObject | None
     entry: CppFunction | None = None
     nodelet: str | None = None
 
@@ -95,20 +95,20 @@ class Start:
 
 
 @dataclass(frozen=True, slots=True)
-class Facts:
+class UnitFacts:
     """The facts of a graph by the paths of their files, and the nodelets among them."""
 
     by_path: Mapping[str, Sequence[Fact]]
     nodelets: frozenset[str]
 
     @staticmethod
-    def of(graph: Graph) -> Facts:
+    def of(graph: Graph) -> UnitFacts:
         by_path: dict[str, list[Fact]] = {}
         for fact in graph.facts:
             by_path.setdefault(fact.site.cpp.source.path, []).append(fact)
         nodelets = (f.nodelet for f in graph.facts if isinstance(f, NodeFact))
         names = frozenset(n.rpartition("::")[2] for n in nodelets if n is not None)
-        return Facts(by_path, names)
+        return UnitFacts(by_path, names)
 
     def of_files(self, paths: Collection[str]) -> list[Fact]:
         """Those of some files, in the order of the graph."""
@@ -120,7 +120,7 @@ class Units:
     """The units of some code, and where they start."""
 
     code: Code
-    facts: Facts
+    facts: UnitFacts
     programs: tuple[Program, ...]
     generated: bool = False
     _owners: dict[int, str | None] = field(default_factory=dict)

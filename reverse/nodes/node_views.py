@@ -9,7 +9,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.files.packages import HEADERS
 from rebsync.reverse.graph import Graph
 from rebsync.reverse.nodes.node_programs import Program
-from rebsync.reverse.nodes.node_units import Facts, Start, Unit, Units
+from rebsync.reverse.nodes.node_units import Start, Unit, UnitFacts, Units
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import Cpp
 
@@ -22,7 +22,7 @@ def all_units(
     code: Code, graph: Graph, programs: tuple[Program, ...], generated: bool
 ) -> tuple[list[Unit], list[Start]]:
     """All units of some code, and where they start; the names of units are different."""
-    facts = Facts.of(graph)
+    facts = UnitFacts.of(graph)
     if not _is_ambiguous(code):
         return _renamed(*Units(code, facts, programs, generated).all())
     units: list[Unit] = []

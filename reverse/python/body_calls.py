@@ -10,25 +10,36 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync import precedence
 from rebsync.intervals import unsigned
-from rebsync.reverse.bodies.building import bare, binary, chosen, is_calm, tight
+from rebsync.reverse.bodies.building import bare, binary, chosen, is_calm, tight, whole_number
+from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
-from rebsync.reverse.python.body_scope import REAL, TRUTH, WHOLE, Value, literal, unknown
-from rebsync.reverse.python.py_index import arguments_of, last_name
+from rebsync.reverse.python.body_arguments import arguments
+from rebsync.reverse.python.body_effects import is_harmless, is_still
+from rebsync.reverse.python.body_scope import (
+    REAL,
+    TRUTH,
+    WHOLE,
+    Frame,
+    Nobody,
+    Value,
+    literal,
+    unknown,
+)
+from rebsync.reverse.python.py_callbacks import body_of
+from rebsync.reverse.python.py_index import Scope, arguments_of, has_splat, last_name
 from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.unknowns import Open
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.body_expressions import PyExpressions
+    from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
 
 _MOST = 64
 
 
-def called(reader: PyExpressions, node: Node) -> Value:
+def called(reader: BodyExpressionReader, node: Node) -> Value:
     """What a call gives."""
-    from rebsync.reverse.python.body_methods import value_of_method
-
     function = field(node, "function")
     own = reader.reading.function(function, reader.frame)
     if own is not None:
@@ -56,7 +67,7 @@ def _clocks() -> frozenset[str]:
     return libraries.names_of(Kind.CLOCK, result="seconds")
 
 
-def parameter(reader: PyExpressions, node: Node) -> Value:
+def parameter(reader: BodyExpressionReader, node: Node) -> Value:
     """The value of a parameter, as the node starts with it."""
     reading = reader.reading
     gives = last_name(field(node, "function")) in libraries.giving_parameters()
@@ -74,7 +85,9 @@ def parameter(reader: PyExpressions, node: Node) -> Value:
 # --- Python's own -------------------------------------------------------------------------------
 
 
-def _builtin(reader: PyExpressions, name: str, arguments: list[Node], node: Node) -> Value | None:
+def _builtin(
+    reader: BodyExpressionReader, name: str, arguments: list[Node], node: Node
+) -> Value | None:
     match name, arguments:
         case "bool", [only]:
             return Value(reader.condition(only), TRUTH)
@@ -113,7 +126,9 @@ def _as_number(value: Value) -> Value:
     return Value(chosen(value.expression, m.IntLiteral(1), m.IntLiteral(0)), WHOLE)
 
 
-def _better(reader: PyExpressions, name: str, best: Value, other: Value, node: Node) -> Value:
+def _better(
+    reader: BodyExpressionReader, name: str, best: Value, other: Value, node: Node
+) -> Value:
     """Of two numbers the lesser or greater; of equal ones Python takes the first."""
     calm = is_calm(best.expression) and is_calm(other.expression)
     if not calm or TRUTH in (best.kind, other.kind):
@@ -127,13 +142,15 @@ def _better(reader: PyExpressions, name: str, best: Value, other: Value, node: N
     return Value(chosen(binary(sign, two, one), two, one), kind)
 
 
-def _random(reader: PyExpressions, name: str, arguments: list[Node], node: Node) -> Value | None:
+def _random(
+    reader: BodyExpressionReader, name: str, arguments: list[Node], node: Node
+) -> Value | None:
     """A number drawn from some that are known."""
     span = reader.frame.span(node)
     match name, arguments:
         case "randint", [low, high]:
             bounds = [bare(reader.read(n).expression) for n in (low, high)]
-            first, last = (_number_of(b) for b in bounds)
+            first, last = (whole_number(b) for b in bounds)
             if first is None or last is None or not first <= last < first + _MOST:
                 return None
             options = tuple(literal(n) for n in range(first, last + 1))
@@ -148,20 +165,10 @@ def _random(reader: PyExpressions, name: str, arguments: list[Node], node: Node)
             return None
 
 
-def _number_of(expression: m.Expression) -> int | None:
-    match expression:
-        case m.IntLiteral(value):
-            return value
-        case m.Unary("-", m.IntLiteral(value)):
-            return -value
-        case _:
-            return None
-
-
 # --- time ---------------------------------------------------------------------------------------
 
 
-def units(reader: PyExpressions, node: Node) -> m.Expression:
+def units(reader: BodyExpressionReader, node: Node) -> m.Expression:
     """A time in seconds as a whole number of the model's units."""
     reading = reader.reading
     value = reading.instance.seconds(reading.values.value(node, reader.frame.scope))
@@ -175,3 +182,37 @@ def units(reader: PyExpressions, node: Node) -> m.Expression:
         why = f"{float(value):g} s is no multiple of the model's unit of time"
         raise Unread(reader.frame.span(node), why, "set time_unit in rebsync.toml")
     return m.IntLiteral(int(found))
+
+
+def value_of_method(reader: BodyExpressionReader, own: Scope, call: Node) -> Value:
+    """The value of a function that only computes it from what it is given."""
+    span = reader.frame.span(call)
+    body = body_of(own)
+    if is_still(reader.reading, own):
+        quiet = all(is_harmless(reader.reading, n, reader.frame) for n in _given(call))
+        if quiet and not (len(body) == 1 and body[0].type == "return_statement"):
+            raise Unknown(span, f'the model cannot know what "{own.name}" gives', "")
+    if len(body) != 1 or body[0].type != "return_statement" or own.decorators:
+        raise Unread(span, f'the value of "{own.name}" is not read')
+    inner = Frame(own, server=reader.frame.server)
+    for parameter, node, given in arguments(own, call, span):
+        if node is None or not given:
+            ways = reader.reading.values.ways(node, own) if node is not None else ()
+            inner.bound[parameter.name] = reader.reading.constant(ways) or Nobody()
+            continue
+        value = reader.read(node)
+        if not is_calm(value.expression):
+            raise Unread(span, f'the value of "{own.name}" is not read')
+        inner.bound[parameter.name] = value
+    returned = named(body[0])
+    if has_splat(call):
+        raise Unread(span, "what stars unpack into the arguments is not read")
+    if not returned or inner.scope.node.id in reader.running:
+        raise Unread(span, f'the value of "{own.name}" is not read')
+    running = (*reader.running, own.node.id)
+    return type(reader)(reader.reading, inner, reader.within, running).read(returned[0])
+
+
+def _given(call: Node) -> list[Node]:
+    plain, keywords = arguments_of(call)
+    return [*plain, *keywords.values()]

@@ -17,14 +17,14 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import SubscriptionFact, TimerFact
 from rebsync.reverse.nodes.node_bodies import takes_time, without_end
 from rebsync.reverse.nodes.node_names import Names
-from rebsync.reverse.nodes.node_servers import Carried, Server
+from rebsync.reverse.nodes.node_servers import ParameterField, Server
 from rebsync.reverse.nodes.node_starts import started_late
 from rebsync.reverse.nodes.node_tidying import tidy
-from rebsync.reverse.python.body_loops import Loop
 from rebsync.reverse.python.body_messages import PROBE
-from rebsync.reverse.python.body_methods import without_returns
-from rebsync.reverse.python.body_proof import Bodies, Proved, proved
+from rebsync.reverse.python.body_node_loops import Loop
+from rebsync.reverse.python.body_proof import ClassBodies, Proved, proved
 from rebsync.reverse.python.body_reading import Reading
+from rebsync.reverse.python.body_returns import without_returns
 from rebsync.reverse.python.body_scope import (
     TYPES,
     WHOLE,
@@ -50,12 +50,12 @@ _BEAT = (
 
 
 @dataclass(slots=True)
-class Served:
+class ReadServer:
     """A message server that was read: `ranges` are what its parameters can be."""
 
     name: str
     statements: tuple[m.Statement, ...]
-    parameters: tuple[Carried, ...] = ()
+    parameters: tuple[ParameterField, ...] = ()
     ranges: Mapping[str, Interval] = with_default(default_factory=dict)
     node: Node | None = None
 
@@ -66,7 +66,7 @@ class PyClass:
 
     reading: Reading
     constructor: tuple[m.Statement, ...] = ()
-    served: list[Served] = with_default(default_factory=list)
+    served: list[ReadServer] = with_default(default_factory=list)
     loops: list[Loop] = with_default(default_factory=list)
     types: dict[str, m.Type] = with_default(default_factory=dict)
     _proof: Proved | None = None
@@ -95,12 +95,12 @@ class PyClass:
     def _within(self, name: str) -> str:
         return f"{self.reading.unit.name}.{name}"
 
-    def _bodies(self) -> Bodies:
+    def _bodies(self) -> ClassBodies:
         reading = self.reading
         types = {n: t for n, t in self.types.items() if n not in reading.wide}
         for served in self.served:
             types |= {c.name: c.type for c in served.parameters}
-        return Bodies(
+        return ClassBodies(
             self.constructor,
             [(s.statements, s.ranges) for s in self.served],
             frozenset(reading.state),
@@ -120,7 +120,7 @@ class PyClass:
 
     # --- servers --------------------------------------------------------------------------------
 
-    def _server(self, server: Server, number: int) -> Served:
+    def _server(self, server: Server, number: int) -> ReadServer:
         reading = self.reading
         scope = reading.code.scopes[server.cpp.source.path, server.body.id]
         frame = Frame(scope, server=server.name)
@@ -144,30 +144,32 @@ class PyClass:
             again = _send(server.name, period)
             early = takes_time(m.Block(statements)) or without_returns(statements) != statements
             statements = (again, *statements) if early else (*statements, again)
-        return Served(server.name, statements, carried, ranges, scope.node)
+        return ReadServer(server.name, statements, carried, ranges, scope.node)
 
     def _body(self, reader: PyStatements, scope: Scope) -> tuple[m.Statement, ...]:
         if scope.kind == LAMBDA:
             return tuple(reader.lambda_(field(scope.node, "body")))
         return reader.body(body_of(scope))
 
-    def _carried(self, server: Server) -> Iterator[Carried]:
+    def _carried(self, server: Server) -> Iterator[ParameterField]:
         """The fields that the body reads, in the order of the message."""
         used = self.reading.learnt.used_of(self.reading.unit.name, server.name)
         for path, type_ in (self.reading.types.fields(server.type or "") or {}).items():
             if path not in used or type_ is None:
                 continue
             if not self.reading.learnt.is_open(self.reading.unit.name, server.name, path):
-                yield Carried(path, self.reading.parameter(path), type_)
+                yield ParameterField(path, self.reading.parameter(path), type_)
 
-    def _ranges(self, server: Server, carried: Sequence[Carried]) -> Iterator[tuple[str, Interval]]:
+    def _ranges(
+        self, server: Server, carried: Sequence[ParameterField]
+    ) -> Iterator[tuple[str, Interval]]:
         types = self.reading.types
         fields = types.fields(server.type or "") or {}
         for each in carried:
             if field_kind(each.type) == WHOLE:
                 yield each.name, bounds(fields, types.widths.get(server.type or "", {}), each.path)
 
-    def _loop(self, loop: Loop) -> Served:
+    def _loop(self, loop: Loop) -> ReadServer:
         """The server of a loop, which sends to itself after what it waits at its end."""
         frame = Frame(loop.frame.scope, bound=dict(loop.frame.bound), kept=loop.frame.kept)
         reader = PyStatements(
@@ -179,7 +181,7 @@ class PyClass:
             case (m.ExpressionStatement(m.Call(None, "delay", (time,))),):
                 statements, pause = statements[:-1], time
         again = m.ExpressionStatement(m.Call(m.Self(), loop.name, (), pause))
-        return Served(loop.name, _left(statements, again), node=loop.node)
+        return ReadServer(loop.name, _left(statements, again), node=loop.node)
 
     # --- the class ------------------------------------------------------------------------------
 
@@ -204,7 +206,7 @@ class PyClass:
             name, self._queue(), (*members, *servers), span=first.py.span(first.node)
         )
 
-    def _as_server(self, served: Served, variables: Mapping[str, m.Type]) -> m.MessageServer:
+    def _as_server(self, served: ReadServer, variables: Mapping[str, m.Type]) -> m.MessageServer:
         body = tidy(m.Block(tidied(_shown(served.statements), self.reading.made)), variables)
         parameters = tuple(m.Parameter(c.type, c.name) for c in served.parameters)
         py = self.reading.unit.module.py

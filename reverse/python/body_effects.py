@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
 from tree_sitter import Node
 
@@ -12,12 +11,14 @@ from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.tables.standard import LOCKS
 from rebsync.reverse.python.body_reading import Reading, nonlocals
 from rebsync.reverse.python.body_scope import Frame, Message, Own, Var
+from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_index import Scope, last_name
-from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.reverse.python.py_tree import field, nodes_in, text_of
 from rebsync.reverse.python.py_worth import Class, Function, Made, Value, Ways
 
 _LOCK = re.compile(LOCKS)
 _DEEPEST = 4
+HARMLESS_DECORATORS = frozenset({"staticmethod"})
 _WORDS = frozenset({"await", "yield", "named_expression"})
 
 
@@ -38,7 +39,7 @@ def is_lock(reading: Reading, node: Node, frame: Frame) -> bool:
 
 def is_harmless(reading: Reading, node: Node, frame: Frame) -> bool:
     """Whether evaluating an expression changes nothing of the model, and takes no time."""
-    return all(_is_one(reading, n, frame) for n in _all(node))
+    return all(_is_one(reading, n, frame) for n in nodes_in(node))
 
 
 def _is_one(reading: Reading, node: Node, frame: Frame) -> bool:
@@ -56,8 +57,6 @@ def _is_one(reading: Reading, node: Node, frame: Frame) -> bool:
         return False
     own = reading.function(function, frame)
     if own is not None:
-        from rebsync.reverse.python.body_methods import is_still
-
         return is_still(reading, own)
     ways = reading.values.ways(function, frame.scope)
     if not (all(is_quiet(reading, w) for w in ways) and _are_quiet(reading, name, function, ways)):
@@ -111,7 +110,7 @@ def is_quiet_body(reading: Reading, scope: Scope, depth: int) -> bool:
 def _is_quiet(reading: Reading, scope: Scope, depth: int) -> bool:
     if depth > _DEEPEST or scope.outer or nonlocals(scope):
         return False
-    return all(_is_quiet_node(reading, n, scope, depth) for n in _all(scope.node))
+    return all(_is_quiet_node(reading, n, scope, depth) for n in nodes_in(scope.node))
 
 
 def _is_quiet_node(reading: Reading, node: Node, scope: Scope, depth: int) -> bool:
@@ -205,9 +204,21 @@ def _is_looked_at(node: Node) -> bool:
     return True
 
 
-def _all(node: Node) -> Iterator[Node]:
-    waiting = [node]
-    while waiting:
-        current = waiting.pop()
-        yield current
-        waiting += current.named_children
+def is_still(reading: Reading, own: Scope) -> bool:
+    """Whether a function of the node changes nothing: it only computes what it gives."""
+    if not set(own.decorators) <= HARMLESS_DECORATORS:
+        return False
+    return is_quiet_body(reading, own, 0) and not any(
+        b.how in ("value", "augmented") and scope_of_binding(b, own)
+        for above in reading.unit.lineage
+        for of in above.attributes.values()
+        for b in of
+    )
+
+
+def scope_of_binding(binding: Binding, own: Scope) -> bool:
+    """Whether a binding stands in a function."""
+    return (
+        own.node.start_byte <= binding.node.start_byte
+        and binding.node.end_byte <= own.node.end_byte
+    )

@@ -12,23 +12,18 @@ from rebsync import model as m
 from rebsync import precedence
 from rebsync.intervals import INT32, Interval, unsigned
 from rebsync.records import dataclass
-from rebsync.reverse.analysis.needs import Need
-from rebsync.reverse.bodies.building import bare, binary, cast, chosen, is_calm, negated, tight
+from rebsync.reverse.bodies.building import bare, binary, chosen, is_calm, negated, tight
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import body_calls
 from rebsync.reverse.python.body_effects import is_harmless
+from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.body_floats import doubled, is_zero
-from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import (
     REAL,
     TRUTH,
     WHOLE,
-    Frame,
-    Meaning,
     Message,
-    Nobody,
-    Own,
     Pending,
     Value,
     Var,
@@ -36,8 +31,6 @@ from rebsync.reverse.python.body_scope import (
     unknown,
 )
 from rebsync.reverse.python.py_tree import field, named, number_of, text_of
-from rebsync.source import Span
-from rebsync.static.types import DOUBLE
 
 _POSITIVE = Interval(1, INT32.high)
 _COMPARES = frozenset({"<", ">", "<=", ">=", "==", "!=", "<>"})
@@ -48,13 +41,8 @@ _BITS = frozenset({"&", "|", "^"})
 
 
 @dataclass(eq=False, slots=True)
-class PyExpressions:
+class PyExpressions(BodyExpressionReader):
     """Reads the expressions of one run of a function."""
-
-    reading: Reading
-    frame: Frame
-    within: str
-    running: tuple[int, ...] = ()
 
     def read(self, node: Node) -> Value:
         """An expression; `Unknown` is raised where nobody knows its value."""
@@ -113,21 +101,6 @@ class PyExpressions:
         return binary("!=", value.expression, zero, self._span(node))
 
     # --- names ----------------------------------------------------------------------------------
-
-    def meaning(self, node: Node) -> tuple[Meaning, str]:
-        """What a name or attribute stands for, and the path of fields behind it."""
-        if node.type == "identifier":
-            return self.reading.name(text_of(node), node, self.frame), ""
-        if node.type != "attribute":
-            return Nobody(), ""
-        holder, name = field(node, "object"), text_of(field(node, "attribute"))
-        meaning, path = self.meaning(holder)
-        if isinstance(meaning, Own) and not path:
-            return self.reading.attribute(name, node, self.frame), ""
-        if isinstance(meaning, Message):
-            return meaning, f"{path}.{name}" if path else name
-        found = self.reading.constant(self.reading.values.ways(node, self.frame.scope))
-        return (found, "") if found is not None and isinstance(meaning, Nobody) else (Nobody(), "")
 
     def _place(self, node: Node) -> Value:
         meaning, path = self.meaning(node)
@@ -255,16 +228,6 @@ class PyExpressions:
                 "say which in its first line: #!/usr/bin/env python3",
             )
 
-    def real(self, value: Value, node: Node, what: str = "real") -> m.Expression:
-        """A number where the model is to compute with 64 bits."""
-        if value.kind == WHOLE:
-            self.need(value, node, what)
-            inner = bare(value.expression)
-            if isinstance(inner, m.IntLiteral):
-                return literal(float(inner.value))
-            return cast(DOUBLE, value.expression)
-        return cast(DOUBLE, value.expression) if value.single else value.expression
-
     # --- conditions -----------------------------------------------------------------------------
 
     def _logic(self, node: Node) -> Value:
@@ -323,34 +286,6 @@ class PyExpressions:
         return Value(chosen(asked, self.real(one, then), self.real(other, otherwise)), REAL)
 
     # --- needs ----------------------------------------------------------------------------------
-
-    def need(
-        self,
-        value: Value,
-        node: Node,
-        what: str = "",
-        within: Interval = INT32,
-        strict: str = "",
-    ) -> m.Expression:
-        """The value, of which the model must have the same number."""
-        if self._is_refused(node, what):
-            if strict:
-                raise Unread(self._span(node), strict)
-            raise unknown(self.frame, node, "a number that may be beyond its int")
-        self._noted(value.expression, node, what, within)
-        return value.expression
-
-    def _noted(self, expression: m.Expression, node: Node, what: str, within: Interval) -> None:
-        mark = (self.frame.py.source.path, node.start_byte, node.end_byte, what)
-        plain = bare(expression)
-        self.reading.needs.setdefault(id(plain), []).append(Need(plain, within, mark))
-
-    def _is_refused(self, node: Node, what: str) -> bool:
-        mark = (self.frame.py.source.path, node.start_byte, node.end_byte, what)
-        return self.reading.learnt.is_refused(mark)
-
-    def _span(self, node: Node) -> Span:
-        return self.frame.span(node)
 
 
 def _is_float(value: Value) -> bool:

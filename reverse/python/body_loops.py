@@ -8,44 +8,26 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import bare, binary
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python.body_effects import is_log
+from rebsync.reverse.python.body_node_loops import Loop, forever
 from rebsync.reverse.python.body_rounds import leaves_nothing
-from rebsync.reverse.python.body_scope import WHOLE, Frame, Key, Value
+from rebsync.reverse.python.body_scope import WHOLE, Key, Value
 from rebsync.reverse.python.py_index import arguments_of, last_name
 from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.static.types import INT
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.body_statements import PyStatements
+    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 
 _RANGES = ("builtins.range", "builtins.xrange")
 _APART = frozenset({"while_statement", "for_statement", "function_definition", "lambda"})
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Loop:
-    """A loop that keeps a node running, as the server that it becomes."""
-
-    name: str
-    node: Node
-    frame: Frame
-    running: tuple[int, ...]
-    only: tuple[str, ...]
-
-
-def forever(node: Node) -> bool:
-    """Whether a loop goes on for as long as the node runs."""
-    if node.type != "while_statement":
-        return False
-    return libraries.running().search(text_of(field(node, "condition"))) is not None
-
-
-def while_(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
+def while_(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]:
     """`while c:` as it is; of a node that starts, one that goes on for ever as a server."""
     span = reader.frame.span(node)
     if node.child_by_field_name("alternative") is not None:
@@ -67,7 +49,7 @@ def while_(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
     yield m.While(condition, body, (), span)
 
 
-def _spins(reader: PyStatements, node: Node) -> bool:
+def _spins(reader: BodyStatementReader, node: Node) -> bool:
     """Whether a loop does nothing but to serve, as `spin` does: for as long as the node runs."""
     if (
         libraries.only_running().fullmatch("".join(text_of(field(node, "condition")).split()))
@@ -131,7 +113,7 @@ def _follows(node: Node) -> bool:
     return False
 
 
-def _started(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
+def _started(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]:
     wish = reader.frame.scope.name
     name = reader.reading.server_name(node, wish if wish not in ("", "main") else "loop")
     reader.loops.append(Loop(name, node, reader.frame, reader.running, reader.only))
@@ -139,7 +121,7 @@ def _started(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
     yield m.ExpressionStatement(m.Call(m.Self(), name), (), reader.frame.span(node))
 
 
-def for_(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
+def for_(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]:
     """`for i in range(...)` as a loop of the model that counts."""
     span = reader.frame.span(node)
     target, over = field(node, "left"), field(node, "right")
@@ -171,14 +153,14 @@ def for_(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
     yield _counted(reader, node, variable, low, high, step)
 
 
-def _whole(reader: PyStatements, node: Node) -> m.Expression:
+def _whole(reader: BodyStatementReader, node: Node) -> m.Expression:
     value = reader.expressions.read(node)
     if value.kind != WHOLE:
         raise Unread(reader.frame.span(node), "a loop over other than whole numbers is not read")
     return reader.expressions.need(value, node, "range")
 
 
-def _step(reader: PyStatements, step: m.Expression, node: Node) -> int:
+def _step(reader: BodyStatementReader, step: m.Expression, node: Node) -> int:
     match step:
         case m.IntLiteral(value) if 0 < value < 1 << 16:
             return value
@@ -189,7 +171,7 @@ def _step(reader: PyStatements, step: m.Expression, node: Node) -> int:
 
 
 def _counted(
-    reader: PyStatements,
+    reader: BodyStatementReader,
     node: Node,
     variable: str,
     low: m.Expression,
@@ -219,7 +201,7 @@ def _counted(
     return m.For(declared, condition, (counts,), body, (), span)
 
 
-def _only_here(reader: PyStatements, node: Node, variable: str) -> bool:
+def _only_here(reader: BodyStatementReader, node: Node, variable: str) -> bool:
     """Whether a loop's variable is only read, and only in such loops over it."""
     scope = reader.frame.scope
     bindings = scope.names.get(variable, [])

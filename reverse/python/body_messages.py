@@ -29,13 +29,14 @@ from rebsync.reverse.python.body_scope import (
     field_kind,
     unknown,
 )
+from rebsync.reverse.python.body_variables import store
 from rebsync.reverse.python.py_index import arguments_of
 from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.source import NOWHERE
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.body_expressions import PyExpressions
-    from rebsync.reverse.python.body_statements import PyStatements
+    from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
+    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 
 _BEYOND = "a number that the field of the message may not hold, which Python refuses"
 PROBE = "probe"  # of statements that are only looked at: they are not in the model
@@ -44,7 +45,11 @@ Given = Mapping[str, Node]
 
 
 def field_of(
-    reader: PyExpressions, node: Node | None, type_: str, path: str, given: Given | None = None
+    reader: BodyExpressionReader,
+    node: Node | None,
+    type_: str,
+    path: str,
+    given: Given | None = None,
 ) -> Value:
     """What a field holds of the message that an expression gives; None: of a new one."""
     fields = reader.reading.types.fields(type_) or {}
@@ -60,7 +65,9 @@ def field_of(
     return _inside(reader, parts, kind, path, "")
 
 
-def _inside(reader: PyExpressions, parts: Given, kind: m.Type, path: str, above: str) -> Value:
+def _inside(
+    reader: BodyExpressionReader, parts: Given, kind: m.Type, path: str, above: str
+) -> Value:
     """A field by what a call is given: itself, or a message that it is in."""
     rest = path.removeprefix(above)
     first = rest.partition(".")[0]
@@ -75,7 +82,7 @@ def _inside(reader: PyExpressions, parts: Given, kind: m.Type, path: str, above:
     return field_of(reader, at, inner, rest.removeprefix(f"{first}."))
 
 
-def _of_place(reader: PyExpressions, node: Node, path: str) -> Value:
+def _of_place(reader: BodyExpressionReader, node: Node, path: str) -> Value:
     meaning, before = reader.meaning(node)
     if not isinstance(meaning, Message):
         raise unknown(reader.frame, node, f'"{text_of(node)}"')
@@ -83,7 +90,7 @@ def _of_place(reader: PyExpressions, node: Node, path: str) -> Value:
     return reader.reading.read_field(meaning, whole, node, reader.frame)
 
 
-def arguments_by_name(reader: PyExpressions, call: Node, fields: Fields) -> dict[str, Node]:
+def arguments_by_name(reader: BodyExpressionReader, call: Node, fields: Fields) -> dict[str, Node]:
     """What a call that makes a message gives to its fields, by their names."""
     plain, keywords = arguments_of(call)
     names = list(dict.fromkeys(path.partition(".")[0] for path in fields))
@@ -98,7 +105,7 @@ def arguments_by_name(reader: PyExpressions, call: Node, fields: Fields) -> dict
 # --- publishing ---------------------------------------------------------------------------------
 
 
-def published(reader: PyStatements, call: Node) -> Iterator[m.Statement] | None:
+def published(reader: BodyStatementReader, call: Node) -> Iterator[m.Statement] | None:
     """`pub.publish(...)` as sends to all that receive it; None for what is no such call."""
     function = field(call, "function")
     if function.type != "attribute":
@@ -113,7 +120,7 @@ def published(reader: PyStatements, call: Node) -> Iterator[m.Statement] | None:
 
 
 def _sends(
-    reader: PyStatements, call: Node, fact: PublisherFact, targets: tuple[PyTarget, ...]
+    reader: BodyStatementReader, call: Node, fact: PublisherFact, targets: tuple[PyTarget, ...]
 ) -> Iterator[m.Statement]:
     plain, keywords = arguments_of(call)
     span = reader.frame.span(call)
@@ -143,7 +150,7 @@ def _sends(
 
 
 def _checked(
-    reader: PyStatements, message: Node, type_: str, given: Given | None
+    reader: BodyStatementReader, message: Node, type_: str, given: Given | None
 ) -> Iterator[m.Statement]:
     """Fields that nobody gets must hold what they are given as well: statements to look at."""
     if given is None and reader.reading.message_type(message, reader.frame) is None:
@@ -161,7 +168,7 @@ def _checked(
         yield m.ExpressionStatement(found, (m.Annotation(PROBE),))
 
 
-def _is_message(reader: PyStatements, node: Node, type_: str) -> bool:
+def _is_message(reader: BodyStatementReader, node: Node, type_: str) -> bool:
     """Whether a message is published, not the value of its only field."""
     made = reader.reading.message_type(node, reader.frame)
     if made is not None:
@@ -179,7 +186,7 @@ def _is_message(reader: PyStatements, node: Node, type_: str) -> bool:
 
 
 def _argument(
-    reader: PyStatements,
+    reader: BodyStatementReader,
     message: Node,
     type_: str,
     path: str,
@@ -203,7 +210,7 @@ def _argument(
 
 
 def as_field(
-    reader: PyExpressions, value: Value, type_: str, path: str, node: Node
+    reader: BodyExpressionReader, value: Value, type_: str, path: str, node: Node
 ) -> m.Expression:
     """A value as it is put into a field of a message, which takes no other kind."""
     fields = reader.reading.types.fields(type_) or {}
@@ -236,7 +243,7 @@ def _is_now(value: Value) -> bool:
 # --- messages in variables ----------------------------------------------------------------------
 
 
-def made(reader: PyStatements, message: Message, node: Node | None) -> Iterator[m.Statement]:
+def made(reader: BodyStatementReader, message: Message, node: Node | None) -> Iterator[m.Statement]:
     """A new message in a variable: the fields that something sets or reads get their values."""
     fields = reader.reading.types.fields(message.type) or {}
     given = arguments_by_name(reader.expressions, node, fields) if node is not None else {}
@@ -261,7 +268,7 @@ def made(reader: PyStatements, message: Message, node: Node | None) -> Iterator[
 
 
 def set_field(
-    reader: PyStatements, message: Message, path: str, value: Value, node: Node
+    reader: BodyStatementReader, message: Message, path: str, value: Value, node: Node
 ) -> Iterator[m.Statement]:
     """A field of a message in a variable gets a value."""
     key = field_key(message, path)
@@ -277,6 +284,4 @@ def set_field(
         reader.expressions.need(value, node, f"set {path}")
         reader.reading.wide.add(name)
     local = f"{message.key[2]}.{path}"
-    from rebsync.reverse.python.body_stores import store
-
     yield from store(reader, name, TYPES[kind], stored, message.is_state, local, node)

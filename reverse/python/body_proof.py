@@ -30,7 +30,7 @@ class Proved:
 
 
 @dataclass(frozen=True, slots=True)
-class Bodies:
+class ClassBodies:
     """All bodies of a class: the constructor's, and those of servers with their parameters.
 
     `sure` are the state variables that the constructor gives a value before anything is served.
@@ -44,7 +44,7 @@ class Bodies:
     needs: Mapping[int, list[Need]]
 
 
-def proved(bodies: Bodies) -> Proved:
+def proved(bodies: ClassBodies) -> Proved:
     """Looks at all bodies until it is known what their state variables can hold."""
     thresholds = sorted({*_literals(bodies), INT32.low, INT32.high, 0, -1, 1})
     ranges = _first(bodies)
@@ -64,7 +64,7 @@ def proved(bodies: Bodies) -> Proved:
 
 
 def _wider(
-    bodies: Bodies,
+    bodies: ClassBodies,
     ranges: Mapping[str, Interval],
     analysis: IntervalAnalysis,
     repeated: frozenset[str],
@@ -76,7 +76,7 @@ def _wider(
     return found
 
 
-def _first(bodies: Bodies) -> dict[str, Interval]:
+def _first(bodies: ClassBodies) -> dict[str, Interval]:
     """What state variables hold before anything is served: 0 where nothing has set them."""
     analysis = _analysis(bodies, {}, frozenset())
     analysis.body(bodies.constructor)
@@ -103,7 +103,7 @@ def _surely(statements: Sequence[m.Statement]) -> Iterator[str]:
 
 
 def _followed(
-    bodies: Bodies, ranges: Mapping[str, Interval], repeated: frozenset[str]
+    bodies: ClassBodies, ranges: Mapping[str, Interval], repeated: frozenset[str]
 ) -> IntervalAnalysis:
     """All bodies; of the constructor each value counts, as others may run in the middle of it."""
     analysis = _analysis(bodies, ranges, repeated)
@@ -117,7 +117,7 @@ def _followed(
 
 
 def _analysis(
-    bodies: Bodies, ranges: Mapping[str, Interval], repeated: frozenset[str]
+    bodies: ClassBodies, ranges: Mapping[str, Interval], repeated: frozenset[str]
 ) -> IntervalAnalysis:
     return IntervalAnalysis(
         dict.fromkeys(bodies.wide, _BITS),
@@ -130,7 +130,7 @@ def _analysis(
     )
 
 
-def _literals(bodies: Bodies) -> Iterator[int]:
+def _literals(bodies: ClassBodies) -> Iterator[int]:
     """The numbers that bounds are likely to stop at: those of the code, and their neighbours."""
     for node in _nodes(bodies):
         if isinstance(node, m.IntLiteral):
@@ -138,13 +138,13 @@ def _literals(bodies: Bodies) -> Iterator[int]:
                 yield from (sign * node.value - 1, sign * node.value, sign * node.value + 1)
 
 
-def _repeated(bodies: Bodies) -> frozenset[str]:
+def _repeated(bodies: ClassBodies) -> frozenset[str]:
     """The variables that loops and the cases of switches write: each value counts there."""
     several = (n for n in _nodes(bodies) if isinstance(n, m.While | m.For | m.Switch))
     return frozenset(name for node in several for name in written(node))
 
 
-def _nodes(bodies: Bodies) -> Iterator[m.Node]:
+def _nodes(bodies: ClassBodies) -> Iterator[m.Node]:
     for statements in (bodies.constructor, *(s for s, _ in bodies.servers)):
         for statement in statements:
             yield from m.walk(statement)

@@ -41,7 +41,7 @@ from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.py_index import CLASS, FUNCTION, MODULE, PyCode, Scope
 from rebsync.reverse.python.py_lookup import attribute
 from rebsync.reverse.python.py_tree import field, text_of
-from rebsync.reverse.python.py_values import Values
+from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import External, Function, Made, Ways
 from rebsync.reverse.python.py_worth import Instance as Object
 from rebsync.source import Source, Span
@@ -57,7 +57,7 @@ class Reading:
     """
 
     unit: PyUnit
-    values: Values
+    values: PyValues
     learnt: Learnt
     types: MessageTypes
     instance: Instance

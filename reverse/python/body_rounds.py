@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync.reverse.python.body_effects import is_harmless
+from rebsync.reverse.python.body_variables import forget
 from rebsync.reverse.python.py_index import last_name
 from rebsync.reverse.python.py_tree import field, named
 from rebsync.reverse.python.py_worth import Bound, External, Made
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.body_statements import PyStatements
+    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 
 # Calls whose results have an end, and do not wait for what comes.
 _FINITE = frozenset(
@@ -24,7 +25,7 @@ _PLACES = frozenset({"identifier", "attribute", "subscript", "list", "tuple", "d
 _IGNORED = frozenset({"pass_statement", "break_statement", "continue_statement", "comment"})
 
 
-def leaves_nothing(reader: PyStatements, loop: Node) -> bool:
+def leaves_nothing(reader: BodyStatementReader, loop: Node) -> bool:
     """Whether a `for` does nothing that the model has; what it sets is from then on unknown.
 
     It may go through its body any number of times, so that nothing in it may end the function,
@@ -33,14 +34,12 @@ def leaves_nothing(reader: PyStatements, loop: Node) -> bool:
     targets: list[Node] = []
     if not _is_plain_loop(reader, loop, targets):
         return False
-    from rebsync.reverse.python.body_stores import forget
-
     for target in targets:
         forget(reader, target)
     return True
 
 
-def _is_plain_loop(reader: PyStatements, loop: Node, targets: list[Node]) -> bool:
+def _is_plain_loop(reader: BodyStatementReader, loop: Node, targets: list[Node]) -> bool:
     if loop.child_by_field_name("alternative") is not None:
         return False
     targets.append(field(loop, "left"))
@@ -52,7 +51,7 @@ def _is_plain_loop(reader: PyStatements, loop: Node, targets: list[Node]) -> boo
     )
 
 
-def _ends(reader: PyStatements, over: Node) -> bool:
+def _ends(reader: BodyStatementReader, over: Node) -> bool:
     """Whether what is gone through is there at once, as far as it is seen."""
     if over.type == "call":
         inner = field(over, "function")
@@ -65,11 +64,11 @@ def _ends(reader: PyStatements, over: Node) -> bool:
     return not any(isinstance(w, External | Bound | Made) for w in ways)
 
 
-def _are_plain(reader: PyStatements, nodes: list[Node], targets: list[Node]) -> bool:
+def _are_plain(reader: BodyStatementReader, nodes: list[Node], targets: list[Node]) -> bool:
     return all(_is_plain(reader, node, targets) for node in nodes)
 
 
-def _is_plain(reader: PyStatements, node: Node, targets: list[Node]) -> bool:
+def _is_plain(reader: BodyStatementReader, node: Node, targets: list[Node]) -> bool:
     """Whether a statement does nothing but to set variables; these are put into `targets`."""
     match node.type:
         case _ if node.type in _IGNORED:
@@ -92,7 +91,7 @@ def _is_plain(reader: PyStatements, node: Node, targets: list[Node]) -> bool:
             return False
 
 
-def _is_value(reader: PyStatements, node: Node, targets: list[Node]) -> bool:
+def _is_value(reader: BodyStatementReader, node: Node, targets: list[Node]) -> bool:
     if node.type in ("assignment", "augmented_assignment"):
         targets.append(field(node, "left"))
     return is_harmless(reader.reading, node, reader.frame)

@@ -18,10 +18,10 @@ from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import Class
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.body_statements import PyStatements
+    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 
 
-def asked(reader: PyStatements, call: Node) -> Iterator[m.Statement] | None:
+def asked(reader: BodyStatementReader, call: Node) -> Iterator[m.Statement] | None:
     """The statements of a call to the client library; None for any other call."""
     found = reader.reading.fact(call, reader.frame)
     if found is not None:
@@ -41,20 +41,22 @@ def asked(reader: PyStatements, call: Node) -> Iterator[m.Statement] | None:
     return _started(reader, call, name) if reader.frame.is_start else None
 
 
-def delay(time: m.Expression, reader: PyStatements, node: Node) -> m.Statement:
+def delay(time: m.Expression, reader: BodyStatementReader, node: Node) -> m.Statement:
     """`delay(t);`"""
     span = reader.frame.span(node)
     return m.ExpressionStatement(m.Call(None, "delay", (time,), span=span), (), span)
 
 
-def send(server: str, period: int, node: Node, reader: PyStatements) -> m.Statement:
+def send(server: str, period: int, node: Node, reader: BodyStatementReader) -> m.Statement:
     """`self.server() after(period);`"""
     after = m.IntLiteral(period) if period else None
     span = reader.frame.span(node)
     return m.ExpressionStatement(m.Call(m.Self(), server, (), after, span=span), (), span)
 
 
-def _fact(reader: PyStatements, call: Node, number: int, fact: object) -> Iterator[m.Statement]:
+def _fact(
+    reader: BodyStatementReader, call: Node, number: int, fact: object
+) -> Iterator[m.Statement]:
     span = reader.frame.span(call)
     match fact:
         case TimerFact():
@@ -74,7 +76,7 @@ def _fact(reader: PyStatements, call: Node, number: int, fact: object) -> Iterat
             return
 
 
-def _started(reader: PyStatements, call: Node, name: str) -> Iterator[m.Statement] | None:
+def _started(reader: BodyStatementReader, call: Node, name: str) -> Iterator[m.Statement] | None:
     """What only starts the node, or lets it run."""
     function = field(call, "function")
     last = last_name(function)
@@ -107,14 +109,14 @@ def _started(reader: PyStatements, call: Node, name: str) -> Iterator[m.Statemen
     return None
 
 
-def _exit(reader: PyStatements, given: list[Node]) -> Iterator[m.Statement]:
+def _exit(reader: BodyStatementReader, given: list[Node]) -> Iterator[m.Statement]:
     """`sys.exit(main())`: what it is given runs, and nothing after it."""
     for node in given:
         yield from reader.expression(node)
     reader.is_over = True
 
 
-def _bind_object(reader: PyStatements, call: Node) -> None:
+def _bind_object(reader: BodyStatementReader, call: Node) -> None:
     """The variable that the object is put into stands for it."""
     from rebsync.reverse.python.body_scope import Own
 

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.python.body_loops import Loop
 from rebsync.reverse.python.body_methods import kept_names
+from rebsync.reverse.python.body_node_loops import Loop
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import (
     OTHER,

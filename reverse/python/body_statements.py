@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import field as with_default
 
 from tree_sitter import Node
 
@@ -12,14 +11,21 @@ from rebsync.records import dataclass
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
-from rebsync.reverse.python import body_loops, body_messages, body_methods, body_setup, body_stores
+from rebsync.reverse.python import (
+    body_loops,
+    body_messages,
+    body_methods,
+    body_setup,
+    body_stores,
+    body_variables,
+)
 from rebsync.reverse.python.body_effects import is_harmless, is_lock, is_log
-from rebsync.reverse.python.body_expressions import PyExpressions, short
-from rebsync.reverse.python.body_reading import Reading
+from rebsync.reverse.python.body_expressions import short
+from rebsync.reverse.python.body_returns import always_leaves
 from rebsync.reverse.python.body_scope import (
-    Frame,
     Pending,
 )
+from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.statements import UNREADABLE
 
@@ -35,32 +41,19 @@ LACKING = m.Empty((m.Annotation(UNREADABLE),))
 
 
 @dataclass(eq=False, slots=True)
-class PyStatements:
+class PyStatements(BodyStatementReader):
     """Reads the body of one function, and what stands in it in the place of calls.
 
     `running` are the functions around; `loops` are the loops that keep the node running. With
     `only` what mentions none of these words has nothing to do with the node.
     """
 
-    reading: Reading
-    frame: Frame
-    within: str
-    root: Node
-    running: tuple[int, ...] = ()
-    loops: list[body_loops.Loop] = with_default(default_factory=list)
-    only: tuple[str, ...] = ()
-    is_over: bool = False
-
-    @property
-    def expressions(self) -> PyExpressions:
-        return PyExpressions(self.reading, self.frame, self.within, self.running)
-
     def body(self, nodes: Sequence[Node]) -> tuple[m.Statement, ...]:
         """All of a body, behind the locals that it must declare first."""
         self.reading.bodies.add(self.frame.scope.node.id)
         found = self.statements(nodes)
         first = [
-            body_stores.declared(name, type_, None) for name, type_ in self.frame.hoisted.items()
+            body_variables.declared(name, type_, None) for name, type_ in self.frame.hoisted.items()
         ]
         self.frame.hoisted.clear()
         return (*first, *found)
@@ -106,7 +99,7 @@ class PyStatements:
         """Of what a statement sets that is not read nothing is known."""
         for inner in _inside(node):
             if inner.type in ("assignment", "augmented_assignment"):
-                body_stores.forget(self, field(inner, "left"))
+                body_variables.forget(self, field(inner, "left"))
 
     # --- kinds of statements --------------------------------------------------------------------
 
@@ -137,7 +130,7 @@ class PyStatements:
                 yield m.ExpressionStatement(m.Call(None, "assertion", (asked,)), (), span)
             case "delete_statement":
                 for inner in named(node):
-                    body_stores.forget(self, inner)
+                    body_variables.forget(self, inner)
             case "raise_statement":
                 raise Unread(span, "an exception ends the callback: the model has none")
             case _:
@@ -211,15 +204,6 @@ class PyStatements:
             self.frame.assigned &= after
         return m.If(condition, then, otherwise, (), self.frame.span(node))
 
-    def block(self, node: Node) -> m.Block:
-        """The statements of a branch or loop."""
-        self.frame.depth += 1
-        try:
-            found = self.statements(named(node))
-        finally:
-            self.frame.depth -= 1
-        return m.Block(found, span=self.frame.span(node))
-
     def _try(self, node: Node) -> Iterator[m.Statement]:
         """What is read exactly raises nothing, so that nothing else of the statement runs."""
         findings = self.reading.findings
@@ -273,19 +257,6 @@ class PyStatements:
                 why = "what entering and leaving this does is not known"
                 raise Unread(self.frame.span(node), why)
         yield from self.statements(named(field(node, "body")))
-
-
-def always_leaves(statement: m.Statement) -> bool:
-    """Whether what follows a statement does not run after it."""
-    match statement:
-        case m.Return() | m.Break() | m.Continue():
-            return True
-        case m.Block(statements):
-            return any(map(always_leaves, statements))
-        case m.If(_, then, otherwise) if otherwise is not None:
-            return always_leaves(then) and always_leaves(otherwise)
-        case _:
-            return False
 
 
 def _inside(node: Node) -> Iterator[Node]:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import body_messages, body_setup
@@ -17,20 +16,17 @@ from rebsync.reverse.python.body_expressions import short
 from rebsync.reverse.python.body_reading import field_key
 from rebsync.reverse.python.body_scope import (
     OTHER,
-    REAL,
-    TYPES,
-    WHOLE,
     Message,
-    Value,
     Var,
 )
+from rebsync.reverse.python.body_variables import change, forget, give
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.body_statements import PyStatements
+    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 
 
-def assignment(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
+def assignment(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]:
     """`target = value`; several targets get it from left to right."""
     targets = [field(node, "left")]
     value = node.child_by_field_name("right")
@@ -50,7 +46,9 @@ def assignment(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
         yield from _assigned(reader, target, value, node)
 
 
-def _assigned(reader: PyStatements, target: Node, value: Node, node: Node) -> Iterator[m.Statement]:
+def _assigned(
+    reader: BodyStatementReader, target: Node, value: Node, node: Node
+) -> Iterator[m.Statement]:
     if target.type in ("pattern_list", "tuple_pattern", "list_pattern"):
         yield from _unpacked(reader, target, value, node)
         return
@@ -77,7 +75,7 @@ def _assigned(reader: PyStatements, target: Node, value: Node, node: Node) -> It
             yield from _field(reader, meaning, path, value, node)
         case Message() if path:
             outside(reader, value, node)
-            _change(reader, meaning, path)
+            change(reader, meaning, path)
         case Message(key):
             learnt.join(key, OTHER)
             outside(reader, value, node)
@@ -85,7 +83,7 @@ def _assigned(reader: PyStatements, target: Node, value: Node, node: Node) -> It
             outside(reader, value, node)
 
 
-def _is_changed(reader: PyStatements, *names: Node) -> bool:
+def _is_changed(reader: BodyStatementReader, *names: Node) -> bool:
     """Whether code sets fields of what has one of some names, other than the object itself."""
     holders = {text_of(name) for name in names} - {reader.frame.scope.self_name, "self"}
     code = reader.reading.code
@@ -93,14 +91,7 @@ def _is_changed(reader: PyStatements, *names: Node) -> bool:
     return any(holder.partition("[")[0] in holders for s in scopes for holder, _ in s.stores)
 
 
-def _change(reader: PyStatements, message: Message, path: str) -> None:
-    """A field of a message that came in is set: from its start nobody knows what it holds."""
-    for each in reader.reading.types.fields(message.type) or {}:
-        if each == path or each.startswith(f"{path}."):
-            reader.reading.learnt.leave_open(reader.reading.unit.name, message.server, each)
-
-
-def outside(reader: PyStatements, value: Node, node: Node) -> None:
+def outside(reader: BodyStatementReader, value: Node, node: Node) -> None:
     """A value that goes where the model has nothing."""
     if is_harmless(reader.reading, value, reader.frame):
         return
@@ -108,7 +99,7 @@ def outside(reader: PyStatements, value: Node, node: Node) -> None:
 
 
 def _variable(
-    reader: PyStatements, variable: Var, target: Node, value: Node, node: Node, since: int
+    reader: BodyStatementReader, variable: Var, target: Node, value: Node, node: Node, since: int
 ) -> Iterator[m.Statement]:
     before = reader.reading.extent
     try:
@@ -122,50 +113,8 @@ def _variable(
     yield from give(reader, variable, text_of(target), read, node)
 
 
-def give(
-    reader: PyStatements, variable: Var, local: str, read: Value, node: Node
-) -> Iterator[m.Statement]:
-    """A variable gets a value."""
-    reader.reading.learnt.join(variable.key, read.kind)
-    if read.mixed:
-        reader.reading.learnt.mix(variable.key)
-    kind = reader.reading.learnt.kind(variable.key)
-    if kind is None or kind == OTHER:
-        if not is_calm(read.expression):
-            raise Unread(reader.frame.span(node), "its value has effects, and it is of no type")
-        return
-    stored = read.expression
-    if kind == REAL:
-        stored = reader.expressions.real(read, node)
-    elif kind == WHOLE:
-        reader.reading.wide.add(variable.name)
-        reader.reading.places[variable.name] = reader.frame.py.source, reader.frame.span(node)
-    yield from store(reader, variable.name, TYPES[kind], stored, variable.is_state, local, node)
-
-
-def store(
-    reader: PyStatements,
-    name: str,
-    type_: m.Type,
-    value: m.Expression,
-    is_state: bool,
-    local: str,
-    node: Node,
-) -> Iterator[m.Statement]:
-    """A variable of the model gets a value; a local is declared with its first one."""
-    span = reader.frame.span(node)
-    reader.frame.assigned.add(local)
-    if not is_state and name not in reader.frame.declared:
-        reader.frame.declared.add(name)
-        if not reader.frame.depth:
-            yield declared(name, type_, value)
-            return
-        reader.frame.hoisted[name] = type_
-    yield m.ExpressionStatement(m.Assign("=", m.Name(name), value, span), (), span)
-
-
 def _field(
-    reader: PyStatements, message: Message, path: str, value: Node, node: Node
+    reader: BodyStatementReader, message: Message, path: str, value: Node, node: Node
 ) -> Iterator[m.Statement]:
     fields = reader.reading.types.fields(message.type) or {}
     type_ = fields.get(path)
@@ -185,7 +134,9 @@ def _field(
     yield from body_messages.set_field(reader, message, path, read, node)
 
 
-def _unpacked(reader: PyStatements, target: Node, value: Node, node: Node) -> Iterator[m.Statement]:
+def _unpacked(
+    reader: BodyStatementReader, target: Node, value: Node, node: Node
+) -> Iterator[m.Statement]:
     """`a, b = 1, 2`: where the values are plain, one after the other."""
     targets = named(target)
     values = named(value) if value.type in ("expression_list", "tuple") else []
@@ -199,7 +150,7 @@ def _unpacked(reader: PyStatements, target: Node, value: Node, node: Node) -> It
         forget(reader, inner)
 
 
-def augmented(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
+def augmented(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]:
     target, value = field(node, "left"), field(node, "right")
     operator = text_of(field(node, "operator")).removesuffix("=")
     meaning, path = reader.expressions.meaning(target)
@@ -216,36 +167,7 @@ def augmented(reader: PyStatements, node: Node) -> Iterator[m.Statement]:
         yield from give(reader, meaning, text_of(target), read, node)
     elif meaning.server:
         outside(reader, value, node)
-        _change(reader, meaning, path)
+        change(reader, meaning, path)
     else:
         body_messages.as_field(reader.expressions, read, meaning.type, path, node)
         yield from body_messages.set_field(reader, meaning, path, read, node)
-
-
-def forget(reader: PyStatements, target: Node) -> None:
-    """A variable gets a value that nobody knows."""
-    if target.type not in ("identifier", "attribute"):
-        for inner in named(target) if target.type.endswith(("list", "tuple", "pattern")) else []:
-            forget(reader, inner)
-        return
-    since = len(reader.reading.learnt.answers)
-    meaning, path = reader.expressions.meaning(target)
-    match meaning:
-        case Var(key):
-            reader.reading.learnt.join(key, OTHER)
-            reader.reading.learnt.settle(key, since)
-        case Message(key, _, type_, _, "") if path:
-            for each in reader.reading.types.fields(type_) or {}:
-                if each == path or each.startswith(f"{path}."):
-                    reader.reading.learnt.join(field_key(meaning, each), OTHER)
-        case Message() if path:
-            _change(reader, meaning, path)
-        case Message(key):
-            reader.reading.learnt.join(key, OTHER)
-        case _:
-            return
-
-
-def declared(name: str, type_: m.Type, value: m.Expression | None) -> m.Statement:
-    """`type name = value;`"""
-    return m.Local(m.Declaration(type_, (m.Declarator(name, value),)))

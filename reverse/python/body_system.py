@@ -30,7 +30,7 @@ from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import OTHER, Key, PyTarget, PyUnit
 from rebsync.reverse.python.body_started import NOTHING, Started, settings
 from rebsync.reverse.python.body_units import has_word, names_of, servers_of, units_of
-from rebsync.reverse.python.py_values import Values
+from rebsync.reverse.python.py_values import PyValues
 
 _MOST_ROUNDS = 60
 # Rebecs of a unit that are read alike, by their number.
@@ -55,7 +55,7 @@ class PyNodes:
 class PySystem:
     """Reads the nodes of a package; `second` are the model's units of time in one second."""
 
-    values: Values
+    values: PyValues
     graph: Graph
     types: MessageTypes
     unit_of_time: Fraction
@@ -80,7 +80,7 @@ class PySystem:
         apart = {i.name: settings(i, asked) for i in instances}
         joined = Joined.of([self.beside, Part(names, classes, instances, servers, apart)])
         times = Times.of(self.unit_of_time, joined.wiring.instances)
-        round_ = _Round(self, values, units, joined, served, times)
+        round_ = _ReadingRound(self, values, units, joined, served, times)
         read = round_.settled()
         wanted = [u for u in units if self._is_wanted(u)]
         found: list[m.ReactiveClass] = []
@@ -95,7 +95,7 @@ class PySystem:
         return PyNodes(tuple(found), rebecs, tuple(units), served, round_.said())
 
     def _classes(
-        self, unit: PyUnit, round_: _Round, read: Mapping[_Kind, PyClass]
+        self, unit: PyUnit, round_: _ReadingRound, read: Mapping[_Kind, PyClass]
     ) -> Iterator[m.ReactiveClass]:
         """The classes of a unit: several have what is listed once."""
         for number, (kind, class_) in enumerate((k, c) for k, c in read.items() if k[0] is unit):
@@ -127,11 +127,11 @@ class _Read:
 
 
 @dataclass(eq=False, slots=True)
-class _Round:
+class _ReadingRound:
     """Reads units, each once for every kind of its rebecs, until nothing is learnt any more."""
 
     system: PySystem
-    values: Values
+    values: PyValues
     units: Sequence[PyUnit]
     joined: Joined
     servers: Mapping[str, dict[int, Server]]

@@ -24,9 +24,9 @@ from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.python.body_scope import PyUnit
+from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_index import CLASS, LAMBDA, PyCode, Scope
-from rebsync.reverse.python.py_lookup import lineage
-from rebsync.reverse.python.py_values import Values
+from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.syntax.cpp_index import Code
 
 _GIVES = frozenset({"value", "augmented", "loop", "opaque"})
@@ -36,7 +36,7 @@ _THREE = re.compile(r"#!.*python3|^from __future__ import .*division|\bf[\"']", 
 
 
 def units_of(
-    values: Values,
+    values: PyValues,
     graph: Graph,
     is_people: Callable[[Fact], bool],
     taken: Collection[str] = (),
@@ -61,14 +61,14 @@ def units_of(
     return found
 
 
-def _family(values: Values, owner: Scope) -> tuple[Scope, ...]:
+def _family(values: PyValues, owner: Scope) -> tuple[Scope, ...]:
     if owner.kind != CLASS:
         return ()
     return tuple(s for s in lineage(values, owner) if isinstance(s, Scope))
 
 
 def _unit(
-    values: Values,
+    values: PyValues,
     owner: Scope,
     family: tuple[Scope, ...],
     together: Sequence[Fact],

@@ -15,30 +15,25 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.intervals import INT32, INTEGERS, Interval
 from rebsync.records import dataclass
-from rebsync.reverse.analysis.invariants import Body, Entry, failed
+from rebsync.reverse.analysis.invariants import Body, BodyStart, failed
 from rebsync.reverse.analysis.needs import Mark
 from rebsync.reverse.analysis.writes import own as hidden
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.sensors import list_unseen
 from rebsync.reverse.python.model_constants import constants_in, constants_of, enumerations_of
-from rebsync.reverse.python.model_expressions import Expressions, Names
-from rebsync.reverse.python.model_filled import Filling, fillings_of
-from rebsync.reverse.python.model_helpers import (
-    Helper,
-    called_in,
-    first_of,
-    own_name,
-    without_object,
-)
+from rebsync.reverse.python.model_expressions import Expressions
+from rebsync.reverse.python.model_filled import fillings_of
+from rebsync.reverse.python.model_helpers import called_in, first_of, own_name, without_object
 from rebsync.reverse.python.model_kinds import kind_of, literal_kind
+from rebsync.reverse.python.model_names import Filling, Helper, ModelNames
 from rebsync.reverse.python.model_overloads import resolved
 from rebsync.reverse.python.model_posts import own_posts
-from rebsync.reverse.python.model_roles import Roles, Sends, plain_name
+from rebsync.reverse.python.model_roles import PyRoles, PySends, plain_name
 from rebsync.reverse.python.model_silent import silent_in
 from rebsync.reverse.python.model_statements import Statements
 from rebsync.reverse.python.model_types import passed_on, type_of
-from rebsync.reverse.python.model_widths import Known, hint_of, wanted_of
+from rebsync.reverse.python.model_widths import WidthContext, hint_of, wanted_of
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import PyCode, Scope
 from rebsync.reverse.python.py_tree import field, named, text_of
@@ -62,7 +57,7 @@ class _Noted:
 
 
 @dataclass(eq=False)
-class Bodies:
+class ModelBodies:
     """Reads functions; `line` are a class and those above it, `roles` what members are for.
 
     `served` is the server of a function, if it serves one, `types` are the names of classes and
@@ -73,13 +68,13 @@ class Bodies:
     code: PyCode
     findings: Findings
     line: Callable[[Scope], list[Scope]]
-    roles: Callable[[Scope], Roles]
+    roles: Callable[[Scope], PyRoles]
     served: Callable[[Scope, Scope], str | None]
     types: frozenset[str]
     serving: Served
     fields: Mapping[str, Mapping[str, m.Type]]
     constants: Mapping[str, Interval]
-    known: dict[int, Names] = with_default(default_factory=dict)
+    known: dict[int, ModelNames] = with_default(default_factory=dict)
     passed: dict[int, Mapping[str, Sequence[m.Type | None]]] = with_default(default_factory=dict)
     noted: dict[int, list[_Noted]] = with_default(default_factory=dict)
 
@@ -118,7 +113,7 @@ class Bodies:
         said = function.node.child_by_field_name("return_type")
         result = (type_of(said) if said is not None else None) or m.Type("int")
         own = {reader.local(_plain(n)): t for n, t in self._taken(owner, function) if t is not None}
-        known = Known(
+        known = WidthContext(
             {**names.types, **own},
             names.results,
             self._passed_types(owner),
@@ -130,7 +125,7 @@ class Bodies:
         is_server = self.served(owner, function) is not None
         read = Body(
             reader.within.rpartition(".")[2],
-            Entry.BETWEEN if is_server else Entry.WITHIN,
+            BodyStart.BETWEEN if is_server else BodyStart.WITHIN,
             body.statements,
             known.types,
             [reader.local(_plain(n)) for n, _ in self._taken(owner, function)],
@@ -169,7 +164,7 @@ class Bodies:
             types = {p.name: p.type for p in each.parameters}
             statements = each.body.statements if each.body is not None else ()
             known = {**names.types, **types}
-            yield Body(each.name, Entry.FIRST, statements, known, types, names.results, cuts)
+            yield Body(each.name, BodyStart.FIRST, statements, known, types, names.results, cuts)
 
     def _passed_types(self, owner: Scope) -> Mapping[str, Sequence[m.Type | None]]:
         """What functions of the code take, those that send as well; of several the narrowest."""
@@ -256,15 +251,15 @@ class Bodies:
 
     # --- names ----------------------------------------------------------------------------------
 
-    def names(self, owner: Scope) -> Names:
+    def names(self, owner: Scope) -> ModelNames:
         """What the names in a class stand for."""
         if id(owner) not in self.known:
             self.known[id(owner)] = self._names(owner)
         return self.known[id(owner)]
 
-    def _names(self, owner: Scope) -> Names:
+    def _names(self, owner: Scope) -> ModelNames:
         variables: dict[str, str] = {}
-        sends: dict[str, Sends] = {}
+        sends: dict[str, PySends] = {}
         types: dict[str, m.Type] = {}
         constants = constants_in(self.code, owner.module) | enumerations_of(owner.module)
         for above in reversed(self.line(owner)):
@@ -278,10 +273,10 @@ class Bodies:
             own = {n: v for n, v in constants_of(above).items() if n not in above.attributes}
             constants |= {f"self.{name}": value for name, value in own.items()}
         types |= {hidden(name): type_ for name, type_ in types.items()}
-        names = Names(variables, sends, {}, constants=constants, types=types)
+        names = ModelNames(variables, sends, {}, constants=constants, types=types)
         return self._with_messages(owner, self._with_functions(owner, names))
 
-    def _with_functions(self, owner: Scope, names: Names) -> Names:
+    def _with_functions(self, owner: Scope, names: ModelNames) -> ModelNames:
         functions: dict[str, str] = {}
         servers: set[str] = set()
         results: dict[str, m.Type] = {}
@@ -316,7 +311,7 @@ class Bodies:
         )
 
     def _add_result(
-        self, results: dict[str, m.Type], name: str, function: Scope, names: Names
+        self, results: dict[str, m.Type], name: str, function: Scope, names: ModelNames
     ) -> None:
         said = function.node.child_by_field_name("return_type")
         found = type_of(said) if said is not None else result_of(function, _variables(names))
@@ -324,7 +319,7 @@ class Bodies:
         if found is not None:
             results[name] = found
 
-    def _with_messages(self, owner: Scope, names: Names) -> Names:
+    def _with_messages(self, owner: Scope, names: ModelNames) -> ModelNames:
         """The same with what publishers send, and what is posted."""
         imported = {
             name: text_of(b.value) if b.value is not None else ""
@@ -355,7 +350,7 @@ def result_of(function: Scope, variables: Callable[[str], m.Type | None]) -> m.T
     return m.Type("void") if not values else kinds.pop() if len(kinds) == 1 else None
 
 
-def _variables(names: Names) -> Callable[[str], m.Type | None]:
+def _variables(names: ModelNames) -> Callable[[str], m.Type | None]:
     """The types of attributes."""
     return lambda attribute: names.types.get(names.variables.get(attribute, ""))
 

@@ -17,7 +17,7 @@ from rebsync.reverse.python.model_types import call_parts
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expressions import Expressions
+    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 
 _LARGEST = 24  # parts of what is repeated where values are compared
 _MOST = 16  # elements that are said one by one
@@ -29,7 +29,7 @@ NO_LENGTH = 'an array of the model has no "{}" in Python: say its length as a nu
 
 
 def of_python(
-    reader: Expressions, node: Node, called: str, arguments: list[Node]
+    reader: ModelExpressionReader, node: Node, called: str, arguments: list[Node]
 ) -> m.Expression | None:
     """What a function of Python gives, as the model says it; None for another function.
 
@@ -76,7 +76,9 @@ def _is_cut_or_plain(node: Node) -> bool:
     return is_plain(node) or (called in _CUTS and all(map(is_plain, arguments)))
 
 
-def _looked_up(reader: Expressions, node: Node, key: Node, default: Node) -> m.Expression | None:
+def _looked_up(
+    reader: ModelExpressionReader, node: Node, key: Node, default: Node
+) -> m.Expression | None:
     """`{1: a, 2: b}.get(key, default)`, of numbers written out and what does nothing."""
     table = field(field(node, "function"), "object")
     pairs = [(field(p, "key"), field(p, "value")) for p in named(table) if p.type == "pair"]
@@ -95,7 +97,9 @@ def _looked_up(reader: Expressions, node: Node, key: Node, default: Node) -> m.E
     return grouped(node, found)
 
 
-def drawn(reader: Expressions, node: Node, called: str, arguments: list[Node]) -> m.Choice | None:
+def drawn(
+    reader: ModelExpressionReader, node: Node, called: str, arguments: list[Node]
+) -> m.Choice | None:
     """`random.choice([1, 2])` and `random.randint(1, 3)`; None for another call."""
     holder, _, name = called.rpartition(".")
     if holder != "random" or reader.names.imported.get("random") != "random":
@@ -121,7 +125,7 @@ def is_plain_list(node: Node) -> bool:
     return bool(named(node)) and all(map(is_plain, named(node)))
 
 
-def array_elements(reader: Expressions, node: Node) -> list[m.Expression] | None:
+def array_elements(reader: ModelExpressionReader, node: Node) -> list[m.Expression] | None:
     """The elements of a variable of the model that is an array of one dimension; else None."""
     found = _array(reader, node)
     if found is None:
@@ -130,12 +134,12 @@ def array_elements(reader: Expressions, node: Node) -> list[m.Expression] | None
     return [m.Index(read, m.IntLiteral(i)) for i in range(length)]
 
 
-def listed(reader: Expressions, node: Node) -> list[m.Expression]:
+def listed(reader: ModelExpressionReader, node: Node) -> list[m.Expression]:
     """The elements of a list, an array or a comprehension. Unread: nobody knows these."""
     return _certain(reader, node, "this")
 
 
-def _array(reader: Expressions, node: Node) -> tuple[m.Expression, int] | None:
+def _array(reader: ModelExpressionReader, node: Node) -> tuple[m.Expression, int] | None:
     if node.type not in ("identifier", "attribute"):
         return None
     name = text_of(node)
@@ -151,7 +155,7 @@ def _array(reader: Expressions, node: Node) -> tuple[m.Expression, int] | None:
 
 
 def _elements(
-    reader: Expressions, node: Node, called: str
+    reader: ModelExpressionReader, node: Node, called: str
 ) -> list[tuple[m.Expression, m.Expression | None]]:
     """Each value that something goes through, with the condition under which it is there."""
     if node.type == "set" and called not in _OF_SETS:
@@ -172,7 +176,7 @@ def _elements(
     return found
 
 
-def _certain(reader: Expressions, node: Node, called: str) -> list[m.Expression]:
+def _certain(reader: ModelExpressionReader, node: Node, called: str) -> list[m.Expression]:
     """Each value that something goes through. Unread: one may not be there."""
     found = _elements(reader, node, called)
     if any(condition is not None for _, condition in found):
@@ -181,7 +185,7 @@ def _certain(reader: Expressions, node: Node, called: str) -> list[m.Expression]
 
 
 def _comprehended(
-    reader: Expressions, node: Node
+    reader: ModelExpressionReader, node: Node
 ) -> Iterator[tuple[m.Expression, m.Expression | None]]:
     """`f(x) for x in values if condition`, of one loop and at most one condition."""
     body, *clauses = named(node)
@@ -214,7 +218,7 @@ def is_calm(node: Node) -> bool:
 _CALM = frozenset({"abs", "min", "max", "bool", "int8", "int16", "int32", "divide", "remainder"})
 
 
-def rows(reader: Expressions, node: Node, width: int) -> list[tuple[m.Expression, ...]]:
+def rows(reader: ModelExpressionReader, node: Node, width: int) -> list[tuple[m.Expression, ...]]:
     """What a loop gives its variables, round by round."""
     called = text_of(field(node, "function")) if node.type == "call" else ""
     arguments = named(field(node, "arguments")) if called else []
@@ -240,7 +244,7 @@ def rows(reader: Expressions, node: Node, width: int) -> list[tuple[m.Expression
 
 
 def _folded(
-    reader: Expressions,
+    reader: ModelExpressionReader,
     node: Node,
     called: str,
     given: Node,
@@ -258,7 +262,7 @@ def _folded(
 
 
 def _counted(
-    reader: Expressions,
+    reader: ModelExpressionReader,
     node: Node,
     called: str,
     value: m.Expression,
@@ -282,7 +286,7 @@ def _counted(
 
 
 def _extreme(
-    reader: Expressions, node: Node, called: str, values: list[m.Expression]
+    reader: ModelExpressionReader, node: Node, called: str, values: list[m.Expression]
 ) -> m.Expression:
     """The least or greatest value, of equal ones the first."""
     kinds = {reader.kind(value) for value in values}
@@ -296,7 +300,9 @@ def _extreme(
     return found
 
 
-def _best(reader: Expressions, node: Node, called: str, given: Node, key: Node) -> m.Expression:
+def _best(
+    reader: ModelExpressionReader, node: Node, called: str, given: Node, key: Node
+) -> m.Expression:
     """The first value of which a function of it is the least or greatest."""
     function = field(key, "value")
     parameters = function.child_by_field_name("parameters")
@@ -327,14 +333,14 @@ def _best(reader: Expressions, node: Node, called: str, given: Node, key: Node) 
     return found
 
 
-def _as_int(reader: Expressions, node: Node, read: m.Expression) -> m.Expression:
+def _as_int(reader: ModelExpressionReader, node: Node, read: m.Expression) -> m.Expression:
     if reader.kind(read) == m.Type("boolean"):
         return chosen(read, m.IntLiteral(1), m.IntLiteral(0))
     _assert_whole(reader, node, read)
     return read
 
 
-def _assert_whole(reader: Expressions, node: Node, read: m.Expression) -> None:
+def _assert_whole(reader: ModelExpressionReader, node: Node, read: m.Expression) -> None:
     if reader.kind(read) != m.Type("int"):
         raise reader.unread(node, "this is to be a whole number")
 

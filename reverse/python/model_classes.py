@@ -19,18 +19,18 @@ from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.own_parameters import Stored, with_own
-from rebsync.reverse.python.model_bodies import Bodies
+from rebsync.reverse.python.model_bodies import ModelBodies
 from rebsync.reverse.python.model_overloads import families
 from rebsync.reverse.python.model_plumbing import Plumbing, odd_at_top
 from rebsync.reverse.python.model_posts import learn_servers
 from rebsync.reverse.python.model_queues import length_of
-from rebsync.reverse.python.model_roles import EnvUse, Roles, Sends, plain_name, roles_of
+from rebsync.reverse.python.model_roles import EnvUse, PyRoles, PySends, plain_name, roles_of
 from rebsync.reverse.python.model_silent import silent_in
 from rebsync.reverse.python.model_types import class_name, markers_above, messages_of
+from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_index import PyCode, Scope, classes_in
-from rebsync.reverse.python.py_lookup import lineage
 from rebsync.reverse.python.py_tree import named, text_of
-from rebsync.reverse.python.py_values import Values
+from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.runtime_files import is_runtime_file
 
 # What the set-up of a server shows, whatever a marker says.
@@ -38,7 +38,7 @@ _SHOWN = frozenset({"priority", "globalPriority"}) | OFFERS
 
 
 @dataclass(eq=False)
-class Classes:
+class ModelClasses:
     """Reads the classes of some code that have a mailbox, and the interfaces of these.
 
     `messages` are the fields of the package's message types, by the names of these, `served`
@@ -52,10 +52,10 @@ class Classes:
     served: Served = with_default(default_factory=Served)
     fields: Mapping[str, Mapping[str, m.Type]] = with_default(default_factory=dict)
     constants: Mapping[str, Interval] = with_default(default_factory=dict)
-    roles: dict[int, Roles] = with_default(default_factory=dict)
+    roles: dict[int, PyRoles] = with_default(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self._values = Values(self.code)
+        self._values = PyValues(self.code)
         self._owners = [c for c in classes_in(self.code) if not is_runtime_file(c.py.source)]
         self._lines: dict[int, list[Scope]] = {}
         if not any("Mailbox(" in s.py.source.text for s in self.code.modules.values()):
@@ -81,9 +81,9 @@ class Classes:
         self._types = frozenset({*self.messages, *messages_of(self._owners), *own})
 
     @cached_property
-    def _bodies(self) -> Bodies:
+    def _bodies(self) -> ModelBodies:
         in_cpp = (carry(name, NO_PYTHON_CLASSES) for name in self.served.classes)
-        return Bodies(
+        return ModelBodies(
             self.code,
             self.findings,
             self.line,
@@ -147,7 +147,7 @@ class Classes:
         """The constants that classes read."""
         return (e for o in self._owners for e in self._of(o).env.values())
 
-    def _of(self, owner: Scope) -> Roles:
+    def _of(self, owner: Scope) -> PyRoles:
         if id(owner) not in self.roles:
             self.roles[id(owner)] = roles_of(self.code, owner)
         return self.roles[id(owner)]
@@ -174,7 +174,7 @@ class Classes:
         span = owner.py.span(owner.node)
         return m.Interface(class_name(owner.name), servers, extends, _annotations(owner), span)
 
-    def _is_lost(self, sends: Sends) -> bool:
+    def _is_lost(self, sends: PySends) -> bool:
         """Whether a message goes to a server that no subscription takes messages to."""
         message, _, key = sends.server.partition(" ")
         posted = {server for roles in self.roles.values() for server in roles.posted}

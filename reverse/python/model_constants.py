@@ -12,6 +12,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
+from rebsync.reverse.bodies.building import whole_number
 from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_imports import module_named, module_of
 from rebsync.reverse.python.py_index import CLASS, PyCode, Scope
@@ -239,7 +240,7 @@ def _whole(node: Node, known: Constants) -> int | None:
         case "integer":
             return int(text_of(node), 0) if text_of(node)[-1] not in "lLjJ" else None
         case "identifier":
-            return _number(known.get(text_of(node)))
+            return whole_number(known.get(text_of(node)))
         case "parenthesized_expression" if len(named(node)) == 1:
             return _whole(named(node)[0], known)
         case "unary_operator" if text_of(field(node, "operator")) == "-":
@@ -251,16 +252,6 @@ def _whole(node: Node, known: Constants) -> int | None:
             if left is None or right is None or operator not in _OPERATORS:
                 return None
             return None if operator == "//" and not right else _OPERATORS[operator](left, right)
-        case _:
-            return None
-
-
-def _number(read: m.Expression | None) -> int | None:
-    match read:
-        case m.IntLiteral(value):
-            return value
-        case m.Unary("-", m.IntLiteral(value)):
-            return -value
         case _:
             return None
 

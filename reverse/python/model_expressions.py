@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from dataclasses import field as with_default
 from dataclasses import replace
 
 from tree_sitter import Node
@@ -13,25 +11,20 @@ from rebsync import model as m
 from rebsync.names import original
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import binary, located
-from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_formats as formats
 from rebsync.reverse.python import model_idioms as idioms
-from rebsync.reverse.python.model_cuts import Cuts
-from rebsync.reverse.python.model_filled import Filling
-from rebsync.reverse.python.model_helpers import Helper
-from rebsync.reverse.python.model_kinds import is_single, kind_of
-from rebsync.reverse.python.model_posts import Post
-from rebsync.reverse.python.model_roles import Sends
+from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
+from rebsync.reverse.python.model_helpers import arguments_for
+from rebsync.reverse.python.model_kinds import is_single
 from rebsync.reverse.python.model_sends import of_mailbox, sent
-from rebsync.reverse.python.model_silent import NOTHING, Silent
 from rebsync.reverse.python.model_types import (
     call_parts,
     in_double_quotes,
     only_breaks_lines,
     string_value,
 )
-from rebsync.reverse.python.py_tree import Py, field, named, text_of
+from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.terminal import with_escapes
 
 _CASTS = {
@@ -57,51 +50,14 @@ _NOT, _COMPARISON, _PRODUCT, _UNARY = 4, 5, 11, 12
 _TEMPORARY = re.compile(r"op\d+_\Z")
 
 
-@dataclass(frozen=True, slots=True)
-class Names:
-    """What the names of a class stand for: attributes, sends and functions, ancestors included.
-
-    `servers` are those of the functions that serve messages; `constants` what names of the module,
-    and those of the class behind `self.`, are bound to. `types` are those of variables, `results`
-    those of functions, by their names in the model; `properties` functions that are read.
-    `imported` are what names of the module are of, `helpers` functions without an object,
-    `fillings` what publishers send, `posts` what is posted, by the ids of the calls. `silent` is
-    what only people are told.
-    """
-
-    variables: Mapping[str, str]
-    sends: Mapping[str, Sends]
-    functions: Mapping[str, str]
-    servers: frozenset[str] = frozenset()
-    constants: Mapping[str, m.Expression] = with_default(default_factory=dict)
-    types: Mapping[str, m.Type] = with_default(default_factory=dict)
-    results: Mapping[str, m.Type] = with_default(default_factory=dict)
-    properties: frozenset[str] = frozenset()
-    imported: Mapping[str, str] = with_default(default_factory=dict)
-    helpers: Mapping[str, Helper] = with_default(default_factory=dict)
-    fillings: Mapping[str, Filling] = with_default(default_factory=dict)
-    posts: Mapping[int, Post] = with_default(default_factory=dict)
-    silent: Silent = NOTHING
-
-
 @dataclass(eq=False, slots=True)
-class Expressions:
+class Expressions(ModelExpressionReader):
     """Reads the expressions of one body; `locals` are its variables by their names in Python.
     `types` are those of the locals, by their names in the model; `bound` names that stand for an
     expression while a comprehension is read, `closures` what functions of the body give, which do
     nothing; `own` is what the object is called; `cuts` are the
     integers that are cut to the width that they have in the model.
     """
-
-    py: Py
-    names: Names
-    locals: dict[str, str] = with_default(default_factory=dict)
-    kept: dict[str, Node] = with_default(default_factory=dict)
-    types: dict[str, m.Type] = with_default(default_factory=dict)
-    bound: dict[str, m.Expression] = with_default(default_factory=dict)
-    closures: dict[str, Node] = with_default(default_factory=dict)
-    own: str = "self"
-    cuts: Cuts = with_default(default_factory=Cuts)
 
     def read(self, node: Node) -> m.Expression:
         """An expression. Unread: the model has none for it."""
@@ -130,15 +86,6 @@ class Expressions:
                 return self._call(node)
             case _:
                 return self._operation(node)
-
-    def unread(self, node: Node, why: str) -> Unread:
-        return Unread(self.py.span(node), why)
-
-    def kind(self, read: m.Expression) -> m.Type | None:
-        """The widest type of the kind of an expression's value, if it can be told."""
-        return kind_of(
-            read, lambda n: self.types.get(n, self.names.types.get(n)), self.names.results
-        )
 
     def condition(self, node: Node) -> m.Expression:
         """What must hold."""
@@ -369,7 +316,7 @@ class Expressions:
         """What a function of the code, of Python itself, or of its library gives."""
         helper = self.names.helpers.get(called)
         if helper is not None:
-            given = helper.given(self, node, arguments)
+            given = arguments_for(helper, self, node, arguments)
             call = m.Call(None, helper.name, given, span=self.py.span(node))
             return self.cuts.passing(call, called)
         drawn = builtins.drawn(self, node, called, arguments)

@@ -8,34 +8,20 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.records import dataclass
 from rebsync.reverse.python import model_idioms as idioms
+from rebsync.reverse.python.model_names import Filling
 from rebsync.reverse.python.model_types import call_parts
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expressions import Expressions
-    from rebsync.reverse.python.model_roles import Roles, Sends
+    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
+    from rebsync.reverse.python.model_roles import PyRoles, PySends
 
 _PUBLISH = "self._mailbox.publish"
 
 
-@dataclass(frozen=True, slots=True)
-class Filling:
-    """What a publisher sends: the type of its messages, and what each field is filled with.
-
-    `fields` are those of the parameters of the server, in their order, with what is put around the
-    value; `others` all else that is stored, by its field.
-    """
-
-    message: str
-    sends: Sends
-    fields: tuple[tuple[str, str], ...]
-    others: tuple[tuple[str, str], ...]
-
-
-def fillings_of(roles: Roles, sends: Mapping[str, Sends]) -> dict[str, Filling]:
+def fillings_of(roles: PyRoles, sends: Mapping[str, PySends]) -> dict[str, Filling]:
     """What each publisher of a class sends, by its attribute, from the function that does it."""
     found = {}
     for name, own in roles.sends.items():
@@ -81,7 +67,9 @@ def _around(value: Node) -> tuple[str, str]:
     return text_of(given[0]) if len(given) == 1 else text_of(value), called if given else ""
 
 
-def filled(reader: Expressions, node: Node, after: list[Node]) -> list[m.Statement] | None:
+def filled(
+    reader: ModelExpressionReader, node: Node, after: list[Node]
+) -> list[m.Statement] | None:
     """A message that is made here, filled in the next statements and published: one send.
 
     These are taken out of `after`. None: no message is made here. Unread: it is not sent as a send
@@ -106,7 +94,7 @@ def filled(reader: Expressions, node: Node, after: list[Node]) -> list[m.Stateme
     raise reader.unread(node, "fill and publish this message in statements one after the other")
 
 
-def _made(reader: Expressions, node: Node) -> tuple[str, str, dict[str, Node]] | None:
+def _made(reader: ModelExpressionReader, node: Node) -> tuple[str, str, dict[str, Node]] | None:
     """`msg = Message(field=value)`: the variable, the type, the values."""
     inner = named(node)[0] if node.type == "expression_statement" and named(node) else node
     if inner.type != "assignment" or field(inner, "left").type != "identifier":
@@ -122,14 +110,18 @@ def _made(reader: Expressions, node: Node) -> tuple[str, str, dict[str, Node]] |
     return text_of(field(inner, "left")), message, given
 
 
-def _assert_gone(reader: Expressions, node: Node, name: str, rest: list[Node]) -> None:
+def _assert_gone(reader: ModelExpressionReader, node: Node, name: str, rest: list[Node]) -> None:
     """Unread: a message that was sent is used again."""
     if any(name in idioms.names_in(statement) for statement in rest):
         raise reader.unread(node, "this message is used again when it is sent: make a new one")
 
 
 def _sent(
-    reader: Expressions, node: Node, message: str, given: dict[str, Node], arguments: list[Node]
+    reader: ModelExpressionReader,
+    node: Node,
+    message: str,
+    given: dict[str, Node],
+    arguments: list[Node],
 ) -> m.Statement:
     filling = reader.names.fillings.get(text_of(arguments[0]))
     if filling is None or filling.message != message:
@@ -156,7 +148,7 @@ def _is_plain(node: Node) -> bool:
     return idioms.is_plain(arguments[0] if called and len(arguments) == 1 else node)
 
 
-def _value(reader: Expressions, node: Node, around: str) -> m.Expression:
+def _value(reader: ModelExpressionReader, node: Node, around: str) -> m.Expression:
     """A value of a field, in what a generated function puts around it."""
     called, arguments = call_parts(node) or ("", [])
     if around and called == around and len(arguments) == 1:

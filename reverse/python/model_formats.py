@@ -12,7 +12,7 @@ from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.py_tree import text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expressions import Expressions
+    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 
 FORMATS = {
     "int8": "byte",
@@ -38,7 +38,7 @@ _UPDATES = {
 
 
 def updated(
-    reader: Expressions, target: m.Expression, called: str, arguments: list[Node]
+    reader: ModelExpressionReader, target: m.Expression, called: str, arguments: list[Node]
 ) -> m.Unary | m.Assign | None:
     """`x = int32.add(x, 1)` as `++x` or `x += e`; None for another value of the target `x`."""
     operator = _operator(called, arguments)
@@ -51,7 +51,7 @@ def updated(
 
 
 def operation(
-    reader: Expressions, node: Node, called: str, arguments: list[Node]
+    reader: ModelExpressionReader, node: Node, called: str, arguments: list[Node]
 ) -> m.Expression | None:
     """`int32.add(a, b)` as `a + b`, cut where the model would not; None for another call."""
     operator = _operator(called, arguments)
@@ -71,7 +71,7 @@ def _operator(called: str, arguments: list[Node]) -> str:
     return _UPDATES.get(method, "") if is_update else ""
 
 
-def is_kept(reader: Expressions, target: m.Expression, called: str) -> bool:
+def is_kept(reader: ModelExpressionReader, target: m.Expression, called: str) -> bool:
     """Whether a variable is of the type of a format, so that storing implies the conversion."""
     type_ = idioms.type_of(reader, target)
     return type_ is None or type_.name == FORMATS[called]

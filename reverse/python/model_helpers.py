@@ -11,41 +11,33 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.records import dataclass
 from rebsync.reverse.python.model_idioms import in_order
 from rebsync.reverse.python.model_logs import only_logs
+from rebsync.reverse.python.model_names import Helper
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_imports import module_named, module_of
-from rebsync.reverse.python.py_index import FUNCTION, Parameter, PyCode, Scope
+from rebsync.reverse.python.py_index import FUNCTION, PyCode, PyParameter, Scope
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expressions import Expressions
+    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 
 STATIC, OF_CLASS = "staticmethod", "classmethod"
 
 
-@dataclass(frozen=True, slots=True)
-class Helper:
-    """A function by its `name` in the model; `own` is what it calls the object that it is given."""
-
-    name: str
-    function: Scope
-    own: str = ""
-
-    def given(
-        self, reader: Expressions, node: Node, arguments: list[Node]
-    ) -> tuple[m.Expression, ...]:
-        """What it is given but for the object. Unread: the object is another one."""
-        if self.own:
-            if not arguments or text_of(arguments[0]) != reader.own:
-                raise reader.unread(node, f'"{self.name}" is given another object elsewhere')
-            arguments = arguments[1:]
-        names = tuple(p.name for p in parameters_of(self.function, self.own))
-        given = in_order(reader, node, arguments, names)
-        if len(given) != len(names) or any(a.type == "list_splat" for a in given):
-            raise reader.unread(node, f'"{self.name}" is called with other arguments')
-        return tuple(map(reader.read, given))
+def arguments_for(
+    helper: Helper, reader: ModelExpressionReader, node: Node, arguments: list[Node]
+) -> tuple[m.Expression, ...]:
+    """The arguments of a call but for the object. Unread: the object is another one."""
+    if helper.own:
+        if not arguments or text_of(arguments[0]) != reader.own:
+            raise reader.unread(node, f'"{helper.name}" is given another object elsewhere')
+        arguments = arguments[1:]
+    names = tuple(p.name for p in parameters_of(helper.function, helper.own))
+    given = in_order(reader, node, arguments, names)
+    if len(given) != len(names) or any(a.type == "list_splat" for a in given):
+        raise reader.unread(node, f'"{helper.name}" is called with other arguments')
+    return tuple(map(reader.read, given))
 
 
 def first_of(function: Scope) -> int:
@@ -53,7 +45,7 @@ def first_of(function: Scope) -> int:
     return 0 if not function.is_method or STATIC in function.decorators else 1
 
 
-def parameters_of(function: Scope, own: str = "") -> list[Parameter]:
+def parameters_of(function: Scope, own: str = "") -> list[PyParameter]:
     """The parameters of a function of the model, without the object."""
     return function.parameters[1 if own else first_of(function) :]
 

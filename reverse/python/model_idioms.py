@@ -15,7 +15,7 @@ from rebsync.reverse.python.model_kinds import is_floating
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expressions import Expressions
+    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 
 _COMPARED = frozenset({"<", "<=", ">", ">=", "==", "!="})
 _PLAIN = frozenset({"identifier", "attribute", "integer", "float", "true", "false", "none"})
@@ -38,7 +38,7 @@ _QUIET = frozenset(
 )
 
 
-def comparison(reader: Expressions, node: Node) -> m.Expression:
+def comparison(reader: ModelExpressionReader, node: Node) -> m.Expression:
     """`a <= b < c`, `a in (1, 2)` and `a not in (1, 2)`. Unread: the model has no such thing."""
     operands = named(node)
     operators = [" ".join(text_of(c).split()) for c in node.children_by_field_name("operators")]
@@ -66,7 +66,10 @@ def comparison(reader: Expressions, node: Node) -> m.Expression:
 
 
 def assert_alike(
-    reader: Expressions, node: Node, operator: str, sides: tuple[m.Expression, m.Expression]
+    reader: ModelExpressionReader,
+    node: Node,
+    operator: str,
+    sides: tuple[m.Expression, m.Expression],
 ) -> None:
     """Unread: what is compared are a number and a truth value, or which of two of these is less."""
     kinds = [reader.kind(side) for side in sides]
@@ -98,7 +101,7 @@ def is_plain(node: Node) -> bool:
     return node.type in _PLAIN
 
 
-def divided(reader: Expressions, node: Node, read: m.Binary) -> m.Binary:
+def divided(reader: ModelExpressionReader, node: Node, read: m.Binary) -> m.Binary:
     """`a / b` of numbers with a point, and `a // b` and `a % b` of integers that must turn out to
     be ones of which the model has the same. Unread: all else, which the model divides otherwise.
     """
@@ -112,7 +115,7 @@ def divided(reader: Expressions, node: Node, read: m.Binary) -> m.Binary:
     raise reader.unread(node, other_division(operator))
 
 
-def truth(reader: Expressions, read: m.Expression) -> m.Expression:
+def truth(reader: ModelExpressionReader, read: m.Expression) -> m.Expression:
     """What an integer says as a condition."""
     kind = reader.kind(read)
     if kind is None or kind.name != "int":
@@ -121,7 +124,7 @@ def truth(reader: Expressions, read: m.Expression) -> m.Expression:
 
 
 def sides(
-    reader: Expressions, node: Node, left: m.Expression, right: m.Expression
+    reader: ModelExpressionReader, node: Node, left: m.Expression, right: m.Expression
 ) -> tuple[m.Expression, m.Expression]:
     """The sides of `and` and `or` as conditions. Unread: Python gives an integer, not its truth."""
     asked = truth(reader, left), truth(reader, right)
@@ -145,7 +148,7 @@ def _is_condition(node: Node) -> bool:
     return above.child_by_field_name("condition") == node
 
 
-def kind_at(reader: Expressions, node: Node) -> m.Type | None:
+def kind_at(reader: ModelExpressionReader, node: Node) -> m.Type | None:
     """The kind of what is still to be read, as the types of locals are told."""
     divided = dict(reader.cuts.floored)
     found = reader.kind(reader.read(node))
@@ -154,14 +157,14 @@ def kind_at(reader: Expressions, node: Node) -> m.Type | None:
     return found
 
 
-def type_of(reader: Expressions, place: m.Expression) -> m.Type | None:
+def type_of(reader: ModelExpressionReader, place: m.Expression) -> m.Type | None:
     """The type of the variable that a place is, or is an element of."""
     name = array_of(place) or ""
     key = own(name) if is_own(place) else name
     return reader.types.get(key, reader.names.types.get(key))
 
 
-def check_copied(reader: Expressions, node: Node, read: m.Expression) -> None:
+def check_copied(reader: ModelExpressionReader, node: Node, read: m.Expression) -> None:
     """Raises `Unread` for an array that Python would only give another name."""
     if node.type == "parenthesized_expression" and len(named(node)) == 1:
         check_copied(reader, named(node)[0], read.inner if isinstance(read, m.Paren) else read)
@@ -174,7 +177,7 @@ def check_copied(reader: Expressions, node: Node, read: m.Expression) -> None:
         raise reader.unread(node, why)
 
 
-def _is_array(reader: Expressions, read: m.Expression) -> bool:
+def _is_array(reader: ModelExpressionReader, read: m.Expression) -> bool:
     """Whether an expression names an array, or one in an array."""
     type_, depth = type_of(reader, read), 0
     while isinstance(read, m.Index):
@@ -188,7 +191,7 @@ def _is_array(reader: Expressions, read: m.Expression) -> bool:
 
 
 def in_order(
-    reader: Expressions, node: Node, arguments: list[Node], parameters: tuple[str, ...]
+    reader: ModelExpressionReader, node: Node, arguments: list[Node], parameters: tuple[str, ...]
 ) -> list[Node]:
     """Arguments of which some are given by name, in the order of the parameters.
 
@@ -209,7 +212,7 @@ def in_order(
     return [*first, *values]
 
 
-def times(reader: Expressions, node: Node) -> dict[str, m.Expression]:
+def times(reader: ModelExpressionReader, node: Node) -> dict[str, m.Expression]:
     """When a send arrives and expires. Unread: it is told otherwise than by `When`."""
     if node.type == "identifier" and text_of(node) == "AT_ONCE":
         return {}
@@ -231,7 +234,7 @@ def times(reader: Expressions, node: Node) -> dict[str, m.Expression]:
 # --- statements ---------------------------------------------------------------------------------
 
 
-def augmented(reader: Expressions, node: Node) -> m.Expression:
+def augmented(reader: ModelExpressionReader, node: Node) -> m.Expression:
     """`x += e`. Unread: the model has no such operator, or Python means another one."""
     operator = text_of(field(node, "operator")).removesuffix("=")
     target = reader.read(field(node, "left"))
@@ -262,7 +265,7 @@ def names_in(node: Node) -> set[str]:
 
 
 def cases(
-    reader: Expressions, node: Node
+    reader: ModelExpressionReader, node: Node
 ) -> Iterator[tuple[list[m.Expression], tuple[str, Node | None], Node]]:
     """The values of each case of a `match` (none: all others), its guard, and the block of it.
 
@@ -286,14 +289,14 @@ def cases(
             raise reader.unread(clause, "this name is not that of what is compared all the time")
 
 
-def _lasts(reader: Expressions, subject: Node, name: str, block: Node) -> bool:
+def _lasts(reader: ModelExpressionReader, subject: Node, name: str, block: Node) -> bool:
     """Whether a name has the value of a local throughout a block, and is no other's."""
     stored = stored_in(block)
     is_free = name not in reader.locals and name not in reader.names.constants
     return is_free and subject.type == "identifier" and not stored & {name, text_of(subject)}
 
 
-def _values(reader: Expressions, pattern: Node) -> Iterator[m.Expression]:
+def _values(reader: ModelExpressionReader, pattern: Node) -> Iterator[m.Expression]:
     inner = named(pattern)
     if not inner and text_of(pattern) == "_":
         return
@@ -314,7 +317,9 @@ def _values(reader: Expressions, pattern: Node) -> Iterator[m.Expression]:
         is_below = False
 
 
-def rounds(reader: Expressions, node: Node) -> tuple[m.Expression, m.Expression, m.Expression]:
+def rounds(
+    reader: ModelExpressionReader, node: Node
+) -> tuple[m.Expression, m.Expression, m.Expression]:
     """Start, end and step of `range(...)`. Unread: they may change in the loop."""
     arguments = named(field(field(node, "right"), "arguments"))
     body = field(node, "body")
@@ -328,7 +333,7 @@ def rounds(reader: Expressions, node: Node) -> tuple[m.Expression, m.Expression,
     return start, read[1] if len(read) > 1 else read[0], step
 
 
-def is_literal(reader: Expressions, node: Node) -> bool:
+def is_literal(reader: ModelExpressionReader, node: Node) -> bool:
     """Whether an expression is the same at any time."""
     if node.type == "unary_operator":
         return is_literal(reader, field(node, "argument"))
@@ -337,7 +342,7 @@ def is_literal(reader: Expressions, node: Node) -> bool:
     )
 
 
-def _is_steady(reader: Expressions, node: Node, body: Node) -> bool:
+def _is_steady(reader: ModelExpressionReader, node: Node, body: Node) -> bool:
     """Whether a bound of a loop stays the same: a number, or a local that the loop leaves alone."""
     if node.type in ("unary_operator", "binary_operator", "parenthesized_expression"):
         return all(_is_steady(reader, n, body) for n in named(node))
@@ -348,7 +353,7 @@ def _is_steady(reader: Expressions, node: Node, body: Node) -> bool:
     return node.type == "integer" or text_of(node) in reader.names.constants
 
 
-def _calls_own(reader: Expressions, node: Node) -> bool:
+def _calls_own(reader: ModelExpressionReader, node: Node) -> bool:
     """Whether a block calls functions of the object that are no sends, and may store something."""
     if node.type == "call":
         holder, _, name = text_of(field(node, "function")).rpartition(".")

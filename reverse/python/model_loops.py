@@ -18,14 +18,14 @@ from rebsync.reverse.python.model_types import call_parts
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expressions import Expressions
-    from rebsync.reverse.python.model_statements import Statements
+    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
+    from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 
 # What leaves a round, or may be done after it.
 _LEAVING = frozenset({"break_statement", "continue_statement", "function_definition", "lambda"})
 
 
-def counted(reader: Statements, node: Node, name: str) -> m.For:
+def counted(reader: ModelStatementReader, node: Node, name: str) -> m.For:
     """`for i in range(...)`."""
     start, end, step = idioms.rounds(reader.expressions, node)
     body = _body(reader, node, name, m.Type("int"), ())
@@ -33,7 +33,7 @@ def counted(reader: Statements, node: Node, name: str) -> m.For:
 
 
 def through(
-    reader: Statements, node: Node, called: str, arguments: list[Node]
+    reader: ModelStatementReader, node: Node, called: str, arguments: list[Node]
 ) -> m.For | m.Block | None:
     """`enumerate`, `zip` and `reversed(range(...))`, and a tuple of numbers; None for others."""
     left, right = field(node, "left"), field(node, "right")
@@ -54,7 +54,7 @@ def through(
 
 
 def _numbered(
-    reader: Statements, node: Node, number: str, names: list[str], arrays: list[Node]
+    reader: ModelStatementReader, node: Node, number: str, names: list[str], arrays: list[Node]
 ) -> m.For:
     """A loop through several arrays at once; the variable `number` counts, if it has a name."""
     each_ = [builtins.array_elements(reader.expressions, a) for a in arrays]
@@ -76,7 +76,7 @@ def _numbered(
     return _for(reader, node, index, zero, m.IntLiteral(length), one, body)
 
 
-def _listed(reader: Statements, node: Node, name: str, values: list[Node]) -> m.For:
+def _listed(reader: ModelStatementReader, node: Node, name: str, values: list[Node]) -> m.For:
     """A loop over numbers, each in its turn."""
     read = [reader.expressions.read(v) for v in values]
     kinds = {reader.expressions.kind(e) for e in read}
@@ -93,7 +93,7 @@ def _listed(reader: Statements, node: Node, name: str, values: list[Node]) -> m.
     return _for(reader, node, index, zero, m.IntLiteral(count_), one, body)
 
 
-def _unrolled(reader: Statements, node: Node, names: list[str]) -> m.Block:
+def _unrolled(reader: ModelStatementReader, node: Node, names: list[str]) -> m.Block:
     """What a loop through values that are written out does, once for each of them."""
     body, expressions = field(node, "body"), reader.expressions
     stored = idioms.stored_in(body)
@@ -115,7 +115,7 @@ def _unrolled(reader: Statements, node: Node, names: list[str]) -> m.Block:
     return m.Block(tuple(statements), span=expressions.py.span(node))
 
 
-def _is_steady(expressions: Expressions, value: m.Expression) -> bool:
+def _is_steady(expressions: ModelExpressionReader, value: m.Expression) -> bool:
     """Whether only a store into a local changes a value."""
     is_local = isinstance(value, m.Name) and value.name in expressions.locals.values()
     return is_local or isinstance(value, m.IntLiteral | m.BoolLiteral)
@@ -131,7 +131,7 @@ def _names_in(node: Node) -> Iterator[Node]:
     return (n for n in _all_in(node) if n.type == "identifier")
 
 
-def _backwards(reader: Statements, node: Node, name: str, inner: Node) -> m.For:
+def _backwards(reader: ModelStatementReader, node: Node, name: str, inner: Node) -> m.For:
     """`for i in reversed(range(n))`, of numbers that count up by one."""
     called, arguments = call_parts(inner) or ("", [])
     if called != "range" or not 1 <= len(arguments) <= 2:
@@ -151,7 +151,7 @@ def _backwards(reader: Statements, node: Node, name: str, inner: Node) -> m.For:
 
 
 def _round(
-    reader: Statements,
+    reader: ModelStatementReader,
     node: Node,
     counting: list[tuple[str, m.Type]],
     index: str,
@@ -177,7 +177,7 @@ def _round(
     return replace(found, statements=(*declared, *found.statements))
 
 
-def each(reader: Statements, node: Node, name: str) -> m.For:
+def each(reader: ModelStatementReader, node: Node, name: str) -> m.For:
     """`for x in self._values` goes through an array of one dimension."""
     values = reader.expressions.read(field(node, "right"))
     is_whole = isinstance(values, m.Name | m.Member)
@@ -196,7 +196,7 @@ def each(reader: Statements, node: Node, name: str) -> m.For:
     return _for(reader, node, index, zero, end, one, body)
 
 
-def _assert_kept(reader: Statements, node: Node, array: Node) -> None:
+def _assert_kept(reader: ModelStatementReader, node: Node, array: Node) -> None:
     """Python goes on through the array that there was at the start. Unread: another is stored."""
     body, name = field(node, "body"), text_of(array)
     store = re.compile(rf"(?<![\w.]){re.escape(name)}(?:, [^\n=]+)?\s*=(?!=)")
@@ -212,7 +212,7 @@ def _assert_kept(reader: Statements, node: Node, array: Node) -> None:
         raise reader.expressions.unread(node, why)
 
 
-def _free(reader: Statements, node: Node, name: str) -> str:
+def _free(reader: ModelStatementReader, node: Node, name: str) -> str:
     """A name for the index of a loop, which nothing in it has."""
     taken = {*reader.expressions.locals.values(), *reader.expressions.names.types}
     taken |= {name, *idioms.stored_in(field(node, "body"))}
@@ -221,7 +221,11 @@ def _free(reader: Statements, node: Node, name: str) -> str:
 
 
 def _body(
-    reader: Statements, node: Node, name: str, type_: m.Type, first: tuple[m.Statement, ...]
+    reader: ModelStatementReader,
+    node: Node,
+    name: str,
+    type_: m.Type,
+    first: tuple[m.Statement, ...],
 ) -> m.Block:
     """The body of a loop over something, whose variable is known in it only."""
     body, known = field(node, "body"), reader.expressions.locals
@@ -236,7 +240,7 @@ def _body(
 
 
 def _for(
-    reader: Statements,
+    reader: ModelStatementReader,
     node: Node,
     index: str,
     start: m.Expression,
@@ -259,7 +263,7 @@ def _for(
     return m.For(declared, condition, (update,), body, span=span)
 
 
-def match(reader: Statements, node: Node) -> list[m.Statement]:
+def match(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     """`match` as the chain of conditions that it is."""
     subject = next(c for c in named(node) if c.type not in ("block", "case_clause"))
     branches: list[tuple[m.Expression | None, m.Block]] = []
@@ -281,7 +285,7 @@ def match(reader: Statements, node: Node) -> list[m.Statement]:
 
 
 def _guarded(
-    reader: Statements,
+    reader: ModelStatementReader,
     subject: Node,
     asked: m.Expression | None,
     guard: tuple[str, Node | None],

@@ -17,17 +17,17 @@ from rebsync.reverse.bodies.overloads import HINT, WHY, Served, plain, telling
 from rebsync.reverse.bodies.scope import Called, Variable
 from rebsync.reverse.bodies.scope import Scope as Meanings
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.python.model_roles import Roles, Sends
+from rebsync.reverse.python.model_roles import PyRoles, PySends
 from rebsync.reverse.python.model_types import class_name, type_of
 from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_tree import field, named
 from rebsync.static.types import is_floating, is_integer
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expressions import Expressions
+    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 
 
-def families(lines: Iterable[tuple[Scope, Iterable[Roles]]]) -> dict[str, dict[str, str]]:
+def families(lines: Iterable[tuple[Scope, Iterable[PyRoles]]]) -> dict[str, dict[str, str]]:
     """By class the servers by the types of their messages; with each those above, nearest first."""
     return {
         class_name(owner.name): {
@@ -37,7 +37,7 @@ def families(lines: Iterable[tuple[Scope, Iterable[Roles]]]) -> dict[str, dict[s
     }
 
 
-def resolved(served: Served, owner: Scope, sends: Sends, function: Scope) -> Sends:
+def resolved(served: Served, owner: Scope, sends: PySends, function: Scope) -> PySends:
     """A send by the name that the server has in the model, which its message type tells.
 
     With the types of what it takes, and those that other servers of the name take.
@@ -54,7 +54,7 @@ def resolved(served: Served, owner: Scope, sends: Sends, function: Scope) -> Sen
 
 
 def told(
-    reader: Expressions, node: Node, sends: Sends, values: tuple[m.Expression, ...]
+    reader: ModelExpressionReader, node: Node, sends: PySends, values: tuple[m.Expression, ...]
 ) -> tuple[m.Expression, ...]:
     """What is sent, by which the model chooses this server. Unread: the types are not known."""
     if not sends.rivals:

@@ -20,7 +20,7 @@ from rebsync.reverse.python.model_filled import made_of
 from rebsync.reverse.python.model_helpers import is_transparent
 from rebsync.reverse.python.model_parameters import declared_by, parameter_read
 from rebsync.reverse.python.model_posts import POST, Post, tells_arguments
-from rebsync.reverse.python.model_roles import OFFERING, Roles, Sends, field_read
+from rebsync.reverse.python.model_roles import OFFERING, PyRoles, PySends, field_read
 from rebsync.reverse.python.model_silent import Silent
 from rebsync.reverse.python.model_types import (
     call_parts,
@@ -79,7 +79,7 @@ class Plumbing:
     what is posted, by the ids of the calls, `types` those of fields; what is lost nobody takes in.
     """
 
-    roles: Roles
+    roles: PyRoles
     fields: Mapping[str, Sequence[str]]
     findings: Findings
     code: PyCode
@@ -87,7 +87,7 @@ class Plumbing:
     above: Sequence[Scope]
     posts: Mapping[int, Post]
     types: Mapping[str, Mapping[str, m.Type]]
-    is_lost: Callable[[Sends], bool]
+    is_lost: Callable[[PySends], bool]
 
     def check(self) -> None:
         """Lists what a class does besides."""

@@ -8,7 +8,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.python.model_roles import Roles, plain_name, servers_of
+from rebsync.reverse.python.model_roles import PyRoles, plain_name, servers_of
 from rebsync.reverse.python.model_types import call_parts, passed_on, string_value
 from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_tree import field, named, text_of
@@ -23,7 +23,7 @@ _INNER = frozenset({"function_definition", "lambda"})
 
 _NONE = 1 << 31  # the rank of what has no priority
 
-RolesOf = Callable[[Scope], Roles]
+RolesOf = Callable[[Scope], PyRoles]
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,7 +166,7 @@ def _declaring(line: Sequence[Scope], roles: RolesOf, post: Post) -> Scope | Non
     return found[-1] if found and may_serve else None
 
 
-def _may_serve(roles: Roles, function: Scope, post: Post) -> bool:
+def _may_serve(roles: PyRoles, function: Scope, post: Post) -> bool:
     said = function.node.child_by_field_name("return_type")
     gives = any(v.type != "none" for r in function.returns for v in named(r))
     is_other = roles.is_plumbing(function.name) or function.name.startswith("construct")

@@ -52,7 +52,7 @@ _SENSOR = "_sensor"
 
 
 @dataclass(frozen=True, slots=True)
-class Sends:
+class PySends:
     """A function that sends: `known` as in the model, "self", or None for any rebec of a class.
 
     `parameters` are the names of all that it is given, the time among them. `types` are those of
@@ -79,7 +79,7 @@ class EnvUse:
 
 
 @dataclass(eq=False, slots=True)
-class Roles:
+class PyRoles:
     """Of one class alone: what its attributes and functions stand for, by their names in Python."""
 
     owner: Scope
@@ -92,7 +92,7 @@ class Roles:
     handlers: dict[str, str] = with_default(default_factory=dict)
     shown: dict[str, tuple[m.Annotation, ...]] = with_default(default_factory=dict)
     messages: dict[str, str] = with_default(default_factory=dict)
-    sends: dict[str, Sends] = with_default(default_factory=dict)
+    sends: dict[str, PySends] = with_default(default_factory=dict)
     handler_names: dict[str, str] = with_default(default_factory=dict)
     by_shim: dict[str, str] = with_default(default_factory=dict)
     # The fields of messages in the order in which shims hand them on.
@@ -137,9 +137,9 @@ class Roles:
         return "_publish_state" in self.functions
 
 
-def roles_of(code: PyCode, owner: Scope) -> Roles:
+def roles_of(code: PyCode, owner: Scope) -> PyRoles:
     """Reads what the constructor of a class sets up, and what its functions do with it."""
-    roles = Roles(owner)
+    roles = PyRoles(owner)
     for bindings in owner.names.values():
         for binding in bindings:
             if binding.how == "scope":
@@ -164,7 +164,7 @@ def roles_of(code: PyCode, owner: Scope) -> Roles:
     return roles
 
 
-def _is_added(roles: Roles, name: str) -> bool:
+def _is_added(roles: PyRoles, name: str) -> bool:
     """Whether a function is one that people added beside what sends and serves."""
     function = roles.functions.get(name)
     is_made = roles.is_plumbing(name) or name in roles.handlers or name.startswith("construct")
@@ -205,7 +205,7 @@ def _priority(arguments: list[Node]) -> Iterator[m.Annotation]:
 # --- set up -------------------------------------------------------------------------------------
 
 
-def _wired(roles: Roles, function: Scope) -> None:
+def _wired(roles: PyRoles, function: Scope) -> None:
     for statement in body_of(function):
         inner = named(statement)[0] if statement.type == "expression_statement" else None
         if inner is not None and inner.type == "call":
@@ -229,7 +229,7 @@ def _wired(roles: Roles, function: Scope) -> None:
             roles.queue = parameter.default
 
 
-def _called(roles: Roles, call: Node) -> None:
+def _called(roles: PyRoles, call: Node) -> None:
     """`self._wire(4, NO_PRIORITY)` says how long the queue is."""
     function, arguments = call_parts(call) or ("", [])
     roles.constructed |= function == "self._mailbox.construct"
@@ -237,7 +237,7 @@ def _called(roles: Roles, call: Node) -> None:
         roles.queues.append(given)
 
 
-def _member(roles: Roles, function: Scope, name: str, statement: Node, value: Node) -> None:
+def _member(roles: PyRoles, function: Scope, name: str, statement: Node, value: Node) -> None:
     called, arguments = call_parts(value) or ("", [])
     said = statement.child_by_field_name("type")
     type_ = type_of(said) if said is not None else type_made(value) or literal_type(value)
@@ -257,7 +257,7 @@ def _member(roles: Roles, function: Scope, name: str, statement: Node, value: No
         _variable(roles, function, name, statement, value, type_)
 
 
-def _connected(roles: Roles, member: str, method: str, arguments: list[Node]) -> None:
+def _connected(roles: PyRoles, member: str, method: str, arguments: list[Node]) -> None:
     first = string_value(arguments[0]) if arguments else None
     topic = (first or "").removeprefix("~/").removeprefix("~")
     if method == "advertise" and len(arguments) == 2:
@@ -279,7 +279,7 @@ def _connected(roles: Roles, member: str, method: str, arguments: list[Node]) ->
 
 
 def _variable(
-    roles: Roles, function: Scope, attribute: str, statement: Node, value: Node, type_: m.Type
+    roles: PyRoles, function: Scope, attribute: str, statement: Node, value: Node, type_: m.Type
 ) -> None:
     markers = markers_beside(function.py, statement)
     name = variable_name(attribute, markers)
@@ -316,7 +316,7 @@ def variable_name(attribute: str, markers: Collection[str]) -> str:
 
 
 def _does(
-    roles: Roles, function: Scope, servers: dict[str, tuple[str, tuple[m.Annotation, ...]]]
+    roles: PyRoles, function: Scope, servers: dict[str, tuple[str, tuple[m.Annotation, ...]]]
 ) -> None:
     for statement in body_of(function):
         inner = named(statement)[0] if statement.type == "expression_statement" else None
@@ -326,13 +326,13 @@ def _does(
             _received(roles, function, arguments, servers)
         elif called == "self._mailbox.post" and arguments and "when" in passed:
             server = servers.get(text_of(arguments[0]), ("", ()))[0]
-            roles.sends[function.name] = Sends("self", server, len(passed) - 1, tuple(passed))
+            roles.sends[function.name] = PySends("self", server, len(passed) - 1, tuple(passed))
         elif called == "self._mailbox.publish" and len(arguments) == 3 and "when" in passed:
             _published(roles, function, arguments[0], passed)
 
 
 def _received(
-    roles: Roles,
+    roles: PyRoles,
     function: Scope,
     arguments: list[Node],
     servers: dict[str, tuple[str, tuple[m.Annotation, ...]]],
@@ -370,14 +370,14 @@ def field_read(node: Node, message: str) -> str:
     return text_of(plain).removeprefix(f"{message}.")
 
 
-def _published(roles: Roles, function: Scope, publisher: Node, passed: list[str]) -> None:
+def _published(roles: PyRoles, function: Scope, publisher: Node, passed: list[str]) -> None:
     parts = call_parts(publisher)
     member = parts[1][0] if parts is not None and parts[0] == "to" else publisher
     found = roles.publishers.get(text_of(member).removeprefix("self."))
     if found is not None:
         known, key, message = found
         count = len(passed) - 1 - (known is None)
-        roles.sends[function.name] = Sends(known, f"{message} {key}", count, tuple(passed))
+        roles.sends[function.name] = PySends(known, f"{message} {key}", count, tuple(passed))
 
 
 def plain_name(function: Scope) -> str:

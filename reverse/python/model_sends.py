@@ -18,13 +18,15 @@ from rebsync.reverse.python.model_types import string_value
 from rebsync.reverse.python.py_tree import named, text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expressions import Expressions
-    from rebsync.reverse.python.model_roles import Sends
+    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
+    from rebsync.reverse.python.model_roles import PySends
 
 _CLOCK = names_in_model(Language.PYTHON)
 
 
-def of_mailbox(reader: Expressions, node: Node, name: str, arguments: list[Node]) -> m.Expression:
+def of_mailbox(
+    reader: ModelExpressionReader, node: Node, name: str, arguments: list[Node]
+) -> m.Expression:
     """What a function of the mailbox gives or does. Unread: the model has no such thing."""
     span = reader.py.span(node)
     match name, len(arguments):
@@ -47,14 +49,14 @@ def of_mailbox(reader: Expressions, node: Node, name: str, arguments: list[Node]
             raise reader.unread(node, f'the model has no function "{name}"')
 
 
-def _constants(reader: Expressions, name: str) -> tuple[m.Expression, ...]:
+def _constants(reader: ModelExpressionReader, name: str) -> tuple[m.Expression, ...]:
     """The elements of a constant tuple or list."""
     known = reader.names.constants
     keys = [f"{name}[{i}]" for i in range(len(known))] if name not in reader.locals else []
     return tuple(known[key] for key in takewhile(known.__contains__, keys))
 
 
-def _posted(reader: Expressions, node: Node) -> m.Expression:
+def _posted(reader: ModelExpressionReader, node: Node) -> m.Expression:
     """`self._mailbox.post(_P, When(), "", self.p)`, which a function that sends does as well."""
     post = reader.names.posts.get(node.id)
     if post is None:
@@ -69,7 +71,9 @@ def _posted(reader: Expressions, node: Node) -> m.Expression:
     return reader.cuts.passing(call, post.handler)
 
 
-def sent(reader: Expressions, node: Node, sends: Sends, arguments: list[Node]) -> m.Expression:
+def sent(
+    reader: ModelExpressionReader, node: Node, sends: PySends, arguments: list[Node]
+) -> m.Expression:
     """What a function that sends is given, as a send of the model."""
     span, is_to_any = reader.py.span(node), sends.known is None
     expected = sends.arguments + is_to_any
@@ -90,7 +94,7 @@ def sent(reader: Expressions, node: Node, sends: Sends, arguments: list[Node]) -
     return m.Call(target, sends.server, given, times.get("after"), times.get("deadline"), span)
 
 
-def _unpacked(reader: Expressions, node: Node) -> list[m.Expression]:
+def _unpacked(reader: ModelExpressionReader, node: Node) -> list[m.Expression]:
     """One argument, or the elements of an array behind a star."""
     if node.type != "list_splat":
         return [reader.read(node)]
@@ -100,7 +104,7 @@ def _unpacked(reader: Expressions, node: Node) -> list[m.Expression]:
     return elements
 
 
-def _receiver(reader: Expressions, node: Node) -> m.Expression:
+def _receiver(reader: ModelExpressionReader, node: Node) -> m.Expression:
     """Who gets a message: what is no name or call stands in parentheses."""
     found = reader.read(node)
     return m.Paren(found) if isinstance(found, (m.Cast, m.Conditional, m.Choice)) else found

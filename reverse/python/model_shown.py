@@ -7,7 +7,7 @@ value that the message may refuse is another matter: to publish that raises.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 
 from tree_sitter import Node
 
@@ -16,7 +16,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.libraries.generated_calls import PUBLISHER_OF_NODE, PUBLISHER_OF_ROS_1
 from rebsync.reverse.python.model_types import call_parts, string_value
 from rebsync.reverse.python.py_index import PyCode, Scope
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
 from rebsync.reverse.python.runtime_files import is_runtime_file
 
 _INTEGERS = frozenset({"byte", "int", "short"})
@@ -114,13 +114,13 @@ def _hears(module: Scope, type_: str) -> bool:
     source = module.py.source
     if is_runtime_file(source):
         return False
-    imports = [n for n in _all(module.node) if n.type == "import_from_statement"]
+    imports = [n for n in nodes_in(module.node) if n.type == "import_from_statement"]
     plain = [n for n in imports if _PACKAGE in text_of(n) and _is_plain(n)]
     if source.text.count(_PACKAGE) != len(plain) or "AnyMsg" in source.text:
         return True
     if not plain:
         return False
-    uses = (n for n in _all(module.node) if n.type == "identifier" and text_of(n) == type_)
+    uses = (n for n in nodes_in(module.node) if n.type == "identifier" and text_of(n) == type_)
     return not all(map(_is_sent, uses))
 
 
@@ -137,7 +137,7 @@ def _is_sent(use: Node) -> bool:
 
 def _is_named(root: Node, name: str, type_: str) -> bool:
     """Whether a text is a name, or ends with it, but for those of publishers of a type."""
-    for node in _all(root):
+    for node in nodes_in(root):
         if node.type != "string_content" or re.split(r"[/~]", text_of(node))[-1] != name:
             continue
         listed = node.parent.parent if node.parent is not None else None
@@ -148,11 +148,3 @@ def _is_named(root: Node, name: str, type_: str) -> bool:
         if not is_publisher or type_ not in map(text_of, named(listed)):
             return True
     return False
-
-
-def _all(node: Node) -> Iterator[Node]:
-    waiting = [node]
-    while waiting:
-        current = waiting.pop()
-        yield current
-        waiting += current.named_children

@@ -16,7 +16,7 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.generated_calls import PARAMETER_OF_ROS_1, PUBLISHER_METHOD
 from rebsync.reverse.python.model_logs import Looks, looks_in, only_logs
-from rebsync.reverse.python.model_roles import Roles, is_of_node
+from rebsync.reverse.python.model_roles import PyRoles, is_of_node
 from rebsync.reverse.python.model_shown import PUBLISHERS, Shown, is_topic, shown_by
 from rebsync.reverse.python.model_timers import Timers
 from rebsync.reverse.python.model_types import call_parts, string_value
@@ -130,7 +130,7 @@ NOTHING = Silent()
 
 
 def silent_in(
-    code: PyCode, line: Sequence[Scope], roles: Sequence[Roles], own: Collection[str] = ()
+    code: PyCode, line: Sequence[Scope], roles: Sequence[PyRoles], own: Collection[str] = ()
 ) -> Silent:
     """The silent members of a class, the first of a line with those above it, and their roles.
 

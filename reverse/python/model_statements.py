@@ -4,26 +4,23 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import field as with_default
 from dataclasses import replace
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reserved import PYTHON_RESERVED, uncarry_local
-from rebsync.reverse.analysis.evaluation_order import note_store
 from rebsync.reverse.bodies.building import bare
 from rebsync.reverse.bodies.written import annotation
-from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python import model_loops as loops
 from rebsync.reverse.python import model_stored as stored
 from rebsync.reverse.python import model_users as users
-from rebsync.reverse.python.model_expressions import Expressions
 from rebsync.reverse.python.model_failing import failing, may_fail, methods_of
 from rebsync.reverse.python.model_filled import filled
 from rebsync.reverse.python.model_logs import only_logs
+from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.model_types import (
     call_parts,
     is_unset,
@@ -39,7 +36,7 @@ _HOISTED = "local "
 
 
 @dataclass(eq=False, slots=True)
-class Statements:
+class Statements(ModelStatementReader):
     """Reads the bodies of one function; `within` names it where something is listed.
 
     `hoisted` are the locals that a switch declares before it, `cases` the names of the switches
@@ -47,27 +44,9 @@ class Statements:
     are functions within.
     """
 
-    expressions: Expressions
-    findings: Findings
-    within: str
-    types: frozenset[str] = frozenset()
-    hoisted: dict[str, m.Type] = with_default(default_factory=dict)
-    cases: list[str] = with_default(default_factory=list)
-    implied: set[str] = with_default(default_factory=set)
-    inner: dict[str, Node] = with_default(default_factory=dict)
-
     def block(self, nodes: list[Node], span_of: Node) -> m.Block:
         """The statements of a suite."""
         return m.Block(tuple(self._all(nodes)), span=self.expressions.py.span(span_of))
-
-    def in_order(self, store: m.Expression) -> None:
-        """Lists an assignment if its value has to be known after what it stores into."""
-        note_store(self.findings, self.expressions.py.source, self.within, store)
-
-    def local(self, name: str) -> str:
-        """The model's name of a local variable or parameter."""
-        taken = self.types | {t.removesuffix("_v") for t in self.types}
-        return uncarry_local(name, PYTHON_RESERVED | taken, self.types)
 
     def _all(self, nodes: list[Node]) -> Iterator[m.Statement]:
         found: list[m.Statement] = []
@@ -167,22 +146,6 @@ class Statements:
                 return [m.Continue(span=span)]
             case _:
                 raise Unread(span, "the model has no such statement")
-
-    def suite(self, node: Node) -> m.Block:
-        outer, self.cases = self.cases, []
-        found = self.branch(node)
-        self.cases = outer
-        return found
-
-    def branch(self, node: Node) -> m.Block:
-        """A block. What it names first nobody knows behind it."""
-        outer = self.implied
-        self.implied = set()
-        found = self.block(named(node), node)
-        for name in self.implied:
-            self.expressions.locals.pop(name, None)
-        self.implied = outer
-        return found
 
     def _return(self, node: Node) -> list[m.Statement]:
         values = [v for v in named(node) if v.type != "none"]

@@ -17,7 +17,7 @@ from rebsync.reverse.python.model_types import call_parts, string_value
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.model_statements import Statements
+    from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 
 _LEAVING = frozenset({"return_statement", "break_statement", "continue_statement"})
 _LOOPS = frozenset({"for_statement", "while_statement"})
@@ -29,7 +29,7 @@ _WHOLE = "say what is stored here element by element"
 # --- assignments --------------------------------------------------------------------------------
 
 
-def chained(reader: Statements, node: Node) -> list[m.Statement]:
+def chained(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     """`a = b = e`. Unread: e may be another value the second time."""
     lefts, value = [field(node, "left")], field(node, "right")
     while value.type == "assignment":
@@ -41,7 +41,7 @@ def chained(reader: Statements, node: Node) -> list[m.Statement]:
     return [s for left in lefts for s in _stored(reader, left, value, node)]
 
 
-def unpacked(reader: Statements, node: Node) -> list[m.Statement]:
+def unpacked(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     """`a, b = x, y` and `a, b = self._pair`, what is needed again being kept.
 
     Unread: the values are not as many, or what they are depends on their order.
@@ -78,7 +78,7 @@ def _is_needed(before: list[Node], value: Node) -> bool:
     return not stored.isdisjoint(idioms.names_in(value))
 
 
-def _kept(reader: Statements, left: Node, value: Node, node: Node) -> m.Local:
+def _kept(reader: ModelStatementReader, left: Node, value: Node, node: Node) -> m.Local:
     """A local that keeps a value until it is its turn."""
     read = reader.expressions.read(value)
     type_ = reader.expressions.kind(read)
@@ -93,7 +93,7 @@ def _kept(reader: Statements, left: Node, value: Node, node: Node) -> m.Local:
     return m.Local(m.Declaration(type_, (m.Declarator(name, read, span),), span=span), span=span)
 
 
-def _stored(reader: Statements, left: Node, value: Node, node: Node) -> list[m.Statement]:
+def _stored(reader: ModelStatementReader, left: Node, value: Node, node: Node) -> list[m.Statement]:
     name = text_of(left)
     if left.type == "identifier" and name not in reader.expressions.locals:
         return [reader.implied_local(name, value, node)]
@@ -103,7 +103,9 @@ def _stored(reader: Statements, left: Node, value: Node, node: Node) -> list[m.S
     return [m.ExpressionStatement(stored, span=reader.expressions.py.span(node))]
 
 
-def _given(reader: Statements, left: Node, value: m.Expression, node: Node) -> list[m.Statement]:
+def _given(
+    reader: ModelStatementReader, left: Node, value: m.Expression, node: Node
+) -> list[m.Statement]:
     """A value of the model that is stored."""
     name, span = text_of(left), reader.expressions.py.span(node)
     if left.type != "identifier" or name in reader.expressions.locals:
@@ -117,7 +119,7 @@ def _given(reader: Statements, left: Node, value: m.Expression, node: Node) -> l
 
 
 def _declaration(
-    reader: Statements, name: str, type_: m.Type, value: m.Expression | None, node: Node
+    reader: ModelStatementReader, name: str, type_: m.Type, value: m.Expression | None, node: Node
 ) -> m.Local:
     span = reader.expressions.py.span(node)
     plain = reader.local(name)
@@ -128,7 +130,7 @@ def _declaration(
     return m.Local(declared, span=span)
 
 
-def all_elements(reader: Statements, left: Node, value: Node) -> list[m.Statement] | None:
+def all_elements(reader: ModelStatementReader, left: Node, value: Node) -> list[m.Statement] | None:
     """`self._a = Array([x, y])`, element by element; None for another assignment."""
     called, arguments = call_parts(value) or ("", [])
     if called != "Array" or len(arguments) != 1:
@@ -147,7 +149,9 @@ def all_elements(reader: Statements, left: Node, value: Node) -> list[m.Statemen
 # --- variables ----------------------------------------------------------------------------------
 
 
-def declared_before(reader: Statements, node: Node, after: list[Node]) -> list[m.Statement]:
+def declared_before(
+    reader: ModelStatementReader, node: Node, after: list[Node]
+) -> list[m.Statement]:
     """The variables that a statement names first within, which the model declares before it.
 
     `:=` stores where it stands; what all branches store is known behind them.
@@ -229,7 +233,7 @@ def _of_all_branches(node: Node) -> dict[str, Node]:
     return {k: v for k, v in first.items() if all(k in other for other in others)}
 
 
-def deleted(reader: Statements, node: Node) -> list[m.Statement]:
+def deleted(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     """`del x` of a local that nothing names behind it, which says nothing in the model."""
     names = [text_of(n) for n in (named(named(node)[0]) or named(node))]
     block = node.parent
@@ -243,7 +247,7 @@ def deleted(reader: Statements, node: Node) -> list[m.Statement]:
 # --- control ------------------------------------------------------------------------------------
 
 
-def asserted(reader: Statements, node: Node) -> m.Statement:
+def asserted(reader: ModelStatementReader, node: Node) -> m.Statement:
     """`assert e, "text"`: what must hold, told as one of the model's assertions."""
     parts, span = named(node), reader.expressions.py.span(node)
     given: list[m.Expression] = [reader.expressions.condition(parts[0])]
@@ -255,7 +259,7 @@ def asserted(reader: Statements, node: Node) -> m.Statement:
     return m.ExpressionStatement(m.Call(None, "assertion", tuple(given), span=span), span=span)
 
 
-def tried(reader: Statements, node: Node) -> list[m.Statement]:
+def tried(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     """`try` with a `finally` alone: one behind the other, as nothing leaves the first part."""
     clauses = [c for c in named(node) if c.type.endswith("_clause")]
     body = field(node, "body")
@@ -280,7 +284,7 @@ def _leaves(node: Node, in_loop: bool = False) -> bool:
     return False
 
 
-def inner(reader: Statements, node: Node) -> list[m.Statement]:
+def inner(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     """A function in a body, which stands for what it does where it is called."""
     name, body = text_of(field(node, "name")), field(node, "body")
     calls = {text_of(field(c, "function")) for c in _calls(body)}
@@ -313,7 +317,7 @@ def _calls(node: Node) -> Iterator[Node]:
 
 
 def done_inside(
-    reader: Statements, node: Node, name: str, arguments: list[Node]
+    reader: ModelStatementReader, node: Node, name: str, arguments: list[Node]
 ) -> list[m.Statement]:
     """What a function in the body does, where it is called."""
     if arguments:

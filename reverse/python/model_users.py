@@ -15,7 +15,7 @@ from rebsync.reverse.python.log_words import HARMLESS
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expressions import Expressions
+    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 
 _BLOCK = re.compile(r"^[ \t]*#\s*rebsync:\s*(user\s+\S+|end\b)", re.MULTILINE)
 _LEAVING = frozenset(
@@ -32,7 +32,7 @@ _STORING = {
 }
 
 
-def is_users(reader: Expressions, node: Node) -> bool:
+def is_users(reader: ModelExpressionReader, node: Node) -> bool:
     """Whether a statement stands between `rebsync: user NAME` and `rebsync: end`."""
     span = reader.py.span(node)
     return any(a < span.start and span.end <= b for a, b in _blocks(reader.py.source.text))
@@ -50,7 +50,7 @@ def _blocks(text: str) -> tuple[tuple[int, int], ...]:
     return tuple(found)
 
 
-def check(reader: Expressions, node: Node) -> None:
+def check(reader: ModelExpressionReader, node: Node) -> None:
     """Unread: a statement of a user's block does something to what the model has."""
     if node.type in _LEAVING:
         raise reader.unread(node, "a user's block must be run through")
@@ -65,7 +65,7 @@ def check(reader: Expressions, node: Node) -> None:
         check(reader, child)
 
 
-def _check_stored(reader: Expressions, target: Node) -> None:
+def _check_stored(reader: ModelExpressionReader, target: Node) -> None:
     base = target
     while base.type == "subscript":
         base = named(base)[0]
@@ -77,7 +77,7 @@ def _check_stored(reader: Expressions, target: Node) -> None:
         )
 
 
-def _check_name(reader: Expressions, node: Node) -> None:
+def _check_name(reader: ModelExpressionReader, node: Node) -> None:
     """What a block may name: values of the model, but no function of it, nor a whole array."""
     text = text_of(node)
     holder, _, name = text.partition(".")

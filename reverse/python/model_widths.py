@@ -33,7 +33,7 @@ _UNROUNDED = f"{_OTHER}: not rounded to 32 bits"
 
 
 @dataclass(frozen=True, slots=True)
-class Known:
+class WidthContext:
     """What is known around a body: the types of names, of what functions give, and what they take.
 
     `kind` is the widest type of an expression where these names have these types.
@@ -57,7 +57,7 @@ class Wanted:
     told: Sequence[Mark]
 
 
-def wanted_of(body: m.Block, result: m.Type, path: str, known: Known) -> Wanted:
+def wanted_of(body: m.Block, result: m.Type, path: str, known: WidthContext) -> Wanted:
     """What must hold of the integers of a body, so that they are those of the model."""
     widths = _Widths(known, path, result, dict(known.types))
     widths.block(body)
@@ -71,7 +71,7 @@ def wanted_of(body: m.Block, result: m.Type, path: str, known: Known) -> Wanted:
 class _Widths:
     """Collects what must hold, for the interval analysis; `types` are those of the names here."""
 
-    known: Known
+    known: WidthContext
     path: str
     result: m.Type
     types: dict[str, m.Type]

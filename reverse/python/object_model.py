@@ -12,8 +12,8 @@ from tree_sitter import Node
 
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python.body_reading import Reading
+from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_index import CLASS, FUNCTION, Scope
-from rebsync.reverse.python.py_lookup import lineage
 from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.python.py_worth import Class
 

@@ -9,10 +9,10 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind, Routine
+from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_index import Scope, arguments_of, last_name
-from rebsync.reverse.python.py_lookup import lineage
 from rebsync.reverse.python.py_tree import field, text_of
-from rebsync.reverse.python.py_values import Values
+from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import (
     Bound,
     Class,
@@ -25,7 +25,7 @@ from rebsync.reverse.python.py_worth import (
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Asked:
+class PyRosCall:
     """A call that asks for something; `given` are its arguments by their roles."""
 
     ask: Routine
@@ -40,13 +40,13 @@ class Asked:
         return field(called, "attribute") if called.type == "attribute" else called
 
 
-def asked_in(values: Values) -> Iterator[Asked]:
+def asked_in(values: PyValues) -> Iterator[PyRosCall]:
     """All such calls, in the order of files and places."""
     for call, scope in values.code.calls:
         name = last_name(field(call, "function"))
         ask = _ask(values, name, call, scope)
         if ask is not None:
-            yield Asked(ask, call, scope, roles(ask, call))
+            yield PyRosCall(ask, call, scope, roles(ask, call))
 
 
 def roles(ask: Routine, call: Node) -> dict[str, Node]:
@@ -56,7 +56,7 @@ def roles(ask: Routine, call: Node) -> dict[str, Node]:
     return given | {ask.role_of(k): v for k, v in keywords.items()}
 
 
-def _ask(values: Values, name: str, call: Node, scope: Scope) -> Routine | None:
+def _ask(values: PyValues, name: str, call: Node, scope: Scope) -> Routine | None:
     if name == "__init__":
         return _constructor(values, call, scope)
     if name not in libraries.asking_names() and not _may_be_renamed(values, name, scope):
@@ -68,13 +68,13 @@ def _ask(values: Values, name: str, call: Node, scope: Scope) -> Routine | None:
     return _by_shape(values, name, call, scope)
 
 
-def _may_be_renamed(values: Values, name: str, scope: Scope) -> bool:
+def _may_be_renamed(values: PyValues, name: str, scope: Scope) -> bool:
     """Whether a name is bound in its module otherwise than by a definition: `Pub = rospy.X`."""
     bindings = scope.module.names.get(name, ())
     return any(b.how in ("import", "value") for b in bindings)
 
 
-def _of(values: Values, value: Value, call: Node) -> Routine | None:
+def _of(values: PyValues, value: Value, call: Node) -> Routine | None:
     match value:
         case External(name):
             plain, keywords = arguments_of(call)
@@ -96,7 +96,7 @@ def _makes_node(name: str) -> bool:
     )
 
 
-def _by_shape(values: Values, name: str, call: Node, scope: Scope) -> Routine | None:
+def _by_shape(values: PyValues, name: str, call: Node, scope: Scope) -> Routine | None:
     """A call of a node's method on an object of which nothing is known."""
     called = field(call, "function")
     ask = libraries.node_method(name)
@@ -118,7 +118,7 @@ def _is_ros(value: Made | External) -> bool:
     return libraries.of_nodes(name)
 
 
-def _constructor(values: Values, call: Node, scope: Scope) -> Routine | None:
+def _constructor(values: PyValues, call: Node, scope: Scope) -> Routine | None:
     """`super().__init__(name)` in a class that is a node by what is directly above it."""
     owner, called = scope.owner, field(call, "function")
     if owner is None or called.type != "attribute":
@@ -147,6 +147,6 @@ def _names(above: list[Scope | External]) -> Iterator[str]:
     return (c.name for c in above if isinstance(c, External))
 
 
-def is_node(values: Values, owner: Scope) -> bool:
+def is_node(values: PyValues, owner: Scope) -> bool:
     """Whether the objects of a class are nodes."""
     return bool(set(_names(lineage(values, owner))) & libraries.node_classes())

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.graph import Callback, Callbacks, Place, Unresolved
-from rebsync.reverse.python.py_asks import Asked
+from rebsync.reverse.python.py_asks import PyRosCall
+from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_index import LAMBDA, Scope, arguments_of, last_name
-from rebsync.reverse.python.py_lookup import lineage
 from rebsync.reverse.python.py_tree import field, named, text_of
-from rebsync.reverse.python.py_values import Values
+from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import (
     Bound,
     External,
@@ -19,14 +19,14 @@ from rebsync.reverse.python.py_worth import (
     Instance,
     Items,
     Made,
-    Nothing,
+    NoneValue,
     Value,
 )
 
 _SYNCHRONIZERS = ("TimeSynchronizer", "ApproximateTimeSynchronizer")
 
 
-def callbacks_of(values: Values, node: Node, scope: Scope) -> Callbacks:
+def callbacks_of(values: PyValues, node: Node, scope: Scope) -> Callbacks:
     """What a callback may be; each is told once."""
     found: dict[tuple[str, int], Callback | Unresolved] = {}
     for way in values.ways(node, scope):
@@ -38,7 +38,7 @@ def callbacks_of(values: Values, node: Node, scope: Scope) -> Callbacks:
 
 
 def _called(
-    values: Values, way: Value, node: Node, scope: Scope
+    values: PyValues, way: Value, node: Node, scope: Scope
 ) -> Iterator[Callback | Unresolved]:
     match way:
         case Function(inner, _, bound):
@@ -54,13 +54,13 @@ def _called(
             yield Callback(text_of(node).removeprefix("self."), place)
         case Unresolved():
             yield way
-        case Nothing():
+        case NoneValue():
             return
         case _:
             yield values.unknown("what is called is computed", node, scope)
 
 
-def _call_method(values: Values, owner: Scope) -> Scope | None:
+def _call_method(values: PyValues, owner: Scope) -> Scope | None:
     for above in lineage(values, owner):
         if isinstance(above, Scope) and "__call__" in above.names:
             return values.code.scope_of(above.names["__call__"][-1].node, above.py)
@@ -84,7 +84,7 @@ def _place(function: Scope) -> Place:
 # --- message filters ----------------------------------------------------------------------------
 
 
-def filtered(values: Values, asked: Asked) -> Callbacks:
+def filtered(values: PyValues, asked: PyRosCall) -> Callbacks:
     """What is registered with a filter, or with those that wait for several of them."""
     found: list[Callback | Unresolved] = []
     for call, scope in values.code.by_callee.get("registerCallback", []):
@@ -96,7 +96,7 @@ def filtered(values: Values, asked: Asked) -> Callbacks:
     return tuple(found)
 
 
-def _is_fed(values: Values, made: Made, asked: Asked) -> bool:
+def _is_fed(values: PyValues, made: Made, asked: PyRosCall) -> bool:
     """Whether what is registered with is the filter itself, or made of it."""
     if made.call == asked.call:
         return True

@@ -7,17 +7,18 @@ from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
-from rebsync.reverse.python.py_index import LAMBDA, Parameter, Scope, arguments_of, classes_in
+from rebsync.reverse.python.py_evaluator import lineage
+from rebsync.reverse.python.py_index import LAMBDA, PyParameter, Scope, arguments_of, classes_in
 from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import Class, Function, Instance, Ways, distinct
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.py_values import Values
+    from rebsync.reverse.python.py_evaluator import PyEvaluator
 
 _MANY = 40
 
 
-def argument(values: Values, function: Scope, index: int) -> Ways:
+def argument(values: PyEvaluator, function: Scope, index: int) -> Ways:
     """What a parameter may be worth, by all calls of its function in the files."""
     parameters = function.parameters
     parameter = parameters[index]
@@ -40,13 +41,13 @@ def argument(values: Values, function: Scope, index: int) -> Ways:
     return distinct(w for ways in found for w in ways)
 
 
-def _default(values: Values, function: Scope, parameter: Parameter, why: str) -> Ways:
+def _default(values: PyEvaluator, function: Scope, parameter: PyParameter, why: str) -> Ways:
     if parameter.default is not None:
         return values.ways(parameter.default, function.parent or function)
     return (values.unknown(why, function.node, function),)
 
 
-def _given(call: Node, function: Scope, index: int, parameter: Parameter) -> Node | None:
+def _given(call: Node, function: Scope, index: int, parameter: PyParameter) -> Node | None:
     plain, keywords = arguments_of(call)
     if parameter.name in keywords:
         return keywords[parameter.name]
@@ -65,7 +66,7 @@ def _names_class(call: Node, function: Scope) -> bool:
     return holder == function.parent.name and bool(plain) and text_of(plain[0]) == "self"
 
 
-def callers(values: Values, function: Scope) -> list[tuple[Node, Scope]]:
+def callers(values: PyEvaluator, function: Scope) -> list[tuple[Node, Scope]]:
     """The calls of a function; of a constructor, those that make objects of the class."""
     if function.is_method and function.name == "__init__" and function.parent is not None:
         return list(_makers(values, function.parent))
@@ -76,7 +77,7 @@ def callers(values: Values, function: Scope) -> list[tuple[Node, Scope]]:
     return found
 
 
-def _calls(values: Values, call: Node, scope: Scope, function: Scope) -> bool:
+def _calls(values: PyEvaluator, call: Node, scope: Scope, function: Scope) -> bool:
     ways = values.ways(field(call, "function"), scope)
     functions = [w for w in ways if isinstance(w, Function)]
     if functions:
@@ -86,10 +87,8 @@ def _calls(values: Values, call: Node, scope: Scope, function: Scope) -> bool:
     return is_open and function.is_method and len(known) == 1 and _is_member(call)
 
 
-def _runs(values: Values, called: Scope, function: Scope) -> bool:
+def _runs(values: PyEvaluator, called: Scope, function: Scope) -> bool:
     """Whether a call of one function may run another: itself, or one that overrides it."""
-    from rebsync.reverse.python.py_lookup import lineage
-
     if called is function:
         return True
     if not (called.is_method and function.is_method) or function.parent is None:
@@ -101,10 +100,8 @@ def _is_member(call: Node) -> bool:
     return field(call, "function").type == "attribute"
 
 
-def _makers(values: Values, owner: Scope) -> Iterator[tuple[Node, Scope]]:
+def _makers(values: PyEvaluator, owner: Scope) -> Iterator[tuple[Node, Scope]]:
     """The calls that run the constructor of a class: its own, and those of classes below it."""
-    from rebsync.reverse.python.py_lookup import lineage
-
     heirs = [c for c in classes_in(values.code) if owner in lineage(values, c)]
     for name in dict.fromkeys((owner.name, *(h.name for h in heirs))):
         for call, scope in values.code.by_callee.get(name, ()):
@@ -120,9 +117,7 @@ def _makers(values: Values, owner: Scope) -> Iterator[tuple[Node, Scope]]:
             yield call, scope
 
 
-def _constructor_of(values: Values, owner: Scope) -> Scope | None:
-    from rebsync.reverse.python.py_lookup import lineage
-
+def _constructor_of(values: PyEvaluator, owner: Scope) -> Scope | None:
     classes = [c for c in lineage(values, owner) if isinstance(c, Scope)]
     return next((c for c in classes if "__init__" in c.names), None)
 

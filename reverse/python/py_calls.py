@@ -28,18 +28,18 @@ from rebsync.reverse.graph import (
 )
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python.interfaces import interface_of
-from rebsync.reverse.python.py_asks import Asked, asked_in
+from rebsync.reverse.python.py_asks import PyRosCall, asked_in
 from rebsync.reverse.python.py_callbacks import callbacks_of, filtered
 from rebsync.reverse.python.py_index import CLASS, FUNCTION, PyCode, Scope, arguments_of
 from rebsync.reverse.python.py_quality import depth_of, latched_of
 from rebsync.reverse.python.py_results import declared_together
 from rebsync.reverse.python.py_tree import field, named, text_of
-from rebsync.reverse.python.py_values import Values
+from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import (
+    Duration,
     External,
-    Length,
     Made,
-    Nothing,
+    NoneValue,
     Value,
     Ways,
     distinct,
@@ -49,10 +49,10 @@ from rebsync.reverse.python.py_worth import (
 
 def graph_of(code: PyCode) -> Graph:
     """All that some files ask of ROS."""
-    return graph_with(Values(code))
+    return graph_with(PyValues(code))
 
 
-def graph_with(values: Values) -> Graph:
+def graph_with(values: PyValues) -> Graph:
     """The same of files some of whose values may be known."""
     facts = _Facts(values)
     return Graph(tuple(f for asked in asked_in(values) for f in facts.of(asked)))
@@ -62,9 +62,9 @@ def graph_with(values: Values) -> Graph:
 class _Facts:
     """Makes facts of calls."""
 
-    values: Values
+    values: PyValues
 
-    def of(self, asked: Asked) -> Iterator[Fact]:
+    def of(self, asked: PyRosCall) -> Iterator[Fact]:
         kind = asked.ask.kind
         match kind:
             case Kind.DECLARED:
@@ -78,7 +78,7 @@ class _Facts:
             case _:
                 yield self._other(asked)
 
-    def _other(self, asked: Asked) -> Fact:
+    def _other(self, asked: PyRosCall) -> Fact:
         site = site_of(asked)
         match asked.ask.kind:
             case Kind.NODE:
@@ -98,7 +98,7 @@ class _Facts:
             case _:
                 return ClientFact(site, self._name(asked), self._type(asked))
 
-    def _channel(self, asked: Asked) -> Fact:
+    def _channel(self, asked: PyRosCall) -> Fact:
         site, name, type_ = site_of(asked), self._name(asked), self._type(asked)
         depth = depth_of(self.values, asked)
         if asked.ask.kind is Kind.PUBLISHER:
@@ -109,7 +109,7 @@ class _Facts:
 
     # --- parameters -----------------------------------------------------------------------------
 
-    def _parameter(self, asked: Asked) -> ParameterFact:
+    def _parameter(self, asked: PyRosCall) -> ParameterFact:
         ask, given = asked.ask, asked.given
         default = self._given(given.get("default"), asked.scope)
         value = self._given(given.get("value"), asked.scope) if "value" in ask.arguments else None
@@ -122,11 +122,11 @@ class _Facts:
         if node is None:
             return None
         ways = self.values.ways(node, scope)
-        known = tuple(w for w in ways if not isinstance(w, (Nothing, External)))
+        known = tuple(w for w in ways if not isinstance(w, (NoneValue, External)))
         unknown = self.values.unknown("it is computed", node, scope)
         return resolved(known, unknown) if known or not ways else None
 
-    def _declared(self, asked: Asked) -> Iterator[Fact]:
+    def _declared(self, asked: PyRosCall) -> Iterator[Fact]:
         site, access = site_of(asked), asked.ask.access
         assert access is not None
         found = list(declared_together(self.values, asked.call, asked.scope))
@@ -137,7 +137,7 @@ class _Facts:
             why = "parameters whose list is not written here"
             yield ParameterFact(site, self._unknown(asked, why), access)
 
-    def _set(self, asked: Asked) -> Iterator[Fact]:
+    def _set(self, asked: PyRosCall) -> Iterator[Fact]:
         """What `set_parameters` sets, one parameter after the other."""
         site, access = site_of(asked), asked.ask.access
         assert access is not None
@@ -157,30 +157,30 @@ class _Facts:
 
     # --- arguments ------------------------------------------------------------------------------
 
-    def _name(self, asked: Asked) -> Resolved:
+    def _name(self, asked: PyRosCall) -> Resolved:
         node = asked.given.get("name")
         if node is None:
             return self._unknown(asked, "the name is not given")
         return private(self.values.value(node, asked.scope))
 
-    def _value(self, role: str, asked: Asked, otherwise: Resolved) -> Resolved:
+    def _value(self, role: str, asked: PyRosCall, otherwise: Resolved) -> Resolved:
         node = asked.given.get(role)
         if node is None:
             return otherwise
         ways = self.values.ways(node, asked.scope)
-        if ways and all(isinstance(w, Nothing) for w in ways):
+        if ways and all(isinstance(w, NoneValue) for w in ways):
             return otherwise
         return self.values.value(node, asked.scope)
 
-    def _seconds(self, asked: Asked) -> Resolved:
+    def _seconds(self, asked: PyRosCall) -> Resolved:
         node = asked.given.get("period")
         if node is None:
             return self._unknown(asked, "the period is not given")
         ways: Ways = self.values.ways(node, asked.scope)
-        lengths = tuple(w for w in ways if isinstance(w, Length))
+        lengths = tuple(w for w in ways if isinstance(w, Duration))
         return resolved(lengths or ways, self.values.unknown("it is computed", node, asked.scope))
 
-    def _type(self, asked: Asked) -> Resolved:
+    def _type(self, asked: PyRosCall) -> Resolved:
         node = asked.given.get("type")
         if node is None:
             return self._unknown(asked, "the type is not given")
@@ -190,13 +190,13 @@ class _Facts:
                 found.append(name)
             elif isinstance(way, Unresolved):
                 found.append(way)
-            elif not isinstance(way, Nothing):
+            elif not isinstance(way, NoneValue):
                 found.append(self.values.unknown("this is no type of ROS", node, asked.scope))
         return resolved(
             distinct(found), self.values.unknown("the type is not known", node, asked.scope)
         )
 
-    def _callbacks(self, asked: Asked) -> Callbacks:
+    def _callbacks(self, asked: PyRosCall) -> Callbacks:
         node = asked.given.get("callback")
         if node is not None:
             return callbacks_of(self.values, node, asked.scope)
@@ -204,11 +204,11 @@ class _Facts:
         found = filtered(self.values, asked) if called.endswith("Subscriber") else ()
         return found or (self._unknown(asked, "the callback is registered elsewhere"),)
 
-    def _unknown(self, asked: Asked, why: str) -> Unresolved:
+    def _unknown(self, asked: PyRosCall, why: str) -> Unresolved:
         return self.values.unknown(why, asked.name, asked.scope)
 
 
-def site_of(asked: Asked) -> Site:
+def site_of(asked: PyRosCall) -> Site:
     """Where a call stands, and where the code keeps what it gives."""
     scope = asked.scope
     start, end = asked.name.start_byte, asked.call.end_byte

@@ -18,11 +18,11 @@ from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.python.py_worth import Value, Ways, distinct
 
 if TYPE_CHECKING:
+    from rebsync.reverse.python.py_evaluator import PyEvaluator
     from rebsync.reverse.python.py_index import Scope
-    from rebsync.reverse.python.py_values import Values
 
 
-def together(values: Values, found: Sequence[tuple[Binding, Ways]], scope: Scope) -> Ways:
+def together(values: PyEvaluator, found: Sequence[tuple[Binding, Ways]], scope: Scope) -> Ways:
     """What several bindings of one name give together."""
     if len(found) > 1:
         found = [(b, _after_tests(values, b, ways, found, scope)) for b, ways in found]
@@ -34,7 +34,7 @@ def together(values: Values, found: Sequence[tuple[Binding, Ways]], scope: Scope
 
 
 def _after_tests(
-    values: Values,
+    values: PyEvaluator,
     binding: Binding,
     ways: Ways,
     found: Sequence[tuple[Binding, Ways]],
@@ -83,7 +83,7 @@ def _test_around(node: Node) -> Node | None:
 
 
 def _compared(
-    values: Values, test: Node, binding: Binding, scope: Scope
+    values: PyEvaluator, test: Node, binding: Binding, scope: Scope
 ) -> tuple[str, Plain] | None:
     """The operator and the constant that an `if` compares with what a binding sets."""
     condition = field(test, "condition")

@@ -14,10 +14,10 @@ from rebsync.reverse.graph import Callback, Callbacks, Place
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Routine
 from rebsync.reverse.python.py_callbacks import callback_name, callbacks_of
+from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_index import CLASS, Scope, arguments_of
-from rebsync.reverse.python.py_lookup import lineage
 from rebsync.reverse.python.py_tree import field, text_of
-from rebsync.reverse.python.py_values import Values
+from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import Class, External, Function, Module
 
 # What a node with managed states has that its library calls when its state changes.
@@ -46,7 +46,7 @@ class Hook:
         return ", ".join(named)
 
 
-def hooks_in(values: Values) -> Iterator[Hook]:
+def hooks_in(values: PyValues) -> Iterator[Hook]:
     """All such calls that hand over something, and changes of state: in the order of the text."""
     code = values.code
     calls = [
@@ -57,7 +57,7 @@ def hooks_in(values: Values) -> Iterator[Hook]:
     yield from sorted(found, key=lambda h: (h.place.source.path, h.place.span.start))
 
 
-def _changes(values: Values, owner: Scope) -> Iterator[Hook]:
+def _changes(values: PyValues, owner: Scope) -> Iterator[Hook]:
     """The methods of a class that its library calls when the state of its node changes."""
     names = [name for name in _CHANGES if name in owner.names] if owner.kind == CLASS else []
     above = lineage(values, owner) if names else []
@@ -69,7 +69,7 @@ def _changes(values: Values, owner: Scope) -> Iterator[Hook]:
             yield Hook(name, place, method, (Callback(callback_name(method), place),))
 
 
-def _hook(values: Values, call: Node, scope: Scope) -> Hook | None:
+def _hook(values: PyValues, call: Node, scope: Scope) -> Hook | None:
     called = field(call, "function")
     word = field(called, "attribute") if called.type == "attribute" else called
     entry = _entry(values, text_of(word), called, scope)
@@ -91,7 +91,7 @@ def _given(entry: Routine, call: Node) -> list[Node]:
     return [node for node in given if node.type != "none"]
 
 
-def _entry(values: Values, name: str, called: Node, scope: Scope) -> Routine | None:
+def _entry(values: PyValues, name: str, called: Node, scope: Scope) -> Routine | None:
     """The entry that a call is of: by the module of a function, by the name of a method."""
     entries = libraries.hooks()[name]
     ways = values.ways(called, scope)

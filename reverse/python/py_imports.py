@@ -15,13 +15,11 @@ from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import External, Module, Ways
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.py_values import Values
+    from rebsync.reverse.python.py_evaluator import PyEvaluator
 
 
-def imported(values: Values, binding: Binding, name: str, scope: Scope) -> Ways:
+def imported(values: PyEvaluator, binding: Binding, name: str, scope: Scope) -> Ways:
     """What an import binds to a name."""
-    from rebsync.reverse.python.py_lookup import bound
-
     item = binding.value
     wanted = text_of(field(item, "name") if item.type == "aliased_import" else item)
     if binding.node.type == "import_statement":
@@ -31,7 +29,7 @@ def imported(values: Values, binding: Binding, name: str, scope: Scope) -> Ways:
     source = module_of(binding.node)
     module = module_named(values.code, source, scope.module)
     if module is not None and wanted in module.names and module is not scope.module:
-        return tuple(w for b in module.names[wanted] for w in bound(values, b, wanted, module))
+        return tuple(w for b in module.names[wanted] for w in values.bound(b, wanted, module))
     inner = module_named(values.code, f"{source.rstrip('.')}.{wanted}", scope.module)
     if source.endswith("."):
         inner = module_named(values.code, source + wanted, scope.module)

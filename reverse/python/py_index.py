@@ -34,7 +34,7 @@ class Scope:
     returns: list[Node] = with_default(default_factory=list)
     # What the text says does not change: it is read once.
     _decorators: list[str] | None = None
-    _parameters: list[Parameter] | None = None
+    _parameters: list[PyParameter] | None = None
 
     @property
     def owner(self) -> Scope | None:
@@ -84,13 +84,13 @@ class Scope:
         return [text_of(c).lstrip("@ ") for c in above.children if c.type == "decorator"]
 
     @property
-    def parameters(self) -> list[Parameter]:
+    def parameters(self) -> list[PyParameter]:
         """The parameters of a function; of a method, with its object."""
         if self._parameters is None:
             self._parameters = self._read_parameters()
         return self._parameters
 
-    def _read_parameters(self) -> list[Parameter]:
+    def _read_parameters(self) -> list[PyParameter]:
         node = self.node.child_by_field_name("parameters")
         return [p for c in named(node) if (p := _parameter(c))] if node is not None else []
 
@@ -108,7 +108,7 @@ class Scope:
 
 
 @dataclass(frozen=True, slots=True)
-class Parameter:
+class PyParameter:
     """A parameter of a function: `star` is how many stars stand before it."""
 
     name: str
@@ -116,17 +116,17 @@ class Parameter:
     star: int = 0
 
 
-def _parameter(node: Node) -> Parameter | None:
+def _parameter(node: Node) -> PyParameter | None:
     match node.type:
         case "identifier":
-            return Parameter(text_of(node))
+            return PyParameter(text_of(node))
         case "default_parameter" | "typed_default_parameter":
-            return Parameter(text_of(field(node, "name")), field(node, "value"))
+            return PyParameter(text_of(field(node, "name")), field(node, "value"))
         case "typed_parameter":
             return _parameter(node.named_children[0])
         case "list_splat_pattern" | "dictionary_splat_pattern":
             star = 1 if node.type.startswith("list") else 2
-            return Parameter(text_of(node).lstrip("* "), None, star)
+            return PyParameter(text_of(node).lstrip("* "), None, star)
         case _:
             return None
 

@@ -9,10 +9,11 @@ from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, Unresolved
 from rebsync.reverse.python.py_bindings import Binding, reaching
+from rebsync.reverse.python.py_evaluator import each_of, lineage
 from rebsync.reverse.python.py_guards import together
 from rebsync.reverse.python.py_imports import imported, star_imported
 from rebsync.reverse.python.py_index import CLASS, Scope
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import (
     Bound,
     Class,
@@ -23,7 +24,7 @@ from rebsync.reverse.python.py_worth import (
     Items,
     Made,
     Module,
-    Nothing,
+    NoneValue,
     Table,
     Value,
     Ways,
@@ -31,7 +32,7 @@ from rebsync.reverse.python.py_worth import (
 )
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.py_values import Values
+    from rebsync.reverse.python.py_evaluator import PyEvaluator
 
 _FIELDS = frozenset({"value", "string_value", "integer_value", "double_value", "bool_value"}) | {
     *("string_array_value", "integer_array_value", "double_array_value", "bool_array_value"),
@@ -39,7 +40,7 @@ _FIELDS = frozenset({"value", "string_value", "integer_value", "double_value", "
 }
 
 
-def followed(values: Values, node: Node, scope: Scope) -> Iterable[Value]:
+def followed(values: PyEvaluator, node: Node, scope: Scope) -> Iterable[Value]:
     """What an expression stands for that names something."""
     from rebsync.reverse.python.py_results import result
 
@@ -64,7 +65,7 @@ def followed(values: Values, node: Node, scope: Scope) -> Iterable[Value]:
 # --- names --------------------------------------------------------------------------------------
 
 
-def name_ways(values: Values, name: str, node: Node, scope: Scope) -> Ways:
+def name_ways(values: PyEvaluator, name: str, node: Node, scope: Scope) -> Ways:
     """What a name stands for at a place: bound here, or in a scope around."""
     at: Scope | None = scope
     while at is not None:
@@ -85,7 +86,7 @@ def name_ways(values: Values, name: str, node: Node, scope: Scope) -> Ways:
 
 
 def values_of_import(
-    values: Values, found: Module | External, name: str, node: Node, scope: Scope
+    values: PyEvaluator, found: Module | External, name: str, node: Node, scope: Scope
 ) -> Ways:
     """A name that a star brings from a module."""
     if isinstance(found, External):
@@ -98,7 +99,7 @@ def _shares_flow(outer: Scope, inner: Scope) -> bool:
     return inner.kind == CLASS and inner.parent is outer
 
 
-def bound(values: Values, binding: Binding, name: str, scope: Scope) -> Ways:
+def bound(values: PyEvaluator, binding: Binding, name: str, scope: Scope) -> Ways:
     """What a binding gives."""
     from rebsync.reverse.python.py_callers import argument
 
@@ -123,7 +124,7 @@ def bound(values: Values, binding: Binding, name: str, scope: Scope) -> Ways:
             return (values.unknown("a name that a statement sets", binding.node, scope),)
 
 
-def scope_at(values: Values, binding: Binding, scope: Scope) -> Scope:
+def scope_at(values: PyEvaluator, binding: Binding, scope: Scope) -> Scope:
     """The scope in which the value of a binding stands: a method may set a global or attribute."""
     above = binding.node.parent
     while above is not None:
@@ -133,7 +134,7 @@ def scope_at(values: Values, binding: Binding, scope: Scope) -> Scope:
     return scope.module
 
 
-def _unpacked(values: Values, ways: Ways, binding: Binding, scope: Scope) -> Ways:
+def _unpacked(values: PyEvaluator, ways: Ways, binding: Binding, scope: Scope) -> Ways:
     for index in binding.path:
         inner: list[Value] = []
         for value in ways:
@@ -150,14 +151,14 @@ def _unpacked(values: Values, ways: Ways, binding: Binding, scope: Scope) -> Way
     return ways
 
 
-def _augmented(values: Values, binding: Binding, name: str, scope: Scope) -> Ways:
+def _augmented(values: PyEvaluator, binding: Binding, name: str, scope: Scope) -> Ways:
     left = values.ways(field(binding.node, "left"), scope_at(values, binding, scope))
     right = values.ways(binding.value, scope_at(values, binding, scope))
     operator = text_of(field(binding.node, "operator")).rstrip("=")
     return distinct(values.operated(operator, left, right, binding.node, scope))
 
 
-def _declared(values: Values, binding: Binding, scope: Scope) -> Ways:
+def _declared(values: PyEvaluator, binding: Binding, scope: Scope) -> Ways:
     opened = values.code.scope_of(binding.node, scope.py)
     return (Class(opened),) if opened.kind == CLASS else (Function(opened),)
 
@@ -165,25 +166,11 @@ def _declared(values: Values, binding: Binding, scope: Scope) -> Ways:
 # --- loops --------------------------------------------------------------------------------------
 
 
-def each_of(values: Values, node: Node, scope: Scope) -> list[Ways]:
-    """What a loop goes through, one round after the other."""
-    rounds: list[Ways] = []
-    for value in values.ways(node, scope):
-        match value:
-            case Items(each):
-                rounds += each
-            case Table(pairs):
-                rounds += [key for key, _ in pairs]
-            case _:
-                rounds.append((values.unknown("a loop over what is not known", node, scope),))
-    return rounds
-
-
 # --- attributes ---------------------------------------------------------------------------------
 
 
 def attribute(
-    values: Values, holder: Value, name: str, node: Node, scope: Scope
+    values: PyEvaluator, holder: Value, name: str, node: Node, scope: Scope
 ) -> Iterator[Value]:
     """What an attribute of something stands for."""
     match holder:
@@ -210,14 +197,14 @@ def attribute(
             yield holder if holder.partial is None else Unresolved(holder.why, holder.place)
         case FromParameter() | str() | Items() | Table() | tuple():
             yield Bound(holder, name)
-        case Nothing():
+        case NoneValue():
             return
         case _:
             yield values.unknown(f"`{text_of(node)}` is not followed", node, scope)
 
 
 def _member(
-    values: Values, owner: Scope, is_object: bool, name: str, node: Node, scope: Scope
+    values: PyEvaluator, owner: Scope, is_object: bool, name: str, node: Node, scope: Scope
 ) -> Iterator[Value]:
     """An attribute of a class of the files, or of those above it."""
     externals = False
@@ -241,7 +228,7 @@ def _member(
 
 
 def _seen(
-    values: Values, bindings: Sequence[Binding], node: Node, owner: Scope, scope: Scope
+    values: PyEvaluator, bindings: Sequence[Binding], node: Node, owner: Scope, scope: Scope
 ) -> Sequence[Binding]:
     """The bindings of an attribute that a use may see: those of its own function first."""
     method = scope.method
@@ -262,7 +249,7 @@ def _is_sure(before: Sequence[Binding], here: Sequence[Binding], node: Node) -> 
     return bool(before) and reaching([before[0]], node) == [before[0]] and before[0] in here
 
 
-def _as_member(values: Values, value: Value, owner: Scope, is_object: bool) -> Iterator[Value]:
+def _as_member(values: PyEvaluator, value: Value, owner: Scope, is_object: bool) -> Iterator[Value]:
     """A function of a class as the method of an object; a property as what it gives."""
     from rebsync.reverse.python.py_results import returned
 
@@ -275,27 +262,10 @@ def _as_member(values: Values, value: Value, owner: Scope, is_object: bool) -> I
         yield value
 
 
-def lineage(values: Values, owner: Scope, seen: tuple[Scope, ...] = ()) -> list[Scope | External]:
-    """A class and those above it, nearest first; of those that are not in the files the names."""
-    if owner in seen:
-        return []
-    found: list[Scope | External] = [owner]
-    bases = owner.node.child_by_field_name("superclasses")
-    for base in named(bases) if bases is not None else []:
-        if base.type == "keyword_argument":
-            continue
-        for value in values.ways(base, owner.parent or owner):
-            if isinstance(value, Class):
-                found += lineage(values, value.scope, (*seen, owner))
-            elif isinstance(value, External):
-                found.append(value)
-    return found
-
-
 # --- elements -----------------------------------------------------------------------------------
 
 
-def _element(values: Values, node: Node, scope: Scope) -> Iterator[Value]:
+def _element(values: PyEvaluator, node: Node, scope: Scope) -> Iterator[Value]:
     keys = values.ways(field(node, "subscript"), scope)
     for holder in values.ways(field(node, "value"), scope):
         match holder, keys:

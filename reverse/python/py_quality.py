@@ -8,31 +8,39 @@ from tree_sitter import Node
 
 from rebsync.reverse.graph import Resolved, Unresolved
 from rebsync.reverse.libraries import python as libraries
-from rebsync.reverse.python.py_asks import Asked
+from rebsync.reverse.python.py_asks import PyRosCall
 from rebsync.reverse.python.py_bindings import reaching
 from rebsync.reverse.python.py_index import Scope, arguments_of
 from rebsync.reverse.python.py_lookup import bound
 from rebsync.reverse.python.py_tree import text_of
-from rebsync.reverse.python.py_values import Values
-from rebsync.reverse.python.py_worth import External, Made, Nothing, Value, Ways, distinct, resolved
+from rebsync.reverse.python.py_values import PyValues
+from rebsync.reverse.python.py_worth import (
+    External,
+    Made,
+    NoneValue,
+    Value,
+    Ways,
+    distinct,
+    resolved,
+)
 
 _NO_BOUND = "without `queue_size` there is no bound that the code gives"
 _KEPT = ("TRANSIENT_LOCAL", "RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL")
 
 
-def depth_of(values: Values, asked: Asked) -> Resolved:
+def depth_of(values: PyValues, asked: PyRosCall) -> Resolved:
     """How many messages wait at most."""
     node = asked.given.get("depth")
     if node is None:
         return values.unknown(_NO_BOUND, asked.name, asked.scope)
     ways = values.ways(node, asked.scope)
     found = [d for way in ways for d in _depths(values, way, node, asked)]
-    is_none = any(isinstance(way, Nothing) for way in ways)
+    is_none = any(isinstance(way, NoneValue) for way in ways)
     why = _NO_BOUND if is_none else "the depth is computed"
     return resolved(distinct(found), values.unknown(why, node, asked.scope))
 
 
-def _depths(values: Values, way: Value, node: Node, asked: Asked) -> Iterable[Value]:
+def _depths(values: PyValues, way: Value, node: Node, asked: PyRosCall) -> Iterable[Value]:
     match way:
         case Made(by) if by.endswith(("QoSProfile", "QoSProfile.get_from_short_key")):
             given = _of_profile(values, way, "depth", node, asked.scope)
@@ -42,13 +50,13 @@ def _depths(values: Values, way: Value, node: Node, asked: Asked) -> Iterable[Va
             known = libraries.profiles()
             unknown = values.unknown("a profile that is not known", node, asked.scope)
             return [known.get(".".join(parts[-2:]), known.get(parts[-1], unknown))]
-        case Nothing():
+        case NoneValue():
             return []
         case _:
             return [way]
 
 
-def latched_of(values: Values, asked: Asked) -> Resolved:
+def latched_of(values: PyValues, asked: PyRosCall) -> Resolved:
     """Whether a publisher keeps its last message."""
     if "latched" in asked.given:
         return values.value(asked.given["latched"], asked.scope)
@@ -67,7 +75,7 @@ def latched_of(values: Values, asked: Asked) -> Resolved:
     return resolved(distinct(found), unknown) if found else False
 
 
-def _keeps(values: Values, way: Value, node: Node, scope: Scope) -> Value:
+def _keeps(values: PyValues, way: Value, node: Node, scope: Scope) -> Value:
     match way:
         case External(name):
             return name.endswith(_KEPT)
@@ -77,7 +85,7 @@ def _keeps(values: Values, way: Value, node: Node, scope: Scope) -> Value:
             return values.unknown("the durability is not known", node, scope)
 
 
-def _of_profile(values: Values, made: Made, key: str, node: Node, scope: Scope) -> Ways:
+def _of_profile(values: PyValues, made: Made, key: str, node: Node, scope: Scope) -> Ways:
     """A key of a profile: set after it was made, or given when it was."""
     stored = scope.stores.get((text_of(node), key), [])
     seen = reaching(stored, node)

@@ -10,6 +10,7 @@ from tree_sitter import Node
 from rebsync.reverse.graph import FromParameter, Unresolved
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Access, Kind
+from rebsync.reverse.python.py_evaluator import each_of, lineage
 from rebsync.reverse.python.py_index import LAMBDA, Scope, arguments_of
 from rebsync.reverse.python.py_texts import filled
 from rebsync.reverse.python.py_tree import field, named, text_of
@@ -17,13 +18,13 @@ from rebsync.reverse.python.py_worth import (
     Bound,
     Class,
     Declared,
+    Duration,
     External,
     Function,
     Instance,
     Items,
-    Length,
     Made,
-    Nothing,
+    NoneValue,
     Table,
     Value,
     Ways,
@@ -32,13 +33,13 @@ from rebsync.reverse.python.py_worth import (
 )
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.py_values import Values
+    from rebsync.reverse.python.py_evaluator import PyEvaluator
 
 _SAME = frozenset({"str", "int", "float", "bool", "list", "tuple", "unicode", "sorted", "set"})
 _PARTIAL = frozenset({"functools.partial", "partial"})
 
 
-def result(values: Values, call: Node, scope: Scope) -> Iterable[Value]:
+def result(values: PyEvaluator, call: Node, scope: Scope) -> Iterable[Value]:
     """What a call gives."""
     called = values.ways(field(call, "function"), scope)
     if not called:
@@ -50,7 +51,7 @@ def _shown(call: Node) -> str:
     return text_of(field(call, "function"))
 
 
-def _of(values: Values, called: Value, call: Node, scope: Scope) -> Iterable[Value]:
+def _of(values: PyEvaluator, called: Value, call: Node, scope: Scope) -> Iterable[Value]:
     match called:
         case Class(owner):
             return [Instance(owner)]
@@ -66,21 +67,21 @@ def _of(values: Values, called: Value, call: Node, scope: Scope) -> Iterable[Val
             return [values.unknown(f"what `{_shown(call)}` gives", call, scope)]
 
 
-def returned(values: Values, function: Scope) -> Ways:
+def returned(values: PyEvaluator, function: Scope) -> Ways:
     """What a function of the files gives."""
     if function.kind == LAMBDA:
         return values.ways(field(function.node, "body"), function)
     found: list[Value] = []
     for node in function.returns:
         inner = named(node)
-        found += values.ways(inner[0], function) if inner else [Nothing()]
-    return distinct(found) or (Nothing(),)
+        found += values.ways(inner[0], function) if inner else [NoneValue()]
+    return distinct(found) or (NoneValue(),)
 
 
 # --- what is not in the files -------------------------------------------------------------------
 
 
-def _external(values: Values, name: str, call: Node, scope: Scope) -> Iterable[Value]:
+def _external(values: PyEvaluator, name: str, call: Node, scope: Scope) -> Iterable[Value]:
     plain, keywords = arguments_of(call)
     last = name.rpartition(".")[2]
     if name.startswith("builtins."):
@@ -112,12 +113,12 @@ def _gives_parameter(name: str) -> bool:
     return found is not None and found.kind is Kind.PARAMETER and is_read
 
 
-def _what(values: Values, name: str, call: Node, scope: Scope) -> Unresolved:
+def _what(values: PyEvaluator, name: str, call: Node, scope: Scope) -> Unresolved:
     return values.unknown(f"what `{name}` gives", call, scope)
 
 
 def _builtin(
-    values: Values, name: str, plain: list[Node], call: Node, scope: Scope
+    values: PyEvaluator, name: str, plain: list[Node], call: Node, scope: Scope
 ) -> Iterable[Value]:
     if name in _SAME and len(plain) == 1:
         return [_cast(name, v) for v in values.ways(plain[0], scope)]
@@ -129,13 +130,9 @@ def _builtin(
     if name == "range" and plain:
         return _range(values, plain, call, scope)
     if name == "enumerate" and plain:
-        from rebsync.reverse.python.py_lookup import each_of
-
         rounds = each_of(values, plain[0], scope)
         return [Items(tuple((Items(((i,), w)),) for i, w in enumerate(rounds)))]
     if name == "zip" and plain:
-        from rebsync.reverse.python.py_lookup import each_of
-
         columns = [each_of(values, p, scope) for p in plain]
         return [Items(tuple((Items(row),) for row in zip(*columns, strict=False)))]
     if name == "getattr" and len(plain) > 1:
@@ -146,7 +143,7 @@ def _builtin(
     return [_what(values, name, call, scope)]
 
 
-def _class_of(values: Values, value: Value, call: Node, scope: Scope) -> Value:
+def _class_of(values: PyEvaluator, value: Value, call: Node, scope: Scope) -> Value:
     """What `type(...)` gives of an object."""
     match value:
         case Instance(owner):
@@ -159,10 +156,8 @@ def _class_of(values: Values, value: Value, call: Node, scope: Scope) -> Value:
             return _what(values, "type", call, scope)
 
 
-def _above(values: Values, owner: Scope) -> list[Value]:
+def _above(values: PyEvaluator, owner: Scope) -> list[Value]:
     """The object as one of the class above its own."""
-    from rebsync.reverse.python.py_lookup import lineage
-
     above = lineage(values, owner)[1:2]
     if above and isinstance(above[0], Scope):
         return [Instance(above[0])]
@@ -184,7 +179,7 @@ def _cast(name: str, value: Value) -> Value:
             return value
 
 
-def _range(values: Values, plain: list[Node], call: Node, scope: Scope) -> list[Value]:
+def _range(values: PyEvaluator, plain: list[Node], call: Node, scope: Scope) -> list[Value]:
     bounds = [values.ways(p, scope) for p in plain]
     numbers = [b[0] for b in bounds if len(b) == 1 and isinstance(b[0], int)]
     whole = [n for n in numbers if isinstance(n, int)]
@@ -196,7 +191,7 @@ def _range(values: Values, plain: list[Node], call: Node, scope: Scope) -> list[
     return [Items(tuple((i,) for i in found))]
 
 
-def _partial(values: Values, plain: list[Node], scope: Scope) -> Iterator[Value]:
+def _partial(values: PyEvaluator, plain: list[Node], scope: Scope) -> Iterator[Value]:
     for value in values.ways(plain[0], scope) if plain else ():
         if isinstance(value, Function):
             yield Function(value.scope, value.owner, (*plain[1:], *value.bound))
@@ -205,7 +200,7 @@ def _partial(values: Values, plain: list[Node], scope: Scope) -> Iterator[Value]
 
 
 def _length(
-    values: Values,
+    values: PyEvaluator,
     plain: list[Node],
     keywords: dict[str, Node],
     call: Node,
@@ -217,22 +212,22 @@ def _length(
     nanoseconds = parts.get("nsecs", parts.get("nanoseconds"))
     total = values.value(seconds, scope) if seconds is not None else 0
     if nanoseconds is None:
-        return Length(total)
+        return Duration(total)
     more = values.value(nanoseconds, scope)
     if isinstance(total, (int, float)) and isinstance(more, (int, float)):
-        return Length(total + more / 1e9)
+        return Duration(total + more / 1e9)
     return values.unknown("a time that is computed", call, scope)
 
 
 def _parameter(
-    values: Values, plain: list[Node], keywords: dict[str, Node], call: Node, scope: Scope
+    values: PyEvaluator, plain: list[Node], keywords: dict[str, Node], call: Node, scope: Scope
 ) -> Value:
     """The value of a parameter of ROS 1, with the default that stands in for it."""
     given = dict(zip(("param_name", "default"), plain, strict=False)) | keywords
     if "param_name" not in given:
         return values.unknown("the name of a parameter", call, scope)
     default = values.ways(given["default"], scope) if "default" in given else ()
-    known = [v for v in default if not isinstance(v, Nothing)]
+    known = [v for v in default if not isinstance(v, NoneValue)]
     unknown = values.unknown("a default that is computed", call, scope)
     stands_in = resolved(tuple(known), unknown) if known else None
     return FromParameter(values.value(given["param_name"], scope), stands_in)
@@ -241,7 +236,9 @@ def _parameter(
 # --- methods ------------------------------------------------------------------------------------
 
 
-def _method(values: Values, holder: Value, name: str, call: Node, scope: Scope) -> Iterable[Value]:
+def _method(
+    values: PyEvaluator, holder: Value, name: str, call: Node, scope: Scope
+) -> Iterable[Value]:
     match holder:
         case str():
             return _text_method(values, holder, name, call, scope)
@@ -261,7 +258,9 @@ def _method(values: Values, holder: Value, name: str, call: Node, scope: Scope) 
             return [_what(values, name, call, scope)]
 
 
-def _text_method(values: Values, text: str, name: str, call: Node, scope: Scope) -> Iterable[Value]:
+def _text_method(
+    values: PyEvaluator, text: str, name: str, call: Node, scope: Scope
+) -> Iterable[Value]:
     if name == "format":
         return filled(values, text, call, scope)
     plain, _ = arguments_of(call)
@@ -276,8 +275,6 @@ def _text_method(values: Values, text: str, name: str, call: Node, scope: Scope)
         if name == "replace" and len(known) == 2:
             return [text.replace(known[0], known[1])]
     if name == "join" and len(plain) == 1:
-        from rebsync.reverse.python.py_lookup import each_of
-
         rounds = each_of(values, plain[0], scope)
         parts = [w for r in rounds for w in ((text,), r)][1:]
         return values.join(parts, call, scope)
@@ -285,7 +282,7 @@ def _text_method(values: Values, text: str, name: str, call: Node, scope: Scope)
 
 
 def _table_method(
-    values: Values, pairs: tuple[tuple[Ways, Ways], ...], name: str, call: Node, scope: Scope
+    values: PyEvaluator, pairs: tuple[tuple[Ways, Ways], ...], name: str, call: Node, scope: Scope
 ) -> Iterable[Value]:
     match name:
         case "items" | "iteritems":
@@ -305,7 +302,7 @@ def _table_method(
 
 
 def _object_method(
-    values: Values, holder: Instance | Made, name: str, call: Node, scope: Scope
+    values: PyEvaluator, holder: Instance | Made, name: str, call: Node, scope: Scope
 ) -> Iterable[Value]:
     """Methods of nodes, whose own names and parameters matter."""
     plain, keywords = arguments_of(call)
@@ -327,7 +324,7 @@ def _made_by(holder: Instance | Made) -> str:
 
 
 def _declared(
-    values: Values, method: str, named_: Node, given: Node | None, scope: Scope
+    values: PyEvaluator, method: str, named_: Node, given: Node | None, scope: Scope
 ) -> FromParameter:
     """A parameter of ROS 2, whose default is where it is declared."""
     name = values.value(named_, scope)
@@ -336,12 +333,12 @@ def _declared(
         return FromParameter(name)
     found = default if isinstance(default, Node) else default[0]
     where = scope if isinstance(default, Node) else default[1]
-    known = [v for v in values.ways(found, where) if not isinstance(v, (Nothing, External))]
+    known = [v for v in values.ways(found, where) if not isinstance(v, (NoneValue, External))]
     unknown = values.unknown("a default that is computed", found, where)
     return FromParameter(name, resolved(tuple(known), unknown) if known else None)
 
 
-def declared_default(values: Values, name: object) -> tuple[Node, Scope] | None:
+def declared_default(values: PyEvaluator, name: object) -> tuple[Node, Scope] | None:
     """The default with which the files declare a parameter, if they do so once."""
     found = []
     calls = values.code.by_callee
@@ -357,7 +354,7 @@ def declared_default(values: Values, name: object) -> tuple[Node, Scope] | None:
 
 
 def declared_together(
-    values: Values, call: Node, scope: Scope
+    values: PyEvaluator, call: Node, scope: Scope
 ) -> Iterator[tuple[str | None, Node]]:
     """The names and defaults of parameters that are declared in one list."""
     plain, keywords = arguments_of(call)

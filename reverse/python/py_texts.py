@@ -11,13 +11,13 @@ from rebsync.reverse.python.py_index import Scope, arguments_of
 from rebsync.reverse.python.py_worth import Items, Table, Value, Ways
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.py_values import Values
+    from rebsync.reverse.python.py_evaluator import PyEvaluator
 
 _PERCENT = re.compile(r"%(?:\((\w+)\))?([-+# 0]*)(\d*)(?:\.(\d+))?([%a-zA-Z])")
 _BRACES = re.compile(r"\{\{|\}\}|\{(\w*)((?:\.\w+|\[\w+\])*)(![rsa])?(:[^{}]*)?\}")
 
 
-def formatted(values: Values, text: Value, given: Ways, node: Node, scope: Scope) -> Ways:
+def formatted(values: PyEvaluator, text: Value, given: Ways, node: Node, scope: Scope) -> Ways:
     """What `text % given` is."""
     if not isinstance(text, str):
         return (values.unknown("a text with a place to fill in", node, scope),)
@@ -70,7 +70,7 @@ def _written(value: Value, pattern: str) -> Value:
         return value
 
 
-def filled(values: Values, text: str, call: Node, scope: Scope) -> Ways:
+def filled(values: PyEvaluator, text: str, call: Node, scope: Scope) -> Ways:
     """What `text.format(...)` is."""
     plain, keywords = arguments_of(call)
     parts: list[Ways] = []

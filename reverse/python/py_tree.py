@@ -6,6 +6,7 @@ The grammar reads what both generations of Python write: `print` as a statement,
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from functools import cache
 
 import tree_sitter_python
@@ -117,3 +118,12 @@ def number_of(node: Node) -> int | float | None:
     except ValueError:
         return None
     return value if abs(value) < TOO_LARGE else None
+
+
+def nodes_in(node: Node) -> Iterator[Node]:
+    """A node and all that are in it."""
+    waiting = [node]
+    while waiting:
+        current = waiting.pop()
+        yield current
+        waiting += current.named_children

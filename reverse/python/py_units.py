@@ -10,22 +10,22 @@ from warnings import catch_warnings, simplefilter
 import libcst as cst
 
 from rebsync.records import dataclass
-from rebsync.reverse.syntax.code_units import Scope, Unit, lines_of, unit_with_body
+from rebsync.reverse.syntax.code_units import CodeUnit, UnitScope, lines_of, unit_with_body
 
 _SETS_UP = "__init__"
 _ACCESSORS = frozenset({"setter", "getter", "deleter"})
 
 
-def py_units(text: str) -> Unit | None:
+def py_units(text: str) -> CodeUnit | None:
     """A file as one unit; None where it does not parse."""
     lines = lines_of(text)
     if lines is None or not _is_python(text):
         return None
     with suppress(cst.ParserSyntaxError, RecursionError):
         module = cst.parse_module(text)
-        reader = _Reader(module, lines)
+        reader = _UnitReader(module, lines)
         head = len(module.header)
-        body = list(reader.units(module.body, head, Scope.DECLARATIONS))
+        body = list(reader.units(module.body, head, UnitScope.DECLARATIONS))
         at = head + sum(unit.text.count("\n") for unit in body)
         found = unit_with_body("", "".join(lines[:head]), body, "".join(lines[at:]))
         return found if found.text == text else None
@@ -42,18 +42,20 @@ def _is_python(text: str) -> bool:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Reader:
+class _UnitReader:
     module: cst.Module
     lines: list[str]
 
-    def units(self, body: Sequence[cst.BaseStatement], at: int, scope: Scope) -> Iterator[Unit]:
+    def units(
+        self, body: Sequence[cst.BaseStatement], at: int, scope: UnitScope
+    ) -> Iterator[CodeUnit]:
         """The units of the statements of a body that begins at a line."""
         for statement in body:
             end = at + self._height(statement)
             unit = self._unit(statement, at, end, scope)
             if unit.names and (remarks := _remarks(statement)):
-                yield Unit("", self._text(at, at + remarks))
-                unit = Unit(unit.key, self._text(at + remarks, end), names=unit.names)
+                yield CodeUnit("", self._text(at, at + remarks))
+                unit = CodeUnit(unit.key, self._text(at + remarks, end), names=unit.names)
             yield unit
             at = end
 
@@ -64,33 +66,37 @@ class _Reader:
         """How many lines a statement has, with the remarks above it."""
         return self.module.code_for_node(node).count("\n")
 
-    def _unit(self, node: cst.BaseStatement, start: int, end: int, scope: Scope) -> Unit:
+    def _unit(self, node: cst.BaseStatement, start: int, end: int, scope: UnitScope) -> CodeUnit:
         match node:
-            case _ if scope is Scope.STATEMENTS:
-                return Unit("", self._text(start, end))
+            case _ if scope is UnitScope.STATEMENTS:
+                return CodeUnit("", self._text(start, end))
             case cst.ClassDef(name=cst.Name(name), body=body):
-                return self._whole(f"class {name}", body, start, end, Scope.DECLARATIONS)
+                return self._whole(f"class {name}", body, start, end, UnitScope.DECLARATIONS)
             case cst.If(test=cst.Name("TYPE_CHECKING" as name), body=body, orelse=None):
-                return self._whole(f"if {name}", body, start, end, Scope.DECLARATIONS)
+                return self._whole(f"if {name}", body, start, end, UnitScope.DECLARATIONS)
             case cst.FunctionDef(name=cst.Name(name), body=body):
                 key = f"def {name}" + "".join(_accessor(d) for d in node.decorators)
-                inner = Scope.SET_UP if name == _SETS_UP else Scope.STATEMENTS
+                inner = UnitScope.SET_UP if name == _SETS_UP else UnitScope.STATEMENTS
                 return self._whole(key, body, start, end, inner)
             case cst.SimpleStatementLine(body=[statement]):
                 key, names = self._declared(statement, scope)
-                return Unit(key, self._text(start, end), names=names)
+                return CodeUnit(key, self._text(start, end), names=names)
             case _:
-                return Unit("", self._text(start, end))
+                return CodeUnit("", self._text(start, end))
 
-    def _whole(self, key: str, body: cst.BaseSuite, start: int, end: int, scope: Scope) -> Unit:
+    def _whole(
+        self, key: str, body: cst.BaseSuite, start: int, end: int, scope: UnitScope
+    ) -> CodeUnit:
         if not isinstance(body, cst.IndentedBlock):
-            return Unit(key, self._text(start, end))
+            return CodeUnit(key, self._text(start, end))
         last = end - len(body.footer)
         first = last - sum(self._height(statement) for statement in body.body)
         inside = list(self.units(body.body, first, scope))
         return unit_with_body(key, self._text(start, first), inside, self._text(last, end))
 
-    def _declared(self, node: cst.BaseSmallStatement, scope: Scope) -> tuple[str, frozenset[str]]:
+    def _declared(
+        self, node: cst.BaseSmallStatement, scope: UnitScope
+    ) -> tuple[str, frozenset[str]]:
         """The key of a statement, and the names that it imports."""
         match node:
             case cst.ImportFrom(names=[*names]):
@@ -105,7 +111,7 @@ class _Reader:
             case (
                 cst.Assign(targets=[cst.AssignTarget(target=target)]) | cst.AnnAssign(target=target)
             ):
-                kinds = (cst.Name, cst.Attribute) if scope is Scope.SET_UP else cst.Name
+                kinds = (cst.Name, cst.Attribute) if scope is UnitScope.SET_UP else cst.Name
                 is_plain = isinstance(target, kinds)
                 return f"= {self._code(target)}" if is_plain else "", frozenset()
             case _:

@@ -3,45 +3,37 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import field as with_default
-from itertools import product
 
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.graph import FromParameter, Place, Plain, Resolved, Unresolved
-from rebsync.reverse.python.py_index import PyCode, Scope
+from rebsync.reverse.graph import FromParameter, Plain, Unresolved
+from rebsync.reverse.python.py_bindings import Binding
+from rebsync.reverse.python.py_evaluator import PyEvaluator
+from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_tree import field, named, number_of, string_parts, text_of
 from rebsync.reverse.python.py_worth import (
     MOST,
+    Duration,
     Items,
-    Length,
-    Nothing,
+    NoneValue,
     Table,
     Value,
     Ways,
     computed,
     distinct,
     joined,
-    resolved,
     used,
 )
 
 _DEEPEST = 60
 _MOST_STEPS = 4000  # expressions that are followed for one value
-_Key = tuple[str, int]
-_CONSTANTS: dict[str, Value] = {"true": True, "false": False, "none": Nothing()}
+_CONSTANTS: dict[str, Value] = {"true": True, "false": False, "none": NoneValue()}
 
 
 @dataclass(eq=False, slots=True)
-class Values:
+class PyValues(PyEvaluator):
     """The values of expressions in some files; what was found is kept."""
-
-    code: PyCode
-    kept: dict[_Key, Ways] = with_default(default_factory=dict)
-    under_way: set[_Key] = with_default(default_factory=set)
-    cycles: list[set[_Key]] = with_default(default_factory=list)
-    steps: int = 0
 
     def ways(self, node: Node, scope: Scope) -> Ways:
         """All that an expression may be worth.
@@ -75,20 +67,11 @@ class Values:
             self.kept[key] = found
         return found
 
-    def value(self, node: Node, scope: Scope) -> Resolved:
-        """The value of an expression as it stands in a graph."""
-        return resolved(self.ways(node, scope), self.unknown("it is computed", node, scope))
+    def bound(self, binding: Binding, name: str, scope: Scope) -> Ways:
+        """What a binding of a name in a scope gives."""
+        from rebsync.reverse.python.py_lookup import bound
 
-    def text(self, node: Node, scope: Scope) -> str | None:
-        """The text of an expression if it is always the same."""
-        match self.ways(node, scope):
-            case (str() as text,):
-                return text
-            case _:
-                return None
-
-    def unknown(self, why: str, node: Node, scope: Scope) -> Unresolved:
-        return Unresolved(why, Place(scope.py.source, scope.py.span(node)))
+        return bound(self, binding, name, scope)
 
     # --- expressions ----------------------------------------------------------------------------
 
@@ -137,17 +120,6 @@ class Values:
             else:
                 parts.append(self.ways(field(part, "expression"), scope))
         return self.join(parts, node, scope)
-
-    def join(self, parts: list[Ways], node: Node, scope: Scope) -> Ways:
-        """Texts one behind the other, in all ways."""
-        none = (self.unknown("the text is put together of what is not known", node, scope),)
-        filled = [p or none for p in parts]
-        count = 1
-        for part in filled:
-            count *= len(part)
-        if count > MOST:
-            return none
-        return tuple(joined(chosen, lambda: none[0]) for chosen in product(*filled))
 
     def _items(self, node: Node, scope: Scope) -> list[Value]:
         inner = named(node)
@@ -236,9 +208,9 @@ class Values:
                 return used(a, "", f" {operator} {b!r}", lambda v: on(v, b))
             case ((int() | float()), FromParameter()):
                 return used(b, f"{a!r} {operator} ", "", lambda v: on(a, v))
-            case Length(seconds), (int() | float()) if isinstance(seconds, (int, float)):
+            case Duration(seconds), (int() | float()) if isinstance(seconds, (int, float)):
                 return _length(on(seconds, b)) or none()
-            case ((int() | float()), Length(seconds)) if isinstance(seconds, (int, float)):
+            case ((int() | float()), Duration(seconds)) if isinstance(seconds, (int, float)):
                 return _length(on(a, seconds)) or none()
             case Items(first), Items(second) if operator == "+":
                 return Items((*first, *second))
@@ -248,5 +220,5 @@ class Values:
                 return none()
 
 
-def _length(value: Value) -> Length | None:
-    return Length(value) if isinstance(value, (int, float)) else None
+def _length(value: Value) -> Duration | None:
+    return Duration(value) if isinstance(value, (int, float)) else None

@@ -21,7 +21,7 @@ _ENDS_IN_TEXT = re.compile(r"(value \+ )'([^'\\]*)'")
 
 
 @dataclass(frozen=True, slots=True)
-class Nothing:
+class NoneValue:
     """None."""
 
 
@@ -40,7 +40,7 @@ class Table:
 
 
 @dataclass(frozen=True, slots=True)
-class Length:
+class Duration:
     """A span of time in seconds."""
 
     seconds: Resolved
@@ -119,7 +119,7 @@ class Declared:
 
 
 Value: TypeAlias = (
-    "Plain | FromParameter | Unresolved | Nothing | Items | Table | Length | External | Module"
+    "Plain | FromParameter | Unresolved | NoneValue | Items | Table | Duration | External | Module"
     " | Class | Instance | Function | Bound | Made | Declared"
 )
 Ways: TypeAlias = "tuple[Value, ...]"
@@ -138,7 +138,7 @@ def resolved(ways: Ways, otherwise: Unresolved) -> Resolved:
     """The ways as a value of a graph; what is nothing does not count beside something."""
     values: list[Resolved] = []
     for way in ways:
-        value = _plain(way, otherwise) if not isinstance(way, Nothing) else None
+        value = _plain(way, otherwise) if not isinstance(way, NoneValue) else None
         if value is not None and not any(_same(value, v) for v in values):
             values.append(value)
     defaults = [v.default for v in values if isinstance(v, FromParameter) and not v.expression]
@@ -161,7 +161,7 @@ def _plain(value: Value, otherwise: Unresolved) -> Resolved | None:
             return next((v for v in inner if isinstance(v, Unresolved)), otherwise)
         case Table(pairs):
             return () if not pairs else otherwise
-        case Length(seconds):
+        case Duration(seconds):
             return seconds
         case Declared(inner):
             return inner

@@ -30,7 +30,7 @@ from rebsync.reverse.nodes.node_joined import Part
 from rebsync.reverse.nodes.node_system import unit_of_time
 from rebsync.reverse.python.body_started import Started, is_module, scripts_of
 from rebsync.reverse.python.body_system import PyNodes, PySystem
-from rebsync.reverse.python.model_classes import Classes
+from rebsync.reverse.python.model_classes import ModelClasses
 from rebsync.reverse.python.model_env import integer_constants
 from rebsync.reverse.python.model_parameters import constant, parameter_read
 from rebsync.reverse.python.model_types import class_name
@@ -38,7 +38,7 @@ from rebsync.reverse.python.py_calls import graph_with, owner_of
 from rebsync.reverse.python.py_hooks import hooks_in
 from rebsync.reverse.python.py_index import PyCode
 from rebsync.reverse.python.py_tree import field, named, parse, text_of, unparsed
-from rebsync.reverse.python.py_values import Values
+from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.runtime_files import is_runtime_file
 from rebsync.source import Source
 
@@ -103,8 +103,8 @@ class PythonCode:
 
     sources: Mapping[str, Source]
     code: PyCode
-    values: Values
-    classes: Classes
+    values: PyValues
+    classes: ModelClasses
 
     @staticmethod
     def of(
@@ -117,7 +117,10 @@ class PythonCode:
         findings.all += [f for py in trees for f in unparsed(py)]
         code = PyCode.of(trees)
         return PythonCode(
-            sources, code, Values(code), Classes(code, findings, fields_by_name(messages or {}))
+            sources,
+            code,
+            PyValues(code),
+            ModelClasses(code, findings, fields_by_name(messages or {})),
         )
 
     def hears_others(self) -> bool:
@@ -216,7 +219,7 @@ def _list_callbacks(
 
 
 def _list_hooks(
-    values: Values, own: Collection[tuple[str, str]], findings: Findings, path: str | None
+    values: PyValues, own: Collection[tuple[str, str]], findings: Findings, path: str | None
 ) -> None:
     for hook in hooks_in(values):
         source = hook.place.source

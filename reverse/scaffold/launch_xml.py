@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from rebsync.records import dataclass
-from rebsync.reverse.launch.xml_tree import Element, read_xml
+from rebsync.reverse.launch.xml_tree import XmlElement, read_xml
 from rebsync.reverse.scaffold.fact import NOT_GIVEN, OWN, SPACE, TYPE, Fact, has_bearing
 from rebsync.reverse.scaffold.prefixes import is_harmless
 from rebsync.reverse.scaffold.texts import conditions, is_of_package, space, squeezed
@@ -24,7 +24,7 @@ def facts_of_launch(source: Source, package: str) -> Iterator[Fact]:
         yield from _Tags(source, package, frozenset(_nodes(root))).facts(root)
 
 
-def _nodes(element: Element) -> Iterator[str]:
+def _nodes(element: XmlElement) -> Iterator[str]:
     """The names of the nodes in a tag."""
     for each in element.elements():
         if each.name == "node" and (name := each.attributes.get("name")) is not None:
@@ -45,7 +45,7 @@ class _Tags:
     around: tuple[Mapping[str, str], ...] = ()
     node: str = ""
 
-    def facts(self, element: Element) -> Iterator[Fact]:
+    def facts(self, element: XmlElement) -> Iterator[Fact]:
         """What a tag and those in it say."""
         given = {name: attribute.value for name, attribute in element.attributes.items()}
         yield from self._own(element, given)
@@ -60,7 +60,7 @@ class _Tags:
         for each in element.elements():
             yield from inside.facts(each)
 
-    def _own(self, element: Element, given: Mapping[str, str]) -> Iterator[Fact]:
+    def _own(self, element: XmlElement, given: Mapping[str, str]) -> Iterator[Fact]:
         name, value = given.get("name", ""), given.get("value", "")
         is_absolute = name.startswith("/")  # whatever it is in
         if element.name in ("param", "rosparam") and not (self.node or is_absolute):
@@ -96,7 +96,7 @@ class _Tags:
             return name.startswith("/")
         return name.strip("/").partition("/")[0] in self.nodes
 
-    def _node(self, element: Element, given: Mapping[str, str]) -> Iterator[Fact]:
+    def _node(self, element: XmlElement, given: Mapping[str, str]) -> Iterator[Fact]:
         """What a node is, and what else than parameters and remaps it is started with."""
         name, tags = given.get("name", ""), (*self.around, given)
         told = {key: given.get(key, "") for key in ("pkg", "respawn", "args", "launch-prefix")}
@@ -110,7 +110,7 @@ class _Tags:
             yield self._fact("node", name, key, value or NOT_GIVEN, element)
         yield self._fact(TYPE, name, "", given.get("type", ""), element)
 
-    def _fact(self, kind: str, owner: str, name: str, value: str, element: Element) -> Fact:
+    def _fact(self, kind: str, owner: str, name: str, value: str, element: XmlElement) -> Fact:
         return Fact(kind, owner, name, value, self.source, element.span)
 
 

@@ -9,7 +9,7 @@ from rebsync.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)
-class Unit:
+class CodeUnit:
     """Whole lines of code, with the remarks above them and those at their ends.
 
     `key` identifies what they declare, assign or import among the units around; it is empty for all
@@ -19,11 +19,11 @@ class Unit:
 
     key: str
     text: str
-    inside: tuple[Unit, ...] = ()
+    inside: tuple[CodeUnit, ...] = ()
     names: frozenset[str] = frozenset()
 
 
-class Scope(Enum):
+class UnitScope(Enum):
     """What the lines of a body are units by."""
 
     DECLARATIONS = "declarations"
@@ -31,13 +31,13 @@ class Scope(Enum):
     STATEMENTS = "statements"  # none has a key
 
 
-NO_UNIT = Unit("", "")
+NO_UNIT = CodeUnit("", "")
 
 
-def unit_with_body(key: str, head: str, body: Sequence[Unit], tail: str) -> Unit:
+def unit_with_body(key: str, head: str, body: Sequence[CodeUnit], tail: str) -> CodeUnit:
     """A unit of units: the lines that open it, its body, the lines that close it."""
-    inside = (Unit("head", head), *body, Unit("tail", tail))
-    return Unit(key, "".join(unit.text for unit in inside), inside)
+    inside = (CodeUnit("head", head), *body, CodeUnit("tail", tail))
+    return CodeUnit(key, "".join(unit.text for unit in inside), inside)
 
 
 def lines_of(text: str) -> list[str] | None:

@@ -38,7 +38,7 @@ _TOKEN = re.compile(r"\s*(\d[\w']*|\w+|&&|\|\||[=!<>]=|[-+!<>(),*/%])")
 
 
 @dataclass(frozen=True, slots=True)
-class Branch:
+class Alternative:
     """One alternative: its text lies between two directives. `taken`: None if it is not known."""
 
     start: int
@@ -52,7 +52,7 @@ class Conditional:
 
     condition: str
     directives: tuple[tuple[int, int], ...]
-    branches: tuple[Branch, ...]
+    branches: tuple[Alternative, ...]
     is_guard: bool
 
     @property
@@ -82,7 +82,7 @@ def _blanks(match: re.Match[str]) -> str:
 
 def conditionals(text: str) -> list[Conditional]:
     """All in a text of which comments are blank, inner ones before those around them."""
-    reader = _Reader()
+    reader = _DirectiveReader()
     for match in _directives(text):
         reader.directive(match)
     return reader.found
@@ -105,23 +105,23 @@ def _directives(text: str, start: int = 0) -> Iterator[re.Match[str]]:
 
 
 @dataclass(slots=True)
-class _Open:
+class _OpenConditional:
     """A conditional of which the end has not been read yet."""
 
     condition: str
     directives: list[tuple[int, int]]
-    branches: list[Branch]
+    branches: list[Alternative]
     taken: bool | None
     before: bool | None  # whether one of the earlier alternatives is taken
     guards: bool
 
 
-class _Reader:
+class _DirectiveReader:
     """Reads directives in their order, and remembers what is defined."""
 
     def __init__(self) -> None:
         self.found: list[Conditional] = []
-        self.open: list[_Open] = []
+        self.open: list[_OpenConditional] = []
         self.values: dict[str, int | None] = dict(_KNOWN)
         self.undefined = set(_UNDEFINED)
 
@@ -133,7 +133,7 @@ class _Reader:
             guards = word == "ifndef" and taken is None and _defines(match)
             taken = True if guards else taken
             shown = f"#{word} {' '.join(rest.split())}"
-            self.open.append(_Open(shown, [place], [], taken, taken, guards))
+            self.open.append(_OpenConditional(shown, [place], [], taken, taken, guards))
         elif word in ("elif", "else") and self.open:
             self._alternative(word, rest, place)
         elif word == "endif" and self.open:
@@ -148,8 +148,8 @@ class _Reader:
         top.taken = _and(_not(top.before), holds)
         top.before = _or(top.before, holds)
 
-    def _end_branch(self, top: _Open, place: tuple[int, int]) -> None:
-        top.branches.append(Branch(top.directives[-1][1], place[0], top.taken))
+    def _end_branch(self, top: _OpenConditional, place: tuple[int, int]) -> None:
+        top.branches.append(Alternative(top.directives[-1][1], place[0], top.taken))
         top.directives.append(place)
 
     def _close(self, place: tuple[int, int]) -> None:
@@ -205,7 +205,7 @@ def _defines(ifndef: re.Match[str]) -> bool:
 class _Condition:
     """The value of a condition; None if it is not known, or if it is none that can be read."""
 
-    def __init__(self, text: str, reader: _Reader) -> None:
+    def __init__(self, text: str, reader: _DirectiveReader) -> None:
         text = " ".join(text.replace("\\", " ").split())
         self.tokens: list[str] = _TOKEN.findall(text)
         self.whole = "".join(self.tokens) == text.replace(" ", "")

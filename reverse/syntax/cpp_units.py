@@ -8,7 +8,7 @@ from contextlib import suppress
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.syntax.code_units import Scope, Unit, lines_of, unit_with_body
+from rebsync.reverse.syntax.code_units import CodeUnit, UnitScope, lines_of, unit_with_body
 from rebsync.reverse.syntax.cpp_declarations import TYPES, CppFunction, declared_name, function_of
 from rebsync.reverse.syntax.cpp_tree import Cpp, parse_as_it_is, text_of
 from rebsync.reverse.syntax.unparsed import errors_in
@@ -19,73 +19,73 @@ _BODIES = frozenset({"declaration_list", "field_declaration_list", "compound_sta
 _ELSE = frozenset({"preproc_else", "preproc_elif", "preproc_elifdef"})
 
 
-def cpp_units(text: str) -> Unit | None:
+def cpp_units(text: str) -> CodeUnit | None:
     """A file as one unit; None where it does not parse."""
     lines = lines_of(text)
     cpp = parse_as_it_is(Source("-", text))
     if lines is None or (cpp.root.has_error and any(errors_in(cpp))):
         return None
-    body = _Body(cpp.root.children, 0, len(lines), "")
+    body = _UnitBody(cpp.root.children, 0, len(lines), "")
     with suppress(RecursionError):
-        return _Reader(cpp, lines).whole("", 0, body, len(lines))
+        return _CppUnitReader(cpp, lines).whole("", 0, body, len(lines))
     return None
 
 
 @dataclass(frozen=True, slots=True)
-class _Body:
+class _UnitBody:
     """The nodes of a body, and its lines: behind that of `{`, before that of `}`."""
 
     nodes: Sequence[Node]
     start: int
     end: int
     owner: str
-    scope: Scope = Scope.DECLARATIONS
+    scope: UnitScope = UnitScope.DECLARATIONS
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Reader:
+class _CppUnitReader:
     cpp: Cpp
     lines: list[str]
 
-    def whole(self, key: str, start: int, body: _Body, end: int) -> Unit:
+    def whole(self, key: str, start: int, body: _UnitBody, end: int) -> CodeUnit:
         """A unit with a body; what is left of its lines belongs to those that close it."""
         inside = list(self._units(body))
         at = body.start + sum(unit.text.count("\n") for unit in inside)
         return unit_with_body(key, self._text(start, body.start), inside, self._text(at, end))
 
-    def _units(self, body: _Body) -> Iterator[Unit]:
+    def _units(self, body: _UnitBody) -> Iterator[CodeUnit]:
         """The units of the lines of some nodes, up to the last node that is no remark."""
         at = body.start
         for group in _by_lines(_within(body)):
             code = [n for n in group if n.type not in ("comment", ";")]
-            node = code[0] if len(code) == 1 and body.scope is not Scope.STATEMENTS else None
+            node = code[0] if len(code) == 1 and body.scope is not UnitScope.STATEMENTS else None
             until = _end(group[-1])
             if node is not None and node.type == "preproc_include" and group[0] is not node:
-                yield Unit("", self._text(at, node.start_point.row))
+                yield CodeUnit("", self._text(at, node.start_point.row))
                 at = node.start_point.row
-            text = Unit("", self._text(at, until))
+            text = CodeUnit("", self._text(at, until))
             yield self._unit(node, at, until, body.owner) if node is not None else text
             at = until
 
     def _text(self, start: int, end: int) -> str:
         return "".join(self.lines[start:end])
 
-    def _unit(self, node: Node, start: int, end: int, owner: str) -> Unit:
+    def _unit(self, node: Node, start: int, end: int, owner: str) -> CodeUnit:
         inner = _declared_in(node)
         key = self._key(inner, owner)
         if inner.type == "preproc_include":
-            return Unit(key, self._text(start, end), names=frozenset({key}))
+            return CodeUnit(key, self._text(start, end), names=frozenset({key}))
         body = self._body(inner, owner)
         if body is None or any(_is_beside(n, body) for n in body.nodes):
-            return Unit(key, self._text(start, end))
+            return CodeUnit(key, self._text(start, end))
         return self.whole(key, start, body, end)
 
-    def _body(self, node: Node, owner: str) -> _Body | None:
+    def _body(self, node: Node, owner: str) -> _UnitBody | None:
         """What has units of its own: the body of a namespace, class, function or `#ifdef`."""
         if node.type == "preproc_ifdef":
             if any(child.type in _ELSE for child in node.children):
                 return None
-            return _Body(
+            return _UnitBody(
                 node.children[2:-1], _end(node.children[1]), _row(node.children[-1]), owner
             )
         body = node.child_by_field_name("body")
@@ -95,9 +95,11 @@ class _Reader:
         function = function_of(self.cpp, node, owner)
         if function is not None:
             is_set_up = function.name == function.owner
-            scope = Scope.SET_UP if is_set_up else Scope.STATEMENTS
-            return _Body(nodes, start, end, owner, scope)
-        return _Body(nodes, start, end, _field(node, "name") if node.type in _CLASSES else owner)
+            scope = UnitScope.SET_UP if is_set_up else UnitScope.STATEMENTS
+            return _UnitBody(nodes, start, end, owner, scope)
+        return _UnitBody(
+            nodes, start, end, _field(node, "name") if node.type in _CLASSES else owner
+        )
 
     def _key(self, node: Node, owner: str) -> str:
         function = function_of(self.cpp, node, owner)
@@ -143,12 +145,12 @@ def _end(node: Node) -> int:
     return node.end_point.row + (node.end_point.column > 0)
 
 
-def _is_beside(node: Node, body: _Body) -> bool:
+def _is_beside(node: Node, body: _UnitBody) -> bool:
     """Whether a node shares a line with what is around the body."""
     return node.type != "comment" and not body.start <= _row(node) < _end(node) <= body.end
 
 
-def _within(body: _Body) -> list[Node]:
+def _within(body: _UnitBody) -> list[Node]:
     return [n for n in body.nodes if body.start <= _row(n) and _end(n) <= body.end]
 
 

@@ -14,10 +14,10 @@ from typing import TypeVar
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.graph import FromParameter, Unresolved
+from rebsync.reverse.graph import FromParameter
 from rebsync.reverse.syntax.cpp_calls import string_of
-from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 from rebsync.reverse.values.cpp_flow import Texts, nearness
 from rebsync.reverse.values.cpp_flow_calls import Calls
 from rebsync.reverse.values.cpp_flow_types import Types
@@ -27,18 +27,14 @@ from rebsync.reverse.values.cpp_values_numbers import converted
 from rebsync.reverse.values.cpp_values_operators import binary, unary
 from rebsync.reverse.values.cpp_values_plain import (
     MOST,
-    TOO_MANY,
     Frame,
     Function,
     Nothing,
-    Open,
+    OpenCallers,
     Use,
     Value,
-    at,
     choice,
     each,
-    is_large,
-    ways,
 )
 from rebsync.reverse.values.cpp_values_ros2 import literal, named_by_ros2
 from rebsync.reverse.values.cpp_values_variables import Variables
@@ -61,23 +57,13 @@ _LITERALS = frozenset({"string_literal", "true", "false", "null"})
 
 
 @dataclass(slots=True)
-class Values:
+class Values(CppEvaluator):
     """Finds the values of expressions in some code."""
 
-    code: Code
-    texts: Texts = field(init=False)
-    types: Types = field(init=False)
-    calls: Calls = field(init=False)
     variables: Variables = field(init=False)
-    # What functions return, by their nodes.
-    returns: dict[int, list[Node]] = field(default_factory=dict)
     _active: set[tuple[int, int]] = field(default_factory=set)
     _memo: dict[tuple[int, int], tuple[Value, Frame]] = field(default_factory=dict)
     _steps: int = 0
-    # Whether there were more ways than are followed.
-    truncated: bool = False
-    # How often a value was asked for while it was looked for: what comes of it is not kept.
-    cuts: int = 0
 
     def __post_init__(self) -> None:
         self.texts = Texts(self.code)
@@ -110,7 +96,7 @@ class Values:
             current = waiting.pop(0)
             try:
                 result = do(current)
-            except Open as asked:
+            except OpenCallers as asked:
                 if asked.frame is not current.root:
                     raise
                 waiting += self._called(current)
@@ -150,14 +136,6 @@ class Values:
         return Frame(cpp, self.texts.function_around(cpp, node))
 
     # --- expressions ----------------------------------------------------------------------------
-
-    def unknown(self, why: str, node: Node, frame: Frame, partial: str | None = None) -> Unresolved:
-        """An unknown value."""
-        return Unresolved(why, at(frame.cpp, node), partial)
-
-    def bounded(self, value: Value, node: Node, frame: Frame) -> Value:
-        """A value, or an unknown one for one that has too many parts."""
-        return value if not is_large(value) else self.unknown(TOO_MANY, node, frame)
 
     def fresh(self) -> None:
         """Begins a question of its own: nothing of the one before counts against it."""
@@ -315,17 +293,6 @@ class Values:
         yes, no = part(node, "consequence"), part(node, "alternative")
         sides = [yes] if known is True else [no] if known is False else [yes, no]
         return choice([self.value(side, frame) for side in sides])
-
-    def holds(self, condition: Node, frame: Frame) -> bool | None:
-        """Whether a condition is met; None if that is not known."""
-        if condition.end_byte - condition.start_byte > 120:
-            return None
-        known = list(ways(self.value(condition, frame)))
-        match known:
-            case [bool() | int() | float()]:
-                return bool(known[0])
-            case _:
-                return None
 
 
 def _on_the_way(frame: Frame, use: Use) -> bool:

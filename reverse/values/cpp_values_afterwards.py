@@ -15,7 +15,7 @@ from rebsync.reverse.values.cpp_flow_writes import Key, key_of
 from rebsync.reverse.values.cpp_values_plain import Frame, Nothing, Value, choice
 
 if TYPE_CHECKING:
-    from rebsync.reverse.values.cpp_values_variables import Variables
+    from rebsync.reverse.values.cpp_assignments import CppAssignments
 
 # Where functions read parameters into one variable, what stands in for a parameter is what the
 # others left in it, and so on: so many of them one within the other say all that is known.
@@ -30,7 +30,7 @@ class Afterwards:
     others; constructors only where nothing else surely gives a value.
     """
 
-    variables: Variables
+    variables: CppAssignments
     # What is known by how many questions for the variable it was asked within.
     _known: dict[tuple[int, int, Key], Value] = field(default_factory=dict)
     _active: set[tuple[int, Key]] = field(default_factory=set)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
-from rebsync.reverse.graph import FromParameter, Resolved, Unresolved
+from rebsync.reverse.graph import Resolved, Unresolved
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.cpp_index import CppFunction
@@ -18,10 +18,10 @@ from rebsync.reverse.values.cpp_flow_types import HOLDERS, unscoped_member
 from rebsync.reverse.values.cpp_values_made import constructed
 from rebsync.reverse.values.cpp_values_names import name_under, resolved, tidy
 from rebsync.reverse.values.cpp_values_numbers import converted
+from rebsync.reverse.values.cpp_values_parameters import from_parameter
 from rebsync.reverse.values.cpp_values_plain import (
     NUMBERS,
     OWN_NAME,
-    Found,
     Frame,
     Function,
     Handle,
@@ -43,7 +43,7 @@ from rebsync.reverse.values.cpp_values_ros2 import (
 from rebsync.reverse.values.cpp_values_texts import is_stream, streamed
 
 if TYPE_CHECKING:
-    from rebsync.reverse.values.cpp_values import Values
+    from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 
 _LIMITS: dict[tuple[str, str], float] = {
     ("double", "max"): sys.float_info.max,
@@ -62,7 +62,7 @@ _BINDS = frozenset({"bind", "mem_fn", "bind_front"})
 _PARAMETERS = frozenset({"param", "param_cached", "paramCached"})
 
 
-def called_value(values: Values, node: Node, frame: Frame) -> Value:
+def called_value(values: CppEvaluator, node: Node, frame: Frame) -> Value:
     """What a call gives."""
     function = part(node, "function")
     given = tuple(named(part(node, "arguments")))
@@ -84,7 +84,7 @@ def called_value(values: Values, node: Node, frame: Frame) -> Value:
 
 
 def _of_function(
-    values: Values,
+    values: CppEvaluator,
     node: Node,
     scopes: list[str],
     name: str,
@@ -132,7 +132,9 @@ def _of_function(
     return _of_own(values, node, name, given, frame)
 
 
-def _of_own(values: Values, node: Node, name: str, given: tuple[Node, ...], frame: Frame) -> Value:
+def _of_own(
+    values: CppEvaluator, node: Node, name: str, given: tuple[Node, ...], frame: Frame
+) -> Value:
     functions = values.calls.functions(frame.cpp, node)
     if functions:
         return returned(values, functions, node, given, frame)
@@ -142,7 +144,7 @@ def _of_own(values: Values, node: Node, name: str, given: tuple[Node, ...], fram
     return values.unknown(f"what {name} gives", node, frame)
 
 
-def _constructed_type(values: Values, node: Node, name: str, frame: Frame) -> str:
+def _constructed_type(values: CppEvaluator, node: Node, name: str, frame: Frame) -> str:
     """The type that a call makes an object of, if its function is one."""
     text = "".join(text_of(part(node, "function")).split()).partition("<")[0]
     if name in ("string", "vector") or name in NUMBERS or name.endswith("Options"):
@@ -155,7 +157,7 @@ def _constructed_type(values: Values, node: Node, name: str, frame: Frame) -> st
 
 
 def _of_ros(
-    values: Values, node: Node, scope: str, name: str, given: tuple[Node, ...], frame: Frame
+    values: CppEvaluator, node: Node, scope: str, name: str, given: tuple[Node, ...], frame: Frame
 ) -> Value:
     first = values.value(given[0], frame)
     if scope == "param" and name in _PARAMETERS and len(given) == 2:
@@ -176,7 +178,7 @@ def _appended(left: Value, right: Value) -> Value:
 
 
 def _of_library(
-    values: Values, node: Node, name: str, given: tuple[Node, ...], frame: Frame
+    values: CppEvaluator, node: Node, name: str, given: tuple[Node, ...], frame: Frame
 ) -> Value:
     found = [values.value(g, frame) for g in given]
     match name, found:
@@ -193,7 +195,7 @@ def _of_library(
 
 
 def returned(
-    values: Values,
+    values: CppEvaluator,
     functions: list[CppFunction],
     node: Node,
     given: tuple[Node, ...],
@@ -213,7 +215,7 @@ def returned(
     return choice(found)
 
 
-def _reached(values: Values, function: CppFunction, frame: Frame) -> Iterator[Node]:
+def _reached(values: CppEvaluator, function: CppFunction, frame: Frame) -> Iterator[Node]:
     """What a function returns, up to a return that is surely reached."""
     key = function.node.id
     if key not in values.returns:
@@ -240,7 +242,7 @@ def _returns(body: Node | None) -> Iterator[Node]:
 
 
 def _of_method(
-    values: Values, node: Node, function: Node, given: tuple[Node, ...], frame: Frame
+    values: CppEvaluator, node: Node, function: Node, given: tuple[Node, ...], frame: Frame
 ) -> Value:
     target = part(function, "argument")
     name = unscoped_member(part(function, "field"))
@@ -271,7 +273,7 @@ def _of_method(
 
 
 def _of_ros2(
-    values: Values, node: Node, name: str, target: Node, given: tuple[Node, ...], frame: Frame
+    values: CppEvaluator, node: Node, name: str, target: Node, given: tuple[Node, ...], frame: Frame
 ) -> Value:
     """What a method of a node, of a parameter or of a quality of service gives."""
     if name in libraries.reading() and given:
@@ -286,14 +288,14 @@ def _of_ros2(
     return values.unknown(f"what {name} gives", node, frame)
 
 
-def _inside(values: Values, value: Value, node: Node, name: str, frame: Frame) -> Value:
+def _inside(values: CppEvaluator, value: Value, node: Node, name: str, frame: Frame) -> Value:
     """A text's characters, a pointer's object."""
     if name in ("str", "value") and not isinstance(value, (str, Unresolved)):
         return values.unknown(f"what {name} gives", node, frame, "*")
     return value
 
 
-def _measure(values: Values, name: str, node: Node, frame: Frame) -> Callable[[Value], Value]:
+def _measure(values: CppEvaluator, name: str, node: Node, frame: Frame) -> Callable[[Value], Value]:
     def measure(value: Value) -> Value:
         match value:
             case str():
@@ -312,7 +314,12 @@ def _measure(values: Values, name: str, node: Node, frame: Frame) -> Callable[[V
 
 
 def _of_handle(
-    values: Values, handle: Value, node: Node, name: str, given: tuple[Node, ...], frame: Frame
+    values: CppEvaluator,
+    handle: Value,
+    node: Node,
+    name: str,
+    given: tuple[Node, ...],
+    frame: Frame,
 ) -> Value:
     if not isinstance(handle, Handle):
         return Nothing()
@@ -328,25 +335,6 @@ def _of_handle(
     return values.unknown(f"what {name} gives", node, frame)
 
 
-def _name(values: Values, handle: Handle, value: Value, node: Node, frame: Frame) -> Resolved:
+def _name(values: CppEvaluator, handle: Handle, value: Value, node: Node, frame: Frame) -> Resolved:
     found = resolved(value, values.unknown("no text that is known", node, frame))
     return name_under(handle.namespace, found if found is not None else "")
-
-
-def from_parameter(
-    values: Values, handle: Value, name: Value, default: Value, node: Node, frame: Frame
-) -> Value:
-    """The value of a parameter that a handle looks up."""
-    namespace = handle.namespace if isinstance(handle, Handle) else ""
-
-    def one(text: Value) -> Value:
-        unknown = values.unknown("the name of the parameter is not known", node, frame)
-        stands = resolved(default, unknown)
-        if isinstance(stands, Unresolved):
-            stands = None
-        if isinstance(text, Found):
-            return FromParameter(text.name, stands, search=True)
-        full = resolved(text, unknown)
-        return FromParameter(name_under(namespace, full if full is not None else unknown), stands)
-
-    return each(one, name)

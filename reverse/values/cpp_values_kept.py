@@ -27,10 +27,10 @@ from rebsync.reverse.values.cpp_values_plain import (
 )
 
 if TYPE_CHECKING:
-    from rebsync.reverse.values.cpp_values import Values
+    from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 
 
-def listed(values: Values, type_: str, definition: Definition, frame: Frame) -> Value:
+def listed(values: CppEvaluator, type_: str, definition: Definition, frame: Frame) -> Value:
     """The elements of an array or vector that is made of them."""
     given = [values.value(g, frame) for g in definition.arguments]
     found = [converted(value, type_) for value in given]
@@ -67,7 +67,7 @@ def _with_default(value: Value, default: Value) -> Value:
             return choice([default, value])
 
 
-def found_by(values: Values, handle: Value, key: Value, call: Node, frame: Frame) -> Value:
+def found_by(values: CppEvaluator, handle: Value, key: Value, call: Node, frame: Frame) -> Value:
     """The full name of a parameter that a search upwards finds."""
 
     def one(name: Value) -> Value:

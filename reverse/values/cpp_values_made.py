@@ -27,12 +27,12 @@ from rebsync.reverse.values.cpp_values_plain import (
 from rebsync.reverse.values.cpp_values_ros2 import made, unset
 
 if TYPE_CHECKING:
-    from rebsync.reverse.values.cpp_values import Values
+    from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 
 _TEXTS = frozenset({"string", "String"})
 
 
-def constructed(values: Values, type_: str, use: Use, frame: Frame) -> Value:
+def constructed(values: CppEvaluator, type_: str, use: Use, frame: Frame) -> Value:
     """An object of a type, made of arguments in a frame."""
     name = type_.rpartition("::")[2]
     given = use.arguments
@@ -61,7 +61,7 @@ def constructed(values: Values, type_: str, use: Use, frame: Frame) -> Value:
     return Made(type_, use, frame)
 
 
-def _vector(values: Values, use: Use, frame: Frame) -> Value:
+def _vector(values: CppEvaluator, use: Use, frame: Frame) -> Value:
     """`std::vector<T>(count, element)`, or one of elements in braces."""
     found = [values.value(g, frame) for g in use.arguments]
     if use.node.type == "call_expression":
@@ -78,11 +78,11 @@ def _vector(values: Values, use: Use, frame: Frame) -> Value:
     return values.unknown("a list that is not known", use.node, frame)
 
 
-def _part(values: Values, use: Use, frame: Frame) -> Value:
+def _part(values: CppEvaluator, use: Use, frame: Frame) -> Value:
     return values.unknown("a text made of others", use.node, frame)
 
 
-def default_of(values: Values, type_: str, node: Node, frame: Frame) -> Value:
+def default_of(values: CppEvaluator, type_: str, node: Node, frame: Frame) -> Value:
     """What a variable of a type holds that is declared without a value."""
     if type_.rpartition("::")[2] in libraries.handles():
         return Handle("")
@@ -99,7 +99,7 @@ def default_of(values: Values, type_: str, node: Node, frame: Frame) -> Value:
 # --- node handles -------------------------------------------------------------------------------
 
 
-def _handle(values: Values, given: tuple[Node, ...], frame: Frame) -> Value:
+def _handle(values: CppEvaluator, given: tuple[Node, ...], frame: Frame) -> Value:
     if not given:
         return Handle("")
     first = values.value(given[0], frame)
@@ -136,7 +136,7 @@ def _nested(first: Value, second: Value) -> Value:
 # --- time ---------------------------------------------------------------------------------------
 
 
-def _span(values: Values, given: tuple[Node, ...], frame: Frame) -> Value:
+def _span(values: CppEvaluator, given: tuple[Node, ...], frame: Frame) -> Value:
     if not given:
         return Length(0.0)
     found = each(_seconds, values.value(given[0], frame))

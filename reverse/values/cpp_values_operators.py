@@ -12,10 +12,10 @@ from rebsync.reverse.values.cpp_values_numbers import added, computed, used
 from rebsync.reverse.values.cpp_values_plain import Frame, Length, Value, each, pairs, same
 
 if TYPE_CHECKING:
-    from rebsync.reverse.values.cpp_values import Values
+    from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 
 
-def unary(values: Values, node: Node, frame: Frame) -> Value:
+def unary(values: CppEvaluator, node: Node, frame: Frame) -> Value:
     """The value of an operation on one operand."""
     operator = frame.cpp.operator(node)
 
@@ -34,7 +34,7 @@ def unary(values: Values, node: Node, frame: Frame) -> Value:
     return each(one, values.value(part(node, "argument"), frame))
 
 
-def binary(values: Values, node: Node, frame: Frame) -> Value:
+def binary(values: CppEvaluator, node: Node, frame: Frame) -> Value:
     """The value of an operation on two operands."""
     left, right = part(node, "left"), part(node, "right")
     operator = text_of(part(node, "operator"))
@@ -47,7 +47,7 @@ def binary(values: Values, node: Node, frame: Frame) -> Value:
 
 
 def _operation(
-    values: Values, operator: str, a: Value, b: Value, node: Node, frame: Frame
+    values: CppEvaluator, operator: str, a: Value, b: Value, node: Node, frame: Frame
 ) -> Value:
     match a, b:
         case ((bool() | int() | float() | str()), (bool() | int() | float() | str())):
@@ -75,7 +75,7 @@ def _operation(
             return _no(values, operator, node, frame)
 
 
-def _no(values: Values, operator: str, node: Node, frame: Frame) -> Unresolved:
+def _no(values: CppEvaluator, operator: str, node: Node, frame: Frame) -> Unresolved:
     return values.unknown(f"the operator {operator} on what is not known", node, frame)
 
 

@@ -73,7 +73,7 @@ class Frame:
         return 0 if self.caller is None else self.caller.depth + 1
 
 
-class Open(Exception):
+class OpenCallers(Exception):
     """A parameter was asked for whose callers are still open."""
 
     def __init__(self, frame: Frame) -> None:

@@ -18,6 +18,7 @@ from rebsync.reverse.values.cpp_flow import climb
 from rebsync.reverse.values.cpp_flow_definitions import Definition
 from rebsync.reverse.values.cpp_values_names import resolved
 from rebsync.reverse.values.cpp_values_numbers import used
+from rebsync.reverse.values.cpp_values_parameters import from_parameter
 from rebsync.reverse.values.cpp_values_plain import (
     Frame,
     Handle,
@@ -31,7 +32,7 @@ from rebsync.reverse.values.cpp_values_plain import (
 )
 
 if TYPE_CHECKING:
-    from rebsync.reverse.values.cpp_values import Values
+    from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 
 _KEPT = re.compile(r"(?:TransientLocal|TRANSIENT_LOCAL)\Z")
 _LOST = re.compile(r"(?:Volatile|VOLATILE)\Z")
@@ -43,7 +44,7 @@ def makes(name: str) -> bool:
     return name in UNITS or name in libraries.qualities() or name in libraries.value_classes()
 
 
-def literal(values: Values, node: Node, frame: Frame) -> Value:
+def literal(values: CppEvaluator, node: Node, frame: Frame) -> Value:
     """`500ms`, `"topic"s`."""
     children = named(node)
     if len(children) == 2:
@@ -56,7 +57,7 @@ def literal(values: Values, node: Node, frame: Frame) -> Value:
     return values.unknown("a literal of its own kind", node, frame)
 
 
-def made(values: Values, type_: str, use: Use, frame: Frame) -> Value | None:
+def made(values: CppEvaluator, type_: str, use: Use, frame: Frame) -> Value | None:
     """An object of a class of ROS 2 or `std::chrono`, made of arguments; None for other classes."""
     name = type_.rpartition("::")[2]
     given = use.arguments
@@ -93,7 +94,7 @@ def unset(type_: str) -> Quality | None:
 
 
 def span(
-    values: Values, name: str, types: tuple[Node, ...], given: tuple[Node, ...], frame: Frame
+    values: CppEvaluator, name: str, types: tuple[Node, ...], given: tuple[Node, ...], frame: Frame
 ) -> Value | None:
     """What `duration<double>(x)`, `duration_cast<T>(x)` or `Duration::from_seconds(x)` is."""
     if len(given) != 1:
@@ -136,7 +137,7 @@ def _divided(value: Value, unit: float) -> Value:
 # --- quality of service -------------------------------------------------------------------------
 
 
-def _quality(values: Values, name: str, use: Use, frame: Frame) -> Value:
+def _quality(values: CppEvaluator, name: str, use: Use, frame: Frame) -> Value:
     given = use.arguments
     if name == "QoSInitialization" and len(given) > 1:
         given = given[1:]
@@ -147,7 +148,7 @@ def _quality(values: Values, name: str, use: Use, frame: Frame) -> Value:
     return each(lambda v: _deep(values, v, use.node, frame), values.value(given[0], frame))
 
 
-def _deep(values: Values, value: Value, node: Node, frame: Frame) -> Value:
+def _deep(values: CppEvaluator, value: Value, node: Node, frame: Frame) -> Value:
     """A quality whose depth is a value, or that is copied from another."""
     if isinstance(value, (Quality, Nothing)):
         return value
@@ -165,7 +166,7 @@ def named_by_ros2(text: str) -> Value | None:
 
 
 def changed(
-    values: Values, value: Value, name: str, given: tuple[Node, ...], node: Node, frame: Frame
+    values: CppEvaluator, value: Value, name: str, given: tuple[Node, ...], node: Node, frame: Frame
 ) -> Value:
     """A quality of service after a method was called on it."""
     if not isinstance(value, Quality) or name in libraries.named(Kind.QUALITY):
@@ -194,7 +195,7 @@ def changed(
             return value
 
 
-def adjusted(values: Values, before: Value, definition: Definition, frame: Frame) -> Value:
+def adjusted(values: CppEvaluator, before: Value, definition: Definition, frame: Frame) -> Value:
     """The same, for a call that stands by itself."""
     call = definition.node
     given = tuple(named(part(call, "arguments")))
@@ -210,11 +211,9 @@ def is_quality_method(name: str) -> bool:
 
 
 def parameter(
-    values: Values, name: str, given: tuple[Node, ...], node: Node, frame: Frame
+    values: CppEvaluator, name: str, given: tuple[Node, ...], node: Node, frame: Frame
 ) -> Value:
     """What `declare_parameter` or `get_parameter` gives."""
-    from rebsync.reverse.values.cpp_values_calls import from_parameter
-
     key = values.value(given[0], frame)
     if name in libraries.declaring() and len(given) > 1:
         default = values.value(given[1], frame)
@@ -232,7 +231,7 @@ def _standing_in(default: Unresolved, value: Value) -> Value:
     return FromParameter(value.name, default, value.expression, value.search, value.within)
 
 
-def declared(values: Values, name: Node, frame: Frame) -> Value:
+def declared(values: CppEvaluator, name: Node, frame: Frame) -> Value:
     """The default that the same file, or another, declares a parameter with."""
     text = string_of(name) if name.type == "string_literal" else values.value(name, frame)
     found: list[Value] = []
@@ -249,6 +248,6 @@ def declared(values: Values, name: Node, frame: Frame) -> Value:
     return known if isinstance(known, (bool, int, float, str)) else Nothing()
 
 
-def uses_flat(values: Values) -> bool:
+def uses_flat(values: CppEvaluator) -> bool:
     """Whether some file of the code is for a library whose nodes have their own parameters."""
     return any(libraries.is_flat(cpp.original) for cpp in values.code.files)

@@ -16,7 +16,7 @@ from rebsync.reverse.values.cpp_values_numbers import added
 from rebsync.reverse.values.cpp_values_plain import Frame, Value, pairs
 
 if TYPE_CHECKING:
-    from rebsync.reverse.values.cpp_values import Values
+    from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 
 _STREAMS = frozenset({"stringstream", "ostringstream"})
 _CONVERSION = re.compile(r"%[-+ #0]*\d*(?:\.\d+)?(?:hh|h|ll|l|z)?([diufFeEgGxXcs%])")
@@ -28,7 +28,7 @@ def is_stream(type_: str) -> bool:
     return type_.rpartition("::")[2] in _STREAMS
 
 
-def streamed(values: Values, variable: Variable, node: Node, frame: Frame) -> Value:
+def streamed(values: CppEvaluator, variable: Variable, node: Node, frame: Frame) -> Value:
     """The text that a stream holds where `str()` is called on it.
 
     Only what is put in on all ways is followed: `s << "a" << name;`.
@@ -61,7 +61,7 @@ def _pieces(place: Node) -> list[Node]:
     return pieces
 
 
-def as_text(values: Values, value: Value, node: Node, frame: Frame) -> Value:
+def as_text(values: CppEvaluator, value: Value, node: Node, frame: Frame) -> Value:
     """A value as a stream writes it."""
     match value:
         case bool():
@@ -81,7 +81,7 @@ def as_text(values: Values, value: Value, node: Node, frame: Frame) -> Value:
 # --- formats ------------------------------------------------------------------------------------
 
 
-def formatted(values: Values, call: Node, frame: Frame) -> Value:
+def formatted(values: CppEvaluator, call: Node, frame: Frame) -> Value:
     """The text that `sprintf(buffer, "robot_%d", number)` writes."""
     given = named(part(call, "arguments"))
     name = text_of(part(call, "function")).rpartition("::")[2]
@@ -103,7 +103,7 @@ def formatted(values: Values, call: Node, frame: Frame) -> Value:
     return pairs(added, text, form[at:])
 
 
-def _converted(values: Values, match: re.Match[str], node: Node, frame: Frame) -> Value:
+def _converted(values: CppEvaluator, match: re.Match[str], node: Node, frame: Frame) -> Value:
     value = values.value(node, frame)
     if isinstance(value, (bool, int, float, str)):
         try:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import field
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -12,6 +11,7 @@ from rebsync.reverse.graph import Under
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.syntax.cpp_index import CppClass
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.values.cpp_assignments import CppAssignments
 from rebsync.reverse.values.cpp_flow_definitions import Definition
 from rebsync.reverse.values.cpp_flow_reach import Reach, in_loop, reaching
 from rebsync.reverse.values.cpp_flow_types import Variable, is_list
@@ -24,7 +24,6 @@ from rebsync.reverse.values.cpp_flow_writes import (
     role_of,
 )
 from rebsync.reverse.values.cpp_values_afterwards import Afterwards
-from rebsync.reverse.values.cpp_values_calls import from_parameter
 from rebsync.reverse.values.cpp_values_kept import (
     found_by,
     is_pointer,
@@ -36,13 +35,14 @@ from rebsync.reverse.values.cpp_values_kept import (
 from rebsync.reverse.values.cpp_values_lambdas import arguments_of
 from rebsync.reverse.values.cpp_values_made import constructed, default_of
 from rebsync.reverse.values.cpp_values_numbers import added, converted
+from rebsync.reverse.values.cpp_values_parameters import from_parameter
 from rebsync.reverse.values.cpp_values_plain import (
     MOST,
     TOO_MANY,
     Frame,
     Handle,
     Nothing,
-    Open,
+    OpenCallers,
     Use,
     Value,
     choice,
@@ -52,20 +52,15 @@ from rebsync.reverse.values.cpp_values_plain import (
 from rebsync.reverse.values.cpp_values_ros2 import adjusted, declared
 from rebsync.reverse.values.cpp_values_texts import formatted
 
-if TYPE_CHECKING:
-    from rebsync.reverse.values.cpp_values import Values
-
 _DEEPEST = 60
 _At = tuple[Key, int, int]  # a variable, the node that uses it, and the frame
 _OUTSIDE = "handed in by callers outside of the files"
 
 
 @dataclass(slots=True)
-class Variables:
+class Variables(CppAssignments):
     """Finds the values of variables; `values` those of the expressions that they are given."""
 
-    values: Values
-    writes: Writes = field(init=False)
     _asked: set[_At] = field(default_factory=set)
     # What was found at a place in a frame, which stays alive with it.
     _memo: dict[_At, tuple[Value, Frame]] = field(default_factory=dict)
@@ -322,7 +317,7 @@ class Variables:
         function = frame.function
         if frame.call is None or frame.caller is None or function is None:
             if not frame.outside:
-                raise Open(frame)
+                raise OpenCallers(frame)
             return self._from_outside(variable, frame)
         given = frame.call.arguments
         if variable.index < len(given):

@@ -15,7 +15,7 @@ from rebsync.roundtrip.diff.correspondence import Both, correspondence
 from rebsync.roundtrip.diff.operands import SourcedModel
 from rebsync.roundtrip.package.cache.store import key_of, load, save
 from rebsync.roundtrip.package.model_file import properties_beside
-from rebsync.roundtrip.package.models import Code
+from rebsync.roundtrip.package.models import CodeModel
 from rebsync.source import Source
 
 
@@ -44,7 +44,9 @@ class Proof:
         return tuple(words.title(v) for v in violations)
 
 
-def prove(code: Code, today: SourcedModel, property_path: str | None, options: Options) -> Proof:
+def prove(
+    code: CodeModel, today: SourcedModel, property_path: str | None, options: Options
+) -> Proof:
     """Verifies what the code says against the properties of the model.
 
     RebsyncError: the properties cannot be read.
@@ -114,7 +116,7 @@ def _verified(problem: Problem, options: Options) -> Result:
     return result
 
 
-def _judged(proof: Proof, code: Code) -> Proof:
+def _judged(proof: Proof, code: CodeModel) -> Proof:
     """Nothing holds, and nothing is certain to fail, where the code is not all there."""
     if code.given.unread:
         count = len(code.given.unread)

@@ -49,7 +49,7 @@ class Event:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Words:
+class Vocabulary:
     """What one model's rebecs, variables and servers are called in both.
 
     Variables go by the class of a rebec and their name; what is not in there is not seen.
@@ -60,7 +60,7 @@ class Words:
     servers: Mapping[tuple[str, str], str]
 
 
-def words_of(side: Operand, matching: Matching, is_left: bool) -> Words:
+def words_of(side: Operand, matching: Matching, is_left: bool) -> Vocabulary:
     """The words of a side: those of the left one for what both have."""
     called = {id(pair[0 if is_left else 1].node): pair[0].name for pair in matching.pairs}
     rebecs = {i.name: called.get(id(i.node), f"{i.name}'") for i in side.items if i.kind == "rebec"}
@@ -74,7 +74,7 @@ def words_of(side: Operand, matching: Matching, is_left: bool) -> Words:
     if is_left:
         rebecs = {name: name for name in rebecs}
         servers = {key: key[1] for key in servers}
-    return Words(rebecs, variables, servers)
+    return Vocabulary(rebecs, variables, servers)
 
 
 @dataclass(slots=True, eq=False)
@@ -82,7 +82,7 @@ class Transitions:
     """The steps of one model, made when they are asked for. State 0 is before the constructors."""
 
     side: Operand
-    words: Words
+    words: Vocabulary
     known: Known
     numbers: dict[State, int] = field(default_factory=dict)
     states: list[State] = field(default_factory=lambda: [()])

@@ -25,7 +25,14 @@ from rebsync.roundtrip.diff.difference import (
     Undetermined,
 )
 from rebsync.roundtrip.diff.matching import Matching, Pair, matched, names_of
-from rebsync.roundtrip.diff.operands import Item, Operand, SourcedModel, Unread, too_deep, two_sides
+from rebsync.roundtrip.diff.operands import (
+    Item,
+    Operand,
+    SourcedModel,
+    UnreadPlace,
+    too_deep,
+    two_sides,
+)
 from rebsync.roundtrip.diff.quick_equality import are_same
 from rebsync.roundtrip.diff.tokens import Tokens
 from rebsync.source import SourceSpan
@@ -239,7 +246,7 @@ class _Comparing:
                 if not any(_tells(d, own is self.left, unread) for d in told):
                     yield self._undetermined(unread, own is self.left)
 
-    def _undetermined(self, unread: Unread, is_left: bool) -> Undetermined:
+    def _undetermined(self, unread: UnreadPlace, is_left: bool) -> Undetermined:
         own = self.left if is_left else self.right
         item = next((i for i in own.items if i.path == unread.within and i.kind in _BODIES), None)
         pair = next((p for p in self.matching.pairs if item in p), None)
@@ -254,7 +261,7 @@ class _Comparing:
         return Undetermined(element, unread.why, *places)
 
 
-def _tells(difference: Undetermined, left: bool, unread: Unread) -> bool:
+def _tells(difference: Undetermined, left: bool, unread: UnreadPlace) -> bool:
     place = difference.left if left else difference.right
     if place is None or difference.why != unread.why:
         return False

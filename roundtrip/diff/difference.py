@@ -282,12 +282,6 @@ def clipped(text: str) -> str:
     return line if len(line) <= _LONGEST else f"{line[: _LONGEST - 3]}..."
 
 
-def line_of(difference: Difference) -> str:
-    """The whole difference on one line, with both places; `-` where there is none."""
-    left, right = (str(p) if p is not None else "-" for p in (difference.left, difference.right))
-    return f"{left} {right} {difference.element}: {explain(difference)}"
-
-
 def finding(place: Place | None, code: str, message: str, hint: str) -> Findings:
     """A finding at a place of the model or of the code."""
     source = place.source if place is not None else Source("", "")

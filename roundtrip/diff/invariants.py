@@ -7,7 +7,7 @@ from functools import reduce
 
 from rebsync import model as m
 from rebsync.intervals import INTEGERS, Interval, exactly
-from rebsync.reverse.analysis.invariants import Body, Entry, between_messages
+from rebsync.reverse.analysis.invariants import Body, BodyStart, between_messages
 from rebsync.static import Analysis
 
 
@@ -46,11 +46,11 @@ def _bodies(class_: m.ReactiveClass, analysis: Analysis) -> Iterator[Body]:
             continue
         names = [p.name for p in member.parameters]
         types = around | {p.name: p.type for p in member.parameters}
-        entry, given = Entry.BETWEEN, dict[str, Interval]()
+        entry, given = BodyStart.BETWEEN, dict[str, Interval]()
         if isinstance(member, m.Method):
-            entry = Entry.WITHIN
+            entry = BodyStart.WITHIN
         elif isinstance(member, m.Constructor):
-            entry, given = Entry.FIRST, _arguments(member, analysis)
+            entry, given = BodyStart.FIRST, _arguments(member, analysis)
         yield Body(
             member.name, entry, member.body.statements, types, names, results, arguments=given
         )

@@ -14,7 +14,7 @@ from rebsync.printing import print_member, print_statement
 from rebsync.records import dataclass
 from rebsync.roundtrip.diff.alignment import overlap
 from rebsync.roundtrip.diff.operands import Item, Operand, markers_at
-from rebsync.roundtrip.diff.tokens import Names
+from rebsync.roundtrip.diff.tokens import ElementNames
 
 Pair: TypeAlias = tuple[Item, Item]
 
@@ -72,7 +72,7 @@ def matched(left: Operand, right: Operand) -> Matching:
     return matching
 
 
-def names_of(matching: Matching) -> tuple[Names, Names]:
+def names_of(matching: Matching) -> tuple[ElementNames, ElementNames]:
     """What the elements of both sides are called: as on the left, where they are there."""
     classes = {r.name: x.name for x, r in matching.pairs if not r.owner and r.kind in _CLASSES}
     declared = {id(r.node): x.name for x, r in matching.pairs if x.name != r.name}
@@ -80,7 +80,7 @@ def names_of(matching: Matching) -> tuple[Names, Names]:
     for item in matching.rights:
         if (item.kind, classes.get(item.owner, item.owner), item.name) in taken:
             declared[id(item.node)] = f"{item.name}'"  # another one has that name on the left
-    return Names(), Names(declared, classes)
+    return ElementNames(), ElementNames(declared, classes)
 
 
 # --- by name ------------------------------------------------------------------------------------

@@ -25,7 +25,7 @@ _COMMENT = ("//", "/*", "*", "#", "<!--")
 
 
 @dataclass(frozen=True, slots=True)
-class Unread:
+class UnreadPlace:
     """A place of the code that is not in the model; `within` is the body it belongs to."""
 
     place: Place
@@ -42,7 +42,7 @@ class SourcedModel:
 
     model: m.Model
     source: Source
-    unread: tuple[Unread, ...] = ()
+    unread: tuple[UnreadPlace, ...] = ()
     partial: bool = False
 
 

@@ -29,7 +29,7 @@ _OWN = (StateSymbol, KnownRebecSymbol)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Names:
+class ElementNames:
     """What elements are called in the comparison.
 
     `declared` goes by the `id` of declarations, `classes` by name; what is in neither keeps its
@@ -45,7 +45,7 @@ class Tokens:
     """Makes the trees of one side; `origin` leads from them back to what is written."""
 
     side: Operand
-    names: Names
+    names: ElementNames
     bare: bool = False  # whether parentheses are left out that the order of operators makes plain
     locals: Mapping[int, str] = field(default_factory=dict)
     origin: dict[int, object] = field(default_factory=dict)

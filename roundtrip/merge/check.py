@@ -6,20 +6,17 @@ from collections.abc import Collection, Iterator, Mapping
 
 from rebsync.diagnostics import Findings
 from rebsync.reverse.files.packages import Listing, is_read
-from rebsync.roundtrip.diff.difference import Comparison, Element, Place, explain, finding
-from rebsync.roundtrip.diff.operands import SourcedModel, Unread
+from rebsync.roundtrip.diff.difference import Comparison, Element, explain, finding
 from rebsync.roundtrip.merge.models import whole
-from rebsync.roundtrip.package.models import Code
+from rebsync.roundtrip.package.models import CodeModel, code_model
 from rebsync.roundtrip.package.units import as_one, folders_of, name_as_one
 from rebsync.source import Source
 
 
-def read_with(listing: Listing, texts: Mapping[str, str | None]) -> Code:
+def read_with(listing: Listing, texts: Mapping[str, str | None]) -> CodeModel:
     """What the code of a package says with other texts (None: without that file)."""
     from rebsync.reverse.files.reading import read
-    from rebsync.reverse.findings import Grade
     from rebsync.reverse.recovery import extract
-    from rebsync.reverse.report import diagnostics
     from rebsync.roundtrip.package.cache.classes import ClassCache
 
     chosen, folders = read(as_one(listing)), folders_of(listing.files)
@@ -34,13 +31,7 @@ def read_with(listing: Listing, texts: Mapping[str, str | None]) -> Code:
         elif is_read(name, f"{folder}/" if folder else ""):
             files[path] = Source(f"{listing.root}/{whole_path}", text)
     extracted = extract(files, memory=ClassCache())
-    unread = tuple(
-        Unread(Place(f.source, f.span), f.why, f.within)
-        for f in (*chosen.findings, *extracted.findings)
-        if f.grade is Grade.UNREADABLE
-    )
-    given = SourcedModel(extracted.model, Source(listing.root, ""), unread)
-    return Code(given, tuple(diagnostics((*chosen.findings, *extracted.findings))))
+    return code_model(listing.root, extracted.model, (*chosen.findings, *extracted.findings))
 
 
 def wrongly_merged(

@@ -8,30 +8,30 @@ from difflib import SequenceMatcher
 from typing import TypeAlias
 
 from rebsync.records import dataclass
-from rebsync.reverse.syntax.code_units import Unit
+from rebsync.reverse.syntax.code_units import CodeUnit
 
 # What tells a unit from those around it: its key, or the text of what has none.
 Token: TypeAlias = tuple[str, str]
-Ordered: TypeAlias = list[tuple[Token, Unit]]
+Ordered: TypeAlias = list[tuple[Token, CodeUnit]]
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class UnitGroup:
     """Some units of a body that stand together."""
 
     tokens: tuple[Token, ...]
-    units: Sequence[Unit]
+    units: Sequence[CodeUnit]
 
     @property
     def text(self) -> str:
         return "".join(unit.text for unit in self.units)
 
 
-def listed(part: Part) -> Ordered:
+def listed(part: UnitGroup) -> Ordered:
     return list(zip(part.tokens, part.units, strict=True))
 
 
-def with_additions(ours: Part, base: Part, theirs: Part) -> Ordered | None:
+def with_additions(ours: UnitGroup, base: UnitGroup, theirs: UnitGroup) -> Ordered | None:
     """What both have kept, and behind each what either has added; None where they stand apart."""
     kept = {*ours.tokens} & {*base.tokens} & {*theirs.tokens}
     mine, new = _by_kept(ours, kept), _by_kept(theirs, kept)
@@ -48,7 +48,7 @@ def with_additions(ours: Part, base: Part, theirs: Part) -> Ordered | None:
     return found
 
 
-def with_edits(ours: Part, base: Part, theirs: Part) -> Ordered | None:
+def with_edits(ours: UnitGroup, base: UnitGroup, theirs: UnitGroup) -> Ordered | None:
     """The units of the base with the edits of both, which may touch; None where they overlap."""
     found: Ordered = []
     at, last = 0, (-1, -1)
@@ -61,7 +61,7 @@ def with_edits(ours: Part, base: Part, theirs: Part) -> Ordered | None:
     return [*found, *listed(base)[at:]]
 
 
-def _edits(base: Part, side: Part) -> Iterator[tuple[int, int, Ordered]]:
+def _edits(base: UnitGroup, side: UnitGroup) -> Iterator[tuple[int, int, Ordered]]:
     """Runs of units of the base with what a side has instead; either may be empty."""
     codes = SequenceMatcher(None, base.tokens, side.tokens, autojunk=False).get_opcodes()
     for tag, start, end, first, last in codes:
@@ -69,7 +69,7 @@ def _edits(base: Part, side: Part) -> Iterator[tuple[int, int, Ordered]]:
             yield start, end, listed(side)[first:last]
 
 
-def _by_kept(part: Part, kept: set[Token]) -> dict[Token | None, Ordered]:
+def _by_kept(part: UnitGroup, kept: set[Token]) -> dict[Token | None, Ordered]:
     """The units of a part by that which both have kept, and which they stand behind."""
     found: dict[Token | None, Ordered] = {None: []}
     at: Token | None = None

@@ -47,7 +47,7 @@ def with_renames(properties: Source, old: SourcedModel, new: SourcedModel) -> st
     parsed = parse_properties(properties)
     if not renames or not parsed.ok:
         return properties.text
-    names = _Names(analyse(old.model), renames, {d.name for d in parsed.properties.defines})
+    names = _FormulaNames(analyse(old.model), renames, {d.name for d in parsed.properties.defines})
     entries: tuple[Define | Property, ...]
     entries = (*parsed.properties.defines, *parsed.properties.all)
     text = apply_edits(properties.text, {e for each in entries for e in names.edits(each)})
@@ -69,7 +69,7 @@ def _renames(old: SourcedModel, new: SourcedModel) -> Iterator[tuple[_Key, str]]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Names:
+class _FormulaNames:
     """What names in formulas stand for in a model; `defined` are those of the file itself."""
 
     analysis: Analysis

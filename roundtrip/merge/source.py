@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
-from rebsync.reverse.syntax.code_units import Unit
+from rebsync.reverse.syntax.code_units import CodeUnit
 from rebsync.roundtrip.merge.text import (
     MergedText,
     agreed_lines,
@@ -16,8 +16,8 @@ from rebsync.roundtrip.merge.text import (
 )
 
 _CPP = (".cpp", ".cc", ".cxx", ".h", ".hh", ".hpp", ".hxx")
-_Sides: TypeAlias = "tuple[Unit, Unit, Unit]"
-_Reader: TypeAlias = "Callable[[str], Unit | None]"
+_Sides: TypeAlias = "tuple[CodeUnit, CodeUnit, CodeUnit]"
+_Reader: TypeAlias = "Callable[[str], CodeUnit | None]"
 
 
 def merged_source(
@@ -75,7 +75,7 @@ def _reader(path: str, text: str) -> _Reader | None:
     return None
 
 
-def _is_whole(merged: Unit | None, sides: _Sides) -> bool:
+def _is_whole(merged: CodeUnit | None, sides: _Sides) -> bool:
     """Whether a merged text parses, and declares nothing more often than the sides do."""
     if merged is None:
         return False
@@ -83,7 +83,7 @@ def _is_whole(merged: Unit | None, sides: _Sides) -> bool:
     return found <= ours | theirs | Counter(found.keys())
 
 
-def _declared(unit: Unit, path: str = "") -> Iterator[str]:
+def _declared(unit: CodeUnit, path: str = "") -> Iterator[str]:
     """The keys of all units, each with those of the units around it."""
     for each in unit.inside:
         if each.key:
@@ -114,7 +114,7 @@ def _is_sound(merged: MergedText, sides: _Sides, labels: tuple[str, str], reader
     return True
 
 
-def _said(unit: Unit) -> Iterator[str]:
+def _said(unit: CodeUnit) -> Iterator[str]:
     """The lines of a unit that are not empty, comments at their ends apart; what is imported."""
     if unit.inside:
         for each in unit.inside:

@@ -6,11 +6,11 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
 from rebsync.records import dataclass
-from rebsync.reverse.syntax.code_units import NO_UNIT, Unit
+from rebsync.reverse.syntax.code_units import NO_UNIT, CodeUnit
 from rebsync.roundtrip.merge.order import (
     Ordered,
-    Part,
     Token,
+    UnitGroup,
     listed,
     split_gap,
     with_additions,
@@ -19,19 +19,21 @@ from rebsync.roundtrip.merge.order import (
 from rebsync.roundtrip.merge.text import MergedText, aligned, merged_lines, merged_text
 
 
-def merged_unit(ours: Unit, base: Unit, theirs: Unit, labels: tuple[str, str]) -> MergedText:
+def merged_unit(
+    ours: CodeUnit, base: CodeUnit, theirs: CodeUnit, labels: tuple[str, str]
+) -> MergedText:
     """Both changes of a unit; where they touch, both sides between conflict markers."""
     if theirs.text in (base.text, ours.text):
         return MergedText(ours.text)
     if ours.text == base.text:
         return MergedText(theirs.text)
     if ours.inside and base.inside and theirs.inside:
-        mine, old, new = (_Body.of(unit.inside) for unit in (ours, base, theirs))
+        mine, old, new = (_KeyedUnits.of(unit.inside) for unit in (ours, base, theirs))
         return _joined(_Merge(mine, old, new, labels).parts())
     return _leaf(ours, base, theirs, labels)
 
 
-def _leaf(ours: Unit, base: Unit, theirs: Unit, labels: tuple[str, str]) -> MergedText:
+def _leaf(ours: CodeUnit, base: CodeUnit, theirs: CodeUnit, labels: tuple[str, str]) -> MergedText:
     """Lines without units; the empty ones above them are no reason for a conflict."""
     (gap, mine), (old_gap, old), (new_gap, new) = (split_gap(u.text) for u in (ours, base, theirs))
     gap = new_gap if gap == old_gap else gap
@@ -51,15 +53,15 @@ def _joined(parts: Iterable[MergedText]) -> MergedText:
 
 
 @dataclass(frozen=True, slots=True)
-class _Body:
+class _KeyedUnits:
     """The units of a body with what tells them apart: the key, or the text of what has none."""
 
     tokens: tuple[Token, ...]
-    by_token: dict[Token, Unit]
-    units: tuple[Unit, ...]
+    by_token: dict[Token, CodeUnit]
+    units: tuple[CodeUnit, ...]
 
     @classmethod
-    def of(cls, units: Sequence[Unit]) -> _Body:
+    def of(cls, units: Sequence[CodeUnit]) -> _KeyedUnits:
         keys = Counter(unit.key for unit in units)
         tokens = tuple(
             (u.key, "") if u.key and keys[u.key] == 1 else ("", split_gap(u.text)[1]) for u in units
@@ -71,9 +73,9 @@ class _Body:
 class _Merge:
     """The merge of three bodies; units with a key go by it, wherever they stand."""
 
-    ours: _Body
-    base: _Body
-    theirs: _Body
+    ours: _KeyedUnits
+    base: _KeyedUnits
+    theirs: _KeyedUnits
     labels: tuple[str, str]
 
     def parts(self) -> Iterator[MergedText]:
@@ -82,7 +84,7 @@ class _Merge:
         merged: set[Token] = set()
         for places in aligned(*(body.tokens for body in bodies)):
             ours, base, theirs = (
-                Part(body.tokens[place], body.units[place])
+                UnitGroup(body.tokens[place], body.units[place])
                 for body, place in zip(bodies, places, strict=True)
             )
             order = self._order(ours, base, theirs)
@@ -97,7 +99,7 @@ class _Merge:
                         yield self._unit(token, unit)
                     merged |= {token} if token[0] else set()
 
-    def _unit(self, token: Token, unit: Unit) -> MergedText:
+    def _unit(self, token: Token, unit: CodeUnit) -> MergedText:
         """What becomes of a unit of either side, of which `unit` is one."""
         mine, old, new = (b.by_token.get(token) for b in (self.ours, self.base, self.theirs))
         if mine is not None and new is not None:
@@ -105,7 +107,7 @@ class _Merge:
         # what one side has left out is as the other had it
         return MergedText("") if old is not None else MergedText(unit.text)
 
-    def _order(self, ours: Part, base: Part, theirs: Part) -> Ordered | None:
+    def _order(self, ours: UnitGroup, base: UnitGroup, theirs: UnitGroup) -> Ordered | None:
         """The units of a part in their order; None where both sides are to be compared by lines."""
         if self._is_disputed(ours, base, theirs):
             return None
@@ -117,7 +119,7 @@ class _Merge:
             return with_additions(ours, base, theirs)
         return with_edits(ours, base, theirs)
 
-    def _is_disputed(self, ours: Part, base: Part, theirs: Part) -> bool:
+    def _is_disputed(self, ours: UnitGroup, base: UnitGroup, theirs: UnitGroup) -> bool:
         """Whether one side has changed or renamed what the other has renamed or left out."""
         for token, unit in listed(base):
             mine, new = (b.by_token.get(token) for b in (self.ours, self.theirs))

@@ -16,7 +16,7 @@ _NOT_ELEMENTS = frozenset({"annotation", "end"})
 
 
 @dataclass(frozen=True, slots=True)
-class Element:
+class MarkedElement:
     """A marked piece of a generated file: its kind and path in the model, and its text."""
 
     kind: str
@@ -39,7 +39,7 @@ def digest(text: str) -> str:
     return hashlib.sha256(encoded(text)).hexdigest()
 
 
-def elements(text: str) -> Iterator[Element]:
+def elements(text: str) -> Iterator[MarkedElement]:
     """The marked elements of a generated text, in their order.
 
     A marker at the end of a line marks that line, one on a line of its own what follows, up to
@@ -53,7 +53,7 @@ def elements(text: str) -> Iterator[Element]:
         before = match["before"].strip()
         block = _suite if "#" in line.partition("rebsync:")[0] else _block
         body = before if before else "\n".join(block(lines, number + 1))
-        yield Element(match["kind"], match["path"], body)
+        yield MarkedElement(match["kind"], match["path"], body)
 
 
 def _block(lines: list[str], first: int) -> Iterator[str]:

@@ -5,12 +5,15 @@ What was read once is kept in the user's cache, so that only what has changed is
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
 from rebsync import model as m
 from rebsync.diagnostics import Findings, RebsyncError
 from rebsync.files import read_source
 from rebsync.records import dataclass
 from rebsync.roundtrip.diff.difference import Place
-from rebsync.roundtrip.diff.operands import SourcedModel, Unread
+from rebsync.roundtrip.diff.operands import SourcedModel, UnreadPlace
 from rebsync.roundtrip.package.cache.store import key_of, load, save
 from rebsync.roundtrip.package.digests import digest_of
 from rebsync.roundtrip.package.managed import ManagedPackage
@@ -20,9 +23,12 @@ from rebsync.roundtrip.package.units import as_one
 from rebsync.source import Source
 from rebsync.terminal import encoded
 
+if TYPE_CHECKING:
+    from rebsync.reverse.findings import Finding
+
 
 @dataclass(frozen=True, slots=True)
-class Code:
+class CodeModel:
     """What the code of a package tells: a model, and what is not in it exactly.
 
     `findings` are all these places, of which those in `given.unread` the model lacks.
@@ -58,33 +64,39 @@ def parsed(source: Source) -> m.Model:
     return parsed.model
 
 
-def read_code(package: ManagedPackage, state: PackageState) -> Code:
+def read_code(package: ManagedPackage, state: PackageState) -> CodeModel:
     """What the code of a package tells. RebsyncError: a merge left conflicts in it."""
     key = key_of("code", package.root, *state.told)
-    code = load(key, Code)
+    code = load(key, CodeModel)
     if code is None:
         code = _extracted(state)
         save(key, code)
     return code
 
 
-def _extracted(state: PackageState) -> Code:
+def _extracted(state: PackageState) -> CodeModel:
     from rebsync.reverse.files.reading import read
-    from rebsync.reverse.findings import Grade
     from rebsync.reverse.recovery import extract
-    from rebsync.reverse.report import diagnostics
     from rebsync.roundtrip.package.cache.classes import ClassCache
 
     chosen = read(as_one(state.listing))
     if conflicts := [c for s in chosen.files.values() if (c := conflict_in(s)) is not None]:
         raise RebsyncError(conflicts)
     extracted = extract(chosen.files, memory=ClassCache())
-    findings = (*chosen.findings, *extracted.findings)
+    return code_model(state.listing.root, extracted.model, (*chosen.findings, *extracted.findings))
+
+
+def code_model(
+    path: str, model: m.Model, findings: Sequence[Finding], *, partial: bool = False
+) -> CodeModel:
+    """An extracted model, whose spans without a file are of `path`, with what is not in it."""
+    from rebsync.reverse.findings import Grade
+    from rebsync.reverse.report import diagnostics
+
     unread = tuple(
-        Unread(Place(f.source, f.span), f.why, f.within)
+        UnreadPlace(Place(f.source, f.span), f.why, f.within)
         for f in findings
         if f.grade is Grade.UNREADABLE
     )
-    source = Source(state.listing.root, "")
-    given = SourcedModel(extracted.model, source, unread)
-    return Code(given, diagnostics(findings))
+    given = SourcedModel(model, Source(path, ""), unread, partial)
+    return CodeModel(given, tuple(diagnostics(findings)))

@@ -16,10 +16,8 @@ from rebsync.files import STANDARD_INPUT, decode, operating_on
 from rebsync.git import finished, git, git_without_files
 from rebsync.git_objects import revision as objects_of
 from rebsync.reverse.files.stores import Disk, Store, join
-from rebsync.roundtrip.diff.difference import Place
-from rebsync.roundtrip.diff.operands import SourcedModel, Unread
-from rebsync.roundtrip.package.models import Code, parsed, read_model
-from rebsync.source import Source
+from rebsync.roundtrip.diff.operands import SourcedModel
+from rebsync.roundtrip.package.models import CodeModel, code_model, parsed, read_model
 
 if TYPE_CHECKING:
     from rebsync.reverse.files.reading import Chosen
@@ -29,13 +27,13 @@ MANIFEST = "package.xml"
 _FORMS = "wanted is a model, a package, or REVISION:PATH as git has it, such as HEAD~3:robots"
 
 
-def read_side(name: str) -> Code:
+def read_side(name: str) -> CodeModel:
     """The model that a name stands for, with what of the code is not in it exactly.
 
     RebsyncError: there is no such path or revision, it is not readable, or it has no model.
     """
     if name == STANDARD_INPUT:
-        return Code(read_model(name), ())
+        return CodeModel(read_model(name), ())
     if os.path.lexists(name):
         return _path(name)
     revision, colon, path = name.partition(":")
@@ -44,7 +42,7 @@ def read_side(name: str) -> Code:
     return _revision(name, revision, path)
 
 
-def _path(path: str, store: Store | None = None) -> Code:
+def _path(path: str, store: Store | None = None) -> CodeModel:
     """What a path has, on the disk or in a revision."""
     files = store or Disk()
     with operating_on(path):
@@ -73,32 +71,24 @@ def _below(folder: str, name: str) -> str:
     return f"{folder}{name}" if folder.endswith("/") else join(folder, name)
 
 
-def _model(path: str, store: Store | None) -> Code:
+def _model(path: str, store: Store | None) -> CodeModel:
     if store is None:
-        return Code(read_model(path), ())
+        return CodeModel(read_model(path), ())
     source = decode(path, store.read(path))
-    return Code(SourcedModel(parsed(source), source), ())
+    return CodeModel(SourcedModel(parsed(source), source), ())
 
 
-def _code(path: str, store: Store | None) -> Code:
+def _code(path: str, store: Store | None) -> CodeModel:
     """What the code of a package or of one file says."""
-    from rebsync.reverse.findings import Grade
     from rebsync.reverse.recovery import extract
-    from rebsync.reverse.report import diagnostics
 
     chosen = _chosen(path, store)
     extracted = extract(chosen.files, chosen.only)
     if not extracted.model.classes:
         raise RebsyncError.of(path, "RS943", "no class of a model was found here")
     findings = (*chosen.findings, *extracted.findings)
-    unread = tuple(
-        Unread(Place(f.source, f.span), f.why, f.within)
-        for f in findings
-        if f.grade is Grade.UNREADABLE
-    )
     partial = chosen.only is not None and extracted.model.main is None
-    given = SourcedModel(extracted.model, Source(path, ""), unread, partial)
-    return Code(given, diagnostics(findings))
+    return code_model(path, extracted.model, findings, partial=partial)
 
 
 def _chosen(path: str, store: Store | None) -> Chosen:
@@ -119,7 +109,7 @@ def _chosen(path: str, store: Store | None) -> Chosen:
 # --- revisions ----------------------------------------------------------------------------------
 
 
-def _revision(name: str, revision: str, path: str) -> Code:
+def _revision(name: str, revision: str, path: str) -> CodeModel:
     """A model or package of a revision: `path` is from the top of the repository, or from here."""
     top = None if revision.startswith("-") else _id(name, f"{revision}^{{commit}}^{{tree}}")
     if top is None:

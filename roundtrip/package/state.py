@@ -9,9 +9,10 @@ from rebsync.diagnostics import RebsyncError
 from rebsync.files import operating_on, read_bytes
 from rebsync.folder import LARGEST, Folder, content_of
 from rebsync.records import dataclass
+from rebsync.reverse.files.contents import contents
 from rebsync.reverse.files.packages import Listing, is_read
 from rebsync.reverse.files.python_files import may_be_script
-from rebsync.reverse.files.stores import Disk, contents, join
+from rebsync.reverse.files.stores import Disk, join
 from rebsync.roundtrip.package.digests import digest_of, is_text_of
 from rebsync.roundtrip.package.managed import ManagedPackage
 from rebsync.roundtrip.package.manifest import BASE, BASE_MODEL

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rebsync.reverse.python.py_units import py_units
-from rebsync.reverse.syntax.code_units import Unit
+from rebsync.reverse.syntax.code_units import CodeUnit
 from rebsync.reverse.syntax.cpp_units import cpp_units
 from rebsync.roundtrip.merge.source import merged_source
 from rebsync.roundtrip.merge.text import MergedText, merged_text
@@ -148,7 +148,7 @@ def contents(language: str, text: str) -> Counter[str]:
     unit = UNITS[language](text)
     assert unit is not None
 
-    def said(unit: Unit) -> list[str]:
+    def said(unit: CodeUnit) -> list[str]:
         if unit.inside:
             return [line for each in unit.inside for line in said(each)]
         return sorted(unit.names) or [line for line in unit.text.split("\n") if line.strip()]

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from rebsync.checker.lowering import expressions as x
+from collections.abc import Callable
+from typing import TypeAlias
+
+from rebsync.checker.lowering.conversions import convert
 from rebsync.checker.lowering.emitter import Emitter, kind_of, size_of
 from rebsync.checker.program import Kind
 from rebsync.model import Call, Choice, Expression, Self, StringLiteral, Super, Type
@@ -10,50 +13,53 @@ from rebsync.static.names import bare
 from rebsync.static.symbols import BuiltinFunctionSymbol, MethodSymbol, ServerSymbol
 from rebsync.static.types import DOUBLE, INT
 
+# Pushes the value of an expression; gives the kind of its cells.
+Value: TypeAlias = Callable[[Expression, Emitter], Kind]
 
-def call(node: Call, e: Emitter) -> Kind:
+
+def call(node: Call, e: Emitter, value: Value) -> Kind:
     """Pushes the result of a call, if it has one."""
     symbol = e.world.analysis.symbol_of(node)
     match symbol:
         case ServerSymbol():
-            _send(node, symbol, e)
+            _send(node, symbol, e, value)
             return "int"
         case MethodSymbol():
-            return _invoke(node, symbol, e)
+            return _invoke(node, symbol, e, value)
         case BuiltinFunctionSymbol(name):
-            return _builtin(name, node, e)
+            return _builtin(name, node, e, value)
         case _:
             raise AssertionError(f"not a call: {node}")
 
 
 def _arguments(
-    arguments: tuple[Expression, ...], signature: tuple[Type | None, ...], e: Emitter
+    arguments: tuple[Expression, ...], signature: tuple[Type | None, ...], e: Emitter, value: Value
 ) -> int:
     before = 0
     for argument, type_ in zip(arguments, signature, strict=True):
         assert type_ is not None
-        x.as_kind(argument, kind_of(type_), e)
+        convert(value(argument, e), kind_of(type_), e)
         before += size_of(type_)
     return before
 
 
-def _send(node: Call, server: ServerSymbol, e: Emitter) -> None:
+def _send(node: Call, server: ServerSymbol, e: Emitter, value: Value) -> None:
     if node.target is None:
         e.emit("SELF")
     else:
-        x.value(node.target, e)
-    cells = _arguments(node.arguments, server.signature, e)
+        value(node.target, e)
+    cells = _arguments(node.arguments, server.signature, e, value)
     if node.after is None:
         e.emit("CONST", 0)
     else:
-        x.as_kind(node.after, kind_of(INT), e)
+        convert(value(node.after, e), kind_of(INT), e)
     own = isinstance(_target(node), Self | None)
     marks = (int(_is_positive(node.after, e)), int(own))
     with e.at(node.span):
         if node.deadline is None:
             e.emit("SEND", e.world.selector(server), cells, marks)
         else:
-            x.as_kind(node.deadline, kind_of(INT), e)
+            convert(value(node.deadline, e), kind_of(INT), e)
             e.emit("SENDBY", e.world.selector(server), cells, marks)
 
 
@@ -68,13 +74,13 @@ def _is_positive(time: Expression | None, e: Emitter) -> bool:
     inner = bare(time)
     if isinstance(inner, Choice):
         return all(_is_positive(option, e) for option in inner.options)
-    value = e.world.analysis.value_of(inner)
-    return value is not None and value > 0
+    known = e.world.analysis.value_of(inner)
+    return known is not None and known > 0
 
 
-def _invoke(node: Call, symbol: MethodSymbol, e: Emitter) -> Kind:
+def _invoke(node: Call, symbol: MethodSymbol, e: Emitter, value: Value) -> Kind:
     assert e.info is not None
-    _arguments(node.arguments, symbol.signature, e)
+    _arguments(node.arguments, symbol.signature, e, value)
     called = symbol if isinstance(_target(node), Super) else _as_run(symbol, e)
     with e.at(node.span):
         e.emit("CALL", e.world.body_of(e.info, called.declaration), e.free)
@@ -90,22 +96,22 @@ def _as_run(symbol: MethodSymbol, e: Emitter) -> MethodSymbol:
     )
 
 
-def _builtin(name: str, node: Call, e: Emitter) -> Kind:
+def _builtin(name: str, node: Call, e: Emitter, value: Value) -> Kind:
     with e.at(node.span):
         match name:
             case "delay":
-                x.as_kind(node.arguments[0], "int", e)
+                convert(value(node.arguments[0], e), "int", e)
                 passes = (1,) if _is_positive(node.arguments[0], e) else ()
                 e.emit("DELAY", 0, e.free, passes)
                 return "int"
             case "assertion":
-                x.value(node.arguments[0], e)
+                value(node.arguments[0], e)
                 text = node.arguments[1] if len(node.arguments) > 1 else None
                 said = e.text(text.text[1:-1]) if isinstance(text, StringLiteral) else -1
                 e.emit("ASSERT", said)
                 return "int"
             case _:
                 for argument in node.arguments:
-                    x.as_kind(argument, kind_of(DOUBLE), e)
+                    convert(value(argument, e), kind_of(DOUBLE), e)
                 e.emit(name.upper())
                 return "double"

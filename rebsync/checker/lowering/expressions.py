@@ -117,7 +117,7 @@ def value(node: Expression, e: Emitter) -> Kind:
         case Assign():
             return assign(node, e, used=True)
         case Call():
-            return calls.call(node, e)
+            return calls.call(node, e, value)
         case _:
             return _compound(node, e)
 

@@ -16,7 +16,7 @@ from rebsync.roundtrip.diff.bodies.locals import (
     by_type,
     parameters_as_one,
 )
-from rebsync.roundtrip.diff.bodies.statements import Bodies
+from rebsync.roundtrip.diff.bodies.statements import BodyComparison
 from rebsync.roundtrip.diff.difference import (
     Added,
     Aspect,
@@ -47,7 +47,7 @@ def callable_differences(
         words = ("", "{...}") if left.body is None else ("{...}", "")
         yield Changed(element, Aspect.BODY, "", *words, *places)
         return
-    yield from _Body(element, left, right, tokens, places, pairs).differences()
+    yield from _BodyPair(element, left, right, tokens, places, pairs).differences()
 
 
 # --- parameters ---------------------------------------------------------------------------------
@@ -107,7 +107,7 @@ def _parameters(
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Body:
+class _BodyPair:
     """Two bodies: compared with each way in which their locals may belong together."""
 
     element: Element
@@ -131,12 +131,12 @@ class _Body:
         paired = self._with(by_pairs(self.left.body, self.right.body, blind.pairs))
         return min((named.found, paired.found, in_order.found), key=len)
 
-    def _with(self, locals_: Mapped) -> Bodies:
+    def _with(self, locals_: Mapped) -> BodyComparison:
         return self._compared(locals_)
 
-    def _compared(self, locals_: Mapped) -> Bodies:
+    def _compared(self, locals_: Mapped) -> BodyComparison:
         first, second = self._tokens(locals_)
-        bodies = Bodies(self.element, first, second, self.places)
+        bodies = BodyComparison(self.element, first, second, self.places)
         lists = first.list_of(self.left.body), second.list_of(self.right.body)
         bodies.found = bodies.compare(*lists)
         return bodies

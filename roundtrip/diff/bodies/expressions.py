@@ -17,7 +17,7 @@ _TIMES = ((Aspect.AFTER, "after"), (Aspect.DEADLINE, "deadline"))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Part:
+class StatementPart:
     """A part of a statement; None where a side has none. `of` says what it is a part of."""
 
     aspect: Aspect
@@ -26,7 +26,7 @@ class Part:
     right: object
 
 
-Parts: TypeAlias = "Iterator[Part | tuple[Statements, Statements]]"
+Parts: TypeAlias = "Iterator[StatementPart | tuple[Statements, Statements]]"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -58,7 +58,7 @@ def parts_of(x: m.Statement, r: m.Statement, left: Tokens, right: Tokens) -> Par
     """The parts in which two statements of one kind differ; lists are for the caller to compare."""
     two = _Two(left, right)
     if x.annotations != r.annotations:
-        yield Part(Aspect.ANNOTATION, "", x.annotations or None, r.annotations or None)
+        yield StatementPart(Aspect.ANNOTATION, "", x.annotations or None, r.annotations or None)
     match x, r:
         case (m.ExpressionStatement(a), m.ExpressionStatement(b)):
             yield from _expression(a, b, two)
@@ -83,9 +83,9 @@ def parts_of(x: m.Statement, r: m.Statement, left: Tokens, right: Tokens) -> Par
             return
 
 
-def _part(aspect: Aspect, of: str, x: object, r: object) -> Iterator[Part]:
+def _part(aspect: Aspect, of: str, x: object, r: object) -> Iterator[StatementPart]:
     if x != r:
-        yield Part(aspect, of, *_narrowed(x, r))
+        yield StatementPart(aspect, of, *_narrowed(x, r))
 
 
 def _narrowed(x: object, r: object) -> tuple[object, object]:
@@ -107,7 +107,7 @@ def _narrowed(x: object, r: object) -> tuple[object, object]:
 # --- expressions --------------------------------------------------------------------------------
 
 
-def _expression(x: m.Expression, r: m.Expression, two: _Two) -> Iterator[Part]:
+def _expression(x: m.Expression, r: m.Expression, two: _Two) -> Iterator[StatementPart]:
     match x, r:
         case (m.Call(), m.Call()) if x.name == r.name:
             yield from _call(x, r, two)
@@ -117,11 +117,11 @@ def _expression(x: m.Expression, r: m.Expression, two: _Two) -> Iterator[Part]:
             yield from _part(Aspect.EXPRESSION, "", x, r)
 
 
-def _call(x: m.Call, r: m.Call, two: _Two) -> Iterator[Part]:
+def _call(x: m.Call, r: m.Call, two: _Two) -> Iterator[StatementPart]:
     same = x.target == r.target
     one_only = not same and (x.target is None or r.target is None)
     if one_only or len(x.arguments) != len(r.arguments):
-        yield Part(Aspect.EXPRESSION, "", x, r)
+        yield StatementPart(Aspect.EXPRESSION, "", x, r)
         return
     called = two.left.written(x)
     name = two.name(m.Call(called.target, called.name)).removesuffix("()")
@@ -144,13 +144,13 @@ def _argument(call: m.Call, name: str, number: int) -> tuple[Aspect, str]:
 # --- declarations and control flow --------------------------------------------------------------
 
 
-def _declaration(x: m.Declaration, r: m.Declaration, two: _Two) -> Iterator[Part]:
+def _declaration(x: m.Declaration, r: m.Declaration, two: _Two) -> Iterator[StatementPart]:
     if len(x.declarators) != len(r.declarators) or x.annotations != r.annotations:
-        yield Part(Aspect.EXPRESSION, "", x, r)
+        yield StatementPart(Aspect.EXPRESSION, "", x, r)
         return
     names = ", ".join(two.left.written(d).name for d in x.declarators)
     if [d.name for d in x.declarators] != [d.name for d in r.declarators]:
-        yield Part(Aspect.EXPRESSION, "", x, r)
+        yield StatementPart(Aspect.EXPRESSION, "", x, r)
         return
     yield from _part(Aspect.TYPE, names, x.type, r.type)
     for a, b in zip(x.declarators, r.declarators, strict=True):
@@ -172,7 +172,7 @@ def _switch(x: m.Switch, r: m.Switch, two: _Two) -> Parts:
     labels = [[c.value for c in each.cases] for each in (x, r)]
     if labels[0] != labels[1]:
         cases = [_cases(each, tokens) for each, tokens in ((x, two.left), (r, two.right))]
-        yield Part(Aspect.EXPRESSION, "cases", *cases)
+        yield StatementPart(Aspect.EXPRESSION, "cases", *cases)
     for case, same in _case_pairs(x.cases, r.cases):
         notes = [each.annotations if each is not None else () for each in (case, same)]
         if case is not None and same is not None:

@@ -11,7 +11,7 @@ from rebsync import model as m
 from rebsync.printing import print_line, print_statement
 from rebsync.records import dataclass
 from rebsync.roundtrip.diff.alignment import ALIKE, aligned, overlap
-from rebsync.roundtrip.diff.bodies.expressions import Part, parts_of
+from rebsync.roundtrip.diff.bodies.expressions import StatementPart, parts_of
 from rebsync.roundtrip.diff.bodies.references import apart_by_reference
 from rebsync.roundtrip.diff.bodies.similarity import (
     are_akin,
@@ -40,7 +40,7 @@ Statements: TypeAlias = tuple[m.Statement, ...]
 
 
 @dataclass(slots=True, eq=False)
-class Bodies:
+class BodyComparison:
     """Compares the statements of two bodies; `pairs` are the locals declared in one place."""
 
     element: Element
@@ -182,7 +182,7 @@ class Bodies:
         before = len(self.found)
         for part in parts_of(x, r, self.left, self.right):
             match part:
-                case Part():
+                case StatementPart():
                     self._changed(part, left, right)
                 case (lefts, rights):
                     self._lists(lefts, rights, left, right)
@@ -192,7 +192,7 @@ class Bodies:
                 texts = apart_by_reference(texts[0], (self.left, x), (self.right, r))
             self.found.append(Changed(self.element, Aspect.EXPRESSION, "", *texts, left, right))
 
-    def _changed(self, part: Part, left: Place | None, right: Place | None) -> None:
+    def _changed(self, part: StatementPart, left: Place | None, right: Place | None) -> None:
         places = (
             self._place(self.left, part.left) or left if part.left is not None else left,
             self._place(self.right, part.right) or right if part.right is not None else right,

@@ -9,7 +9,7 @@ from rebsync import model as m
 from rebsync.printing import print_class, print_line, print_member
 from rebsync.records import dataclass
 from rebsync.roundtrip.diff.operands import Item
-from rebsync.roundtrip.merge.patch.pair import SECTIONS, Declared, Two
+from rebsync.roundtrip.merge.patch.pair import SECTIONS, DeclaredVariable, Two
 
 _CLASSES = ("reactiveclass", "interface")
 _BODIES = ("msgsrv", "method", "constructor")
@@ -114,7 +114,7 @@ class Additions:
 
     def _add_variable(self, item: Item, inserts: dict[tuple[int, str], list[str]]) -> None:
         """A variable behind those of its kind that are before it, or in a section of its own."""
-        before: Declared | None = None
+        before: DeclaredVariable | None = None
         for each in self.two.right.items:
             if each is item:
                 break

@@ -14,7 +14,7 @@ from rebsync.roundtrip.diff.difference import Depth
 from rebsync.roundtrip.diff.matching import Pair
 from rebsync.roundtrip.diff.operands import Item, SourcedModel, two_sides
 from rebsync.roundtrip.merge.patch.additions import Additions
-from rebsync.roundtrip.merge.patch.pair import Declared, Two
+from rebsync.roundtrip.merge.patch.pair import DeclaredVariable, Two
 from rebsync.source import NOWHERE, Span
 
 _CLASSES = ("reactiveclass", "interface")
@@ -177,7 +177,7 @@ class _Patch:
         indent = self.two.out.indent_at(old.declaration.span.start)
         self.two.out.after(at, self.two.line(r), indent)
 
-    def _take_out(self, old: Declared) -> None:
+    def _take_out(self, old: DeclaredVariable) -> None:
         """One variable out of a declaration of several."""
         all_of = old.declaration.declarators
         at = next(i for i, d in enumerate(all_of) if d is old.declarator)

@@ -23,7 +23,7 @@ SECTIONS = {"statevar": m.StateVars, "knownrebec": m.KnownRebecs}
 
 
 @dataclass(frozen=True, slots=True)
-class Declared:
+class DeclaredVariable:
     """A variable as it is in the text: with the declaration and the section that it is in."""
 
     declarator: m.Declarator
@@ -61,7 +61,7 @@ class Two:
         made = self.bodies.printed.of(node)
         return with_starts(made) if self.right.in_python else made
 
-    def declared(self, item: Item) -> Declared | None:
+    def declared(self, item: Item) -> DeclaredVariable | None:
         """A variable of the model as it is in the text."""
         return next(
             (d for d in variables(self.left.given.model, item) if d.declarator.name == item.name),
@@ -76,20 +76,20 @@ class Two:
         made = m.Declaration(printed.of(r.type), (printed.of(r.node),), notes)
         return f"{'env ' if r.kind == 'env' else ''}{print_line(made)}"
 
-    def end(self, old: Declared) -> int:
+    def end(self, old: DeclaredVariable) -> int:
         """The place behind a declaration and its semicolon."""
         if isinstance(old.section, m.Env):
             return old.section.span.end
         return self.out.text.index(";", old.declaration.span.end) + 1
 
 
-def variables(model: m.Model, item: Item) -> Iterator[Declared]:
+def variables(model: m.Model, item: Item) -> Iterator[DeclaredVariable]:
     """The variables of the kind and class of one of them, as they are in the text."""
     if item.kind == "env":
         for head in model.heads:
             if isinstance(head, m.Env):
                 for d in head.declaration.declarators:
-                    yield Declared(d, head.declaration, head)
+                    yield DeclaredVariable(d, head.declaration, head)
         return
     kind = SECTIONS.get(item.kind)
     for each in model.classes:
@@ -99,4 +99,4 @@ def variables(model: m.Model, item: Item) -> Iterator[Declared]:
             if isinstance(member, kind) and isinstance(member, m.StateVars | m.KnownRebecs):
                 for declaration in member.declarations:
                     for d in declaration.declarators:
-                        yield Declared(d, declaration, member)
+                        yield DeclaredVariable(d, declaration, member)

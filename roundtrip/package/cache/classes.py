@@ -13,7 +13,7 @@ from rebsync.source import Source
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class CachedClass:
     """What a class says, and the digests of the texts in which that has places, by their paths."""
 
     body: str
@@ -25,7 +25,7 @@ class ClassCache:
 
     def recall(self, key: str, sources: Mapping[str, Source]) -> ClassRead | None:
         """What is known under a key, if all texts that it has places in are as they were."""
-        entry = load(key_of("class", key), Entry)
+        entry = load(key_of("class", key), CachedClass)
         if entry is None:
             return None
         for path, digest in entry.places:
@@ -41,7 +41,7 @@ class ClassCache:
         except NotSerialisable:
             return
         places = tuple((path, _digest(sources[path])) for path in sorted(used.paths))
-        save(key_of("class", key), Entry(body, places))
+        save(key_of("class", key), CachedClass(body, places))
 
 
 class _Used(dict[str, Source]):

@@ -23,7 +23,7 @@ _NAMES = {
     "rebsync.reverse.findings": "Finding Grade Ordered",
     "rebsync.reverse.generated.ros1_kept": "ClassRead",
     "rebsync.roundtrip.verdict.result": "AcceptedFinding CheckResult",
-    "rebsync.roundtrip.package.cache.classes": "Entry",
+    "rebsync.roundtrip.package.cache.classes": "CachedClass",
     "rebsync.roundtrip.diff.difference": (
         "Added Aspect Changed Comparison Element Moved Place Removed Renamed StatementInserted"
         " StatementMoved StatementRemoved Undetermined"
@@ -31,9 +31,9 @@ _NAMES = {
     "rebsync.roundtrip.package.state": "PackageState",
     "rebsync.roundtrip.verdict.cached": "CachedVerdict",
     "rebsync.roundtrip.package.managed": "ManagedPackage",
-    "rebsync.roundtrip.package.models": "Code",
+    "rebsync.roundtrip.package.models": "CodeModel",
     "rebsync.roundtrip.package.record": "Record",
-    "rebsync.roundtrip.diff.operands": "SourcedModel Unread",
+    "rebsync.roundtrip.diff.operands": "SourcedModel UnreadPlace",
     "rebsync.roundtrip.verdict.drift": "Drift Mover Verdict",
     "rebsync.source": "Source SourceSpan Span",
     "rebsync.statements": (

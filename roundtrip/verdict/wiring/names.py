@@ -45,7 +45,7 @@ class _End:
 
 
 @dataclass(frozen=True, slots=True)
-class Joined:
+class JoinedTopics:
     """`names` are those of all ends, before and after remapping.
 
     `pairs` are publishers with the subscriptions that they reach; `alone` are the topics of ends
@@ -56,17 +56,17 @@ class Joined:
     pairs: frozenset[tuple[_End, _End]]
     alone: frozenset[tuple[_End, str]]
 
-    def is_as(self, other: Joined) -> bool:
+    def is_as(self, other: JoinedTopics) -> bool:
         """Whether the same ends are joined, and the names of the others are the same."""
         return (self.pairs, self.alone) == (other.pairs, other.alone)
 
-    def loses(self, other: Joined) -> str | None:
+    def loses(self, other: JoinedTopics) -> str | None:
         """What of messages between nodes that arrive here does not there, if anything."""
         for one, to in sorted(self._messages() - other._messages(), key=str):
             return f"what {one.node} sends to {to.name} of {to.node} does not get there"
         return None
 
-    def gains(self, other: Joined) -> str | None:
+    def gains(self, other: JoinedTopics) -> str | None:
         """What of messages between nodes arrives there only, if anything."""
         for one, to in sorted(other._messages() - self._messages(), key=str):
             return f"what {one.node} sends as {one.message} also gets to {to.name} of {to.node}"
@@ -76,7 +76,7 @@ class Joined:
         return {(one.plain, to) for one, to in self.pairs if one.kind == "publisher"}
 
 
-def joined(facts: Facts, free: frozenset[_End] = frozenset()) -> Joined | None:
+def joined(facts: Facts, free: frozenset[_End] = frozenset()) -> JoinedTopics | None:
     """Who is joined with whom; None where the texts do not tell all names.
 
     What is `free` does not count.
@@ -97,7 +97,7 @@ def joined(facts: Facts, free: frozenset[_End] = frozenset()) -> Joined | None:
     paired = {end for pair in found for end in pair}
     alone = frozenset((end, topic) for end, _, topic in ends if end not in paired)
     names = frozenset(name for _, *both in ends for name in both)
-    return Joined(names, frozenset(found), alone)
+    return JoinedTopics(names, frozenset(found), alone)
 
 
 def replaced(base: Facts, today: Facts) -> tuple[Facts, frozenset[_End]]:
@@ -116,7 +116,7 @@ def replaced(base: Facts, today: Facts) -> tuple[Facts, frozenset[_End]]:
     return {k: v for k, v in base.items() if k[1] not in gone}, free
 
 
-def is_about(joined: Joined | None, facts: Facts, remap: Fact) -> bool:
+def is_about(joined: JoinedTopics | None, facts: Facts, remap: Fact) -> bool:
     """Whether a remap is of a topic, or to a topic, by which nodes of the package are joined."""
     if joined is None or not remap.owner:
         return joined is None or _common(remap) in joined.names
@@ -127,7 +127,7 @@ def is_about(joined: Joined | None, facts: Facts, remap: Fact) -> bool:
         return True
 
 
-def leads_in(joined: Joined, facts: Facts, remap: Fact) -> bool:
+def leads_in(joined: JoinedTopics, facts: Facts, remap: Fact) -> bool:
     """Whether a remap gives a topic of something else the name of one of the package."""
     node = _Node(facts, remap.owner)
     try:

@@ -19,7 +19,7 @@ from rebsync.printing import print_expression, print_statement
 from rebsync.reverse.analysis.interval_analysis import IntervalAnalysis
 from rebsync.reverse.analysis.needs import Need
 from rebsync.reverse.bodies.rewriting import rewritten
-from rebsync.reverse.python.body_proof import Bodies, proved
+from rebsync.reverse.python.body_proof import ClassBodies, proved
 from tests.reverse.analysis.drawing import BITS, LENGTH, STATE, bodies, type_of, widths
 from tests.reverse.analysis.running import Run, Stop, bits_of, is_int
 
@@ -115,7 +115,7 @@ def test_numbers_of_a_class_in_python_are_what_is_proved(
         needs[id(node)] = [Need(node, bounds, ("", number, 0, ""))]
     names = frozenset({*_PYTHON, "i1", "i5", "i6", "s1", "b1"})
     found = proved(
-        Bodies(constructor, [(s, {}) for s in servers], frozenset(_PYTHON), names, {}, needs)
+        ClassBodies(constructor, [(s, {}) for s in servers], frozenset(_PYTHON), names, {}, needs)
     )
     assume(not found.broken)
 

@@ -133,11 +133,45 @@ def _parameter(name: str, kind: object = None, value: object = None) -> SimpleNa
     )
 
 
+class _Parameters:
+    """The parameters of a node, and who is asked before they are set."""
+
+    def __init__(self) -> None:
+        self._parameters: dict[str, Any] = {}
+        self._on_set: list[Callable[[Any], Any]] = []
+
+    def declare_parameter(self, name: str, value: object = None, _: object = None) -> object:
+        self._parameters[name] = _parameter(name, None, value)
+        return self._parameters[name]
+
+    def declare_parameters(self, namespace: str, parameters: Sequence[Any]) -> list[object]:
+        begin = f"{namespace}." if namespace else ""
+        return [self.declare_parameter(begin + p[0], *p[1:]) for p in parameters]
+
+    def has_parameter(self, name: str) -> bool:
+        return name in self._parameters
+
+    def get_parameter(self, name: str) -> Any:
+        return self._parameters[name]
+
+    def get_parameter_or(self, name: str, alternative_value: Any = None) -> Any:
+        return self._parameters.get(name, alternative_value)
+
+    def set_parameters(self, parameters: Sequence[Any]) -> list[Any]:
+        results = [c(list(parameters)) for c in self._on_set]
+        if all(r.successful for r in results):
+            self._parameters.update({p.name: p for p in parameters})
+        return results
+
+    def add_on_set_parameters_callback(self, callback: Callable[[Any], Any]) -> None:
+        self._on_set.insert(0, callback)
+
+
 def _node_class(world: World) -> type:
-    class Node:
+    class Node(_Parameters):
         def __init__(self, node_name: str, **_: object) -> None:
-            self._group_of_node, self._parameters = Group(), {}  # type: ignore[var-annotated]
-            self._on_set: list[Callable[[Any], Any]] = []
+            super().__init__()
+            self._group_of_node = Group()
             self._node_name = node_name
 
         @property
@@ -202,32 +236,6 @@ def _node_class(world: World) -> type:
 
         def create_rate(self, frequency: float) -> SimpleNamespace:
             return SimpleNamespace(sleep=lambda: world.sleep(1 / frequency))
-
-        def declare_parameter(self, name: str, value: object = None, _: object = None) -> object:
-            self._parameters[name] = _parameter(name, None, value)
-            return self._parameters[name]
-
-        def declare_parameters(self, namespace: str, parameters: Sequence[Any]) -> list[object]:
-            begin = f"{namespace}." if namespace else ""
-            return [self.declare_parameter(begin + p[0], *p[1:]) for p in parameters]
-
-        def has_parameter(self, name: str) -> bool:
-            return name in self._parameters
-
-        def get_parameter(self, name: str) -> Any:
-            return self._parameters[name]
-
-        def get_parameter_or(self, name: str, alternative_value: Any = None) -> Any:
-            return self._parameters.get(name, alternative_value)
-
-        def set_parameters(self, parameters: Sequence[Any]) -> list[Any]:
-            results = [c(list(parameters)) for c in self._on_set]
-            if all(r.successful for r in results):
-                self._parameters.update({p.name: p for p in parameters})
-            return results
-
-        def add_on_set_parameters_callback(self, callback: Callable[[Any], Any]) -> None:
-            self._on_set.insert(0, callback)
 
         def get_clock(self) -> SimpleNamespace:
             return _clock(world)

@@ -8,7 +8,7 @@ from rebsync.grammars.parser import parse_model
 from rebsync.roundtrip.behaviour.bisimulation import compare_behaviour
 from rebsync.roundtrip.diff.behaviour import Behaviour, lines
 from rebsync.roundtrip.diff.difference import Place
-from rebsync.roundtrip.diff.operands import SourcedModel, Unread
+from rebsync.roundtrip.diff.operands import SourcedModel, UnreadPlace
 from rebsync.source import NOWHERE, Source
 
 MODEL = """\
@@ -176,7 +176,9 @@ def test_a_difference_within_the_bound_is_one() -> None:
 
 def test_what_cannot_be_run_is_undetermined() -> None:
     whole = given(MODEL)
-    unread = SourcedModel(whole.model, whole.source, (Unread(Place(whole.source, NOWHERE), "why"),))
+    unread = SourcedModel(
+        whole.model, whole.source, (UnreadPlace(Place(whole.source, NOWHERE), "why"),)
+    )
     found = compare_behaviour(whole, unread)
     assert (found.verdict, found.reason) == (
         "undetermined",

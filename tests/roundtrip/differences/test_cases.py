@@ -16,7 +16,7 @@ from rebsync.grammars.parser import parse_model
 from rebsync.reverse.findings import Grade
 from rebsync.roundtrip.diff.compare import compare
 from rebsync.roundtrip.diff.difference import Depth, Place
-from rebsync.roundtrip.diff.operands import SourcedModel, Unread
+from rebsync.roundtrip.diff.operands import SourcedModel, UnreadPlace
 from rebsync.roundtrip.diff.report import lines
 from rebsync.source import Source
 from tests.reverse.laws import extracted
@@ -39,7 +39,7 @@ def read_model(path: Path) -> SourcedModel:
 def read_code(files: dict[str, str]) -> SourcedModel:
     found = extracted(files)
     unread = tuple(
-        Unread(Place(f.source, f.span), f.why, f.within)
+        UnreadPlace(Place(f.source, f.span), f.why, f.within)
         for f in found.findings
         if f.grade is Grade.UNREADABLE
     )

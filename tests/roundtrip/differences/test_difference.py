@@ -14,11 +14,11 @@ from rebsync.roundtrip.diff.difference import (
     Element,
     Place,
     explain,
-    line_of,
     place,
 )
 from rebsync.roundtrip.diff.operands import SourcedModel
 from rebsync.source import NOWHERE, Source, Span
+from tests.roundtrip.differences.lines import line_of
 
 SOURCE = Source("a.rebeca", "one\ntwo\nthree\n")
 ELEMENT = Element("msgsrv", "A.m")

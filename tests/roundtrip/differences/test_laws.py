@@ -10,10 +10,11 @@ from hypothesis import strategies as st
 
 from rebsync import model as m
 from rebsync.roundtrip.diff.compare import compare, compare_in_full
-from rebsync.roundtrip.diff.difference import Changed, Comparison, Depth, Renamed, line_of
+from rebsync.roundtrip.diff.difference import Changed, Comparison, Depth, Renamed
 from rebsync.roundtrip.diff.normal_form import rewrite
 from rebsync.roundtrip.diff.operands import SourcedModel
 from rebsync.source import Source
+from tests.roundtrip.differences.lines import line_of
 from tests.roundtrip.differences.mutations import (
     DIFFERENT,
     EQUAL,

@@ -1,0 +1,100 @@
+"""The interface between the parts of the reader of people's expressions, and their state."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.intervals import INT32, Interval
+from rebsync.records import dataclass
+from rebsync.reverse.analysis.needs import Need
+from rebsync.reverse.bodies.building import bare, cast
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.python.body_reading import Reading
+from rebsync.reverse.python.body_scope import (
+    WHOLE,
+    Frame,
+    Meaning,
+    Message,
+    Nobody,
+    Own,
+    Value,
+    literal,
+    unknown,
+)
+from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.source import Span
+from rebsync.static.types import DOUBLE
+
+
+@dataclass(eq=False, slots=True)
+class BodyExpressionReader(ABC):
+    """Reads the expressions of one run of a function."""
+
+    reading: Reading
+    frame: Frame
+    within: str
+    running: tuple[int, ...] = ()
+
+    def meaning(self, node: Node) -> tuple[Meaning, str]:
+        """What a name or attribute stands for, and the path of fields behind it."""
+        if node.type == "identifier":
+            return self.reading.name(text_of(node), node, self.frame), ""
+        if node.type != "attribute":
+            return Nobody(), ""
+        holder, name = field(node, "object"), text_of(field(node, "attribute"))
+        meaning, path = self.meaning(holder)
+        if isinstance(meaning, Own) and not path:
+            return self.reading.attribute(name, node, self.frame), ""
+        if isinstance(meaning, Message):
+            return meaning, f"{path}.{name}" if path else name
+        found = self.reading.constant(self.reading.values.ways(node, self.frame.scope))
+        return (found, "") if found is not None and isinstance(meaning, Nobody) else (Nobody(), "")
+
+    def real(self, value: Value, node: Node, what: str = "real") -> m.Expression:
+        """A number where the model is to compute with 64 bits."""
+        if value.kind == WHOLE:
+            self.need(value, node, what)
+            inner = bare(value.expression)
+            if isinstance(inner, m.IntLiteral):
+                return literal(float(inner.value))
+            return cast(DOUBLE, value.expression)
+        return cast(DOUBLE, value.expression) if value.single else value.expression
+
+    def need(
+        self,
+        value: Value,
+        node: Node,
+        what: str = "",
+        within: Interval = INT32,
+        strict: str = "",
+    ) -> m.Expression:
+        """The value, of which the model must have the same number."""
+        if self._is_refused(node, what):
+            if strict:
+                raise Unread(self._span(node), strict)
+            raise unknown(self.frame, node, "a number that may be beyond its int")
+        self._noted(value.expression, node, what, within)
+        return value.expression
+
+    def _noted(self, expression: m.Expression, node: Node, what: str, within: Interval) -> None:
+        mark = (self.frame.py.source.path, node.start_byte, node.end_byte, what)
+        plain = bare(expression)
+        self.reading.needs.setdefault(id(plain), []).append(Need(plain, within, mark))
+
+    def _is_refused(self, node: Node, what: str) -> bool:
+        mark = (self.frame.py.source.path, node.start_byte, node.end_byte, what)
+        return self.reading.learnt.is_refused(mark)
+
+    def _span(self, node: Node) -> Span:
+        return self.frame.span(node)
+
+    @abstractmethod
+    def read(self, node: Node) -> Value:
+        """An expression; `Unknown` is raised where nobody knows its value."""
+
+    @abstractmethod
+    def condition(self, node: Node) -> m.Expression:
+        """A condition; one that nobody knows may be true or false, and is listed."""

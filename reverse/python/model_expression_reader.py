@@ -1,0 +1,53 @@
+"""The interface between the parts of the reader of generated expressions, and their state."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import field as with_default
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.python.model_cuts import Cuts
+from rebsync.reverse.python.model_kinds import kind_of
+from rebsync.reverse.python.model_names import ModelNames
+from rebsync.reverse.python.py_tree import Py
+
+
+@dataclass(eq=False, slots=True)
+class ModelExpressionReader(ABC):
+    """Reads the expressions of one body; `locals` are its variables by their names in Python.
+
+    `types` are those of the locals, by their names in the model; `bound` names that stand for an
+    expression while a comprehension is read; `own` is what the object is called; `cuts` are the
+    integers that are cut to the width that they have in the model.
+    """
+
+    py: Py
+    names: ModelNames
+    locals: dict[str, str] = with_default(default_factory=dict)
+    kept: dict[str, Node] = with_default(default_factory=dict)
+    types: dict[str, m.Type] = with_default(default_factory=dict)
+    bound: dict[str, m.Expression] = with_default(default_factory=dict)
+    closures: dict[str, Node] = with_default(default_factory=dict)
+    own: str = "self"
+    cuts: Cuts = with_default(default_factory=Cuts)
+
+    def unread(self, node: Node, why: str) -> Unread:
+        return Unread(self.py.span(node), why)
+
+    def kind(self, read: m.Expression) -> m.Type | None:
+        """The widest type of the kind of an expression's value, if it can be told."""
+        return kind_of(
+            read, lambda n: self.types.get(n, self.names.types.get(n)), self.names.results
+        )
+
+    @abstractmethod
+    def read(self, node: Node) -> m.Expression:
+        """An expression. Unread: the model has none for it."""
+
+    @abstractmethod
+    def condition(self, node: Node) -> m.Expression:
+        """What must hold."""

@@ -1,0 +1,68 @@
+"""The interface between the parts of the reader of generated statements, and their state."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import field as with_default
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reserved import PYTHON_RESERVED, uncarry_local
+from rebsync.reverse.analysis.evaluation_order import note_store
+from rebsync.reverse.findings import Findings
+from rebsync.reverse.python.model_expressions import Expressions
+from rebsync.reverse.python.py_tree import named
+
+
+@dataclass(eq=False, slots=True)
+class ModelStatementReader(ABC):
+    """Reads the bodies of one function; `within` names it where something is listed.
+
+    `hoisted` are the locals that a switch declares before it, `cases` the names of the switches
+    around a statement, innermost last. `implied` are the locals of a block without a type, `inner`
+    are functions within.
+    """
+
+    expressions: Expressions
+    findings: Findings
+    within: str
+    types: frozenset[str] = frozenset()
+    hoisted: dict[str, m.Type] = with_default(default_factory=dict)
+    cases: list[str] = with_default(default_factory=list)
+    implied: set[str] = with_default(default_factory=set)
+    inner: dict[str, Node] = with_default(default_factory=dict)
+
+    def in_order(self, store: m.Expression) -> None:
+        """Lists an assignment if its value has to be known after what it stores into."""
+        note_store(self.findings, self.expressions.py.source, self.within, store)
+
+    def local(self, name: str) -> str:
+        """The model's name of a local variable or parameter."""
+        taken = self.types | {t.removesuffix("_v") for t in self.types}
+        return uncarry_local(name, PYTHON_RESERVED | taken, self.types)
+
+    def suite(self, node: Node) -> m.Block:
+        outer, self.cases = self.cases, []
+        found = self.branch(node)
+        self.cases = outer
+        return found
+
+    def branch(self, node: Node) -> m.Block:
+        """A block. What it names first nobody knows behind it."""
+        outer = self.implied
+        self.implied = set()
+        found = self.block(named(node), node)
+        for name in self.implied:
+            self.expressions.locals.pop(name, None)
+        self.implied = outer
+        return found
+
+    @abstractmethod
+    def block(self, nodes: list[Node], span_of: Node) -> m.Block:
+        """The statements of a suite."""
+
+    @abstractmethod
+    def implied_local(self, name: str, value: Node, node: Node) -> m.Local:
+        """A local without a type, which is that of its value."""

@@ -1,0 +1,117 @@
+"""The interface between the parts of the evaluator of Python, and their state."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable
+from dataclasses import field as with_default
+from itertools import product
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reverse.graph import Place, Resolved, Unresolved
+from rebsync.reverse.python.py_bindings import Binding
+from rebsync.reverse.python.py_index import PyCode, Scope
+from rebsync.reverse.python.py_tree import named
+from rebsync.reverse.python.py_worth import (
+    MOST,
+    Class,
+    External,
+    Items,
+    Table,
+    Value,
+    Ways,
+    joined,
+    resolved,
+)
+
+_Key = tuple[str, int]
+
+
+@dataclass(eq=False, slots=True)
+class PyEvaluator(ABC):
+    """The values of expressions in some files; what was found is kept."""
+
+    code: PyCode
+    kept: dict[_Key, Ways] = with_default(default_factory=dict)
+    under_way: set[_Key] = with_default(default_factory=set)
+    cycles: list[set[_Key]] = with_default(default_factory=list)
+    steps: int = 0
+
+    def value(self, node: Node, scope: Scope) -> Resolved:
+        """The value of an expression as it stands in a graph."""
+        return resolved(self.ways(node, scope), self.unknown("it is computed", node, scope))
+
+    def text(self, node: Node, scope: Scope) -> str | None:
+        """The text of an expression if it is always the same."""
+        match self.ways(node, scope):
+            case (str() as text,):
+                return text
+            case _:
+                return None
+
+    def unknown(self, why: str, node: Node, scope: Scope) -> Unresolved:
+        return Unresolved(why, Place(scope.py.source, scope.py.span(node)))
+
+    def join(self, parts: list[Ways], node: Node, scope: Scope) -> Ways:
+        """Texts one behind the other, in all ways."""
+        none = (self.unknown("the text is put together of what is not known", node, scope),)
+        filled = [p or none for p in parts]
+        count = 1
+        for part in filled:
+            count *= len(part)
+        if count > MOST:
+            return none
+        return tuple(joined(chosen, lambda: none[0]) for chosen in product(*filled))
+
+    @abstractmethod
+    def bound(self, binding: Binding, name: str, scope: Scope) -> Ways:
+        """What a binding of a name in a scope gives."""
+
+    @abstractmethod
+    def ways(self, node: Node, scope: Scope) -> Ways:
+        """All that an expression may be worth.
+
+        What depends on itself adds nothing to its own value; what was found on such a way holds
+        for that way only, and is not kept.
+        """
+
+    @abstractmethod
+    def operated(
+        self, operator: str, left: Ways, right: Ways, node: Node, scope: Scope
+    ) -> Iterable[Value]:
+        """An operation on all that its operands may be."""
+
+
+def each_of(values: PyEvaluator, node: Node, scope: Scope) -> list[Ways]:
+    """What a loop goes through, one round after the other."""
+    rounds: list[Ways] = []
+    for value in values.ways(node, scope):
+        match value:
+            case Items(each):
+                rounds += each
+            case Table(pairs):
+                rounds += [key for key, _ in pairs]
+            case _:
+                rounds.append((values.unknown("a loop over what is not known", node, scope),))
+    return rounds
+
+
+def lineage(
+    values: PyEvaluator, owner: Scope, seen: tuple[Scope, ...] = ()
+) -> list[Scope | External]:
+    """A class and those above it, nearest first; of those that are not in the files the names."""
+    if owner in seen:
+        return []
+    found: list[Scope | External] = [owner]
+    bases = owner.node.child_by_field_name("superclasses")
+    for base in named(bases) if bases is not None else []:
+        if base.type == "keyword_argument":
+            continue
+        for value in values.ways(base, owner.parent or owner):
+            if isinstance(value, Class):
+                found += lineage(values, value.scope, (*seen, owner))
+            elif isinstance(value, External):
+                found.append(value)
+    return found

@@ -1,0 +1,22 @@
+"""A name of a class means one thing: in reverse and roundtrip few stand in two modules."""
+
+from __future__ import annotations
+
+import ast
+from collections import Counter
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+MOST = 19  # fewer are welcome
+
+
+def _classes(path: Path) -> set[str]:
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    return {node.name for node in ast.walk(tree) if isinstance(node, ast.ClassDef)}
+
+
+def test_few_class_names_stand_in_two_modules() -> None:
+    paths = [path for room in ("reverse", "roundtrip") for path in (ROOT / room).rglob("*.py")]
+    count = Counter(name for path in paths for name in _classes(path))
+    shared = sorted(name for name, modules in count.items() if modules > 1)
+    assert len(shared) <= MOST, shared
