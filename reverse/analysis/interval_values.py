@@ -52,6 +52,8 @@ class IntervalValues:
     ids. `wraps` says whether sums of the code wrap, and `cuts` to which bounds some expressions are
     brought where they do not, by their ids. `results` are the types of what functions give.
 
+    `trusts_counters` says whether what only counts up is taken to stay below the greatest `int`.
+
     `broken` are variables that may get another number than an `int` holds, `counted` those that
     only count up to one, `failed` the needs that may not hold. `stored` has all that variables of
     `widths` get, `left` what bodies leave in those of `state`, `indices` all that the indices of
@@ -66,6 +68,7 @@ class IntervalValues:
     called: Collection[str] = ()
     needs: Mapping[int, Sequence[Need]] = field(default_factory=dict)
     wraps: bool = True
+    trusts_counters: bool = True
     cuts: Mapping[int, Interval] = field(default_factory=dict)
     results: Mapping[str, m.Type] = field(default_factory=dict)
     parameters: Collection[str] = ()
@@ -338,7 +341,7 @@ class IntervalValues:
             self._now[name] = given.in_type(whole) if whole != ANY else ANY
             return self._now[name]
         whole = fitting(self.widths[name])
-        if counts and whole.low <= given.low <= whole.high < given.high:
+        if counts and self.trusts_counters and whole.low <= given.low <= whole.high < given.high:
             self.counted.add(name)
             given = Interval(given.low, whole.high)
         if not whole.includes(given):

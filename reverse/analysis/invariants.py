@@ -19,6 +19,7 @@ from rebsync.reverse.analysis.needs import Mark, Need
 from rebsync.reverse.analysis.writes import written
 
 _BITS = 63
+_WIDTHS = {"byte": 7, "short": 15, "int": 31}
 _PLAIN_ROUNDS = 3
 _MOST_ROUNDS = 40
 
@@ -34,7 +35,8 @@ class BodyStart(Enum):
 @dataclass(frozen=True, slots=True)
 class Body:
     """A body with the types of the names and of what functions give; the rest as the analysis has
-    it. It cuts the integers that `cuts` has, and those alone.
+    it. It cuts the integers that `cuts` has, and those alone. `arguments` are what its parameters
+    can be, where that is known.
     """
 
     name: str
@@ -45,6 +47,7 @@ class Body:
     results: Mapping[str, m.Type] = field(default_factory=dict)
     cuts: Mapping[int, Interval] = field(default_factory=dict)
     needs: Mapping[int, Sequence[Need]] = field(default_factory=dict)
+    arguments: Mapping[str, Interval] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,18 +83,41 @@ def failed(
     found = _Round(_Held({}, {}), fixed, frozenset()).over(asking).failed if asking else set()
     if not found or not names:
         return found
-    held = _Held(dict.fromkeys(names, exactly(0)), dict.fromkeys(names, exactly(0)))
+    last = _fixpoint(bodies, dict.fromkeys(names, _BITS), fixed)
+    return last.failed if last is not None else found
+
+
+def between_messages(bodies: Sequence[Body], state: Mapping[str, m.Type]) -> Mapping[str, Interval]:
+    """What the integers among state variables hold whenever a server of the class starts.
+
+    The integers of the bodies wrap, as those of a model do; nothing of one that locals hide.
+    """
+    names = {name for name, type_ in state.items() if type_.name in _WIDTHS} - _hidden(bodies)
+    widths = {name: _WIDTHS[state[name].name] for name in names}
+    last = _fixpoint(bodies, widths, {}, wraps=True)
+    return last.held.between if last is not None else {}
+
+
+def _fixpoint(
+    bodies: Sequence[Body],
+    widths: Mapping[str, int],
+    fixed: Mapping[str, Interval],
+    *,
+    wraps: bool = False,
+) -> _Round | None:
+    """The round over all bodies after which nothing is new; None if there are too many."""
+    held = _Held(dict.fromkeys(widths, exactly(0)), dict.fromkeys(widths, exactly(0)))
     thresholds = sorted({*_literals(bodies), INT32.low, INT32.high})
     called = _called(bodies)
     within = [s for body in bodies if body.name in called for s in body.statements]
     changed = frozenset(name for statement in within for name in written(statement))
     for number in range(_MOST_ROUNDS):
-        round_ = _Round(held, fixed, called, changed).over(bodies)
+        round_ = _Round(held, fixed, called, changed, widths, wraps).over(bodies)
         later = round_.later()
         if later == held:
-            return round_.failed
+            return round_
         held = held.widened(later, thresholds) if number >= _PLAIN_ROUNDS else later
-    return found
+    return None
 
 
 @dataclass(slots=True)
@@ -100,13 +126,16 @@ class _Round:
     some names (`fixed`) always do.
 
     `called` are the bodies that others call, whatever else they are, and `changed` what these
-    change, if that is known.
+    change, if that is known. `widths` are the bits of state variables; `wraps` says whether sums
+    wrap: then no counter is trusted to stay below the greatest number.
     """
 
     held: _Held
     fixed: Mapping[str, Interval]
     called: frozenset[str]
     changed: Collection[str] | None = None
+    widths: Mapping[str, int] = field(default_factory=dict)
+    wraps: bool = False
     failed: set[Mark] = field(default_factory=set)
     stored: dict[str, Interval] = field(default_factory=dict)
     left: dict[str, Interval] = field(default_factory=dict)
@@ -124,15 +153,16 @@ class _Round:
         elif entry is BodyStart.BETWEEN:
             known = self.held.between
         IntervalAnalysis(
-            dict.fromkeys(names, _BITS),
+            self.widths,
             body.types,
-            known,
+            {**known, **body.arguments},
             {**self.fixed, **self.held.always},
             parameters=body.parameters,
             state=() if body.entry is BodyStart.WITHIN else names,
             called=set(body.types) if self.changed is None else self.changed,
             needs=body.needs,
-            wraps=False,
+            wraps=self.wraps,
+            trusts_counters=not self.wraps,
             cuts=body.cuts,
             results=body.results,
             failed=self.failed,

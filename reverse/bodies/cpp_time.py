@@ -10,6 +10,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies.building import binary, cast
 from rebsync.reverse.bodies.cpp_conversions import type_in
+from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_widths import check_whole
 from rebsync.reverse.bodies.scope import Variable
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 _SECOND = Fraction(1)
+_OTHER_CLOCK = "this clock is not the time of the model, at which a message server stands still"
 
 
 def time_called(
@@ -34,6 +36,8 @@ def time_called(
     if not arguments and (
         name in libraries.names_of(Kind.CLOCK) or (name == "now" and is_flat(reader))
     ):
+        if has_mailbox(reader.scope):
+            raise Unread(reader.cpp.span(node), _OTHER_CLOCK, "ask the mailbox: mailbox_.now()")
         return m.Name("now", reader.cpp.span(node))
     seconds = seconds_of(name)
     if seconds is None:

@@ -7,10 +7,20 @@ from functools import lru_cache
 
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Effect, Kind
+from rebsync.reverse.libraries.tables.standard import STREAMS
 from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
 from rebsync.reverse.syntax.cpp_tree import text_of
 
+# Functions of the standard library that wait for somebody, start something, or end the program.
+_WAITING = frozenset(
+    {
+        *("system", "popen", "getchar", "getc", "fgetc", "gets", "fgets", "scanf", "fscanf"),
+        *("getline", "async", "call_once", "signal", "atexit", "at_quick_exit", "longjmp"),
+    }
+)
+# Functions that a node of ROS 2 inherits, and that only tell of it.
+_OF_NODE = frozenset({"get_clock", "get_name", "get_namespace", "get_fully_qualified_name"})
 _CONVERSION = re.compile(
     r"(?:::)?(?:u?int(?:8|16|32|64)?(?:_t)?|float|double|bool|char|long|short|unsigned|size_t)\Z"
 )
@@ -37,6 +47,21 @@ def acts(call: CppCall) -> str | None:
     if call.target is None and name in libraries.named(Kind.POLL):
         return Effect.WAITS.value
     return libraries.acting().get(name)
+
+
+def is_known(call: CppCall) -> bool:
+    """Whether a free function of a library acts on nothing but what it gets, and ends soon."""
+    plain = call.name.partition("<")[0].rpartition("::")[2]
+    if plain in _WAITING:
+        return False
+    of_node = call.name in _OF_NODE or call.name in libraries.looking()
+    return of_node or takes_values(call) or _is_of_library(call.name)
+
+
+def is_harmless_object(name: str) -> bool:
+    """Whether an object by a name is of a library, and waits for nobody."""
+    waits = name.rpartition("::")[2] in ("cin", "wcin")
+    return name in STREAMS or (_is_of_library(name) and not waits)
 
 
 def takes_values(call: CppCall) -> bool:

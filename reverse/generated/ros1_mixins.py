@@ -71,7 +71,7 @@ def _is_mixin(code: Code, owner: CppClass, base: CppClass) -> bool:
     own = {f.name for c in code.lineage(owner.name) if c is not base for f in c.functions}
     taken = own | RUNTIME_FUNCTIONS | {name for of, name in code.definitions if not of}
     return all(
-        f is not None and (_is_empty(f) if _is_special(base, f) else _is_helper(f, taken))
+        f is not None and (_is_empty(f) if _is_special(base, f) else _is_helper(code, f, taken))
         for f in functions
     )
 
@@ -88,7 +88,14 @@ def _is_empty(function: CppFunction) -> bool:
     return plain and function.initialisers is None and "operator" not in function.name
 
 
-def _is_helper(function: CppFunction, taken: set[str]) -> bool:
+def _is_helper(code: Code, function: CppFunction, taken: set[str]) -> bool:
     kinds = {c.type for c in function.node.children}
     inside = function.body is not None and function.body.type == "compound_statement"
-    return inside and "virtual" not in kinds and function.name not in taken and is_method(function)
+    is_known = is_method(function) or _is_unused(code, function)
+    return inside and "virtual" not in kinds and function.name not in taken and is_known
+
+
+def _is_unused(code: Code, function: CppFunction) -> bool:
+    """Whether nothing but its own definition has the name of a function."""
+    name = re.compile(rb"\b%s\b" % re.escape(function.name.encode()))
+    return sum(len(name.findall(cpp.data)) for cpp in code.files) == 1

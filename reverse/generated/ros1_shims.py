@@ -20,7 +20,7 @@ from rebsync.reverse.generated.ros1_posts import tells_arguments
 from rebsync.reverse.generated.ros1_roles import Roles, Taken, call_in
 from rebsync.reverse.syntax.cpp_calls import CppCall, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
-from rebsync.reverse.syntax.cpp_tree import inside, text_of
+from rebsync.reverse.syntax.cpp_tree import inside, named, text_of
 from rebsync.static.types import PRIMITIVES
 
 _CHANGES = ("assignment_expression", "update_expression")
@@ -42,11 +42,19 @@ def odd_in_shim(
         yield from statements
         return
     (taken,) = received
+    if not _is_all(statements[0], taken.call.node):
+        yield from statements
+        return
     known = fields.get(taken.type)
     if not (_hands_fields_on(taken, known) and _fits(code, owner, taken, known or {})):
         yield taken.call.arguments[-1]
     elif not _tells_of_message(code, owner, taken, known or {}) or not _is_shown(taken):
         yield taken.call.node
+
+
+def _is_all(statement: Node, call: Node) -> bool:
+    """Whether a statement is a call, and not one that it may come to."""
+    return statement.type == "expression_statement" and named(statement)[0] == call
 
 
 def _fits(code: Code, owner: CppClass, taken: Taken, fields: Mapping[str, Type | None]) -> bool:

@@ -10,7 +10,7 @@ from rebsync.reverse.findings import Findings
 from rebsync.reverse.launch.launch_files import read_launch
 from rebsync.reverse.launch.launch_files_ros2 import read_ros2_launch, speaks_ros_2
 from rebsync.reverse.launch.launch_values import Surroundings
-from rebsync.reverse.launch.launched import Launch
+from rebsync.reverse.launch.launched import Launch, LaunchedNode
 from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_presence import STAND_IN
 from rebsync.reverse.nodes.node_programs import Program
@@ -74,7 +74,11 @@ def system_of(
     names = names.union(*executables(files).values())
     best = max(read, key=lambda each: (_known(each[1], names), _size(each[1], package)))
     included = {id(s) for s in best[1].sources}
-    others = [(s, launch) for s, launch in read if id(s) not in included and _size(launch, package)]
+    others = [
+        (s, launch)
+        for s, launch in read
+        if id(s) not in included and _size(launch, package) and not _is_same(launch, best[1])
+    ]
     whole = {id(s) for _, launch in others for s in launch.sources[1:]}
     starts = only is not None or not names or _known(best[1], names) > 0
     return System(best[1], tuple(each for each in others if id(each[0]) not in whole), starts)
@@ -83,6 +87,19 @@ def system_of(
 def _known(launch: Launch, names: Collection[str]) -> int:
     """How many nodes it starts that are among the programs, or nodelets."""
     return sum(not n.test and (n.type in names or n.nodelet is not None) for n in launch.nodes)
+
+
+def _is_same(launch: Launch, other: Launch) -> bool:
+    """Whether two launch files start the same system, be it with another clock."""
+    same = [*map(_started, launch.nodes)], [*map(_started, other.nodes)]
+    return len(same[0]) == len(same[1]) and all(each in same[1] for each in same[0])
+
+
+def _started(node: LaunchedNode) -> tuple[object, ...]:
+    """What a node is started with."""
+    values = {p.name: p.value for p in node.parameters if p.name != "use_sim_time"}
+    remaps = [(r.private, r.target) for r in node.remaps]
+    return node.path, node.package, node.type, values, remaps, node.arguments, node.only_if
 
 
 def _is_system(path: str, source: Source) -> bool:

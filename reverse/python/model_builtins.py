@@ -13,6 +13,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies.building import binary, chosen, negated
 from rebsync.reverse.python.model_idioms import grouped, is_plain, truth, type_of
+from rebsync.reverse.python.model_types import call_parts
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 if TYPE_CHECKING:
@@ -22,6 +23,8 @@ _LARGEST = 24  # parts of what is repeated where values are compared
 _MOST = 16  # elements that are said one by one
 _TESTS = {"any": "||", "all": "&&"}
 _OF_SETS = frozenset({"any", "all", "min", "max"})  # for which order and number are nothing
+_CUTS = frozenset({"int8", "int16", "int32"})
+_NAMES = frozenset({"identifier", "attribute", "integer", "float", "true", "false"})
 NO_LENGTH = 'an array of the model has no "{}" in Python: say its length as a number'
 
 
@@ -41,10 +44,12 @@ def of_python(
             first = reader.read(start)
             _assert_whole(reader, node, first)
             return grouped(node, _folded(reader, node, called, given, first))
+        case ("min" | "max", [given, key]) if key.type == "keyword_argument":
+            return grouped(node, _best(reader, node, called, given, key))
         case ("min" | "max", [given]):
             values = _certain(reader, given, called)
             return grouped(node, _extreme(reader, node, called, values))
-        case ("min" | "max", _) if len(arguments) > 1 and all(map(is_plain, arguments)):
+        case ("min" | "max", _) if len(arguments) > 1 and all(map(_is_cut_or_plain, arguments)):
             return grouped(node, _extreme(reader, node, called, list(map(reader.read, arguments))))
         case "abs", [given] if is_plain(given):
             read = reader.read(given)
@@ -59,8 +64,37 @@ def of_python(
             raise reader.unread(node, NO_LENGTH.format(called))
         case "len", [given] if given.type in ("list", "tuple"):
             return m.IntLiteral(len(named(given)))
+        case _, [key, default] if called.endswith("}.get"):
+            return _looked_up(reader, node, key, default)
         case _:
             return None
+
+
+def _is_cut_or_plain(node: Node) -> bool:
+    """Whether an expression does nothing, be it cut to the width that the model has."""
+    called, arguments = call_parts(node) or ("", [])
+    return is_plain(node) or (called in _CUTS and all(map(is_plain, arguments)))
+
+
+def _looked_up(
+    reader: ModelExpressionReader, node: Node, key: Node, default: Node
+) -> m.Expression | None:
+    """`{1: a, 2: b}.get(key, default)`, of numbers written out and what does nothing."""
+    table = field(field(node, "function"), "object")
+    pairs = [(field(p, "key"), field(p, "value")) for p in named(table) if p.type == "pair"]
+    values = [value for _, value in pairs] + [default]
+    is_known = table.type == "dictionary" and len(pairs) == len(named(table)) <= _MOST
+    if not is_known or not is_plain(key) or not all(v.type in _NAMES for v in values):
+        return None
+    if not all(k.type == "integer" for k, _ in pairs):
+        return None
+    asked, found = reader.read(key), reader.read(default)
+    if reader.kind(asked) != m.Type("int"):
+        return None
+    numbered = {int(text_of(k), 0): reader.read(value) for k, value in pairs}  # the last counts
+    for number, value in reversed(numbered.items()):
+        found = chosen(binary("==", asked, m.IntLiteral(number)), value, found)
+    return grouped(node, found)
 
 
 def drawn(
@@ -161,7 +195,7 @@ def _comprehended(
         raise reader.unread(node, "the model has no such expression")
     left, right = field(loops[0], "left"), field(loops[0], "right")
     names = [text_of(n) for n in (named(left) if left.type == "pattern_list" else [left])]
-    for values in _rows(reader, right, len(names)):
+    for values in rows(reader, right, len(names)):
         outer = dict(reader.bound)
         reader.bound.update(zip(names, values, strict=True))
         try:
@@ -184,7 +218,7 @@ def is_calm(node: Node) -> bool:
 _CALM = frozenset({"abs", "min", "max", "bool", "int8", "int16", "int32", "divide", "remainder"})
 
 
-def _rows(reader: ModelExpressionReader, node: Node, width: int) -> list[tuple[m.Expression, ...]]:
+def rows(reader: ModelExpressionReader, node: Node, width: int) -> list[tuple[m.Expression, ...]]:
     """What a loop gives its variables, round by round."""
     called = text_of(field(node, "function")) if node.type == "call" else ""
     arguments = named(field(node, "arguments")) if called else []
@@ -192,9 +226,12 @@ def _rows(reader: ModelExpressionReader, node: Node, width: int) -> list[tuple[m
         numbers = range(*(int(text_of(a), 0) for a in arguments))
         if len(numbers) <= _MOST:
             return [(m.IntLiteral(n),) for n in numbers]
-    if called == "enumerate" and width == 2 and len(arguments) == 1:
+    if called == "enumerate" and width == 2 and 1 <= len(arguments) <= 2:
         values = _certain(reader, arguments[0], called)
-        return [(m.IntLiteral(i), value) for i, value in enumerate(values)]
+        first = arguments[1] if len(arguments) > 1 else None
+        if first is None or first.type == "integer":
+            start = int(text_of(first), 0) if first is not None else 0
+            return [(m.IntLiteral(i), value) for i, value in enumerate(values, start)]
     if called == "zip" and width == len(arguments):
         each = [_certain(reader, a, called) for a in arguments]
         return list(zip(*each, strict=False))
@@ -260,6 +297,39 @@ def _extreme(
         if len(list(m.walk(found))) > _LARGEST:
             raise reader.unread(node, "the model compares two values at a time")
         found = chosen(binary("<" if called == "min" else ">", value, found), value, found)
+    return found
+
+
+def _best(
+    reader: ModelExpressionReader, node: Node, called: str, given: Node, key: Node
+) -> m.Expression:
+    """The first value of which a function of it is the least or greatest."""
+    function = field(key, "value")
+    parameters = function.child_by_field_name("parameters")
+    names = [text_of(n) for n in named(parameters)] if parameters is not None else []
+    is_simple = text_of(field(key, "name")) == "key" and function.type == "lambda"
+    body = field(function, "body") if is_simple else function
+    if not is_simple or len(names) != 1 or not is_calm(body):
+        raise reader.unread(node, "the model has no such expression")
+
+    def measured(value: m.Expression) -> m.Expression:
+        outer = dict(reader.bound)
+        reader.bound[names[0]] = value
+        try:
+            read = reader.read(body)
+        finally:
+            reader.bound.clear()
+            reader.bound.update(outer)
+        _assert_whole(reader, node, read)
+        return read
+
+    first, *others = [value for (value,) in rows(reader, given, 1)]
+    found = first
+    for value in others:
+        if len(list(m.walk(found))) > _LARGEST:
+            raise reader.unread(node, "the model compares two values at a time")
+        sign = "<" if called == "min" else ">"
+        found = chosen(binary(sign, measured(value), measured(found)), value, found)
     return found
 
 

@@ -13,6 +13,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import whole_number
+from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_imports import module_named, module_of
 from rebsync.reverse.python.py_index import CLASS, PyCode, Scope
 from rebsync.reverse.python.py_tree import Py, field, named, text_of
@@ -87,7 +88,7 @@ def constants_of(scope: Scope) -> dict[str, m.Expression]:
     found: dict[str, m.Expression] = {}
     for name, bindings in scope.names.items():
         if len(bindings) == 1 and bindings[0].how == "value" and not hasattr(builtins, name):
-            value = bindings[0].value
+            value = _part(bindings[0])
             read = _value(scope.py, value, found) if value is not None else None
             if read is not None:
                 found[name] = read
@@ -96,6 +97,17 @@ def constants_of(scope: Scope) -> dict[str, m.Expression]:
                 if None not in each:
                     found |= {f"{name}[{i}]": v for i, v in enumerate(each) if v is not None}
     return found
+
+
+def _part(binding: Binding) -> Node | None:
+    """What a name is bound to, one of several at once perhaps; None if that is not written out."""
+    value = binding.value
+    for index in binding.path:
+        parts = named(value) if value.type in ("tuple", "expression_list") else []
+        if index >= len(parts) or any(p.type == "list_splat" for p in parts):
+            return None
+        value = parts[index]
+    return value
 
 
 def enumerations_of(module: Scope) -> dict[str, m.Expression]:
@@ -165,6 +177,10 @@ def is_quiet(scope: Scope, statement: Node) -> bool:
     if inner is None or inner.type != "assignment":
         return False
     left, value = field(inner, "left"), inner.child_by_field_name("right")
+    if left.type in ("pattern_list", "tuple_pattern"):
+        known = constants_of(scope)
+        names = map(text_of, named(left))
+        return all(name in known and _is_new(scope, name) for name in names)
     if left.type != "identifier" or value is None:
         return False
     if text_of(left) == "__all__":

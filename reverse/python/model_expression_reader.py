@@ -31,6 +31,7 @@ class ModelExpressionReader(ABC):
     kept: dict[str, Node] = with_default(default_factory=dict)
     types: dict[str, m.Type] = with_default(default_factory=dict)
     bound: dict[str, m.Expression] = with_default(default_factory=dict)
+    closures: dict[str, Node] = with_default(default_factory=dict)
     own: str = "self"
     cuts: Cuts = with_default(default_factory=Cuts)
 

@@ -53,9 +53,9 @@ _TEMPORARY = re.compile(r"op\d+_\Z")
 @dataclass(eq=False, slots=True)
 class Expressions(ModelExpressionReader):
     """Reads the expressions of one body; `locals` are its variables by their names in Python.
-
     `types` are those of the locals, by their names in the model; `bound` names that stand for an
-    expression while a comprehension is read; `own` is what the object is called; `cuts` are the
+    expression while a comprehension is read, `closures` what functions of the body give, which do
+    nothing; `own` is what the object is called; `cuts` are the
     integers that are cut to the width that they have in the model.
     """
 
@@ -254,6 +254,8 @@ class Expressions(ModelExpressionReader):
 
     def _call(self, node: Node) -> m.Expression:
         called, arguments = call_parts(node) or ("", [])
+        if called in self.closures and not arguments:
+            return idioms.grouped(node, self.read(self.closures[called]))
         if called in formats.FORMATS and len(arguments) == 1:
             return self._converted(called, arguments[0])
         if called in _CASTS and len(arguments) == 1:

@@ -13,7 +13,8 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_idioms as idioms
-from rebsync.reverse.python.model_expressions import Expressions
+from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
+from rebsync.reverse.python.model_logs import own_method
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 _DIVIDING = frozenset({"/", "//", "%"})
@@ -21,15 +22,15 @@ _TEXTS = frozenset({"string", "concatenated_string"})
 _LATER = frozenset({"generator_expression", "lambda", "list_comprehension", "set_comprehension"})
 
 
-def may_fail(expressions: Expressions, node: Node) -> bool:
-    """Whether there is something in a statement that may fail."""
-    if _is_division(node) or _is_element(expressions, node):
+def may_fail(expressions: ModelExpressionReader, node: Node) -> bool:
+    """Whether there is something in a statement that may fail, or is a method of the model."""
+    if _is_division(node) or _is_element(expressions, node) or _is_method(expressions, node):
         return True
     return any(may_fail(expressions, child) for child in node.named_children)
 
 
-def failing(expressions: Expressions, node: Node) -> Iterator[m.Statement]:
-    """What may fail in an expression, in the order in which it is evaluated.
+def failing(expressions: ModelExpressionReader, node: Node) -> Iterator[m.Statement]:
+    """What may fail in an expression, and calls of methods, in the order of evaluation.
 
     Unread: the model has no expression for it.
     """
@@ -46,6 +47,9 @@ def failing(expressions: Expressions, node: Node) -> Iterator[m.Statement]:
         left, right = field(node, "left"), field(node, "right")
         yield from _guarded(expressions, left, *((right, None) if is_and else (None, right)))
         return
+    if _is_method(expressions, node):
+        yield m.ExpressionStatement(expressions.read(node), span=expressions.py.span(node))
+        return
     for child in node.named_children:
         yield from failing(expressions, child)
     if _is_division(node):
@@ -54,8 +58,18 @@ def failing(expressions: Expressions, node: Node) -> Iterator[m.Statement]:
         yield m.ExpressionStatement(expressions.read(node), span=expressions.py.span(node))
 
 
+def methods_of(expressions: ModelExpressionReader) -> frozenset[str]:
+    """The methods of the model, by their names in Python."""
+    names = expressions.names
+    return frozenset(names.functions) - names.servers - names.sends.keys() - names.properties
+
+
+def _is_method(expressions: ModelExpressionReader, node: Node) -> bool:
+    return own_method(node) in methods_of(expressions)
+
+
 def _guarded(
-    expressions: Expressions, condition: Node, then: Node | None, otherwise: Node | None
+    expressions: ModelExpressionReader, condition: Node, then: Node | None, otherwise: Node | None
 ) -> Iterator[m.Statement]:
     yield from failing(expressions, condition)
     ways = [list(failing(expressions, n)) if n is not None else [] for n in (then, otherwise)]
@@ -66,7 +80,7 @@ def _guarded(
         yield m.If(read, blocks[0], blocks[1] if ways[1] else None, span=span)
 
 
-def _divided(expressions: Expressions, divisor: Node) -> m.Statement:
+def _divided(expressions: ModelExpressionReader, divisor: Node) -> m.Statement:
     """A division by what the code divides by."""
     read, span = expressions.read(divisor), expressions.py.span(divisor)
     match expressions.kind(read):
@@ -100,7 +114,7 @@ def _is_other_than_zero(node: Node) -> bool:
     return is_number and any(digit in text_of(node) for digit in "123456789")
 
 
-def _is_element(expressions: Expressions, node: Node) -> bool:
+def _is_element(expressions: ModelExpressionReader, node: Node) -> bool:
     """Whether it is the element of an array of the model by an index that is not written out."""
     if node.type != "subscript" or field(node, "subscript").type == "integer":
         return False

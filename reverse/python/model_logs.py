@@ -26,7 +26,8 @@ class Looks:
 
     `trusted` are names that stand for what Python and ROS have by them, "self" among them for a
     node of ROS 2; `functions` those of classes, of which one may be a property that does something;
-    `makers` what makes messages.
+    `makers` what makes messages. `own` are methods of the model, whose calls count as pure: who
+    leaves out the rest has to keep these.
     """
 
     trusted: frozenset[str] = with_default(
@@ -34,9 +35,12 @@ class Looks:
     )
     functions: frozenset[str] = frozenset()
     makers: frozenset[str] = frozenset()
+    own: frozenset[str] = frozenset()
 
     def is_pure(self, node: Node) -> bool:
         """Whether nothing happens where an expression is evaluated."""
+        if own_method(node) in self.own:
+            return self.is_pure(field(node, "arguments"))
         if node.type in _STORING or (node.type == "call" and not self._is_look(node)):
             return False
         if node.type == "attribute" and text_of(field(node, "attribute")) in self.functions:
@@ -74,6 +78,15 @@ class Looks:
     def _is_node(self) -> bool:
         """Whether the object is a node of ROS 2 that has its logger from there."""
         return "self" in self.trusted and "get_logger" not in self.functions
+
+
+def own_method(node: Node) -> str:
+    """The method that a call of one of the object's own calls; empty for all else."""
+    function = field(node, "function") if node.type == "call" else None
+    if function is None or function.type != "attribute":
+        return ""
+    is_own = text_of(field(function, "object")) == "self"
+    return text_of(field(function, "attribute")) if is_own else ""
 
 
 _PLAIN = Looks()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import replace
 from itertools import chain, count
 from typing import TYPE_CHECKING
@@ -17,7 +18,11 @@ from rebsync.reverse.python.model_types import call_parts
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 if TYPE_CHECKING:
+    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
     from rebsync.reverse.python.model_statement_reader import ModelStatementReader
+
+# What leaves a round, or may be done after it.
+_LEAVING = frozenset({"break_statement", "continue_statement", "function_definition", "lambda"})
 
 
 def counted(reader: ModelStatementReader, node: Node, name: str) -> m.For:
@@ -29,11 +34,13 @@ def counted(reader: ModelStatementReader, node: Node, name: str) -> m.For:
 
 def through(
     reader: ModelStatementReader, node: Node, called: str, arguments: list[Node]
-) -> m.For | None:
+) -> m.For | m.Block | None:
     """`enumerate`, `zip` and `reversed(range(...))`, and a tuple of numbers; None for others."""
     left, right = field(node, "left"), field(node, "right")
     names = [text_of(n) for n in (named(left) if left.type == "pattern_list" else [left])]
     match called, arguments:
+        case (("enumerate" | "zip"), _) if any(a.type in ("tuple", "list") for a in arguments):
+            return _unrolled(reader, node, names)
         case "enumerate", [values] if len(names) == 2:
             return _numbered(reader, node, names[0], names[1:], [values])
         case "zip", _ if len(names) == len(arguments) > 0:
@@ -84,6 +91,44 @@ def _listed(reader: ModelStatementReader, node: Node, name: str, values: list[No
     body = _round(reader, node, [], index, first)
     zero, one = m.IntLiteral(0), m.IntLiteral(1)
     return _for(reader, node, index, zero, m.IntLiteral(count_), one, body)
+
+
+def _unrolled(reader: ModelStatementReader, node: Node, names: list[str]) -> m.Block:
+    """What a loop through values that are written out does, once for each of them."""
+    body, expressions = field(node, "body"), reader.expressions
+    stored = idioms.stored_in(body)
+    given = {text_of(n) for n in _names_in(field(node, "right"))}
+    leaves = any(n.type in _LEAVING for n in _all_in(body))
+    if leaves or {*names, *given} & set(stored) or set(names) & expressions.locals.keys():
+        raise expressions.unread(node, "the model has no such loop")
+    statements: list[m.Statement] = []
+    for values in builtins.rows(expressions, field(node, "right"), len(names)):
+        if not all(_is_steady(expressions, v) for v in values):
+            raise expressions.unread(node, "the model has no such loop")
+        outer = dict(expressions.bound)
+        expressions.bound.update(zip(names, values, strict=True))
+        try:
+            statements.append(reader.suite(body))
+        finally:
+            expressions.bound.clear()
+            expressions.bound.update(outer)
+    return m.Block(tuple(statements), span=expressions.py.span(node))
+
+
+def _is_steady(expressions: ModelExpressionReader, value: m.Expression) -> bool:
+    """Whether only a store into a local changes a value."""
+    is_local = isinstance(value, m.Name) and value.name in expressions.locals.values()
+    return is_local or isinstance(value, m.IntLiteral | m.BoolLiteral)
+
+
+def _all_in(node: Node) -> Iterator[Node]:
+    yield node
+    for child in named(node):
+        yield from _all_in(child)
+
+
+def _names_in(node: Node) -> Iterator[Node]:
+    return (n for n in _all_in(node) if n.type == "identifier")
 
 
 def _backwards(reader: ModelStatementReader, node: Node, name: str, inner: Node) -> m.For:

@@ -17,8 +17,9 @@ from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python import model_loops as loops
 from rebsync.reverse.python import model_stored as stored
 from rebsync.reverse.python import model_users as users
-from rebsync.reverse.python.model_failing import failing, may_fail
+from rebsync.reverse.python.model_failing import failing, may_fail, methods_of
 from rebsync.reverse.python.model_filled import filled
+from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.model_types import (
     call_parts,
@@ -52,7 +53,7 @@ class Statements(ModelStatementReader):
         waiting = list(nodes)
         while waiting:
             node = waiting.pop(0)
-            is_silent = self.expressions.names.silent.holds(node)
+            is_silent = self.expressions.names.silent.holds(node) or self._logs_methods(node)
             if is_silent and not may_fail(self.expressions, node):
                 continue
             try:
@@ -77,6 +78,11 @@ class Statements(ModelStatementReader):
             self.findings.statements[self.within] += 1
             found += read
         return iter(found)
+
+    def _logs_methods(self, node: Node) -> bool:
+        """Whether a statement logs, and calls methods of the model for what it logs."""
+        looks = replace(self.expressions.names.silent.looks, own=methods_of(self.expressions))
+        return node.type == "expression_statement" and only_logs(node, looks)
 
     def _read(self, node: Node, before: list[m.Statement]) -> list[m.Statement]:
         try:

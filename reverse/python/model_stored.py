@@ -289,11 +289,24 @@ def inner(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     name, body = text_of(field(node, "name")), field(node, "body")
     calls = {text_of(field(c, "function")) for c in _calls(body)}
     is_plain = not named(field(node, "parameters")) and name not in calls
+    if is_plain and (value := _only_value(body)) is not None:
+        reader.expressions.closures[name] = value
+        return []
     if not is_plain or _leaves(body) or idioms.stored_in(body):
         why = "only a function that is given nothing and gives nothing stands for what it does"
         raise reader.expressions.unread(node, why)
     reader.inner[name] = body
     return []
+
+
+def _only_value(body: Node) -> Node | None:
+    """What a function gives that does nothing else; None for another function."""
+    match [s for s in named(body) if s.type != "comment"]:
+        case [only] if only.type == "return_statement":
+            values = named(only)
+            return values[0] if len(values) == 1 and builtins.is_calm(values[0]) else None
+        case _:
+            return None
 
 
 def _calls(node: Node) -> Iterator[Node]:

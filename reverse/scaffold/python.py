@@ -250,14 +250,36 @@ def _entries(source: Source, tree: ast.Module, package: str) -> Iterator[Fact]:
                 yield Fact("installed program", "", entry[1], value, source, span)
             case ast.keyword("data_files", ast.List(listed)):
                 for each in listed:
-                    to, *files = each.elts if isinstance(each, ast.Tuple) else [each]
-                    name, text = plain(to), ", ".join(map(plain, files))
-                    yield Fact("installed file", "", name, text, source, span_of(source, each))
+                    for name, text in _installed(each):
+                        yield Fact("installed file", "", name, text, source, span_of(source, each))
             case ast.keyword("packages" | "package_dir" as name, value):
                 text = plain(value).replace(f"'{package}'", "package_name")
                 yield Fact("Python package", "", name, text, source, span_of(source, value))
             case _:
                 pass
+
+
+def _installed(entry: ast.expr) -> Iterator[tuple[str, str]]:
+    """Where files are installed to, and what they are; one by one where they are listed."""
+    match entry:
+        case ast.Tuple([to, ast.List(files)]) if all(map(_path, files)):
+            for file in files:
+                yield f"{plain(to)}/{_path(file).rpartition('/')[2]}", _path(file)
+        case ast.Tuple([to, *files]):
+            yield plain(to), ", ".join(map(plain, files))
+        case _:
+            yield plain(entry), ""
+
+
+def _path(file: ast.expr) -> str:
+    """A path that is written out, perhaps with names in it; empty for what computes one."""
+    match file:
+        case ast.Constant(str(text)):
+            return text
+        case ast.JoinedStr():
+            return plain(file).removeprefix("f").strip("'")
+        case _:
+            return ""
 
 
 def _imports(source: Source, tree: ast.Module, node: ast.ClassDef, package: str) -> Iterator[Fact]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -24,12 +24,13 @@ from rebsync.roundtrip.diff.difference import (
     StatementMoved,
     StatementRemoved,
 )
+from rebsync.roundtrip.diff.invariants import invariants_of
 from rebsync.roundtrip.diff.normal_form import rewrite
 from rebsync.roundtrip.diff.operands import SourcedModel
 from rebsync.static import Analysis, analyse
 
 if TYPE_CHECKING:
-    from rebsync.checker.symbolic.equivalence import Proof
+    from rebsync.checker.symbolic.equivalence import Invariants, Proof
 
 _OF_STATEMENTS = (Aspect.DELAY, Aspect.EXPRESSION, Aspect.PERIOD)  # with no name of a part
 _BODIES = ("msgsrv", "method", "constructor")
@@ -71,23 +72,33 @@ def _proved_elements(
         return frozenset()
     if not (_can_run(first) and _can_run(second)):
         return frozenset()
-    known = _proofs(first, second)
     lines = {
         name: info.lineage
         for name, info in first.classes.items()
         if not getattr(info.declaration, "abstract", True)
     }
-    return frozenset(e for e in apart.elements if _is_proved(e, known, lines))
+    proved = _proved(apart.elements, _proofs(first, second, {}), lines)
+    if proved != apart.elements:
+        # Bounds that the left side keeps, the right one does if nothing is left that is different.
+        bounded = _proved(apart.elements, _proofs(first, second, invariants_of(first)), lines)
+        proved = bounded if bounded == apart.elements else proved
+    return proved
 
 
-def _proofs(left: Analysis, right: Analysis) -> tuple[Proof, ...]:
+def _proved(
+    elements: Iterable[Element], known: Sequence[Proof], lines: Mapping[str, Collection[str]]
+) -> frozenset[Element]:
+    return frozenset(e for e in elements if _is_proved(e, known, lines))
+
+
+def _proofs(left: Analysis, right: Analysis, invariants: Invariants) -> tuple[Proof, ...]:
     from rebsync.checker.lowering import lower
 
     try:
         from rebsync.checker.symbolic.equivalence import proofs
     except ImportError:  # z3 is not for every processor
         return ()
-    return tuple(proofs(lower(left)[0], lower(right)[0]))
+    return tuple(proofs(lower(left)[0], lower(right)[0], invariants))
 
 
 def _is_proved(
@@ -112,6 +123,8 @@ def _is_of_a_body(difference: Difference) -> bool:
     match difference:
         case StatementInserted() | StatementRemoved() | StatementMoved():
             return True
+        case Changed(aspect=Aspect.ANNOTATION, old=old, new=new):
+            return all(note.startswith("@Move(") for note in (old, new))  # of a statement
         case Changed(aspect=aspect, of=of):
             return aspect in _OF_STATEMENTS or bool(of)
         case Added() | Removed():

@@ -19,6 +19,7 @@ from rebsync.roundtrip.package.manifest import BASE
 from rebsync.roundtrip.package.record import Record
 from rebsync.roundtrip.package.state import NOT_EXECUTABLE, PackageState
 from rebsync.roundtrip.package.units import folders_of
+from rebsync.roundtrip.verdict.missing_definitions import finding, missing_definitions
 from rebsync.source import NOWHERE, Source, Span
 
 if TYPE_CHECKING:
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
 _BUILD = "CMakeLists.txt"
 _READ = frozenset({_BUILD, MANIFEST, SETUP})
 _STATE = "State.msg"
-_HINT = "put it back, or take out by hand all that belongs to it"
 
 
 def missing_files(
@@ -36,6 +36,7 @@ def missing_files(
     """What was generated and is gone while the build names it, or code uses it."""
     return (
         *_files(record, now),
+        *missing_definitions(now, [*_codes(now)]),
         *_fields(package, record, now),
         *_packages(package, record, now),
         *_refused(now),
@@ -55,12 +56,12 @@ def _refused(now: PackageState) -> Iterator[Findings]:
                 simplefilter("ignore")
                 compile(source.text, path, "exec", dont_inherit=True)
             for span, bare in unbound_names(source):
-                yield _finding(source, span, f'nothing here defines or imports "{bare}"')
+                yield finding(source, span, f'nothing here defines or imports "{bare}"')
         except (SyntaxError, ValueError, RecursionError) as error:
             last = source.text.count("\n") + 1
             line = source.start_of(min(getattr(error, "lineno", None) or 1, last))
             message = f"Python does not take this: {getattr(error, 'msg', error)}"
-            yield _finding(source, Span(line, line + 1), message)
+            yield finding(source, Span(line, line + 1), message)
 
 
 def _not_executable(now: PackageState) -> Iterator[Findings]:
@@ -100,7 +101,7 @@ def _files(record: Record, now: PackageState) -> Iterator[Findings]:
 
 def _gone(path: str, each: Named) -> Findings:
     by = f"{each.source.path}:{each.source.position(each.span.start).line}"
-    return _finding(Source(path, ""), NOWHERE, f"this is gone, and {by} names it")
+    return finding(Source(path, ""), NOWHERE, f"this is gone, and {by} names it")
 
 
 def _read(path: str, name: str) -> Source:
@@ -118,18 +119,21 @@ def _fields(package: ManagedPackage, record: Record, now: PackageState) -> Itera
             continue
         from rebsync.reverse.build.messages import read_message
 
+        message = name.rpartition("/")[2].removesuffix(".msg")
         for before, source in _sides(package, record, now, name):
             old, new = (read_message(each, "", "").fields for each in (before, source))
             lost = {f.name for f in old} - {f.name for f in new}
             for field in sorted(lost):
-                if any(_sets(code, field) for _, code in _codes(now)):
+                if any(_sets(code, message, field) for _, code in _codes(now)):
                     last = len(source.text.rstrip())
                     span = Span(max(last - 1, 0), last)
-                    yield _finding(source, span, f"the field {field} is gone, and code sets it")
+                    yield finding(source, span, f"the field {field} is gone, and code sets it")
 
 
-def _sets(code: Source, field: str) -> bool:
-    return re.search(rf"\bmsg\s*\.\s*{field}\b", code.text) is not None
+def _sets(code: Source, message: str, field: str) -> bool:
+    """Whether code fills a field of a message, which it then names."""
+    is_of = re.search(rf"\b{message}\b", code.text) is not None
+    return is_of and re.search(rf"\bmsg\s*\.\s*{field}\b", code.text) is not None
 
 
 def _packages(package: ManagedPackage, record: Record, now: PackageState) -> Iterator[Findings]:
@@ -143,7 +147,7 @@ def _packages(package: ManagedPackage, record: Record, now: PackageState) -> Ite
             for dependency in sorted(asked_for(name, before) - asked_for(name, source)):
                 if any(uses(path, code, dependency) for path, code in _codes(now)):
                     message = f"this no longer asks for {dependency}, and code needs it"
-                    yield _finding(source, Span(0, 1), message)
+                    yield finding(source, Span(0, 1), message)
 
 
 def _sides(
@@ -160,7 +164,3 @@ def _codes(now: PackageState) -> Iterator[tuple[str, Source]]:
     for name, path in now.listing.files.items():
         with suppress(RebsyncError):
             yield name, read_source(path)
-
-
-def _finding(source: Source, span: Span, message: str) -> Findings:
-    return Findings(source, (Diagnostic("RS956", span, message, _HINT),))

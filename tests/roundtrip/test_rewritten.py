@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import sys
+from pathlib import Path
+
 import pytest
 
 from rebsync.grammars.parser import parse_model
@@ -10,6 +13,12 @@ from rebsync.roundtrip.diff.equivalence import without_equivalent
 from rebsync.roundtrip.diff.operands import SourcedModel
 from rebsync.source import Source
 
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+BOUNDED = tomllib.loads(Path(__file__).with_name("bounded.toml").read_text(encoding="utf-8"))
 MODEL = """\
 env int STEP = 1;
 abstract reactiveclass Base(3) {{
@@ -36,9 +45,12 @@ PLAIN = {"more": "", "step": "n = twice(k);", "methods": "", "instances": "Fast 
 
 def _left_over(left: dict[str, str], right: dict[str, str]) -> int:
     """How many of the differences may be more than writing."""
+    return _left_over_of(*(MODEL.format(**{**PLAIN, **changes}) for changes in (left, right)))
+
+
+def _left_over_of(*texts: str) -> int:
     sides = []
-    for changes in (left, right):
-        text = MODEL.format(**{**PLAIN, **changes})
+    for text in texts:
         parsed = parse_model(Source("base.rebeca", text))
         assert parsed.ok, parsed.diagnostics
         sides.append(SourcedModel(parsed.model, Source("base.rebeca", text)))
@@ -61,6 +73,10 @@ SAME = {
         {"step": "if (k > 0) { @Move(X + 1, Y); } else { @Move(X - 1, Y); }"},
         {"step": "int d = k > 0 ? 1 : -1; @Move(X + d, Y);"},
     ),
+    "a move by the same cells": (
+        {"step": "if (k > 0) { @Move(X + 1, Y); } else if (k < 0) { @Move(X - 1, Y); }"},
+        {"step": "if (k != 0) { @Move(X + (k < 0 ? -1 : 1), Y); }"},
+    ),
     "a move in a loop": (
         {"step": "@Move(X, Y + STEP); delay(2); @Move(X, Y + STEP); delay(2);"},
         {"step": "for (int i = 0; i < 2; i++) { @Move(X, Y + STEP); delay(2); }"},
@@ -76,6 +92,10 @@ DIFFERENT = {
     "a move by what a local holds": (
         {"step": "int d = 1; @Move(X + d, Y); n = k;"},
         {"step": "int d = 2; @Move(X + d, Y); n = k;"},
+    ),
+    "a move by other cells for one number": (
+        {"step": "if (k > 0) { @Move(X + 1, Y); } else if (k < 0) { @Move(X - 1, Y); }"},
+        {"step": "if (k != 0) { @Move(X + (k < 1 ? 1 : -1), Y); }"},
     ),
     "a move along the other axis": (
         {"step": "int d = 1; @Move(X + d, Y); n = k;"},
@@ -125,3 +145,20 @@ def test_what_is_only_written_otherwise(name: str) -> None:
 @pytest.mark.parametrize("name", DIFFERENT)
 def test_what_may_be_something_else(name: str) -> None:
     assert _left_over(*DIFFERENT[name]) > 0
+
+
+def _bounded(case: dict[str, str]) -> int:
+    text = BOUNDED["model"]["text"]
+    others = case["other"], case.get("other_right", case["other"])
+    bodies = zip((case["left"], case["right"]), others, strict=True)
+    return _left_over_of(*(text.replace("GO", g).replace("OTHER", o) for g, o in bodies))
+
+
+@pytest.mark.parametrize("case", BOUNDED["same"], ids=lambda case: str(case["name"]))
+def test_what_is_the_same_within_the_bounds_that_a_class_keeps(case: dict[str, str]) -> None:
+    assert _bounded(case) == 0
+
+
+@pytest.mark.parametrize("case", BOUNDED["different"], ids=lambda case: str(case["name"]))
+def test_what_bounds_do_not_make_the_same(case: dict[str, str]) -> None:
+    assert _bounded(case) > 0

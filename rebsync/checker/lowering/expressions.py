@@ -165,6 +165,8 @@ def discard(node: Expression, e: Emitter) -> None:
             discard(inner, e)
         case Assign():
             assign(node, e, used=False)
+        case Conditional(condition, then, otherwise):  # of sends, too, which have no value
+            _either(condition, lambda: discard(then, e), lambda: discard(otherwise, e), e)
         case _:
             value(node, e)
             for _ in range(size_of(type_of(node, e))):
@@ -293,15 +295,22 @@ def operate(operator: str, kind: Kind, e: Emitter) -> Kind:
 def _conditional(
     condition: Expression, then: Expression, otherwise: Expression, kind: Kind, e: Emitter
 ) -> Kind:
+    _either(condition, lambda: as_kind(then, kind, e), lambda: as_kind(otherwise, kind, e), e)
+    return kind
+
+
+def _either(
+    condition: Expression, then: Callable[[], None], otherwise: Callable[[], None], e: Emitter
+) -> None:
+    """Emits one of two alternatives, each by what emits it."""
     value(condition, e)
     with e.at(condition.span):
         other = e.emit("JUMPF")
-    as_kind(then, kind, e)
+    then()
     end = e.emit("JUMP")
     e.patch(other)
-    as_kind(otherwise, kind, e)
+    otherwise()
     e.patch(end)
-    return kind
 
 
 # --- assignments -------------------------------------------------------------------------------

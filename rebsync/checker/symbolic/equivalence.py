@@ -4,20 +4,25 @@ The two have the same rebecs, classes, variables, servers and constants, and dif
 methods only: that is for whoever asks to see to. A body does the same if on every path, whatever
 the variables, the message and the time are, it sends, delays, chooses, asserts and fails in the
 same order with the same values, and leaves the same variables.
+
+Integers may be known to be within bounds whenever the left side serves a message (an invariant).
+If all bodies do the same within these, that holds of the right side too, by induction over a run.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field
+from typing import TypeAlias
 
-from z3 import Z3Exception
+import z3
 
 from rebsync.checker.program import NULL, Instruction, Program, RebecInfo, Server, Slot
 from rebsync.checker.symbolic import terms
 from rebsync.checker.symbolic.execution import Execution, Names, Unproved
 from rebsync.checker.symbolic.paths import Path, prove_alike
 from rebsync.checker.symbolic.terms import Condition, Term
+from rebsync.intervals import Interval
 from rebsync.records import dataclass
 
 _JUMPS = ("JUMP", "JUMPF", "JUMPT")
@@ -37,7 +42,11 @@ class Proof:
     is_alike: bool
 
 
-def proofs(left: Program, right: Program) -> Iterator[Proof]:
+Invariants: TypeAlias = Mapping[str, Mapping[str, Interval]]
+"""The bounds of integers between messages, by class and variable."""
+
+
+def proofs(left: Program, right: Program, invariants: Invariants) -> Iterator[Proof]:
     """A proof for each body of each class that has a rebec, or the lack of one."""
     for name in dict.fromkeys(rebec.class_name for rebec in left.rebecs):
         shared: dict[object, int] = {}
@@ -45,7 +54,8 @@ def proofs(left: Program, right: Program) -> Iterator[Proof]:
         are_alike = _are_alike(*both)
         for server, first, second in _pairs(*both):
             methods = both[0].called(first) | both[1].called(second)
-            is_alike = are_alike and _is_alike(both, first, second, is_new=not server)
+            known = invariants.get(name, {}) if server else None
+            is_alike = are_alike and _is_alike(both, first, second, known)
             yield Proof(name, server, methods, is_alike)
 
 
@@ -165,8 +175,12 @@ def _pairs(left: _Side, right: _Side) -> Iterator[tuple[str, int, int]]:
     yield from (("", *each) for each in dict.fromkeys(made))
 
 
-def _is_alike(both: tuple[_Side, _Side], first: int, second: int, *, is_new: bool) -> bool:
-    """Whether two bodies do the same, from the start of a rebec or from any variables."""
+def _is_alike(
+    both: tuple[_Side, _Side], first: int, second: int, known: Mapping[str, Interval] | None
+) -> bool:
+    """Whether two bodies do the same from any variables within the bounds that are known; None:
+    from the start of a rebec.
+    """
     left, right = both
     if first < 0 or second < 0:
         return first == second
@@ -174,9 +188,11 @@ def _is_alike(both: tuple[_Side, _Side], first: int, second: int, *, is_new: boo
         return True
     slots, variables = left.program.bodies[first].parameters, right.names.state
     arguments = [_symbols(f"parameter {i}", slot) for i, slot in enumerate(slots)]
-    state = {s.name: _initial(s) if is_new else _symbols(s.name, s) for s in variables}
+    state = {s.name: _initial(s) if known is None else _symbols(s.name, s) for s in variables}
     given = tuple(term for each in arguments for term in each)
     holds = [*_in_kinds(slots, arguments), *_in_kinds(variables, state.values())]
+    for name, bounds in (known or {}).items():
+        holds += [z3.And(t >= bounds.low, t <= bounds.high) for t in state[name]]
 
     def run(path: Path) -> tuple[Execution, Execution]:
         return (
@@ -186,7 +202,7 @@ def _is_alike(both: tuple[_Side, _Side], first: int, second: int, *, is_new: boo
 
     try:
         prove_alike(holds, run)
-    except (Unproved, terms.Mixed, Z3Exception):  # z3's own: operands of other sizes
+    except (Unproved, terms.Mixed, z3.Z3Exception):  # z3's own: operands of other sizes
         return False
     return True
 

@@ -67,7 +67,7 @@ def test_case(case: dict[str, Any]) -> None:
 
 
 def _are_alike(left: Program, right: Program) -> bool:
-    return all(proof.is_alike for proof in proofs(left, right))
+    return all(proof.is_alike for proof in proofs(left, right, {}))
 
 
 # --- drawn systems ------------------------------------------------------------------------------

@@ -28,13 +28,15 @@ HERE = Path(__file__).parent
 FILES = (
     *("python.toml", "rclcpp.toml", "cpp.toml", "mixed.toml"),
     *("harmless.toml", "library.toml", "forms.toml", "posts.toml", "shown.toml"),
-    "messages.toml",
+    *("messages.toml", "natural.toml", "natural_python.toml"),
+    *("natural_rclpy.toml", "natural_sensors.toml"),
 )
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 
 # A later change of the model of each example, in code that few of the edits touch.
 LATER = {
     "experiment1": ("delay(e12)", "delay(e12 + 1)"),
+    "running_example": ("delay(e11)", "delay(e11 + 1)"),
     "experiment2": (
         "stopped = true;\n    pos[0] = init_x;",
         "stopped = false;\n    pos[0] = init_x;",

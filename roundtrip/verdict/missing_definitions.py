@@ -1,0 +1,80 @@
+"""Headers and modules that are gone while code needs them, and names that they no longer define.
+
+Users write in some generated files: what these say no model tells, but code is built of them.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+from rebsync.diagnostics import Diagnostic, Findings
+from rebsync.reverse.files.stores import join
+from rebsync.roundtrip.package.state import PackageState
+from rebsync.source import NOWHERE, Source, Span
+
+_HINT = "put it back, or take out by hand all that belongs to it"
+_IMPORTED = r"[ \t]+import[ \t]+(?:\(([^)]*)\)|([^\n]*))"
+_NAMES = re.compile(r"(\w+)(?:\s+as\s+\w+)?\s*(?:#[^\n]*)?(?:,|$)")
+_SEEN = re.compile(r"\.seen\(&(\w+)\)")
+_Codes = Sequence[tuple[str, Source]]
+
+
+def missing_definitions(now: PackageState, codes: _Codes) -> Iterator[Findings]:
+    """What is wrong, where the files of a package are these."""
+    for name in now.missing:
+        if (user := next(_users(name, codes), None)) is not None:
+            path = join(now.listing.root, name)
+            yield finding(Source(path, ""), NOWHERE, f"this is gone, and {user.path} needs it")
+    if now.changed or now.missing:
+        texts = dict(codes)
+        for name in now.changed:
+            if name in texts:
+                yield from _imported(name, texts[name].text, codes)
+        yield from _seen(codes)
+
+
+def finding(source: Source, span: Span, message: str) -> Findings:
+    """That something is needed and missing."""
+    return Findings(source, (Diagnostic("RS956", span, message, _HINT),))
+
+
+def _users(name: str, codes: _Codes) -> Iterator[Source]:
+    """The code that includes a header, or imports a module."""
+    folder, stem, suffix = _parts(name)
+    use = rf"^\s*(?:from|import)\s+{folder}\.{stem}\b"
+    if suffix in ("h", "hpp"):
+        use = rf'^\s*#\s*include\s*["<](?:{folder}/)?{stem}\.{suffix}[">]'
+    elif suffix != "py":
+        return
+    yield from (source for _, source in codes if re.search(use, source.text, re.M))
+
+
+def _parts(name: str) -> tuple[str, str, str]:
+    """The folder that a file is in, its name, and what that ends with."""
+    inside, _, last = name.rpartition("/")
+    stem, _, suffix = last.rpartition(".")
+    return re.escape(inside.rpartition("/")[2]), re.escape(stem), suffix
+
+
+def _imported(name: str, text: str, codes: _Codes) -> Iterator[Findings]:
+    """The names that code imports from a module which does not have them."""
+    folder, stem, suffix = _parts(name)
+    if suffix != "py":
+        return
+    use = re.compile(rf"^[ \t]*from[ \t]+{folder}\.{stem}{_IMPORTED}", re.M)
+    for _, source in codes:
+        for found in use.finditer(source.text):
+            for each in _NAMES.findall(found[1] or found[2]):
+                if not re.search(rf"\b{each}\b", text):
+                    at = Span(*found.span())
+                    yield finding(source, at, f'"{name}" does not define "{each}"')
+
+
+def _seen(codes: _Codes) -> Iterator[Findings]:
+    """The functions that C++ asks what a sensor has seen, and that nothing defines."""
+    for _, source in codes:
+        for found in _SEEN.finditer(source.text):
+            call = re.compile(rf"\b{found[1]}\s*\(")
+            if not any(call.search(each.text) for _, each in codes):
+                yield finding(source, Span(*found.span(1)), f'nothing defines "{found[1]}"')
