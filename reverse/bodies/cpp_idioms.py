@@ -73,7 +73,7 @@ def call(
             check_whole(reader, argument)
     _check_explicit(reader, node, arguments)
     match plain, count:
-        case _, 0 if plain in libraries.running():
+        case _, 0 if plain in libraries.names_of(Kind.RUNNING, result="bool"):
             return m.BoolLiteral(True, span)
         case "min" | "max", 2:
             check_wide_call(reader, node)

@@ -141,7 +141,7 @@ def pause(reader: CppExpressionReader, call: Node) -> m.Expression | None:
         return _own_pause(reader, part(function, "argument"), text_of(part(function, "field")))
     text = text_of(function)
     name = text.rpartition("::")[2]
-    unit = _SECOND if text in libraries.sleeping_seconds() else SLEEPS.get(name)
+    unit = _SECOND if text in libraries.names_of(Kind.SLEEP, result="seconds") else SLEEPS.get(name)
     arguments = named(part(call, "arguments"))
     if len(arguments) != 1:
         return None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from rebsync.reverse.libraries.cpp_calls import calls, last
+from rebsync.reverse.libraries.cpp_calls import asking_words, calls, last
 from rebsync.reverse.libraries.registry import derived, libraries
 from rebsync.reverse.libraries.routines import (
     ACTING,
@@ -191,38 +191,16 @@ def _routines() -> Iterator[tuple[str, Routine]]:
 
 
 @derived
-def names_of(*kinds: Kind) -> frozenset[str]:
-    """The full names of the functions of some kinds."""
-    return frozenset(
-        n for library in _libraries() for n, r in library.functions.items() if r.kind in kinds
-    )
+def names_of(*kinds: Kind, result: str | None = None) -> frozenset[str]:
+    """The full names of the functions of some kinds, or those with a result."""
+    found = ((n, r) for lib in _libraries() for n, r in lib.functions.items() if r.kind in kinds)
+    return frozenset(n for n, r in found if result is None or r.result == result)
 
 
 @derived
 def named(*kinds: Kind) -> frozenset[str]:
     """The last names of the functions and methods of some kinds."""
     return frozenset(n for n, r in _routines() if r.kind in kinds)
-
-
-@derived
-def running() -> frozenset[str]:
-    """Functions that are true as long as the node runs."""
-    return _telling("bool")
-
-
-@derived
-def ending() -> frozenset[str]:
-    """Functions that are true when the node no longer runs."""
-    return _telling("!bool")
-
-
-def _telling(result: str) -> frozenset[str]:
-    return frozenset(
-        n
-        for library in _people()
-        for n, r in library.functions.items()
-        if r.kind is Kind.RUNNING and r.result == result
-    )
 
 
 @derived
@@ -236,13 +214,6 @@ def seconds() -> frozenset[str]:
     """Classes of spans of time, and of points in it, that are made of a number of seconds."""
     found = (n for lib in _people() for n, r in lib.functions.items() if r.kind is Kind.SPAN)
     return frozenset(n for n in found if n not in spans())
-
-
-@derived
-def sleeping_seconds() -> frozenset[str]:
-    """Functions that sleep for a number of seconds, by their full names."""
-    sleeps = ((n, r) for lib in _people() for n, r in lib.functions.items())
-    return frozenset(n for n, r in sleeps if r.kind is Kind.SLEEP and r.result == "seconds")
 
 
 @derived
@@ -395,7 +366,10 @@ def macros() -> tuple[str, ...]:
 
 
 @derived
-def telling_words() -> tuple[str, ...]:
-    """Words of which one is in code that asks for something, sends, or lets messages be served."""
-    asking = (w.decode() for c in calls() for w in (*c.words, *c.scoped_words))
-    return tuple(sorted({*asking, *named(Kind.PUBLISH, Kind.CHECK), *waiting()}))
+def telling_words() -> frozenset[str]:
+    """Words of which one is in code that asks for something, sends, or lets messages be served.
+
+    Without those that count only after a scope: `scopes` has these.
+    """
+    checks = (name for name in named(Kind.CHECK) if name.isupper() and "_" in name)
+    return asking_words().union(checks, named(Kind.PUBLISH, Kind.SPIN, Kind.SERVE))

@@ -109,3 +109,10 @@ def calls() -> tuple[Calls, ...]:
     """What each library is called by."""
     found = (_calls_of(library) for library in libraries(Language.CPP))
     return tuple(calls for calls in found if calls.words)
+
+
+@derived
+def asking_words() -> frozenset[str]:
+    """Names of functions and methods that ask for something; other libraries have such classes."""
+    found = (word.decode() for c in calls() for word in c.words)
+    return frozenset(found).difference(*(c.classes for c in calls()))

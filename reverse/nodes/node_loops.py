@@ -130,10 +130,14 @@ def _operator(node: Node) -> str:
 
 def _is_awake(node: Node) -> bool:
     text = "".join(text_of(node).split())
-    if text in ("true", "1", *(f"!{name}()" for name in libraries.ending())):
+    if text in (
+        "true",
+        "1",
+        *(f"!{name}()" for name in libraries.names_of(Kind.RUNNING, result="!bool")),
+    ):
         return True
     names = {c.name.rpartition("::")[2] for c in calls_in(node)}
-    awake = {name.rpartition("::")[2] for name in libraries.running()}
+    awake = {name.rpartition("::")[2] for name in libraries.names_of(Kind.RUNNING, result="bool")}
     return node.type == "call_expression" and len(names) == 1 and bool(names & awake)
 
 
