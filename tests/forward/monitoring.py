@@ -6,9 +6,13 @@ order the steps of one moment have.
 
 from __future__ import annotations
 
+import re
+import subprocess
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
 from random import Random
 from types import ModuleType
 from typing import Any, TypeAlias
@@ -51,24 +55,28 @@ class Monitored:
 
 
 def monitored(text: str) -> Monitored:
-    """The monitor of a model, its modules loaded."""
+    """The monitor of a model: its tables, and the modules of the core."""
     parsed = parse_model(Source("drawn.rebeca", text))
     analysis = analyse(parsed.model)
     package, _ = view(parsed.model, analysis, Config(), _PACKAGE)
     tables = monitor_model(package, analysis)
+    core = _core()
+    model = _module("monitor_model", python_tables(tables, _PACKAGE, "drawn.rebeca")).MODEL
+    return Monitored(lower(analysis)[0], tables, core, model)
+
+
+@cache
+def _core() -> ModuleType:
     sys.modules[_PACKAGE] = ModuleType(_PACKAGE)
-    texts = {
-        name: fill(f"py/{name}.py.j2", package=_PACKAGE)
-        for name in ("monitor_machine", "monitor_run")
-    }
-    texts["monitor_model"] = python_tables(tables, _PACKAGE, "drawn.rebeca")
-    loaded = {}
-    for name in ("monitor_machine", "monitor_model", "monitor_run"):
-        module = loaded[name] = ModuleType(f"{_PACKAGE}.{name}")
-        sys.modules[module.__name__] = module
-        exec(compile(texts[name], f"{name}.py", "exec"), module.__dict__)
-    model = loaded["monitor_model"].MODEL
-    return Monitored(lower(analysis)[0], tables, loaded["monitor_run"], model)
+    names = ("monitor_machine", "monitor_run")
+    return [_module(name, fill(f"py/{name}.py.j2", package=_PACKAGE)) for name in names][-1]
+
+
+def _module(name: str, text: str) -> ModuleType:
+    module = ModuleType(f"{_PACKAGE}.{name}")
+    sys.modules[module.__name__] = module
+    exec(compile(text, f"{name}.py", "exec"), module.__dict__)
+    return module
 
 
 # --- runs ---------------------------------------------------------------------------------------
@@ -221,3 +229,72 @@ def mutated(seen: Sequence[Seen], random: Random) -> list[Seen]:
             other = random.randrange(len(found))
             found[place], found[other] = found[other], found[place]
     return found
+
+
+# --- the core in C++ ----------------------------------------------------------------------------
+
+_DRIVER = Path(__file__).with_name("monitor_driver.cpp")
+_STRICT = ("-std=c++14", "-O1", "-Wall", "-Wextra", "-Wpedantic", "-Werror")
+_KINDS = ("byte", "short", "int", "float", "double", "boolean", "rebec")
+
+
+def built_driver(folder: Path) -> Path:
+    """The program that reads models and observations, compiled."""
+    include = folder / _PACKAGE
+    include.mkdir()
+    for name in ("monitor_machine", "monitor_run"):
+        guard = f"{_PACKAGE}_{name}_H".upper()
+        text = fill(f"cpp/{name}.h.j2", package=_PACKAGE, guard=guard, header="h")
+        (include / f"{name}.h").write_text(text)
+    program = folder / "driver"
+    command = ["g++", *_STRICT, f"-I{folder}", "-o", str(program), str(_DRIVER)]
+    subprocess.run(command, check=True, timeout=300)
+    return program
+
+
+def operations() -> list[str]:
+    """The operations of the C++ core, in its order."""
+    text = fill("cpp/monitor_machine.h.j2", package="x", guard="x", header="h")
+    return re.findall(r"k(\w+)", text.partition("enum class Op {")[2].partition("}")[0])
+
+
+def as_text(m: Monitored, runs: Sequence[Sequence[Seen]]) -> str:
+    """A model and runs of it, as the driver reads them."""
+    return "\n".join(str(word) for word in _words(m, runs)) + "\n"
+
+
+def _words(m: Monitored, runs: Sequence[Sequence[Seen]]) -> Iterator[object]:
+    numbers = {op.upper(): n for n, op in enumerate(operations())}
+    yield len(m.model.code)
+    for op, a, b, table in m.model.code:
+        yield from (numbers[op], a, b, *_cells(table))
+    yield from (len(m.model.texts), *(f":{text}" for text in m.model.texts))
+    yield len(m.model.bodies)
+    for body in m.model.bodies:
+        yield from body
+    yield len(m.model.servers)
+    for s in m.model.servers:
+        yield from (f":{s.name}", s.body, s.priority, int(s.reads_sender))
+        yield from _variables(s.parameters)
+    yield len(m.model.rebecs)
+    for r in m.model.rebecs:
+        yield from (f":{r.name}", f":{r.node}", r.class_number, r.capacity, r.priority)
+        yield from (r.constructor, *_cells(r.known), *_variables(r.state))
+        yield from (*_cells(r.arguments), *_cells(r.dispatch))
+    yield int(m.model.global_ranks)
+    yield len(runs)
+    for seen in runs:
+        yield len(seen)
+        for rebec, server, arguments, arrival, start, now, variables in seen:
+            yield from (rebec, f":{server}", f":{arguments}", arrival, start, now)
+            yield from _cells(variables)
+
+
+def _cells(cells: Sequence[int]) -> tuple[int, ...]:
+    return len(cells), *cells
+
+
+def _variables(variables: Sequence[Any]) -> Iterator[object]:
+    yield len(variables)
+    for v in variables:
+        yield from (f":{v.name}", _KINDS.index(v.kind), *_cells(v.lengths))

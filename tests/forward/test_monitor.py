@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import shutil
+import subprocess
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from random import Random
 
 import pytest
@@ -16,6 +19,8 @@ from tests.forward.monitoring import (
     Monitored,
     Seen,
     TooLarge,
+    as_text,
+    built_driver,
     is_run,
     monitored,
     mutated,
@@ -23,7 +28,7 @@ from tests.forward.monitoring import (
     simulated,
 )
 
-_STEPS = 25
+_STEPS = 20
 FAMILIES: dict[str, Features] = {
     "timed": TIMED,
     "without delay": WITHOUT_DELAY,
@@ -76,3 +81,40 @@ def test_mutated_runs_are_judged_as_the_checker_judges_them(
     elif not answer.doubts and not answer.waiting:
         assert possible, seen
     event(f"a run {possible}, {answer}")
+
+
+# --- the core in C++ ----------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="session")
+def driver(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The core in C++ with a program that feeds it."""
+    if shutil.which("g++") is None:
+        pytest.skip("no g++")
+    return built_driver(tmp_path_factory.mktemp("monitor"))
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+@settings(max_examples=15)
+@given(data=st.data(), seed=st.integers(0, 2**20))
+def test_both_languages_say_the_same(
+    driver: Path, family: str, data: st.DataObject, seed: int
+) -> None:
+    m = monitored(data.draw(systems(FAMILIES[family])).model)
+    true = simulated(m, seed, _STEPS)
+    runs = [shuffled(r, seed) for r in (true, *(mutated(true, Random(n)) for n in range(8)))]
+    said = subprocess.run(
+        [driver], input=f"1\n{as_text(m, runs)}", capture_output=True, text=True, check=True
+    )
+    assert said.stdout.splitlines() == [_told(m, seen) for seen in runs]
+
+
+def _told(m: Monitored, seen: Sequence[Seen]) -> str:
+    """What the driver prints of a run, by the core in Python."""
+    run = m.core.Run(m.model)
+    for each in seen:
+        run.receive(m.core.Observation(*each))
+        run.compare()
+    found = run.deviation
+    told = f" deviation {found.rebec}|{found.step}|{found.observed}" if found else ""
+    return f"{run.compared} {run.waiting} {run.hypotheses}{told} {run.doubt}"
