@@ -41,7 +41,7 @@ def cpp_monitor(
 def python_monitor(
     package: Package, analysis: Analysis, dialect: str, folder: str, model_name: str
 ) -> dict[str, str]:
-    """Its files in Python by path: three modules without ROS in a folder, the node, the launch file.
+    """Its files in Python by path: three modules without ROS in a folder, node and launch file.
 
     In ROS 2 the launch file is beside that folder.
     """

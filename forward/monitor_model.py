@@ -176,14 +176,13 @@ class _CppTables:
 
     def variables(self, variables: Sequence[Variable]) -> str:
         items = [
-            f'{{"{v.name}", Kind::k{v.kind.title()}, {self.numbers(v.lengths)}}}'
-            for v in variables
+            f'{{"{v.name}", Kind::k{v.kind.title()}, {self.numbers(v.lengths)}}}' for v in variables
         ]
         return f"{{{', '.join(items)}}}"
 
 
 def _cell(cell: int) -> str:
-    """A number as C++ writes it: what an int does not hold needs its width, and the least its own."""
+    """A number as C++ writes it: what an int does not hold needs its width."""
     if cell == -(2**63):
         return "INT64_MIN"
     if not -(2**31) < cell < 2**31:

@@ -179,7 +179,12 @@ def is_run(m: Monitored, seen: Sequence[Seen], most: int = 20000) -> bool:
 
 
 def _following(
-    m: Monitored, exact: Exact, queues: list[list[Seen]], state: State, time: int, running: _Running,
+    m: Monitored,
+    exact: Exact,
+    queues: list[list[Seen]],
+    state: State,
+    time: int,
+    running: _Running,
     used: tuple[int, ...],
 ) -> Iterator[Any]:
     for step in exact.steps(state) if state else exact.initial_states():

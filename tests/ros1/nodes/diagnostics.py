@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import json
 import sys
-from typing import Any
+from pathlib import Path
 
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 
 
 def main() -> None:
-    with open(sys.argv[1], "w", encoding="utf-8", buffering=1) as out:
+    with Path(sys.argv[1]).open("w", encoding="utf-8", buffering=1) as out:
 
-        def hear(diagnostics: Any) -> None:
+        def hear(diagnostics: DiagnosticArray) -> None:
             for status in diagnostics.status:
                 if status.name.endswith(": run of the model"):
                     facts = {pair.key: pair.value for pair in status.values}
