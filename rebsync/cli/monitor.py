@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
 import click
 
+from rebsync.cli.status import Status
 from rebsync.config import TARGETS, Config, settings_beside
-from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
+from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.files import read_source
 from rebsync.locking import alone_in
+from rebsync.report import print_report
 from rebsync.roundtrip.manifest import FOLDER
 from rebsync.source import NOWHERE, Source
 from rebsync.terminal import say, say_lines
@@ -23,7 +27,7 @@ from rebsync.writing import replace_tree
 @click.option("--target", type=click.Choice(TARGETS), help="The dialect of the generated code.")
 @click.option("--list", "only_list", is_flag=True, help="List the files; write nothing.")
 @click.option("--force", is_flag=True, help="Overwrite files that are there and differ.")
-def command(model: str, output: str, target: str | None, only_list: bool, force: bool) -> None:
+def command(model: str, output: str, target: str | None, only_list: bool, force: bool) -> Status:
     """Write the monitor of a model, and nothing else, to DIR/<package>.
 
     While the system runs it compares what the nodes serve with the model, and publishes what it
@@ -35,13 +39,16 @@ def command(model: str, output: str, target: str | None, only_list: bool, force:
     folder, files = monitor_files(model, config, output)
     if only_list:
         say_lines(str(folder / path) for path in sorted(files))
-        return
+        return Status.CLEAN
     with alone_in(str(folder)):
-        if not force:
-            _refuse_others(folder, files)
+        others = [] if force else list(_others(folder, files))
+        if others:
+            print_report(others, sys.stderr)
+            return Status.FINDINGS
         written = replace_tree(str(folder), files)
     say(f"{folder}: {len(files)} files of the monitor, {len(tuple(written))} of them written")
     say("`rebsync generate --monitor` has the package build them")
+    return Status.CLEAN
 
 
 def monitor_files(model: str, config: Config, output: str) -> tuple[Path, dict[str, str]]:
@@ -57,14 +64,11 @@ def monitor_files(model: str, config: Config, output: str) -> tuple[Path, dict[s
     return Path(output) / name, own
 
 
-def _refuse_others(folder: Path, files: dict[str, str]) -> None:
-    """RebsyncError: files that would be overwritten are not as they would be."""
-    others = [p for p, text in files.items() if _is_other(folder / p, text)]
+def _others(folder: Path, files: dict[str, str]) -> Iterator[Findings]:
+    """The files that would be overwritten and are not as they would be."""
     message = "this file is there and differs; nothing was written"
     found = Diagnostic("RS701", NOWHERE, message, "with --force it is overwritten")
-    if others:
-        raise RebsyncError([Findings(Source(str(folder / p), ""), (found,)) for p in others])
-
-
-def _is_other(path: Path, text: str) -> bool:
-    return path.exists() and read_source(str(path)).text != text
+    for name, text in files.items():
+        path = folder / name
+        if path.exists() and read_source(str(path)).text != text:
+            yield Findings(Source(str(path), ""), (found,))
