@@ -137,9 +137,8 @@ class _PythonTables:
     def text(self, text: str) -> str:
         return _quoted(text)
 
-    def variables(self, variables: Sequence[Variable]) -> str:
-        items = [f'Variable("{v.name}", "{v.kind}", {self.numbers(v.lengths)})' for v in variables]
-        return f"({', '.join(items)}{',' if len(items) == 1 else ''})"
+    def variable(self, variable: Variable) -> str:
+        return f'Variable("{variable.name}", "{variable.kind}", {self.numbers(variable.lengths)})'
 
 
 # --- C++ ----------------------------------------------------------------------------------------

@@ -331,7 +331,9 @@ class Package:
     @property
     def monitor_node(self) -> str:
         """The name of the node that compares a run with the model."""
-        return free_name("monitor", {i.name for i in (*self.instances, *self.stand_ins)})
+        return free_name(
+            "monitor", {i.name for i in self.instances} | {s.name for s in self.stand_ins}
+        )
 
     def node_class(self, name: str) -> NodeClass:
         """The class of that name; KeyError when there is none."""

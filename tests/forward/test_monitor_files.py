@@ -137,10 +137,9 @@ def test_the_monitor_alone(model: Path, capsys: pytest.CaptureFixture[str]) -> N
 
 @pytest.mark.skipif(shutil.which("g++") is None, reason="no g++")
 def test_the_tables_compile(tmp_path: Path) -> None:
-    files = {
-        p: t for p, t in _package("ros1-cpp").items() if p.startswith("include/patrol/monitor")
-    }
-    for path, text in files.items():
+    for path, text in _package("ros1-cpp").items():
+        if not path.startswith("include/patrol/monitor"):
+            continue
         (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / path).write_text(text, encoding="utf-8")
     source = tmp_path / "tables.cpp"

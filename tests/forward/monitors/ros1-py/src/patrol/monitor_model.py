@@ -1,5 +1,7 @@
 """The model patrol.rebeca as tables, for the monitor."""
 
+# flake8: noqa: E501
+# ruff: noqa: E501
 from __future__ import annotations
 
 from patrol.monitor_machine import Body, Model, Rebec, Server, Variable
@@ -50,7 +52,8 @@ MODEL = Model(
         ("SETVAR", 0, 0, ()),
         ("RET", 0, 0, ()),
     ),
-    texts=(),
+    texts=(
+    ),
     bodies=(
         Body(0, 0, 0),  # Station.call
         Body(11, 1, 1),  # Station.arrived
@@ -89,7 +92,10 @@ MODEL = Model(
             capacity=4,
             priority=2147483647,
             known=(1,),
-            state=(Variable("seen", "int", ()), Variable("flags", "boolean", (2,))),
+            state=(
+                Variable("seen", "int", ()),
+                Variable("flags", "boolean", (2,)),
+            ),
             constructor=3,
             arguments=(),
             dispatch=(-1, 0, 1),
@@ -101,7 +107,10 @@ MODEL = Model(
             capacity=3,
             priority=2147483647,
             known=(0,),
-            state=(Variable("at", "int", ()), Variable("last", "rebec", ())),
+            state=(
+                Variable("at", "int", ()),
+                Variable("last", "rebec", ()),
+            ),
             constructor=4,
             arguments=(),
             dispatch=(2, -1, -1),

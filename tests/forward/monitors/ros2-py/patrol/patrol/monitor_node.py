@@ -9,15 +9,19 @@ from typing import Any
 
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
-from patrol.monitor_model import MODEL
-from patrol.monitor_run import ERROR, WARN, Status, Watch, observed
-from patrol.startup import declared, spin, stoppable
-from patrol_interfaces.msg import Announcement, CartState, StationState
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
-_STATES = [StationState, CartState]
+from patrol.monitor_model import MODEL
+from patrol.monitor_run import ERROR, WARN, Status, Watch, observed
+from patrol.startup import declared, spin, stoppable
+from patrol_interfaces.msg import Announcement, CartState, StationState
+
+_STATES = [
+    StationState,
+    CartState,
+]
 _KEPT = QoSProfile(depth=10000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _PAUSE = 0.25  # s between looks
 _LOOKS = 4  # looks between two statuses that say the same
@@ -35,13 +39,11 @@ class Monitor:
     def __init__(self, node: Node) -> None:
         self._node = node
         self._watch = Watch(MODEL, timed=True)
-        time_unit = float(
-            declared(node, "mailbox.time_unit", 1.0, "seconds of a unit of model time")
+        self._watch.set_times(
+            float(declared(node, "mailbox.time_unit", 1.0, "seconds of a unit of model time")),
+            float(declared(node, "mailbox.slack", 0.5, "seconds after which something is late")),
+            float(declared(node, "patience", 5.0, "seconds after which it does not come any more")),
         )
-        slack = float(declared(node, "mailbox.slack", 0.5, "seconds after which something is late"))
-        said = "seconds after which what is due does not come any more"
-        patience = float(declared(node, "patience", 5.0, said))
-        self._watch.set_times(time_unit, slack, patience)
         self._zero = 0  # ns
         self._level = -1
         self._looks = 0
@@ -51,7 +53,7 @@ class Monitor:
             self._listen(rebec, state)
         node.create_timer(_PAUSE, self._look, clock=Clock(clock_type=ClockType.STEADY_TIME))
 
-    def _listen(self, rebec: int, state: Any) -> None:
+    def _listen(self, rebec: int, state: type[Any]) -> None:
         def receive(message: Any) -> None:
             self._watch.receive(observed(MODEL, rebec, message), self._clock())
 
