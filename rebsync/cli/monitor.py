@@ -15,7 +15,7 @@ from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.files import read_source
 from rebsync.locking import alone_in
 from rebsync.report import print_report
-from rebsync.roundtrip.manifest import FOLDER
+from rebsync.roundtrip.package.manifest import FOLDER
 from rebsync.source import NOWHERE, Source
 from rebsync.terminal import say, say_lines
 from rebsync.writing import replace_tree
