@@ -208,6 +208,18 @@ def _following(
                 yield step.result, later, after, tuple(now)
 
 
+def without_beginning(m: Monitored, seen: Sequence[Seen], random: Random) -> list[Seen]:
+    """The observations without the first up to three of each rebec that has a constructor."""
+    left = [random.randrange(4) if r.constructor >= 0 else 0 for r in m.program.rebecs]
+    found = []
+    for each in seen:
+        if left[each[0]] > 0:
+            left[each[0]] -= 1
+        else:
+            found.append(each)
+    return found
+
+
 def mutated(seen: Sequence[Seen], random: Random) -> list[Seen]:
     """The observations with one change: another value or time, one lost, repeated or swapped."""
     found = list(seen)

@@ -26,6 +26,7 @@ from tests.forward.monitoring import (
     mutated,
     shuffled,
     simulated,
+    without_beginning,
 )
 
 _STEPS = 20
@@ -58,6 +59,19 @@ def _answer(m: Monitored, seen: Sequence[Seen]) -> _Answer:
 def test_true_runs_are_accepted(family: str, data: st.DataObject, seed: int) -> None:
     m = monitored(data.draw(systems(FAMILIES[family])).model)
     seen = simulated(m, seed, _STEPS)
+    answer = _answer(m, shuffled(seen, seed))
+    assert not answer.deviates, seen
+    event(f"doubts {answer.doubts}, all compared {not answer.waiting}")
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+@settings(max_examples=20)
+@given(data=st.data(), seed=st.integers(0, 2**20))
+def test_a_beginning_that_was_not_heard_is_filled_in(
+    family: str, data: st.DataObject, seed: int
+) -> None:
+    m = monitored(data.draw(systems(FAMILIES[family])).model)
+    seen = without_beginning(m, simulated(m, seed, _STEPS), Random(seed))
     answer = _answer(m, shuffled(seen, seed))
     assert not answer.deviates, seen
     event(f"doubts {answer.doubts}, all compared {not answer.waiting}")
@@ -102,7 +116,9 @@ def test_both_languages_say_the_same(
 ) -> None:
     m = monitored(data.draw(systems(FAMILIES[family])).model)
     true = simulated(m, seed, _STEPS)
-    runs = [shuffled(r, seed) for r in (true, *(mutated(true, Random(n)) for n in range(8)))]
+    others = [mutated(true, Random(n)) for n in range(8)]
+    others.append(without_beginning(m, true, Random(seed)))
+    runs = [shuffled(r, seed) for r in (true, *others)]
     said = subprocess.run(
         [driver], input=f"1\n{as_text(m, runs)}", capture_output=True, text=True, check=True
     )

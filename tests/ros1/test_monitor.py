@@ -23,6 +23,7 @@ from tests.ros1.workspace import SYSTEM_PYTHON, Workspace
 _LISTENER = Path(__file__).parent / "nodes" / "diagnostics.py"
 _CONFIG = Config(monitor=True, time_unit=0.25)
 _LONG = 60.0  # s, within which a monitor has to have said what it has to say
+_IN_CPP = ("as generated", "lost send")  # of which packages are built, which takes minutes
 _NUMBERS = {case.name: f"patrol{i}" for i, case in enumerate(CASES)}
 
 
@@ -35,6 +36,8 @@ def workspace(
     config = replace(_CONFIG, target=dialect)
     packages = []
     for case in CASES:
+        if dialect == "ros1-cpp" and case.name not in _IN_CPP:
+            continue
         name = _NUMBERS[case.name]
         package = written(generated(MODEL, name, config), folder, name, config)
         if dialect == "ros1-py":
@@ -47,9 +50,11 @@ def workspace(
 
 @pytest.mark.parametrize("case", CASES, ids=lambda c: c.name)
 def test_the_monitor_says_what_is_wrong(
-    case: Case, workspace: Workspace, build_workspace: Build, tmp_path: Path
+    case: Case, dialect: str, workspace: Workspace, build_workspace: Build, tmp_path: Path
 ) -> None:
     del build_workspace  # its tests are those of ROS 1
+    if dialect == "ros1-cpp" and case.name not in _IN_CPP:
+        pytest.skip("tried in Python")
     package = _NUMBERS[case.name]
     port, environment = ros_environment(workspace, tmp_path)
     with _roscore(port, tmp_path, environment), _listening(tmp_path, environment) as heard:
