@@ -55,4 +55,8 @@ def render(
             files[f"{include}_sensors.h"] = sensor_header(c)
         if any(s.stands_in for s in c.node.sensors):
             files[f"src/{c.node.file}_stand_in.cpp"] = cpp_stand_in(package, c.node, ros1_words)
+    if package.monitored:
+        from rebsync.forward.monitor import cpp_monitor
+
+        files.update(cpp_monitor(package, analysis, ros1_words, model_name))
     return dict(sorted(files.items()))

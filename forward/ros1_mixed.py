@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Mapping
+from dataclasses import replace
 
 from rebsync.forward import ros1_cpp, ros1_package, ros1_py
 from rebsync.forward.message_files import action_names, message_names, service_names
@@ -31,7 +32,9 @@ def render_mixed(
 ) -> dict[str, str]:
     """The files of the package by path; `targets` has the dialect of each class."""
     cpp = ros1_cpp.render(package, analysis, topics, remarks, model_name)
-    python = ros1_py.render(package, analysis, topics, remarks, model_name)
+    # The monitor is in C++ then.
+    unmonitored = replace(package, settings=replace(package.settings, monitor=False))
+    python = ros1_py.render(unmonitored, analysis, topics, remarks, model_name)
     stems = {c.file: targets[c.name] for c in package.classes}
     files = {p: t for p, t in python.items() if _stays(p, stems, PYTHON)}
     files |= {p: t for p, t in cpp.items() if _stays(p, stems, CPP)}

@@ -64,7 +64,8 @@ def executables_of(package: Package) -> list[Executable]:
     """The programs, each with the file that it is made of."""
     runs = (f"{n.file}_node" for n in package.classes if n.executable)
     plays = (f"{n.file}_stand_in" for n in package.classes if any(s.stands_in for s in n.sensors))
-    return [Executable(name, name) for name in sorted([*runs, *plays])]
+    monitors = ["monitor_node"] if package.monitored else []
+    return [Executable(name, name) for name in sorted([*runs, *plays, *monitors])]
 
 
 def library_of(package: Package) -> list[str]:

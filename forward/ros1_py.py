@@ -98,6 +98,10 @@ def render(
             files[f"{source}/{c.node.file}_sensors.py"] = sensors_module(c, words)
         if any(s.stands_in for s in c.node.sensors):
             files[f"scripts/{c.node.file}_stand_in"] = _stand_in(package, c.node)
+    if package.monitored:
+        from rebsync.forward.monitor import python_monitor
+
+        files.update(python_monitor(package, analysis, _FOLDER, source, model_name))
     scripts = sorted(p for p in files if p.startswith("scripts/"))
     files["CMakeLists.txt"] = _cmake_lists(package, scripts)
     return dict(sorted(files.items()))

@@ -47,6 +47,10 @@ def render(
     files.update(cpp_runtime(package, ros2_words))
     for c in found:
         files.update(_class_files(c, model_name))
+    if package.monitored:
+        from rebsync.forward.monitor import cpp_monitor
+
+        files.update(cpp_monitor(package, analysis, ros2_words, model_name))
     return dict(sorted(files.items()))
 
 

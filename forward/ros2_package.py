@@ -38,6 +38,7 @@ def cmake_lists(package: Package, classes: list[CppClass]) -> str:
     stand_ins = [c for c in classes if any(s.stands_in for s in c.node.sensors)]
     executables = [f"{c.node.file}_node" for c in runs]
     executables += [f"{c.node.file}_stand_in" for c in stand_ins]
+    executables += ["monitor_node"] if package.monitored else []
     return fill(
         "ros2_cpp/CMakeLists.txt.j2",
         package=package.name,

@@ -125,6 +125,10 @@ def render(
             files[f"{module}_sensors.py"] = sensors_module(c, words)
         if any(s.stands_in for s in c.node.sensors):
             files[f"{module}_stand_in.py"] = _stand_in(package, c.node)
+    if package.monitored:
+        from rebsync.forward.monitor import python_monitor
+
+        files.update(python_monitor(package, analysis, _FOLDER, f"{name}/{name}", model_name))
     files[f"{name}/setup.py"] = _setup(package, sorted(files))
     return dict(sorted(files.items()))
 

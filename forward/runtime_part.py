@@ -44,7 +44,7 @@ def _stems(package: Package, is_ros2: bool) -> list[str]:
     return names
 
 
-def _is_timed(package: Package) -> bool:
+def is_timed(package: Package) -> bool:
     """Whether the model has an `after`, a deadline or a delay: else its time stands still."""
     bodies = [
         *(c.body for node in package.classes for c in node.constructors),
@@ -64,7 +64,7 @@ def python_runtime(package: Package, dialect: str, folder: str) -> dict[str, str
             services=package.services,
             actions=package.actions,
             odometry=odometry_topic(package, dialect.startswith("ros2")),
-            timed=_is_timed(package),
+            timed=is_timed(package),
             lifecycle=package.settings.lifecycle,
         )
         for stem in _stems(package, dialect.startswith("ros2"))
@@ -82,7 +82,7 @@ def cpp_runtime(package: Package, words: CppWords) -> dict[str, str]:
             actions=package.actions,
             odometry=odometry_topic(package, is_ros2),
             includes=_served_headers(package, words, stem),
-            timed=_is_timed(package),
+            timed=is_timed(package),
             lifecycle=package.settings.lifecycle,
             node="lifecycle::RebecNode" if package.settings.lifecycle else "rclcpp::Node",
         )

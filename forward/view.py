@@ -24,7 +24,7 @@ from rebsync.model import (
     walk,
 )
 from rebsync.names import free_name, graph_name, node_name, snake_case
-from rebsync.reserved import RESERVED_GLOBALS, RUNTIME_CLASSES, RUNTIME_HEADERS
+from rebsync.reserved import MONITOR_FILES, RESERVED_GLOBALS, RUNTIME_CLASSES, RUNTIME_HEADERS
 from rebsync.static import Analysis
 from rebsync.static.symbols import EnvSymbol
 from rebsync.static.values import env_value
@@ -51,7 +51,7 @@ class _View:
         self.config = config
         self.topics = Topics(model, analysis)
         self.env = {e.name: e for e in self._globals()}
-        self._files = set(RUNTIME_HEADERS)
+        self._files = {*RUNTIME_HEADERS, *(MONITOR_FILES if config.monitor else ())}
         rebecs = model.main.rebecs if model.main is not None else ()
         self._running = {id(analysis.constructor_of(r)) for r in rebecs}
         self._types = {m.name for m in self.topics.messages} | RUNTIME_CLASSES
@@ -81,6 +81,7 @@ class _View:
                 config.heading,
                 config.odometry,
                 config.lifecycle,
+                config.monitor,
             ),
             self.topics.messages,
             tuple(self.env.values()),

@@ -81,6 +81,7 @@ class Config:
     heading: float = 0.0
     odometry: str | None = None
     lifecycle: bool = False
+    monitor: bool = False
     maintainers: tuple[Maintainer, ...] = ()
     license: str | None = None
     copyright: str | None = None
@@ -162,6 +163,7 @@ def _config(table: Table) -> Config:
         odometry=odometry,
         heading=_number(table, "heading", default.heading, _finite, "finite"),
         lifecycle=_lifecycle(table),
+        monitor=table.flag("monitor"),
         maintainers=_maintainers(table),
         license=_one_line(table, "license"),
         copyright=_copyright(table),

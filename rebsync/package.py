@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import TypeAlias
 
 from rebsync.model import Annotation, Block, Parameter, Type
+from rebsync.names import free_name
 from rebsync.records import dataclass
 
 Value: TypeAlias = "int | float | bool | str | tuple[Value, ...]"
@@ -285,6 +286,7 @@ class Settings:
     heading: float = 0.0
     odometry: str | None = None
     lifecycle: bool = False
+    monitor: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -320,6 +322,18 @@ class Package:
     def actions(self) -> tuple[Offer, ...]:
         """What is offered as an action."""
         return tuple(o for o in self.offers if o.is_action)
+
+    @property
+    def monitored(self) -> bool:
+        """Whether a node compares a run of the system with the model."""
+        return self.settings.monitor and bool(self.instances)
+
+    @property
+    def monitor_node(self) -> str:
+        """The name of the node that compares a run with the model."""
+        return free_name(
+            "monitor", {i.name for i in self.instances} | {s.name for s in self.stand_ins}
+        )
 
     def node_class(self, name: str) -> NodeClass:
         """The class of that name; KeyError when there is none."""

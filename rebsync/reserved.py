@@ -93,6 +93,9 @@ RUNTIME_HEADERS = (
     *("values", "watchdog"),
 )
 
+# The files of a monitor, which compares a run of the system with the model.
+MONITOR_FILES = ("monitor_machine", "monitor_model", "monitor_node", "monitor_run")
+
 # --- Python -------------------------------------------------------------------------------------
 
 # What the module of a class names, beside its messages and classes.

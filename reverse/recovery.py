@@ -14,6 +14,7 @@ from rebsync.reverse.build.built import unbuilt
 from rebsync.reverse.build.field_order import in_order
 from rebsync.reverse.build.manifests import name_in
 from rebsync.reverse.calls.ros_calls import Asking
+from rebsync.reverse.files.monitors import is_monitor
 from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.files.python_files import SETUP, is_launch, is_python
 from rebsync.reverse.findings import Finding, Findings, Grade
@@ -78,6 +79,7 @@ def extract(
     classes said before: of these only what an edit can have to do with is read again.
     """
     findings = Findings()
+    files = {n: s for n, s in files.items() if n == only or not is_monitor(n, s)}
     files = _built(files, only, findings)
     at = _Reading.of(files, only, findings)
     listed, declared = Findings(), own_messages(files)

@@ -33,13 +33,20 @@ _SHOWN = (Action.CREATE, Action.UPDATE, Action.MERGE, Action.DELETE)
 @click.argument("model", metavar="MODEL")
 @click.option("-o", "--output", default=".", metavar="DIR", help="Where the package's folder goes.")
 @click.option("--target", type=click.Choice(TARGETS), help="The dialect of the generated code.")
+@click.option("--monitor", is_flag=True, help="A node that compares a run with the model as well.")
 @click.option("--list", "only_list", is_flag=True, help="List the files; write nothing.")
 @click.option("--diff", "only_diff", is_flag=True, help="Show what would change; write nothing.")
 @click.option(
     "--force", is_flag=True, help="Overwrite files edited by hand, keeping each as FILE.orig."
 )
 def command(
-    model: str, output: str, target: str | None, only_list: bool, only_diff: bool, force: bool
+    model: str,
+    output: str,
+    target: str | None,
+    monitor: bool,
+    only_list: bool,
+    only_diff: bool,
+    force: bool,
 ) -> Status:
     """Write the ROS package of a model to DIR/<package>.
 
@@ -53,6 +60,8 @@ def command(
     _, config = settings_beside(model)
     if target is not None:
         config = replace(config, target=target)
+    if monitor:
+        config = replace(config, monitor=True)
     source = read_source(model)
     name, files = package_files(source, config, output)
     folder = Path(output) / name

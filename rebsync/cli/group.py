@@ -17,6 +17,7 @@ COMMANDS = {
     "fmt": "Bring models into the canonical layout.",
     "generate": "Write the ROS package of a model.",
     "lint": "Report mistakes in models and properties.",
+    "monitor": "Write the node that compares a run of a system with its model.",
     "new": "Begin a model from a conceptual model in TOML.",
     "simulate": "Make one run of a model, by chance or by hand.",
     "sync": "Bring packages and their models in step.",

@@ -8,11 +8,12 @@ from functools import partial
 from itertools import zip_longest
 
 from rebsync.records import dataclass
-from rebsync.reserved import RUNTIME_HEADERS
+from rebsync.reserved import MONITOR_FILES, RUNTIME_HEADERS
 from rebsync.reverse.scaffold.cpp import MAIN
 from rebsync.source import Source, Span
 
-HEADER = re.compile(rf"include/[^/]+/(?:{'|'.join(RUNTIME_HEADERS)})\.h(?:pp)?\Z")
+_HEADERS = "|".join((*RUNTIME_HEADERS, *MONITOR_FILES))
+HEADER = re.compile(rf"include/[^/]+/(?:{_HEADERS})\.h(?:pp)?\Z")
 _STAND_IN = re.compile(r"src/\w+_stand_in\.cpp\Z")
 _PROGRAM = re.compile(r"src/\w+_node\.cpp\Z")
 _INCLUDE = re.compile(

@@ -235,7 +235,7 @@ class _Syncing:
     # --- generation -----------------------------------------------------------------------------
 
     def _config(self) -> Config:
-        """Today's settings, for the dialect that the package is in."""
+        """Today's settings, for the dialect that the package is in, with its monitor if any."""
         from rebsync.forward.generate import package_name
 
         source, config = settings_beside(self.checked.model)
@@ -245,7 +245,8 @@ class _Syncing:
             message = f"the package was {old} when its code was generated, and is {new} now"
             hint = "`rebsync generate` writes the new package beside the old one"
             raise RebsyncError.of(source.path, "RS955", message, hint)
-        return replace(config, target=_config_of(self.record).target)
+        last = _config_of(self.record)
+        return replace(config, target=last.target, monitor=config.monitor or last.monitor)
 
     @property
     def _name(self) -> str:

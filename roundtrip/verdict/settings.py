@@ -14,8 +14,12 @@ from rebsync.roundtrip.package.record import Record
 from rebsync.source import NOWHERE, Source, Span
 
 _HINT = "`rebsync generate` takes the setting into the code"
-_OFF = {"lifecycle": False, "copyright": None}  # what is recorded only where it is on
-_APART = APART | {"target"}  # what the command line may say otherwise
+_OFF = {
+    "lifecycle": False,
+    "monitor": False,
+    "copyright": None,
+}  # what is recorded only where it is on
+_APART = APART | {"monitor", "target"}  # what the command line may say otherwise
 
 
 def changed_settings(model: str, record: Record) -> tuple[Findings, ...]:

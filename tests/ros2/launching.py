@@ -99,9 +99,9 @@ def _stand_ins() -> Iterator[None]:
                 sys.modules[name] = old
 
 
-def launched(package: Path, **arguments: str) -> list[Launched]:
-    """The nodes of the package's launch file, started with arguments."""
-    file = package / "launch" / f"{package.name}.launch.py"
+def launched(package: Path, stem: str = "", /, **arguments: str) -> list[Launched]:
+    """The nodes of a launch file, that of the package if none is named, started with arguments."""
+    file = package / "launch" / f"{stem or package.name}.launch.py"
     with _stand_ins():
         actions = runpy.run_path(str(file))["generate_launch_description"]()
     declared = {a.name: a.default_value for a in actions if isinstance(a, _Declared)}

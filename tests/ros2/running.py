@@ -32,10 +32,11 @@ def run(
     parameters: Mapping[str, object] | None = None,
     changes: Mapping[str, Sequence[tuple[float, str]]] | None = None,
     arguments: Mapping[str, str] | None = None,
+    beside: Sequence[str] = (),
 ) -> Recording:
     """What happens in a run without clients of services and actions."""
     return run_asked(
-        package, driver, directory, until, (), foreign, step, parameters, changes, arguments
+        package, driver, directory, until, (), foreign, step, parameters, changes, arguments, beside
     )[0]
 
 
@@ -50,17 +51,19 @@ def run_asked(
     parameters: Mapping[str, object] | None = None,
     changes: Mapping[str, Sequence[tuple[float, str]]] | None = None,
     arguments: Mapping[str, str] | None = None,
+    beside: Sequence[str] = (),
 ) -> tuple[Recording, tuple[Answer, ...]]:
     """Run the package's launch file for that many seconds of its clock.
 
     A tool has subscribed to the `foreign` topics and asks for what was sent before, which rebecs do
     not keep. With a `step` the clock is that of a simulation. Each node gets the `parameters` too.
     The `changes` of the life cycles of nodes come after so many seconds; the `arguments` are those
-    of the launch file.
+    of the launch file. What other launch files `beside` it start, comes first.
     """
     system = directory / "system.txt"
     own = parameters or {}
-    started = launched(package, **(arguments or {}))
+    started = [n for other in beside for n in launched(package, other)]
+    started += launched(package, **(arguments or {}))
     nodes = [replace(n, parameters={**n.parameters, **own}) for n in started]
     listened = [f"foreign\t{topic}" for topic in foreign]
     lines = [*listened, *(_asked(number, ask) for number, ask in enumerate(asks))]

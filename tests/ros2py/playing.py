@@ -39,13 +39,14 @@ def play(
     until: float,
     changes: Mapping[str, Sequence[tuple[float, str]]] | None = None,
     arguments: Mapping[str, str] | None = None,
+    beside: Sequence[str] = (),
 ) -> Recording:
     """Start what the launch file of a package says, and run it to a time of the model.
 
     The `changes` of the life cycles of nodes come after so many seconds; the `arguments` are those
-    of the launch file.
+    of the launch file. What other launch files `beside` it start, comes first.
     """
-    return play_asked(folder, until, (), changes, arguments=arguments)[0]
+    return play_asked(folder, until, (), changes, arguments=arguments, beside=beside)[0]
 
 
 def play_asked(
@@ -55,6 +56,7 @@ def play_asked(
     changes: Mapping[str, Sequence[tuple[float, str]]] | None = None,
     ends: Mapping[str, float] | None = None,
     arguments: Mapping[str, str] | None = None,
+    beside: Sequence[str] = (),
 ) -> tuple[Recording, tuple[Answer, ...]]:
     """The same, with clients of services and actions; nodes that are interrupted have `ends`."""
     world, name = World(), folder.name
@@ -62,7 +64,8 @@ def play_asked(
     for ask in asks:
         world.act_at(ask.at, client(world, ask, answers))
     with installed(world, folder / name, folder / f"{name}_interfaces"):
-        found = described(folder / name, **(arguments or {}))
+        found = [n for other in beside for n in described(folder / name, other)]
+        found += described(folder / name, **(arguments or {}))
         mains = [_main(name, node, (changes or {}).get(node.name, ())) for node in found]
         with _interrupting(world, name, ends or {}):
             world.run(mains, until)

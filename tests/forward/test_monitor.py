@@ -1,0 +1,136 @@
+"""The core of generated monitors accepts what the checker can do, and nothing else."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from random import Random
+
+import pytest
+from hypothesis import assume, event, given, settings
+from hypothesis import strategies as st
+
+from tests.checker.draw_outlines import Features
+from tests.checker.draw_systems import CLOCKED, REAL, TIMED, UNTIMED, WITHOUT_DELAY, systems
+from tests.forward.monitoring import (
+    Monitored,
+    Seen,
+    TooLarge,
+    as_text,
+    built_driver,
+    is_run,
+    monitored,
+    mutated,
+    shuffled,
+    simulated,
+    without_beginning,
+)
+
+_STEPS = 20
+FAMILIES: dict[str, Features] = {
+    "timed": TIMED,
+    "without delay": WITHOUT_DELAY,
+    "real numbers": REAL,
+    "clock": CLOCKED,
+    "untimed": UNTIMED,
+}
+
+
+@dataclass(frozen=True)
+class _Answer:
+    deviates: bool
+    doubts: bool
+    waiting: int
+
+
+def _answer(m: Monitored, seen: Sequence[Seen]) -> _Answer:
+    run = m.core.Run(m.model)
+    for each in seen:
+        run.receive(m.core.Observation(*each))
+        run.compare()
+    return _Answer(run.deviation is not None, bool(run.doubt), run.waiting)
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+@given(data=st.data(), seed=st.integers(0, 2**20))
+def test_true_runs_are_accepted(family: str, data: st.DataObject, seed: int) -> None:
+    m = monitored(data.draw(systems(FAMILIES[family])).model)
+    seen = simulated(m, seed, _STEPS)
+    answer = _answer(m, shuffled(seen, seed))
+    assert not answer.deviates, seen
+    event(f"doubts {answer.doubts}, all compared {not answer.waiting}")
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+@settings(max_examples=20)
+@given(data=st.data(), seed=st.integers(0, 2**20))
+def test_a_beginning_that_was_not_heard_is_filled_in(
+    family: str, data: st.DataObject, seed: int
+) -> None:
+    m = monitored(data.draw(systems(FAMILIES[family])).model)
+    seen = without_beginning(m, simulated(m, seed, _STEPS), Random(seed))
+    answer = _answer(m, shuffled(seen, seed))
+    assert not answer.deviates, seen
+    event(f"doubts {answer.doubts}, all compared {not answer.waiting}")
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+@given(data=st.data(), seed=st.integers(0, 2**20))
+def test_mutated_runs_are_judged_as_the_checker_judges_them(
+    family: str, data: st.DataObject, seed: int
+) -> None:
+    m = monitored(data.draw(systems(FAMILIES[family])).model)
+    seen = mutated(simulated(m, seed, _STEPS), Random(seed))
+    assume(seen)
+    answer = _answer(m, shuffled(seen, seed))
+    try:
+        possible = is_run(m, seen)
+    except TooLarge:
+        assume(False)
+    if answer.deviates:
+        assert not possible, seen
+    elif not answer.doubts and not answer.waiting:
+        assert possible, seen
+    event(f"a run {possible}, {answer}")
+
+
+# --- the core in C++ ----------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="session")
+def driver(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The core in C++ with a program that feeds it."""
+    if shutil.which("g++") is None:
+        pytest.skip("no g++")
+    return built_driver(tmp_path_factory.mktemp("monitor"))
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+@settings(max_examples=15)
+@given(data=st.data(), seed=st.integers(0, 2**20))
+def test_both_languages_say_the_same(
+    driver: Path, family: str, data: st.DataObject, seed: int
+) -> None:
+    m = monitored(data.draw(systems(FAMILIES[family])).model)
+    true = simulated(m, seed, _STEPS)
+    others = [mutated(true, Random(n)) for n in range(8)]
+    others.append(without_beginning(m, true, Random(seed)))
+    runs = [shuffled(r, seed) for r in (true, *others)]
+    said = subprocess.run(
+        [driver], input=f"1\n{as_text(m, runs)}", capture_output=True, text=True, check=True
+    )
+    assert said.stdout.splitlines() == [_told(m, seen) for seen in runs]
+
+
+def _told(m: Monitored, seen: Sequence[Seen]) -> str:
+    """What the driver prints of a run, by the core in Python."""
+    run = m.core.Run(m.model)
+    for each in seen:
+        run.receive(m.core.Observation(*each))
+        run.compare()
+    found = run.deviation
+    told = f" deviation {found.rebec}|{found.step}|{found.observed}" if found else ""
+    return f"{run.compared} {run.waiting} {run.hypotheses}{told} {run.doubt}"
