@@ -1,0 +1,170 @@
+"""Model x Recording -> Conformance."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+
+from rebsync.checker.program import Program
+from rebsync.records import dataclass
+from rebsync.roundtrip.conform.conformance import Conformance, Deviation, Verdict
+from rebsync.roundtrip.conform.diagnosis import Diagnosis, shown_step
+from rebsync.roundtrip.conform.graph import Graph
+from rebsync.roundtrip.conform.lateness import Clocks
+from rebsync.roundtrip.conform.observable import Observable
+from rebsync.roundtrip.conform.recording import Event, Recording, Served
+from rebsync.roundtrip.conform.search import Found, Search
+from rebsync.roundtrip.conform.starts import REACHED, Start, start
+from rebsync.roundtrip.conform.stream import Stream
+from rebsync.source import Source
+
+LAST = 60  # steps before the end of the comparison that are remembered
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """What a recording is compared with: a model, and how its nodes show what they do."""
+
+    source: Source
+    program: Program
+    observable: Observable
+
+    @property
+    def time_unit(self) -> float:
+        """A unit of model time in seconds."""
+        return self.observable.package.settings.time_unit
+
+    @property
+    def slack(self) -> float:
+        """How late, in seconds, a node may be before it says so."""
+        return self.observable.package.settings.slack
+
+
+Watch = Callable[[Event], None]
+"""Is called with each event that is read, in the order of the recording."""
+
+
+def _unwatched(_: Event) -> None:
+    return
+
+
+def conform(
+    subject: Subject, recording: Recording, watch: Watch = _unwatched, most: int = REACHED
+) -> Conformance:
+    """Whether a recorded run is a run of the model; `most` states are looked at to synchronise."""
+    clocks = Clocks(subject.observable.nodes, subject.time_unit)
+
+    def others(event: Event) -> None:
+        clocks.see(event)
+        watch(event)
+
+    graph = Graph(subject.program, subject.observable)
+    stream = Stream(recording.events(), len(subject.program.rebecs), others)
+    begun = start(graph, stream, most)
+    passed = _Passed()
+    tail = int(subject.slack / subject.time_unit)
+    search = Search(graph, stream, tail, passed)
+    found = search.run(begun.configs, begun.time) if begun.configs else None
+    diagnosis = Diagnosis(graph, stream, subject.source, passed.by_rebec)
+    return _Answer(subject, graph, stream, begun, passed, clocks, diagnosis).of(found)
+
+
+class _Passed:
+    """The last observations that fitted."""
+
+    def __init__(self) -> None:
+        self.last: deque[Served] = deque(maxlen=LAST)
+        self.by_rebec: dict[int, Served] = {}
+
+    def __call__(self, gone: list[Served]) -> None:
+        self.last.extend(gone)
+        for served in gone:
+            self.by_rebec[served.rebec] = served
+
+
+@dataclass(frozen=True, slots=True)
+class _Answer:
+    subject: Subject
+    graph: Graph
+    stream: Stream
+    begun: Start
+    passed: _Passed
+    clocks: Clocks
+    diagnosis: Diagnosis
+
+    def of(self, found: Found | None) -> Conformance:
+        """What there is to say at the end of a search."""
+        if self.stream.read == 0 and self.stream.ended:
+            return self._undetermined(0, 0, "nothing that the nodes served is in the recording")
+        if found is None:
+            return self._without_start()
+        match found.verdict:
+            case "fits":
+                return self._conformance("conforms", found.compared, found.time, found.widest)
+            case "cut":
+                return self._undetermined(found.compared, found.time, found.reason)
+            case "refused":
+                return self._refused(found)
+
+    def _refused(self, found: Found) -> Conformance:
+        for dead in found.dead:
+            self._remember(dead.config.positions)
+        deviation = self.diagnosis.of(found)
+        if not self.begun.is_whole:
+            reason = "no state of the model that was looked at fits, and not all were looked at"
+            return self._undetermined(found.compared, found.time, f"{reason}: {deviation.message}")
+        verdict: Verdict = "violated" if deviation.kind == "model failure" else "deviates"
+        return self._conformance(verdict, found.compared, found.time, found.widest, deviation)
+
+    def _remember(self, positions: tuple[int, ...]) -> None:
+        """Takes what the furthest possible state has passed for the last that fitted."""
+        gone = []
+        for rebec, position in enumerate(positions):
+            before = self.stream.first(rebec)
+            for number in range(before, position):
+                served = self.stream.at_hand(rebec, number)
+                if served is not None:
+                    gone.append(served)
+        gone.sort(key=lambda s: (s.now, s.stamp))
+        self.passed(gone)
+
+    def _without_start(self) -> Conformance:
+        wrong = self.begun.mismatch
+        if wrong is not None:
+            name = self.subject.observable.nodes[wrong.rebec]
+            message = f"{name} {shown_step(wrong)}: the model constructs it otherwise"
+            deviation = Deviation("no start", name, 0, message, wrong, 0)
+            return self._conformance("deviates", 0, 0, 0, deviation)
+        if not self.begun.is_whole:
+            reason = "the recording begins in the middle, and the model has too many states to find"
+            return self._undetermined(0, self.begun.time, f"{reason} the one where it does")
+        message = f"no reachable state of the model fits what is recorded around {self.begun.time}"
+        deviation = Deviation("no start", "", self.begun.time, message, None, 0)
+        return self._conformance("deviates", 0, self.begun.time, 0, deviation)
+
+    def _undetermined(self, compared: int, time: int, reason: str) -> Conformance:
+        return self._conformance("undetermined", compared, time, 0, reason=reason)
+
+    def _conformance(
+        self,
+        verdict: Verdict,
+        compared: int,
+        time: int,
+        widest: int,
+        deviation: Deviation | None = None,
+        reason: str = "",
+    ) -> Conformance:
+        self.stream.read_to_end()
+        notes = list(self.clocks.notes())
+        if self.begun.is_middle:
+            at = self.begun.time
+            count = len(self.begun.configs)
+            notes.insert(
+                0,
+                f"the recording begins in the middle: compared from {at} on, "
+                f"with {count} possible states",
+            )
+        return Conformance(
+            verdict, max(compared, 0), self.stream.read, self.begun.time, time, reason, deviation,
+            self.clocks.lateness(), tuple(notes), tuple(self.passed.last), widest,
+        )  # fmt: skip
