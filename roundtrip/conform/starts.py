@@ -32,24 +32,28 @@ class Start:
 
 def start(graph: Graph, stream: Stream, most: int = REACHED) -> Start:
     """The possible states from which a recording goes on."""
-    first = [stream.get(rebec, 0) for rebec in range(len(graph.program.rebecs))]
-    begins = [s is not None and s.server == CONSTRUCTOR and s.start == 0 for s in first]
-    if all(begins):
-        return _from_constructors(graph, [s for s in first if s is not None])
-    return _synchronised(graph, stream, most)
+    first: dict[int, Served] = {}  # of the rebecs that have constructors: others show none
+    for rebec, info in enumerate(graph.program.rebecs):
+        if info.constructor >= 0:
+            served = stream.get(rebec, 0)
+            if served is None or served.server != CONSTRUCTOR or served.start != 0:
+                return _synchronised(graph, stream, most)
+            first[rebec] = served
+    return _from_constructors(graph, first)
 
 
-def _from_constructors(graph: Graph, first: list[Served]) -> Start:
+def _from_constructors(graph: Graph, first: dict[int, Served]) -> Start:
     nodes = graph.start()
     configs = [c for node in nodes if (c := _constructed(graph, node, first)) is not None]
     wrong = None if configs else _wrong(graph, nodes, first)
     return Start(tuple(configs), 0, False, mismatch=wrong)
 
 
-def _constructed(graph: Graph, node: Node, first: list[Served]) -> Config | None:
+def _constructed(graph: Graph, node: Node, first: dict[int, Served]) -> Config | None:
     positions = []
-    for rebec, (served, local) in enumerate(zip(first, node.state, strict=True)):
-        if local.point is not None:
+    for rebec, local in enumerate(node.state):
+        served = first.get(rebec)
+        if served is None or local.point is not None:
             positions.append(0)
         elif served.now == 0 and graph.observable.is_same(rebec, served.cells, local.variables):
             positions.append(1)
@@ -58,9 +62,9 @@ def _constructed(graph: Graph, node: Node, first: list[Served]) -> Config | None
     return Config(node, tuple(positions))
 
 
-def _wrong(graph: Graph, nodes: tuple[Node, ...], first: list[Served]) -> Served:
+def _wrong(graph: Graph, nodes: tuple[Node, ...], first: dict[int, Served]) -> Served | None:
     """The first constructor whose observation no start has."""
-    for rebec, served in enumerate(first):
+    for rebec, served in first.items():
         locals_ = [node.state[rebec] for node in nodes]
         if not any(
             x.point is not None
@@ -68,7 +72,7 @@ def _wrong(graph: Graph, nodes: tuple[Node, ...], first: list[Served]) -> Served
             for x in locals_
         ):
             return served
-    return first[0]
+    return next(iter(first.values()), None)
 
 
 # --- in the middle of a run
