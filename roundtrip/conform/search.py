@@ -158,10 +158,8 @@ class Search:
 
     def _is_complete(self, config: Config) -> bool:
         """Whether all that was recorded is in the run."""
-        if not config.node.able and config.node.waits is None:
-            for rebec, position in enumerate(config.positions):
-                self.stream.get(rebec, position)
-        return self.stream.ended and sum(config.positions) == self.stream.read
+        count = sum(config.positions)
+        return count >= self.stream.read and not self.stream.has_more(count)
 
     def _successors(self, config: Config, time: int, reduces: bool) -> list[Config]:
         node = config.node

@@ -48,6 +48,12 @@ class Stream:
         queue, index = self._queues[rebec], position - self._dropped[rebec]
         return queue[index] if 0 <= index < len(queue) else None
 
+    def has_more(self, count: int) -> bool:
+        """Whether there are more observations than so many; reads on until that is known."""
+        while self.read <= count and not self.ended:
+            self._pull()
+        return self.read > count
+
     def first(self, rebec: int) -> int:
         """The number of the first observation of a rebec that is at hand."""
         return self._dropped[rebec]
