@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 
 from rebsync.checker.machine import EndlessBody
-from rebsync.checker.state import State
+from rebsync.checker.state import Local, State
 from rebsync.checker.steps import Failure
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.graph import Graph, Node
@@ -53,24 +53,26 @@ def _constructed(graph: Graph, node: Node, first: dict[int, Served]) -> Config |
     positions = []
     for rebec, local in enumerate(node.state):
         served = first.get(rebec)
-        if served is None or local.point is not None:
-            positions.append(0)
-        elif served.now == 0 and graph.observable.is_same(rebec, served.cells, local.variables):
-            positions.append(1)
-        else:
+        if served is not None and not _is_of(graph, local, served):
             return None
+        positions.append(0 if served is None or local.point is not None else 1)
     return Config(node, tuple(positions))
+
+
+def _is_of(graph: Graph, local: Local, served: Served) -> bool:
+    """Whether a constructor, whose end is observed, may have led to a state or be suspended."""
+    if served.arguments or served.arrival != 0:
+        return False
+    if local.point is not None:
+        return True
+    is_same = graph.observable.is_same(served.rebec, served.cells, local.variables)
+    return served.now == 0 and is_same
 
 
 def _wrong(graph: Graph, nodes: tuple[Node, ...], first: dict[int, Served]) -> Served | None:
     """The first constructor whose observation no start has."""
     for rebec, served in first.items():
-        locals_ = [node.state[rebec] for node in nodes]
-        if not any(
-            x.point is not None
-            or (served.now == 0 and graph.observable.is_same(rebec, served.cells, x.variables))
-            for x in locals_
-        ):
+        if not any(_is_of(graph, node.state[rebec], served) for node in nodes):
             return served
     return next(iter(first.values()), None)
 
