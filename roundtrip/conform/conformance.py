@@ -6,6 +6,7 @@ from dataclasses import field
 from typing import Literal, TypeAlias
 
 from rebsync.records import dataclass
+from rebsync.roundtrip.conform.properties import Evaluated
 from rebsync.roundtrip.conform.recording import Place, Served
 
 Verdict: TypeAlias = Literal["conforms", "deviates", "violated", "undetermined"]
@@ -96,3 +97,4 @@ class Conformance:
     notes: tuple[str, ...] = ()
     last: tuple[Served, ...] = ()
     widest: int = 1
+    properties: tuple[Evaluated, ...] = ()

@@ -32,7 +32,7 @@ class Move(NamedTuple):
 class Node:
     """A state of the model. `able` are the rebecs that can act; else `later` is after some time."""
 
-    __slots__ = ("_actions", "_steps", "able", "after", "moves", "state")
+    __slots__ = ("_actions", "_steps", "able", "after", "moves", "state", "truth")
 
     def __init__(self, state: State, steps: Sequence[Step]) -> None:
         self.state = state
@@ -41,6 +41,7 @@ class Node:
         self.able = tuple(dict.fromkeys(a.actor for a in self._actions if a.actor != TIME))
         self.moves: dict[Key, Fitting] = {}
         self.after: tuple[Node, int] | None = None
+        self.truth: dict[int, bool | None] = {}  # of predicates; None: it has no value
 
     @property
     def waits(self) -> Step | None:

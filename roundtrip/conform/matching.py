@@ -4,14 +4,21 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
 
+from rebsync.checker.formulas import NamedFormula
+from rebsync.checker.problem import Problem
 from rebsync.checker.program import Program
+from rebsync.config import Config
 from rebsync.records import dataclass
+from rebsync.roundtrip.conform import path as run_path
 from rebsync.roundtrip.conform.conformance import Conformance, Deviation, Verdict
 from rebsync.roundtrip.conform.diagnosis import Diagnosis, shown_step
 from rebsync.roundtrip.conform.graph import Graph
 from rebsync.roundtrip.conform.lateness import Clocks
 from rebsync.roundtrip.conform.observable import Observable
+from rebsync.roundtrip.conform.properties import Evaluation
 from rebsync.roundtrip.conform.recording import Event, Recording, Served
 from rebsync.roundtrip.conform.search import Found, Search
 from rebsync.roundtrip.conform.starts import REACHED, Start, start
@@ -28,6 +35,23 @@ class Subject:
     source: Source
     program: Program
     observable: Observable
+    formulas: tuple[NamedFormula, ...] = ()
+    assertions: int = 0  # how many of the formulas are assertions
+
+    @classmethod
+    def of(cls, problem: Problem, config: Config) -> Subject:
+        """A model with its properties, and the settings of its package."""
+        from rebsync.checker.lowering import lower
+        from rebsync.forward.generate import package_name
+        from rebsync.forward.view import view
+
+        program, formulas = lower(problem.analysis, problem.properties)
+        name = package_name(Path(problem.source.path).stem, config)
+        package, _ = view(problem.analysis.model, problem.analysis, config, name)
+        observable = Observable.of(program, package)
+        return cls(
+            problem.source, program, observable, formulas, len(problem.properties.assertions)
+        )
 
     @property
     def time_unit(self) -> float:
@@ -63,10 +87,14 @@ def conform(
     begun = start(graph, stream, most)
     passed = _Passed()
     tail = int(subject.slack / subject.time_unit)
-    search = Search(graph, stream, tail, passed)
+    evaluation = Evaluation(subject.program, subject.formulas, subject.assertions)
+    path = run_path.Path(evaluation.see) if subject.formulas else None
+    search = Search(graph, stream, tail, passed, path)
     found = search.run(begun.configs, begun.time) if begun.configs else None
     diagnosis = Diagnosis(graph, stream, subject.source, passed.by_rebec)
-    return _Answer(subject, graph, stream, begun, passed, clocks, diagnosis).of(found)
+    answer = _Answer(subject, graph, stream, begun, passed, clocks, diagnosis).of(found)
+    is_lost = path is not None and path.is_lost
+    return replace(answer, properties=evaluation.result(begun.is_middle, is_lost))
 
 
 class _Passed:

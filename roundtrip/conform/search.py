@@ -16,6 +16,7 @@ from rebsync.checker.machine import EndlessBody
 from rebsync.checker.steps import Failure
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.graph import NOTHING, Fitting, Graph, Move, Node
+from rebsync.roundtrip.conform.path import Path
 from rebsync.roundtrip.conform.recording import Served
 from rebsync.roundtrip.conform.stream import Positions, Stream
 
@@ -76,12 +77,18 @@ class Search:
     """One search. `tail` is how long before the end of the recording a body may end unobserved."""
 
     def __init__(
-        self, graph: Graph, stream: Stream, tail: int = 0, passed: Observer = _nothing
+        self,
+        graph: Graph,
+        stream: Stream,
+        tail: int = 0,
+        passed: Observer = _nothing,
+        path: Path | None = None,
     ) -> None:
         self.graph = graph
         self.stream = stream
         self.tail = tail
         self.passed = passed
+        self.path = path
         self.widest = 0
         self._waiting: dict[int, set[Config]] = {}
         self._next: list[int] = []
@@ -93,6 +100,8 @@ class Search:
         """Searches from some possible states at a time on."""
         configs = list(starts)
         self._waiting = {}
+        if self.path is not None:
+            self.path.begin(time, configs)
         while True:
             self.widest = max(self.widest, len(configs))
             before = self._depth, list(self._dead), {t: set(c) for t, c in self._waiting.items()}
@@ -109,10 +118,12 @@ class Search:
             if self.widest > WIDEST:
                 return self._cut(time, f"more than {WIDEST} states of the model are possible")
             if not self._waiting:
+                if self.path is not None and self._dead:
+                    self.path.settle(self._dead[0].time, self._dead[0].config)
                 return Found("refused", self._depth, time, tuple(self._dead), widest=self.widest)
             time = min(self._waiting)
             configs = list(self._waiting.pop(time))
-            self._drop(configs)
+            self._drop(configs, time)
 
     def _cut(self, time: int, reason: str) -> Found:
         return Found("cut", max(self._depth, 0), time, (), reason, self.widest)
@@ -120,10 +131,12 @@ class Search:
     def _body(self, pc: int) -> str:
         return self.graph.program.body_at(pc).name
 
-    def _drop(self, configs: list[Config]) -> None:
+    def _drop(self, configs: list[Config], time: int) -> None:
         every = [*configs, *(c for later in self._waiting.values() for c in later)]
-        if len(every) == 1:
+        if len(every) == 1 and configs:
             least: Positions = every[0].positions
+            if self.path is not None:
+                self.path.settle(time, every[0])
         else:
             least = tuple(map(min, zip(*(c.positions for c in every), strict=True)))
         if gone := self.stream.drop_before(least):
@@ -139,8 +152,12 @@ class Search:
             config = work.pop()
             if self._is_complete(config):
                 self._depth = self.stream.read
+                if self.path is not None:
+                    self.path.settle(time, config)
                 return True
             after = self._successors(config, time, reduces)
+            if self.path is not None:
+                self.path.link(time, after, time, config)
             if len(after) == 1 and not work:
                 work = after  # the usual case, without looking at what was seen
                 if after[0] in seen:
@@ -252,7 +269,10 @@ class Search:
                 self._die(Dead(config, time, "time", rebec))
                 return
         waiting = self._waiting.setdefault(until, set())
-        waiting.add(Config(node, config.positions, config.begun))
+        passed = Config(node, config.positions, config.begun)
+        waiting.add(passed)
+        if self.path is not None:
+            self.path.link(until, [passed], time, config)
 
     def _end(self, config: Config, time: int) -> None:
         """Nothing can happen any more: what is read from now on is more than the model has."""
