@@ -74,7 +74,8 @@ def command(ctx: click.Context, /, model: str, recordings: tuple[str, ...], **_:
     observable = subject.observable
     topics = Topics.of(observable)
     recording = opened(recordings, topics, observable.package, given["namespace"])
-    found = conform(subject, recording, most=given["max_states"] or REACHED)
+    most, keeps = given["max_states"] or REACHED, given["page"] is not None
+    found = conform(subject, recording, most=most, keeps_run=keeps)
     if given["page"] is not None:
         from rebsync.roundtrip.conform.report.page import conformance_page
 

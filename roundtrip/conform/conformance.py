@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import field
 from typing import Literal, TypeAlias
 
+from rebsync.checker.trace import TraceStep
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.properties import Evaluated
 from rebsync.roundtrip.conform.recording import Place, Served
@@ -98,3 +99,4 @@ class Conformance:
     last: tuple[Served, ...] = ()
     widest: int = 1
     properties: tuple[Evaluated, ...] = ()
+    run: tuple[TraceStep, ...] = ()  # the last steps of a run that fits, where that was asked for

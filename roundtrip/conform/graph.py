@@ -56,6 +56,10 @@ class Node:
         """A step by its number."""
         return self._steps[number]
 
+    def steps(self) -> Sequence[Step]:
+        """All steps."""
+        return self._steps
+
     def message(self, action: Action) -> Message | None:
         """The message that an action serves; None of a constructor."""
         local = self.state[action.actor]

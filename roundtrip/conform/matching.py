@@ -15,7 +15,7 @@ from rebsync.records import dataclass
 from rebsync.roundtrip.conform import path as run_path
 from rebsync.roundtrip.conform.conformance import Conformance, Deviation, Verdict
 from rebsync.roundtrip.conform.diagnosis import Diagnosis, shown_step
-from rebsync.roundtrip.conform.graph import Graph
+from rebsync.roundtrip.conform.graph import Graph, Node
 from rebsync.roundtrip.conform.lateness import Clocks
 from rebsync.roundtrip.conform.observable import Observable
 from rebsync.roundtrip.conform.properties import Evaluation
@@ -23,6 +23,7 @@ from rebsync.roundtrip.conform.recording import Event, Recording, Served
 from rebsync.roundtrip.conform.search import Found, Search
 from rebsync.roundtrip.conform.starts import REACHED, Start, start
 from rebsync.roundtrip.conform.stream import Stream
+from rebsync.roundtrip.conform.visited import Visited
 from rebsync.source import Source
 
 LAST = 60  # steps before the end of the comparison that are remembered
@@ -73,9 +74,16 @@ def _unwatched(_: Event) -> None:
 
 
 def conform(
-    subject: Subject, recording: Recording, watch: Watch = _unwatched, most: int = REACHED
+    subject: Subject,
+    recording: Recording,
+    watch: Watch = _unwatched,
+    most: int = REACHED,
+    keeps_run: bool = False,
 ) -> Conformance:
-    """Whether a recorded run is a run of the model; `most` states are looked at to synchronise."""
+    """Whether a recorded run is a run of the model; `most` states are looked at to synchronise.
+
+    `keeps_run`: the last steps of the run that fits are in the answer.
+    """
     clocks = Clocks(subject.observable.nodes, subject.time_unit)
 
     def others(event: Event) -> None:
@@ -88,13 +96,21 @@ def conform(
     passed = _Passed()
     tail = int(subject.slack / subject.time_unit)
     evaluation = Evaluation(subject.program, subject.formulas, subject.assertions)
-    path = run_path.Path(evaluation.see) if subject.formulas else None
+    visited = Visited(graph, subject.source)
+
+    def visit(time: int, node: Node) -> None:
+        evaluation.see(time, node)
+        if keeps_run:
+            visited.see(time, node)
+
+    path = run_path.Path(visit) if subject.formulas or keeps_run else None
     search = Search(graph, stream, tail, passed, path)
     found = search.run(begun.configs, begun.time) if begun.configs else None
     diagnosis = Diagnosis(graph, stream, subject.source, passed.by_rebec)
     answer = _Answer(subject, graph, stream, begun, passed, clocks, diagnosis).of(found)
     is_lost = path is not None and path.is_lost
-    return replace(answer, properties=evaluation.result(begun.is_middle, is_lost))
+    properties = evaluation.result(begun.is_middle, is_lost)
+    return replace(answer, properties=properties, run=visited.steps())
 
 
 class _Passed:

@@ -1,0 +1,46 @@
+"""Recorded runs of nodes against their models, and what of it is told at the end of all tests."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from rebsync.cli.problem import read_problem
+from rebsync.config import Config, settings_beside
+from rebsync.roundtrip.conform.conformance import Conformance
+from rebsync.roundtrip.conform.matching import Subject, conform
+from rebsync.roundtrip.conform.reading import recordings
+from rebsync.roundtrip.conform.topics import Topics
+
+FIDELITY = "fidelity"
+
+
+def subject(model: Path, config: Config | None = None) -> Subject:
+    """A model with the settings beside it, or others."""
+    settings = config if config is not None else settings_beside(str(model))[1]
+    return Subject.of(read_problem(str(model), None), settings)
+
+
+def compared(model: Path, recording: Path, config: Config | None = None) -> Conformance:
+    """What `rebsync conform` says of a recording."""
+    of = subject(model, config)
+    opened = recordings([str(recording)], Topics.of(of.observable), of.observable.package, None)
+    return conform(of, opened)
+
+
+def fidelity(name: str, found: Conformance) -> tuple[str, int, int, float]:
+    """Name, steps compared, steps that are not allowed, greatest time error in seconds."""
+    greatest = found.lateness.greatest
+    refused = 1 if found.verdict == "deviates" else 0
+    return name, found.compared, refused, abs(greatest[2]) if greatest is not None else 0.0
+
+
+def summary_lines(runs: list[tuple[str, int, int, float]]) -> list[str]:
+    """The lines at the end of the tests."""
+    lines = [
+        f"{name}: {steps} steps, {refused} not allowed, time error {error:.3f} s"
+        for name, steps, refused, error in sorted(runs)
+    ]
+    steps, refused = sum(r[1] for r in runs), sum(r[2] for r in runs)
+    worst = max((r[3] for r in runs), default=0.0)
+    total = f"{len(runs)} runs: {steps} steps, {refused} not allowed, time error {worst:.3f} s"
+    return [*lines, total]
