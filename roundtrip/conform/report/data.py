@@ -41,7 +41,6 @@ def conformance_json(found: Conformance, subject: Subject, paths: Sequence[str])
                 "zero": late.zero,
                 "greatest": _greatest(late),
             },
-            },
             "properties": [_property(evaluated) for evaluated in found.properties],
             "notes": list(found.notes),
         }
