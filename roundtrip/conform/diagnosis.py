@@ -159,9 +159,12 @@ class Diagnosis:
 
     def _follows_lost(self, dead: Dead, rebec: int, served: Served) -> bool:
         """Whether it could be served if one state of the rebec was not recorded."""
+        is_server = bool(self._line(rebec, served.server))
         for move in self.graph.all_of(dead.config.node, rebec).moves:
             local = move.node.state[rebec]
-            if not move.ended or any(self.graph.serves(m, served, dead.time) for m in local.bag):
+            if (not move.ended and is_server) or any(
+                self.graph.serves(m, served, dead.time) for m in local.bag
+            ):
                 return True
         return False
 

@@ -21,7 +21,7 @@ from rebsync.roundtrip.conform.observable import Observable
 from rebsync.roundtrip.conform.properties import Evaluation
 from rebsync.roundtrip.conform.recording import Event, Recording, Served
 from rebsync.roundtrip.conform.search import Found, Search
-from rebsync.roundtrip.conform.starts import REACHED, Start, start
+from rebsync.roundtrip.conform.starts import REACHED, Mode, Start, modes, start
 from rebsync.roundtrip.conform.stream import Stream
 from rebsync.roundtrip.conform.visited import Visited
 from rebsync.source import Source
@@ -84,33 +84,61 @@ def conform(
 
     `keeps_run`: the last steps of the run that fits are in the answer.
     """
-    clocks = Clocks(subject.observable.nodes, subject.time_unit)
-
-    def others(event: Event) -> None:
-        clocks.see(event)
-        watch(event)
-
     graph = Graph(subject.program, subject.observable)
-    stream = Stream(recording.events(), len(subject.program.rebecs), others)
-    begun = start(graph, stream, most)
-    passed = _Passed()
-    tail = int(subject.slack / subject.time_unit)
-    evaluation = Evaluation(subject.program, subject.formulas, subject.assertions)
-    visited = Visited(graph, subject.source)
+    attempt = _Attempt(subject, recording, graph, most, keeps_run)
+    first = Stream(recording.events(), len(subject.program.rebecs), _unwatched)
+    refused: Conformance | None = None
+    for number, mode in enumerate(modes(graph, first)):
+        found = attempt.run(mode, watch if number == 0 else _unwatched)
+        if found.verdict not in ("deviates", "undetermined"):
+            return found
+        if refused is None or found.compared > refused.compared:
+            refused = found
+        if found.verdict == "undetermined" and mode != "constructors":
+            return found
+    assert refused is not None
+    return refused
 
-    def visit(time: int, node: Node) -> None:
-        evaluation.see(time, node)
-        if keeps_run:
-            visited.see(time, node)
 
-    path = run_path.Path(visit) if subject.formulas or keeps_run else None
-    search = Search(graph, stream, tail, passed, path)
-    found = search.run(begun.configs, begun.time) if begun.configs else None
-    diagnosis = Diagnosis(graph, stream, subject.source, passed.by_rebec)
-    answer = _Answer(subject, graph, stream, begun, passed, clocks, diagnosis).of(found)
-    is_lost = path is not None and path.is_lost
-    properties = evaluation.result(begun.is_middle, is_lost)
-    return replace(answer, properties=properties, run=visited.steps())
+@dataclass(frozen=True, slots=True)
+class _Attempt:
+    """Comparing a recording with a model, begun in one of the possible ways."""
+
+    subject: Subject
+    recording: Recording
+    graph: Graph
+    most: int
+    keeps_run: bool
+
+    def run(self, mode: Mode, watch: Watch) -> Conformance:
+        """What becomes of it."""
+        subject, graph = self.subject, self.graph
+        clocks = Clocks(subject.observable.nodes, subject.time_unit)
+
+        def others(event: Event) -> None:
+            clocks.see(event)
+            watch(event)
+
+        stream = Stream(self.recording.events(), len(subject.program.rebecs), others)
+        begun = start(graph, stream, mode, self.most)
+        passed = _Passed()
+        evaluation = Evaluation(subject.program, subject.formulas, subject.assertions)
+        visited = Visited(graph, subject.source)
+
+        def visit(time: int, node: Node) -> None:
+            evaluation.see(time, node)
+            if self.keeps_run:
+                visited.see(time, node)
+
+        path = run_path.Path(visit) if subject.formulas or self.keeps_run else None
+        tail = int(subject.slack / subject.time_unit)
+        search = Search(graph, stream, tail, passed, path)
+        found = search.run(begun.configs, begun.time) if begun.configs else None
+        diagnosis = Diagnosis(graph, stream, subject.source, passed.by_rebec)
+        answer = _Answer(subject, graph, stream, begun, passed, clocks, diagnosis).of(found)
+        is_lost = path is not None and path.is_lost
+        properties = evaluation.result(begun.is_middle, is_lost)
+        return replace(answer, properties=properties, run=visited.steps())
 
 
 class _Passed:
@@ -143,6 +171,12 @@ class _Answer:
         if found is None:
             return self._without_start()
         match found.verdict:
+            case "fits" if self.begun.unseen:
+                reason = (
+                    f"it fits from {self.begun.time} on, but {self.begun.unseen} recorded steps "
+                    "before that could not be compared"
+                )
+                return self._undetermined(found.compared, found.time, reason)
             case "fits":
                 return self._conformance("conforms", found.compared, found.time, found.widest)
             case "cut":
@@ -176,8 +210,11 @@ class _Answer:
         wrong = self.begun.mismatch
         if wrong is not None:
             name = self.subject.observable.nodes[wrong.rebec]
-            message = f"{name} {shown_step(wrong)}: the model constructs it otherwise"
-            deviation = Deviation("no start", name, 0, message, wrong, 0)
+            why = "the model constructs it otherwise"
+            if self.begun.is_middle:
+                why = "it has no such message server"
+            message = f"{name} {shown_step(wrong)}: {why}"
+            deviation = Deviation("no start", name, self.begun.time, message, wrong, 0)
             return self._conformance("deviates", 0, 0, 0, deviation)
         if not self.begun.is_whole:
             reason = "the recording begins in the middle, and the model has too many states to find"
@@ -200,6 +237,9 @@ class _Answer:
     ) -> Conformance:
         self.stream.read_to_end()
         notes = list(self.clocks.notes())
+        for rebec in self.begun.missing:
+            name = self.subject.observable.nodes[rebec]
+            notes.append(f"the state of {name} after its constructor was not recorded")
         if self.begun.is_middle:
             at = self.begun.time
             count = len(self.begun.configs)
@@ -209,6 +249,6 @@ class _Answer:
                 f"with {count} possible states",
             )
         return Conformance(
-            verdict, max(compared, 0), self.stream.read, self.begun.time, time, reason, deviation,
+            verdict, max(compared - self.begun.skipped, 0), self.stream.read, self.begun.time, time, reason, deviation,
             self.clocks.lateness(), tuple(notes), tuple(self.passed.last), widest,
         )  # fmt: skip

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from collections import deque
+from dataclasses import replace
+from typing import Literal, TypeAlias
 
 from rebsync.checker.machine import EndlessBody
+from rebsync.checker.program import RebecInfo
 from rebsync.checker.state import Local, State
 from rebsync.checker.steps import Failure
 from rebsync.records import dataclass
@@ -17,29 +20,62 @@ CONSTRUCTOR = "constructor"
 REACHED = 200_000  # states of the model among which those are looked for that fit
 
 
+Mode: TypeAlias = Literal["constructors", "earliest", "latest"]
+"""Where to begin: at time 0; in the middle, at the first time that a rebec shows, as in a part of a
+recording; or when all have shown a state, as nodes that latch it may show an old one."""
+
+
 @dataclass(frozen=True, slots=True)
 class Start:
     """Possible states at a time; `is_middle`: by synchronisation, which `is_whole` if no state of
     the model was left out. `mismatch` is a constructor's observation that no start of the model
-    has."""
+    has, `missing` are the rebecs whose constructors were not observed. `skipped` observations are
+    before that time, and `unseen` of them say more than where a rebec was."""
 
     configs: tuple[Config, ...]
     time: int
     is_middle: bool
     is_whole: bool = True
     mismatch: Served | None = None
+    missing: tuple[int, ...] = ()
+    skipped: int = 0
+    unseen: int = 0
 
 
-def start(graph: Graph, stream: Stream, most: int = REACHED) -> Start:
+def modes(graph: Graph, stream: Stream) -> tuple[Mode, ...]:
+    """The ways to begin that a recording leaves open, the one that says most first."""
+    first = [stream.get(rebec, 0) for rebec, _ in _constructed_rebecs(graph)]
+    begins = [served is not None and _is_constructor(served) for served in first]
+    if all(begins):
+        return ("constructors",)
+    if any(begins):
+        return ("constructors", "earliest", "latest")
+    return ("earliest", "latest")
+
+
+def start(graph: Graph, stream: Stream, mode: Mode, most: int = REACHED) -> Start:
     """The possible states from which a recording goes on."""
-    first: dict[int, Served] = {}  # of the rebecs that have constructors: others show none
-    for rebec, info in enumerate(graph.program.rebecs):
-        if info.constructor >= 0:
-            served = stream.get(rebec, 0)
-            if served is None or served.server != CONSTRUCTOR or served.start != 0:
-                return _synchronised(graph, stream, most)
+    if mode != "constructors":
+        return _synchronised(graph, stream, mode, most)
+    first: dict[int, Served] = {}
+    missing: list[int] = []
+    for rebec, _ in _constructed_rebecs(graph):
+        served = stream.get(rebec, 0)
+        if served is not None and _is_constructor(served):
             first[rebec] = served
-    return _from_constructors(graph, first)
+        else:
+            missing.append(rebec)
+    return replace(_from_constructors(graph, first), missing=tuple(missing))
+
+
+def _constructed_rebecs(graph: Graph) -> list[tuple[int, RebecInfo]]:
+    """The rebecs that have constructors: nodes of others show none."""
+    rebecs = enumerate(graph.program.rebecs)
+    return [(rebec, info) for rebec, info in rebecs if info.constructor >= 0]
+
+
+def _is_constructor(served: Served) -> bool:
+    return served.server == CONSTRUCTOR and served.start == 0
 
 
 def _from_constructors(graph: Graph, first: dict[int, Served]) -> Start:
@@ -80,17 +116,22 @@ def _wrong(graph: Graph, nodes: tuple[Node, ...], first: dict[int, Served]) -> S
 # --- in the middle of a run
 
 
-def _synchronised(graph: Graph, stream: Stream, most: int) -> Start:
-    """The reachable states that fit what each rebec has shown last, at the first time possible."""
+def _synchronised(graph: Graph, stream: Stream, mode: Mode, most: int) -> Start:
+    """The reachable states that fit what each rebec has shown last."""
     rebecs = range(len(graph.program.rebecs))
     first = [served for rebec in rebecs if (served := stream.get(rebec, 0)) is not None]
-    time = max((served.now for served in first), default=0)
+    times = [served.now for served in first] or [0]
+    time = min(times) if mode == "earliest" else max(times)
+    unseen = 0
     last: list[Served | None] = []
     following: list[Served | None] = []
     positions: list[int] = []
     for rebec in rebecs:
         position, shown = 0, None
         while (served := stream.get(rebec, position)) is not None and served.now <= time:
+            if not _has_server(graph, rebec, served.server):
+                return Start((), time, True, mismatch=served)
+            unseen += shown is not None and shown.now < time
             position, shown = position + 1, served
         last.append(shown)
         following.append(served)
@@ -100,7 +141,15 @@ def _synchronised(graph: Graph, stream: Stream, most: int) -> Start:
     for state in states:
         if _fits(graph, state, last, following, time):
             configs.append(Config(graph.node(state), tuple(positions)))
-    return Start(tuple(configs), time, True, is_whole)
+    skipped = sum(positions)
+    return Start(tuple(configs), time, True, is_whole, skipped=skipped, unseen=unseen)
+
+
+def _has_server(graph: Graph, rebec: int, name: str) -> bool:
+    """Whether the class of a rebec has a message server, or is constructed."""
+    program = graph.program
+    servers = {program.servers[n].name for n in program.rebecs[rebec].dispatch if n >= 0}
+    return name in servers or (name == CONSTRUCTOR and program.rebecs[rebec].constructor >= 0)
 
 
 def _fits(

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from rebsync.roundtrip.conform.graph import Graph
 from rebsync.roundtrip.conform.recording import Event, Served
 from rebsync.roundtrip.conform.search import Found, Search
-from rebsync.roundtrip.conform.starts import Start, start
+from rebsync.roundtrip.conform.starts import Start, modes, start
 from rebsync.roundtrip.conform.stream import Stream
 from tests.checker.draw_outlines import Features
 from tests.checker.draw_systems import CLOCKED, REAL, TIMED, WITHOUT_DELAY, systems
@@ -33,7 +33,7 @@ def search(model: simulated.Given, run: list[Served]) -> tuple[Start, Found | No
     """What the search finds in a recording with these steps."""
     graph = Graph(model.program, model.observable)
     stream = Stream(iter(run), len(model.program.rebecs), _ignored)
-    begun = start(graph, stream, 2000)
+    begun = start(graph, stream, modes(graph, stream)[0], 2000)
     if not begun.configs:
         return begun, None
     return begun, Search(graph, stream).run(begun.configs, begun.time)
