@@ -114,7 +114,8 @@ class Progression:
             case Next(formula):
                 return self._holds(formula)
             case Owed(operator, bound, operands, before):
-                return self._owed(operator, bound, operands, before + elapsed)
+                after = before + elapsed if bound is not None else 0
+                return self._owed(operator, bound, operands, after)
             case _ as unreachable:
                 assert_never(unreachable)
 

@@ -249,6 +249,15 @@ class _Answer:
                 f"with {count} possible states",
             )
         return Conformance(
-            verdict, max(compared - self.begun.skipped, 0), self.stream.read, self.begun.time, time, reason, deviation,
-            self.clocks.lateness(), tuple(notes), tuple(self.passed.last), widest,
-        )  # fmt: skip
+            verdict,
+            max(compared - self.begun.skipped, 0),
+            self.stream.read,
+            self.begun.time,
+            time,
+            reason,
+            deviation,
+            self.clocks.lateness(),
+            tuple(notes),
+            tuple(self.passed.last),
+            widest,
+        )

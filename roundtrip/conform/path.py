@@ -25,7 +25,7 @@ class Path:
     """
 
     def __init__(self, visit: Visit) -> None:
-        self._visit = visit
+        self.visit = visit
         self._from: dict[_At, _At | None] = {}
         self._visited: _At | None = None
         self.is_lost = False
@@ -34,6 +34,11 @@ class Path:
         """The possible states at the start."""
         for config in configs:
             self._from[time, config] = None
+
+    def restart(self, time: int, config: Config) -> None:
+        """This state is possible, and was visited, like all before it."""
+        self._visited = (time, config)
+        self._from = {self._visited: None}
 
     def link(self, time: int, after: Iterable[Config], before: int, config: Config) -> None:
         """Steps from a possible state at a time to others."""
@@ -53,6 +58,6 @@ class Path:
             way.append(at)
             at = self._from[at]
         for when, each in reversed(way):
-            self._visit(when, each.node)
+            self.visit(when, each.node)
         self._visited = (time, config)
         self._from = {self._visited: None}

@@ -94,7 +94,11 @@ class _Property:
         self.progression = Progression(self.formula)
         self.decided: tuple[RunVerdict, int] | None = None
         self.bound = greatest_bound(self.formula)
-        self.needed = frozenset(atoms(self.formula))
+        self.needed = tuple(dict.fromkeys(atoms(self.formula)))
+        # Without bounds what is left depends on few things, and is made once for each.
+        self._rests: dict[Rest, Rest] = {}
+        self._number = 0
+        self._table: dict[tuple[int, tuple[bool | None, ...]], Rest] = {}
 
     def see(
         self,
@@ -106,7 +110,7 @@ class _Property:
         """A state, how long after the one before it is reached, and what was true in that."""
         if self.decided is not None:
             return
-        if any(truth[p] is None for p in self.needed):
+        if None in truth.values() and any(truth[p] is None for p in self.needed):
             self.decided = ("undetermined", time)
             return
         if elapsed > 1 and self.bound is not None:
@@ -120,10 +124,22 @@ class _Property:
     def _step(self, time: int, truth: dict[int, bool | None], elapsed: int) -> None:
         if self.decided is not None:
             return
-        known = {p: bool(truth[p]) for p in self.needed}
-        rest = self.progression.see(known, elapsed)
+        rest = self._progressed(truth, elapsed)
         if isinstance(rest, bool):
             self.decided = ("satisfied" if rest else "violated", time)
+
+    def _progressed(self, truth: dict[int, bool | None], elapsed: int) -> Rest:
+        if self.bound is not None:
+            return self.progression.see({p: bool(truth[p]) for p in self.needed}, elapsed)
+        values = tuple([truth[p] for p in self.needed])
+        rest = self._table.get((self._number, values))
+        if rest is None:
+            rest = self.progression.see({p: bool(truth[p]) for p in self.needed}, elapsed)
+            rest = self._rests.setdefault(rest, rest)
+            self._table[self._number, values] = rest
+        self.progression.rest = rest
+        self._number = id(rest)
+        return rest
 
     def result(self, is_middle: bool, is_lost: bool) -> Evaluated:
         kind: Literal["assertion", "formula"] = "assertion" if self.is_assertion else "formula"
