@@ -6,7 +6,7 @@ recorded that a known fault makes (a message lost, repeated, swapped) are tried 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from rebsync.checker.state import Message
 from rebsync.checker.steps import Failure
@@ -23,12 +23,16 @@ _FEW = 5  # allowed steps that are listed
 
 @dataclass(frozen=True, slots=True)
 class Diagnosis:
-    """A refusal, to be explained; `before` has the last observation of each rebec that fitted."""
+    """A refusal, to be explained; `before` has the last observation of each rebec that fitted.
+
+    `recent` are the last that fitted of all.
+    """
 
     graph: Graph
     stream: Stream
     source: Source
     before: dict[int, Served]
+    recent: Iterable[Served] = ()
 
     def of(self, found: Found) -> Deviation:
         """The first step that no run has."""
@@ -82,7 +86,14 @@ class Diagnosis:
         self, dead: Dead, rebec: int, served: Served, allowed: tuple[Allowed, ...]
     ) -> tuple[Kind, str, tuple[Difference, ...]]:
         before = self.before.get(rebec)
-        if before is not None and _repeats(served, before):
+        if (
+            before is not None
+            and before.publisher
+            and served.publisher not in ("", before.publisher)
+        ):
+            why = f"{served.publisher} publishes it, and {before.publisher} did before"
+            return "second publisher", why, ()
+        if any(_repeats(served, each) for each in self.recent):
             return "repeated", "the same state message was recorded before", ()
         if before is not None and served.server == "constructor":
             return "restarted", "the node was started again, which no rebec of a model is", ()

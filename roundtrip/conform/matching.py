@@ -134,7 +134,7 @@ class _Attempt:
         tail = int(subject.slack / subject.time_unit)
         search = Search(graph, stream, tail, passed, path)
         found = search.run(begun.configs, begun.time) if begun.configs else None
-        diagnosis = Diagnosis(graph, stream, subject.source, passed.by_rebec)
+        diagnosis = Diagnosis(graph, stream, subject.source, passed.by_rebec, passed.last)
         answer = _Answer(subject, graph, stream, begun, passed, clocks, diagnosis).of(found)
         is_lost = path is not None and path.is_lost
         properties = evaluation.result(begun.is_middle, is_lost)

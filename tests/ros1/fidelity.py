@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 from rebsync.cli.problem import read_problem
@@ -25,6 +26,12 @@ def compared(model: Path, recording: Path, config: Config | None = None) -> Conf
     of = subject(model, config)
     opened = recordings([str(recording)], Topics.of(of.observable), of.observable.package, None)
     return conform(of, opened)
+
+
+def note(recording: Path, model: str, dialect: str) -> None:
+    """Writes beside a log what it is of, for tests/roundtrip/conform/record.py."""
+    text = json.dumps({"model": model, "dialect": dialect})
+    recording.with_name("subject.json").write_text(text, encoding="utf-8")
 
 
 def fidelity(name: str, found: Conformance) -> tuple[str, int, int, float]:

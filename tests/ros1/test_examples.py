@@ -17,7 +17,7 @@ from rebsync.config import Config, parse_config
 from rebsync.source import Source
 from tests.forward.compiling import generated, written
 from tests.ros1.conftest import Build
-from tests.ros1.fidelity import FIDELITY, compared, fidelity
+from tests.ros1.fidelity import FIDELITY, compared, fidelity, note
 from tests.ros1.paths import Way, nearest, write_paths
 from tests.ros1.recording import WARNING, Recording, Served
 from tests.ros1.run import Clock, run
@@ -117,6 +117,7 @@ def example(
     launch = workspace.root / "src" / name / "launch" / f"{name}.launch"
     clock = Clock(until=expected["until"] + 0.5, quiet=QUIET)
     recording = run(workspace, launch, tmp_path_factory.mktemp(name), clock)
+    note(recording.run_log, name, dialect)
     expected["reached"] = [*expected.get("reached", ()), *expected.get("met", ())]
     return Example(name, expected, recording)
 

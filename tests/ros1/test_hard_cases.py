@@ -9,7 +9,7 @@ import pytest
 
 from tests.forward.compiling import CASES, case_config, case_files, written
 from tests.ros1.conftest import Build
-from tests.ros1.fidelity import FIDELITY, compared, fidelity
+from tests.ros1.fidelity import FIDELITY, compared, fidelity, note
 from tests.ros1.recording import Recording
 from tests.ros1.run import Clock, run
 from tests.ros1.workspace import Workspace
@@ -32,13 +32,14 @@ def hard(
 
 @pytest.fixture
 def play_case(
-    hard: Workspace, tmp_path: Path, record_property: Callable[[str, object], None]
+    dialect: str, hard: Workspace, tmp_path: Path, record_property: Callable[[str, object], None]
 ) -> PlayCase:
     """Runs a case by its name: it does what its model says, up to where that breaks a rule."""
 
     def play(name: str) -> Recording:
         launch = hard.root / "src" / name / "launch" / f"{name}.launch"
         recording = run(hard, launch, tmp_path, Clock(until=12, quiet=5))
+        note(recording.run_log, name, dialect)
         case = CASES / f"{name}.rebeca"
         found = compared(case, recording.run_log, case_config(case))
         record_property(FIDELITY, fidelity(name, found))
