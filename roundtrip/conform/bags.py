@@ -6,7 +6,7 @@ Types and the storages of ROS 2 are read by rosbags, without an installation of 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Any
 
 from rebsync.diagnostics import RebsyncError
@@ -135,32 +135,61 @@ def _reader(source: _Source, connection: Connection) -> tuple[Topic, Decode, str
 
 def events_2(path: str, file: int, wanted: Wanted, package: Package) -> Iterator[Event]:
     """The events of a bag of ROS 2: a folder, or a file of one of its storages."""
-    from rosbags.interfaces import MessageDefinitionFormat
-    from rosbags.rosbag2 import Reader
-
     source = _Source(path, file, wanted, package, True)
     try:
-        with Reader(Path(path)) as reader:
-            readers: dict[int, tuple[Topic, Decode]] = {}
-            connections = []
-            for connection in reader.connections:
-                topic = wanted.topic(connection.topic, path)
-                if topic is None:
-                    continue
-                is_msg = connection.msgdef.format is MessageDefinitionFormat.MSG
-                definition = connection.msgdef.data if is_msg else ""
-                decode = source.decoder(connection.msgtype, definition, topic)
-                readers[connection.id] = (topic, decode)
-                connections.append(connection)
-            if not connections:
-                return
-            for connection, time, raw in reader.messages(connections):
-                source.number += 1
-                topic, decode = readers[connection.id]
-                yield source.event(topic, decode, raw, time, "")
+        for part in _parts(Path(path)):
+            yield from _of_part(source, part)
     except (RebsyncError, GeneratorExit):
         raise
+    except FileNotFoundError as error:
+        raise source.wrong(f"it is no bag of ROS 2: {error}") from None
     except OSError as error:
         raise os_mistake(path, error) from None
     except Exception as error:  # of rosbags, of sqlite, of zstd: each has its own
         raise source.wrong(f"it cannot be read as a bag of ROS 2: {error}") from None
+
+
+def _parts(path: Path) -> list[Path]:
+    """What is read one after the other: the files of a folder, unless they are compressed.
+
+    A folder as a whole lacks, for rosbags, what was recorded with another quality of service than
+    its metadata say.
+    """
+    if not path.is_dir():
+        return [path]
+    metadata = path / "metadata.yaml"
+    import yaml
+
+    about = yaml.safe_load(metadata.read_text(encoding="utf-8"))["rosbag2_bagfile_information"]
+    names = [PurePath(name).name for name in about["relative_file_paths"]]
+    if about.get("compression_mode") or any(PurePath(name).suffix == ".zstd" for name in names):
+        return [path]
+    return [path / name for name in names]
+
+
+def _of_part(source: _Source, part: Path) -> Iterator[Event]:
+    from rosbags.interfaces import MessageDefinitionFormat
+    from rosbags.rosbag2 import Reader
+
+    with Reader(part) as reader:
+        readers: dict[int, tuple[Topic, Decode]] = {}
+        connections = []
+        expected = 0
+        for connection in reader.connections:
+            topic = source.wanted.topic(connection.topic, source.path)
+            if topic is None:
+                continue
+            is_msg = connection.msgdef.format is MessageDefinitionFormat.MSG
+            definition = connection.msgdef.data if is_msg else ""
+            readers[connection.id] = (topic, source.decoder(connection.msgtype, definition, topic))
+            connections.append(connection)
+            expected += connection.msgcount
+        before = source.number
+        if connections:
+            for connection, time, raw in reader.messages(connections):
+                source.number += 1
+                topic, decode = readers[connection.id]
+                yield source.event(topic, decode, raw, time, "")
+    if source.number - before < expected:
+        read = source.number - before
+        raise source.wrong(f"it has {expected} messages of the model, and only {read} can be read")

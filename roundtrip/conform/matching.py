@@ -11,6 +11,7 @@ from rebsync.checker.formulas import NamedFormula
 from rebsync.checker.problem import Problem
 from rebsync.checker.program import Program
 from rebsync.config import Config
+from rebsync.diagnostics import RebsyncError
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform import path as run_path
 from rebsync.roundtrip.conform.conformance import Conformance, Deviation, Verdict
@@ -137,7 +138,7 @@ class _Attempt:
         diagnosis = Diagnosis(graph, stream, subject.source, passed.by_rebec, passed.last)
         answer = _Answer(subject, graph, stream, begun, passed, clocks, diagnosis).of(found)
         is_lost = path is not None and path.is_lost
-        properties = evaluation.result(begun.is_middle, is_lost)
+        properties = evaluation.result(begun.is_middle, is_lost) if answer.recorded else ()
         return replace(answer, properties=properties, run=visited.steps())
 
 
@@ -235,12 +236,19 @@ class _Answer:
         deviation: Deviation | None = None,
         reason: str = "",
     ) -> Conformance:
-        self.stream.read_to_end()
-        notes = list(self.clocks.notes())
+        notes: list[str] = []
+        try:
+            self.stream.read_to_end()
+        except RebsyncError as error:
+            if deviation is None:
+                raise
+            why = error.findings[0].diagnostics[0].message
+            notes.append(f"what follows the deviation cannot be read: {why}")
+        notes += self.clocks.notes()
         for rebec in self.begun.missing:
             name = self.subject.observable.nodes[rebec]
             notes.append(f"the state of {name} after its constructor was not recorded")
-        if self.begun.is_middle:
+        if self.begun.is_middle and self.stream.read:
             at = self.begun.time
             count = len(self.begun.configs)
             notes.insert(

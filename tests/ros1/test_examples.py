@@ -139,10 +139,10 @@ def test_nothing_is_lost_at_the_start(example: Example) -> None:
 
 
 def test_the_run_is_one_of_the_model(
-    example: Example, record_property: Callable[[str, object], None]
+    dialect: str, example: Example, record_property: Callable[[str, object], None]
 ) -> None:
     found = compared(EXAMPLES / example.name / f"{example.name}.rebeca", example.recording.run_log)
-    record_property(FIDELITY, fidelity(example.name, found))
+    record_property(FIDELITY, fidelity(f"{example.name} {dialect}", found))
     assert found.verdict == "conforms", found.deviation or found.reason
     assert found.compared == len(example.recording.served)
     violated = [p.name for p in found.properties if p.verdict not in ("satisfied", "open")]

@@ -42,7 +42,7 @@ def play_case(
         note(recording.run_log, name, dialect)
         case = CASES / f"{name}.rebeca"
         found = compared(case, recording.run_log, case_config(case))
-        record_property(FIDELITY, fidelity(name, found))
+        record_property(FIDELITY, fidelity(f"{name} {dialect}", found))
         if name in VIOLATED:
             assert found.deviation is not None
             assert found.verdict == "violated"
