@@ -13,8 +13,9 @@ from rebsync.checker.steps import Failure
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.conformance import Allowed, Deviation, Difference, Kind
 from rebsync.roundtrip.conform.graph import Graph
+from rebsync.roundtrip.conform.possible import Dead
 from rebsync.roundtrip.conform.recording import Served
-from rebsync.roundtrip.conform.search import Dead, Found
+from rebsync.roundtrip.conform.search import Found
 from rebsync.roundtrip.conform.stream import Stream
 from rebsync.source import Source
 

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from rebsync.roundtrip.conform.graph import Node
-
-if TYPE_CHECKING:
-    from rebsync.roundtrip.conform.search import Config
+from rebsync.roundtrip.conform.possible import Config
 
 MOST = 500_000  # steps that may be open at a time
 
 Visit: TypeAlias = Callable[[int, Node], None]
 """Is called with each state of the run, in order, and the time at which it is reached."""
 
-_At: TypeAlias = "tuple[int, Config]"
+_At: TypeAlias = tuple[int, Config]
 
 
 class Path:

@@ -9,45 +9,20 @@ model has no priorities, nobody asks for senders or has deadlines, and no bag wa
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from typing import Literal, NamedTuple, TypeAlias
+from collections.abc import Iterable
+from typing import Literal
 
 from rebsync.checker.machine import EndlessBody
 from rebsync.checker.steps import Failure
 from rebsync.records import dataclass
-from rebsync.roundtrip.conform.graph import NOTHING, Fitting, Graph, Move, Node
+from rebsync.roundtrip.conform.graph import NOTHING, Fitting, Graph, Move
 from rebsync.roundtrip.conform.path import Path
+from rebsync.roundtrip.conform.possible import Config, Dead, Observer, Reason
 from rebsync.roundtrip.conform.recording import Served
 from rebsync.roundtrip.conform.single import Single
 from rebsync.roundtrip.conform.stream import Positions, Stream
 
 WIDEST = 20_000  # possible states at one moment
-
-Reason: TypeAlias = Literal["step", "time", "silent", "end"]
-"""Why a possible state has no successor that fits: nobody's step fits; time would pass something
-that was observed; a rebec ends a body that was not observed; nothing can happen any more."""
-
-
-class Config(NamedTuple):
-    """A possible state: how far it has come with the observations of each rebec.
-
-    `begun` has the rebecs that serve something of which no observation was near when they took
-    it, with the times when.
-    """
-
-    node: Node
-    positions: Positions
-    begun: tuple[tuple[int, int], ...] = ()
-
-
-class Dead(NamedTuple):
-    """A possible state that no step leads on from, at a time; `rebec` is to blame, or -1."""
-
-    config: Config
-    time: int
-    reason: Reason
-    rebec: int = -1
-    failures: tuple[Failure, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,9 +40,6 @@ class Found:
     dead: tuple[Dead, ...] = ()
     reason: str = ""
     widest: int = 1
-
-
-Observer: TypeAlias = Callable[[list[Served]], None]
 
 
 def _nothing(_: list[Served]) -> None:

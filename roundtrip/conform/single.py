@@ -6,14 +6,10 @@ which anything else happens that asks for a closer look; the search goes on from
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from rebsync.roundtrip.conform.graph import Graph, Move, Node
 from rebsync.roundtrip.conform.path import Visit
+from rebsync.roundtrip.conform.possible import Observer
 from rebsync.roundtrip.conform.stream import Positions, Stream
-
-if TYPE_CHECKING:
-    from rebsync.roundtrip.conform.search import Observer
 
 _OFTEN = 64  # observations after which those that were passed are let go
 

@@ -12,8 +12,8 @@ from rebsync.checker.state import Local, State
 from rebsync.checker.steps import Failure
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.graph import Graph, Node
+from rebsync.roundtrip.conform.possible import Config
 from rebsync.roundtrip.conform.recording import Served
-from rebsync.roundtrip.conform.search import Config
 from rebsync.roundtrip.conform.stream import Stream
 
 CONSTRUCTOR = "constructor"
