@@ -16,6 +16,7 @@ from rebsync.records import dataclass
 from rebsync.roundtrip.conform import path as run_path
 from rebsync.roundtrip.conform.conformance import Conformance, Deviation, Verdict
 from rebsync.roundtrip.conform.diagnosis import Diagnosis, shown_step
+from rebsync.roundtrip.conform.explanation import explanation
 from rebsync.roundtrip.conform.graph import Graph, Node
 from rebsync.roundtrip.conform.lateness import Clocks
 from rebsync.roundtrip.conform.observable import Observable
@@ -98,7 +99,20 @@ def conform(
         if found.verdict == "undetermined" and mode != "constructors":
             return found
     assert refused is not None
-    return refused
+    return _explained(subject, recording, refused)
+
+
+def _explained(subject: Subject, recording: Recording, found: Conformance) -> Conformance:
+    """The answer with what the topics say of its deviation."""
+    deviation = found.deviation
+    if deviation is None or deviation.rebec not in subject.observable.nodes:
+        return found
+    rebec = subject.observable.nodes.index(deviation.rebec)
+    try:
+        said = explanation(deviation, rebec, recording.events(with_sent=True))
+    except RebsyncError:  # of what follows, and a note says so
+        return found
+    return replace(found, deviation=replace(deviation, explanation=said))
 
 
 @dataclass(frozen=True, slots=True)

@@ -81,6 +81,6 @@ class Recording(Protocol):
         """The files, in the order of `Place.file`."""
         ...
 
-    def events(self) -> Iterator[Event]:
-        """What was recorded, by stamps."""
+    def events(self, with_sent: bool = False) -> Iterator[Event]:
+        """What was recorded, by stamps; the messages between rebecs only where asked for."""
         ...

@@ -38,6 +38,13 @@ def log(path: Path, *changes: tuple[int, str, object]) -> Path:
     return path
 
 
+def robots_step() -> int:
+    """A step of a robot in the middle of the run."""
+    from tests.roundtrip.conform.test_recordings import steps
+
+    return next(n for n, step in enumerate(steps(BAG)) if n > 55 and step.rebec == 1)
+
+
 def test_a_good_run_conforms(tmp_path: Path) -> None:
     done = rebsync("conform", MODEL, str(BAG), cwd=tmp_path)
     assert done.status == 0, done.err
@@ -51,19 +58,20 @@ def test_a_log_is_read_as_a_bag_is(tmp_path: Path) -> None:
 
 
 def test_what_deviates_is_told_in_every_format(tmp_path: Path) -> None:
-    path = str(log(tmp_path / "run.jsonl", (60, "data", 7)))
+    at = robots_step()
+    path = str(log(tmp_path / "run.jsonl", (at, "data", 7)))
     text = rebsync("conform", MODEL, path, cwd=tmp_path)
     assert text.status == 1
     assert "wrong state: " in text.out
     assert "data = 7, not" in text.out
-    assert f"{path}, message 61" in text.out
+    assert f"{path}, message {at + 1}" in text.out
     assert "  allowed: " in text.out
     found = rebsync("conform", MODEL, path, "--format", "json", cwd=tmp_path)
     assert found.status == 1
     answer = json.loads(found.out)
     jsonschema.validate(answer, SCHEMA)
     assert answer["deviation"]["kind"] == "wrong state"
-    assert answer["deviation"]["number"] == 61
+    assert answer["deviation"]["number"] == at + 1
     sarif = json.loads(rebsync("conform", MODEL, path, "--format", "sarif", cwd=tmp_path).out)
     assert sarif["runs"][0]["results"][0]["ruleId"] == "RS980"
     github = rebsync("conform", MODEL, path, "--format", "github", cwd=tmp_path).out
@@ -100,7 +108,7 @@ def test_a_run_in_which_the_model_breaks_a_rule_is_a_violation(tmp_path: Path) -
 
 
 def test_the_page_shows_both_runs_and_the_deviation(tmp_path: Path) -> None:
-    path = str(log(tmp_path / "run.jsonl", (60, "data", 7)))
+    path = str(log(tmp_path / "run.jsonl", (robots_step(), "data", 7)))
     done = rebsync("conform", MODEL, path, "--page", "page.html", cwd=tmp_path)
     assert done.status == 1
     page = (tmp_path / "page.html").read_text(encoding="utf-8")

@@ -54,7 +54,7 @@ class Recorded:
     all: tuple[Event, ...]
     paths: tuple[str, ...] = ("simulated",)
 
-    def events(self) -> Iterator[Event]:
+    def events(self, with_sent: bool = False) -> Iterator[Event]:
         return iter(self.all)
 
 
