@@ -43,9 +43,7 @@ def _sentences(wanted: dict[_Key, list[Sent]]) -> Iterator[str]:
         if not found:
             yield f"{message} is on no topic; what a rebec sends itself is on none"
             continue
-        times = "" if len(found) == 1 else f"{len(found)} times "
-        first = found[0]
-        by = f" by {first.publisher}" if first.publisher else ""
-        yield f"{message} was published {times}{by.strip()} (message {first.place.number})".replace(
-            "  ", " "
-        )
+        times = [f"{len(found)} times"] if len(found) > 1 else []
+        by = [f"by {found[0].publisher}"] if found[0].publisher else []
+        said = [message, "was published", *times, *by, f"(message {found[0].place.number})"]
+        yield " ".join(said)

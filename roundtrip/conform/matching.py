@@ -87,10 +87,11 @@ def conform(
     `keeps_run`: the last steps of the run that fits are in the answer.
     """
     graph = Graph(subject.program, subject.observable)
-    attempt = _Attempt(subject, recording, graph, most, keeps_run)
     first = Stream(recording.events(), len(subject.program.rebecs), _unwatched)
+    hidden = _hidden(subject, first, recording)
+    attempt = _Attempt(subject, recording, graph, most, keeps_run, hidden)
     refused: Conformance | None = None
-    for number, mode in enumerate(modes(graph, first)):
+    for number, mode in enumerate(modes(graph, first, hidden)):
         found = attempt.run(mode, watch if number == 0 else _unwatched)
         if found.verdict not in ("deviates", "undetermined"):
             return found
@@ -115,6 +116,18 @@ def _explained(subject: Subject, recording: Recording, found: Conformance) -> Co
     return replace(found, deviation=replace(deviation, explanation=said))
 
 
+def _hidden(subject: Subject, first: Stream, recording: Recording) -> frozenset[int]:
+    """The rebecs of which there is no state message in the whole recording."""
+    silent = {r for r in range(len(subject.program.rebecs)) if first.get(r, 0) is None}
+    if silent and not first.ended:
+        for event in recording.events():
+            if isinstance(event, Served):
+                silent.discard(event.rebec)
+                if not silent:
+                    break
+    return frozenset(silent)
+
+
 @dataclass(frozen=True, slots=True)
 class _Attempt:
     """Comparing a recording with a model, begun in one of the possible ways."""
@@ -124,6 +137,7 @@ class _Attempt:
     graph: Graph
     most: int
     keeps_run: bool
+    hidden: frozenset[int]
 
     def run(self, mode: Mode, watch: Watch) -> Conformance:
         """What becomes of it."""
@@ -147,12 +161,16 @@ class _Attempt:
 
         path = run_path.Path(visit) if subject.formulas or self.keeps_run else None
         tail = int(subject.slack / subject.time_unit)
-        search = Search(graph, stream, tail, passed, path)
+        search = Search(graph, stream, tail, passed, path, self.hidden)
         found = search.run(begun.configs, begun.time) if begun.configs else None
         diagnosis = Diagnosis(graph, stream, subject.source, passed.by_rebec, passed.last)
-        answer = _Answer(subject, graph, stream, begun, passed, clocks, diagnosis).of(found)
+        answer = _Answer(subject, graph, stream, begun, passed, clocks, diagnosis, self.hidden).of(
+            found
+        )
         is_lost = path is not None and path.is_lost
-        properties = evaluation.result(begun.is_middle, is_lost) if answer.recorded else ()
+        is_known = not self.hidden
+        properties = evaluation.result(begun.is_middle, is_lost, is_known)
+        properties = properties if answer.recorded else ()
         return replace(answer, properties=properties, run=visited.steps())
 
 
@@ -178,6 +196,7 @@ class _Answer:
     passed: _Passed
     clocks: Clocks
     diagnosis: Diagnosis
+    hidden: frozenset[int]
 
     def of(self, found: Found | None) -> Conformance:
         """What there is to say at the end of a search."""
@@ -259,7 +278,10 @@ class _Answer:
             why = error.findings[0].diagnostics[0].message
             notes.append(f"what follows the deviation cannot be read: {why}")
         notes += self.clocks.notes()
-        for rebec in self.begun.missing:
+        for rebec in sorted(self.hidden):
+            name = self.subject.observable.nodes[rebec]
+            notes.append(f"no state of {name} was recorded: it may do all that the model allows")
+        for rebec in sorted({*self.begun.missing} - self.hidden):
             name = self.subject.observable.nodes[rebec]
             notes.append(f"the state of {name} after its constructor was not recorded")
         if self.begun.is_middle and self.stream.read:

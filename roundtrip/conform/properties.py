@@ -79,9 +79,17 @@ class Evaluation:
                     truth[predicate] = None
         return truth
 
-    def result(self, is_middle: bool, is_lost: bool) -> tuple[Evaluated, ...]:
-        """What is known at the end. Of the middle of a run only what holds of all states is."""
-        return tuple(each.result(is_middle, is_lost) for each in self._open)
+    def result(self, is_middle: bool, is_lost: bool, is_known: bool) -> tuple[Evaluated, ...]:
+        """What is known at the end. Of the middle of a run only what holds of all states is.
+
+        `is_known`: all rebecs were recorded.
+        """
+        why = ""
+        if is_lost:
+            why = "too many runs of the model fit the recording"
+        elif not is_known:
+            why = "not all nodes were recorded"
+        return tuple(each.result(is_middle, why) for each in self._open)
 
 
 class _Property:
@@ -141,11 +149,10 @@ class _Property:
         self._number = id(rest)
         return rest
 
-    def result(self, is_middle: bool, is_lost: bool) -> Evaluated:
+    def result(self, is_middle: bool, why: str) -> Evaluated:
         kind: Literal["assertion", "formula"] = "assertion" if self.is_assertion else "formula"
         margin = self.progression.margin
-        if is_lost:
-            why = "too many runs of the model fit the recording"
+        if why:
             return Evaluated(self.name, kind, "undetermined", None, margin, reason=why)
         if is_middle and not _is_invariant(self.formula):
             why = "the recording begins in the middle of the run"

@@ -47,7 +47,10 @@ def _nothing(_: list[Served]) -> None:
 
 
 class Search:
-    """One search. `tail` is how long before the end of the recording a body may end unobserved."""
+    """One search. `tail` is how long before the end of the recording a body may end unobserved.
+
+    Of the rebecs in `hidden` nothing is recorded: they may do all that the model allows.
+    """
 
     def __init__(
         self,
@@ -56,8 +59,10 @@ class Search:
         tail: int = 0,
         passed: Observer = _nothing,
         path: Path | None = None,
+        hidden: frozenset[int] = frozenset(),
     ) -> None:
         self.graph = graph
+        self.hidden = hidden
         self.stream = stream
         self.tail = tail
         self.passed = passed
@@ -180,7 +185,8 @@ class Search:
         failures: list[Failure] = []
         silent = -1
         for rebec in node.able:
-            served = self.stream.get(rebec, config.positions[rebec])
+            hidden = rebec in self.hidden
+            served = None if hidden else self.stream.get(rebec, config.positions[rebec])
             fitting = self._fitting(config, rebec, served, time)
             failures += fitting.failures
             after, lacks = self._after(config, rebec, served, fitting, time)
@@ -224,7 +230,7 @@ class Search:
             started = next((t for r, t in begun if r == rebec), None)
             rest = tuple((r, t) for r, t in begun if r != rebec) if begun else ()
             if served is None:
-                if self._may_be_unobserved(time):
+                if self._may_be_unobserved(rebec, time):
                     after.append(Config(move.node, config.positions, rest))
                 else:
                     lacks = True
@@ -245,8 +251,10 @@ class Search:
         is_state = self.graph.observable.is_same(served.rebec, served.cells, cells)
         return same and served.start == started and is_state
 
-    def _may_be_unobserved(self, time: int) -> bool:
-        """Whether the recording may have ended before it got the state after a body."""
+    def _may_be_unobserved(self, rebec: int, time: int) -> bool:
+        """Whether the recording has nothing of a rebec, or ended before the state after a body."""
+        if rebec in self.hidden:
+            return True
         return self.stream.ended and time >= self.stream.horizon - self.tail
 
     def _pass_time(self, config: Config, time: int) -> None:

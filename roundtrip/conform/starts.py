@@ -7,7 +7,6 @@ from dataclasses import replace
 from typing import Literal, TypeAlias
 
 from rebsync.checker.machine import EndlessBody
-from rebsync.checker.program import RebecInfo
 from rebsync.checker.state import Local, State
 from rebsync.checker.steps import Failure
 from rebsync.records import dataclass
@@ -42,11 +41,15 @@ class Start:
     unseen: int = 0
 
 
-def modes(graph: Graph, stream: Stream) -> tuple[Mode, ...]:
-    """The ways to begin that a recording leaves open, the one that says most first."""
-    first = [stream.get(rebec, 0) for rebec, _ in _constructed_rebecs(graph)]
+def modes(graph: Graph, stream: Stream, hidden: frozenset[int] = frozenset()) -> tuple[Mode, ...]:
+    """The ways to begin that a recording leaves open, the one that says most first.
+
+    Of the rebecs in `hidden` nothing is recorded.
+    """
+    shown = [rebec for rebec in _constructed(graph) if rebec not in hidden]
+    first = [stream.get(rebec, 0) for rebec in shown]
     begins = [served is not None and _is_constructor(served) for served in first]
-    if all(begins):
+    if all(begins) and begins:
         return ("constructors",)
     if any(begins):
         return ("constructors", "earliest", "latest")
@@ -59,7 +62,7 @@ def start(graph: Graph, stream: Stream, mode: Mode, most: int = REACHED) -> Star
         return _synchronised(graph, stream, mode, most)
     first: dict[int, Served] = {}
     missing: list[int] = []
-    for rebec, _ in _constructed_rebecs(graph):
+    for rebec in _constructed(graph):
         served = stream.get(rebec, 0)
         if served is not None and _is_constructor(served):
             first[rebec] = served
@@ -68,10 +71,9 @@ def start(graph: Graph, stream: Stream, mode: Mode, most: int = REACHED) -> Star
     return replace(_from_constructors(graph, first), missing=tuple(missing))
 
 
-def _constructed_rebecs(graph: Graph) -> list[tuple[int, RebecInfo]]:
+def _constructed(graph: Graph) -> list[int]:
     """The rebecs that have constructors: nodes of others show none."""
-    rebecs = enumerate(graph.program.rebecs)
-    return [(rebec, info) for rebec, info in rebecs if info.constructor >= 0]
+    return [r for r, info in enumerate(graph.program.rebecs) if info.constructor >= 0]
 
 
 def _is_constructor(served: Served) -> bool:
@@ -80,12 +82,12 @@ def _is_constructor(served: Served) -> bool:
 
 def _from_constructors(graph: Graph, first: dict[int, Served]) -> Start:
     nodes = graph.start()
-    configs = [c for node in nodes if (c := _constructed(graph, node, first)) is not None]
+    configs = [c for node in nodes if (c := _possible(graph, node, first)) is not None]
     wrong = None if configs else _wrong(graph, nodes, first)
     return Start(tuple(configs), 0, False, mismatch=wrong)
 
 
-def _constructed(graph: Graph, node: Node, first: dict[int, Served]) -> Config | None:
+def _possible(graph: Graph, node: Node, first: dict[int, Served]) -> Config | None:
     positions = []
     for rebec, local in enumerate(node.state):
         served = first.get(rebec)
