@@ -5,12 +5,15 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import pytest
+
 from rebsync.cli.problem import read_problem
 from rebsync.config import Config, settings_beside
 from rebsync.roundtrip.conform.conformance import Conformance
 from rebsync.roundtrip.conform.matching import Subject, conform
 from rebsync.roundtrip.conform.reading import recordings
 from rebsync.roundtrip.conform.topics import Topics
+from tests.ros1.recording import Recording
 
 FIDELITY = "fidelity"
 
@@ -26,6 +29,26 @@ def compared(model: Path, recording: Path, config: Config | None = None) -> Conf
     of = subject(model, config)
     opened = recordings([str(recording)], Topics.of(of.observable), of.observable.package, None)
     return conform(of, opened)
+
+
+def log_of(recording: Recording, folder: Path) -> Path:
+    """The log of a run, as `rebsync conform` reads it; written where the run has left none.
+
+    Then its stamps count from time 0, and what nodes announce of that is of another clock.
+    """
+    if recording.run_log.is_file():
+        return recording.run_log
+    path = folder / "run.jsonl"
+    heard = (m for m in recording.messages if not m.topic.endswith("/startup"))
+    lines = ({"topic": m.topic, "stamp": m.stamp, "data": m.fields} for m in heard)
+    path.write_text("".join(f"{json.dumps(line, default=list)}\n" for line in lines))
+    return path
+
+
+def run_name(request: pytest.FixtureRequest, name: str) -> str:
+    """The name of a run: where its test is, and what it was run with."""
+    callspec = getattr(request.node, "callspec", None)
+    return f"{request.path.parent.name} {callspec.id if callspec is not None else name}"
 
 
 def note(recording: Path, model: str, dialect: str) -> None:
