@@ -24,7 +24,7 @@ class _Possible:
     starts: tuple[int, ...]  # when the rebecs took what they serve
 
 
-def is_run(given: Given, observed: Sequence[Served], most: int = 20_000) -> bool:
+def is_run(given: Given, observed: Sequence[Served], most: int = 3_000) -> bool:
     """Whether a run of the model, from its constructors on, shows just these steps.
 
     After the last of them bodies may end that are not observed.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from random import Random
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from rebsync.roundtrip.conform.graph import Graph
@@ -26,6 +26,7 @@ FAMILIES: dict[str, Features] = {
     "real numbers": REAL,
 }
 LONG = 20  # steps
+SOME = min(settings().max_examples, 20)  # drawing a model takes long
 UNTIL = 40
 
 
@@ -44,6 +45,7 @@ def _ignored(_: Event) -> None:
 
 
 @pytest.mark.parametrize("family", FAMILIES)
+@settings(max_examples=SOME)
 @given(data=st.data())
 def test_runs_of_drawn_models_conform(family: str, data: st.DataObject) -> None:
     model = simulated.given(data.draw(systems(FAMILIES[family])).model)
@@ -55,6 +57,7 @@ def test_runs_of_drawn_models_conform(family: str, data: st.DataObject) -> None:
 
 
 @pytest.mark.parametrize("family", FAMILIES)
+@settings(max_examples=SOME)
 @given(data=st.data())
 def test_runs_with_a_fault_conform_if_they_are_runs(family: str, data: st.DataObject) -> None:
     model = simulated.given(data.draw(systems(FAMILIES[family])).model)
@@ -72,6 +75,7 @@ def test_runs_with_a_fault_conform_if_they_are_runs(family: str, data: st.DataOb
 
 
 @pytest.mark.parametrize("family", ["exact", "without delay"])
+@settings(max_examples=SOME)
 @given(data=st.data())
 def test_the_rest_of_a_run_conforms(family: str, data: st.DataObject) -> None:
     model = simulated.given(data.draw(systems(FAMILIES[family])).model)
