@@ -182,7 +182,7 @@ class _Passed:
         self.by_rebec: dict[int, Served] = {}
 
     def __call__(self, gone: list[Served]) -> None:
-        self.last.extend(gone)
+        self.last.extend(sorted(gone, key=lambda served: (served.now, served.stamp)))
         for served in gone:
             self.by_rebec[served.rebec] = served
 
@@ -237,7 +237,6 @@ class _Answer:
                 served = self.stream.at_hand(rebec, number)
                 if served is not None:
                     gone.append(served)
-        gone.sort(key=lambda s: (s.now, s.stamp))
         self.passed(gone)
 
     def _without_start(self) -> Conformance:

@@ -112,7 +112,7 @@ def _step(number: int, served: Served, before: Served | None, subject: Subject) 
     ]
     changes = tuple(Change(name, v, old, new) for v, old, new in values if old != new)
     message = ShownMessage(
-        served.server, ((served.arguments, ""),) if served.arguments else (), "", served.arrival,
+        served.server, (("", served.arguments),) if served.arguments else (), "", served.arrival,
         None, name,
     )  # fmt: skip
     rebecs = tuple(ShownRebec(r.name, (), ()) for r in observable.program.rebecs)
