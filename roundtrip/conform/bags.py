@@ -15,8 +15,8 @@ from rebsync.forward.message_files import message_files
 from rebsync.package import Package
 from rebsync.roundtrip.conform.recording import Event, Place
 from rebsync.roundtrip.conform.rosbag1 import Connection, DamagedBag, TruncatedBag, records
+from rebsync.roundtrip.conform.topic_filter import TopicFilter
 from rebsync.roundtrip.conform.topics import Topic
-from rebsync.roundtrip.conform.wanted import Wanted
 
 _NANO = 1e-9
 INSTALL = "pip install 'rebsync[bags]'"
@@ -49,7 +49,9 @@ class _Fields(Mapping[str, Any]):
 class _Source:
     """What makes events of the raw messages of one file."""
 
-    def __init__(self, path: str, file: int, wanted: Wanted, package: Package, is_2: bool) -> None:
+    def __init__(
+        self, path: str, file: int, wanted: TopicFilter, package: Package, is_2: bool
+    ) -> None:
         self.path, self.file, self.wanted = path, file, wanted
         self.package, self.is_2 = package, is_2
         self.number = 0
@@ -99,7 +101,7 @@ class _Source:
         return RebsyncError.of(self.path, "RS982", what, hint)
 
 
-def events_1(path: str, file: int, wanted: Wanted, package: Package) -> Iterator[Event]:
+def events_1(path: str, file: int, wanted: TopicFilter, package: Package) -> Iterator[Event]:
     """The events of a bag of ROS 1, in the order of the file."""
     source = _Source(path, file, wanted, package, False)
     readers: dict[int, tuple[Topic, Decode, str] | None] = {}
@@ -133,7 +135,7 @@ def _reader(source: _Source, connection: Connection) -> tuple[Topic, Decode, str
     return topic, decode, connection.publisher
 
 
-def events_2(path: str, file: int, wanted: Wanted, package: Package) -> Iterator[Event]:
+def events_2(path: str, file: int, wanted: TopicFilter, package: Package) -> Iterator[Event]:
     """The events of a bag of ROS 2: a folder, or a file of one of its storages."""
     source = _Source(path, file, wanted, package, True)
     try:

@@ -12,10 +12,10 @@ from rebsync.checker.state import Message
 from rebsync.checker.steps import Failure
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.conformance import Allowed, Deviation, Difference, Kind
-from rebsync.roundtrip.conform.graph import Graph
+from rebsync.roundtrip.conform.graph import StateGraph
 from rebsync.roundtrip.conform.possible import Dead
 from rebsync.roundtrip.conform.recording import Served
-from rebsync.roundtrip.conform.search import Found
+from rebsync.roundtrip.conform.search import SearchResult
 from rebsync.roundtrip.conform.stream import Stream
 from rebsync.source import Source
 
@@ -29,13 +29,13 @@ class Diagnosis:
     `recent` are the last that fitted of all.
     """
 
-    graph: Graph
+    graph: StateGraph
     stream: Stream
     source: Source
     before: dict[int, Served]
     recent: Iterable[Served] = ()
 
-    def of(self, found: Found) -> Deviation:
+    def of(self, found: SearchResult) -> Deviation:
         """The first step that no run has."""
         candidates = list(self._candidates(found.dead))
         return min(candidates, key=lambda c: c[0])[1]

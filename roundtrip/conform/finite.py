@@ -26,17 +26,17 @@ class Owed:
 
 
 @dataclass(frozen=True, slots=True)
-class Both:
+class Conjunction:
     parts: frozenset[Rest]
 
 
 @dataclass(frozen=True, slots=True)
-class Either:
+class Disjunction:
     parts: frozenset[Rest]
 
 
 @dataclass(frozen=True, slots=True)
-class Neither:
+class Negation:
     part: Rest
 
 
@@ -47,7 +47,7 @@ class Next:
     formula: Formula
 
 
-Rest: TypeAlias = "bool | Owed | Both | Either | Neither | Next"
+Rest: TypeAlias = "bool | Owed | Conjunction | Disjunction | Negation | Next"
 
 
 def both(*parts: Rest) -> Rest:
@@ -56,11 +56,11 @@ def both(*parts: Rest) -> Rest:
     for part in parts:
         if part is False:
             return False
-        if isinstance(part, Both):
+        if isinstance(part, Conjunction):
             flat |= part.parts
         elif part is not True:
             flat.add(part)
-    return True if not flat else flat.pop() if len(flat) == 1 else Both(frozenset(flat))
+    return True if not flat else flat.pop() if len(flat) == 1 else Conjunction(frozenset(flat))
 
 
 def either(*parts: Rest) -> Rest:
@@ -69,18 +69,18 @@ def either(*parts: Rest) -> Rest:
     for part in parts:
         if part is True:
             return True
-        if isinstance(part, Either):
+        if isinstance(part, Disjunction):
             flat |= part.parts
         elif part is not False:
             flat.add(part)
-    return False if not flat else flat.pop() if len(flat) == 1 else Either(frozenset(flat))
+    return False if not flat else flat.pop() if len(flat) == 1 else Disjunction(frozenset(flat))
 
 
 def negated(part: Rest) -> Rest:
     """The negation, simplified."""
     if isinstance(part, bool):
         return not part
-    return part.part if isinstance(part, Neither) else Neither(part)
+    return part.part if isinstance(part, Negation) else Negation(part)
 
 
 class Progression:
@@ -105,11 +105,11 @@ class Progression:
         match rest:
             case bool():
                 return rest
-            case Both(parts):
+            case Conjunction(parts):
                 return both(*(self._through(part, elapsed) for part in parts))
-            case Either(parts):
+            case Disjunction(parts):
                 return either(*(self._through(part, elapsed) for part in parts))
-            case Neither(part):
+            case Negation(part):
                 return negated(self._through(part, elapsed))
             case Next(formula):
                 return self._holds(formula)

@@ -79,7 +79,7 @@ class Fitting(NamedTuple):
 NOTHING = Fitting((), ())
 
 
-class Graph:
+class StateGraph:
     """The part of the state space that a search has looked at."""
 
     def __init__(self, program: Program, observable: Observable) -> None:

@@ -15,12 +15,12 @@ from rebsync.diagnostics import RebsyncError
 from rebsync.files import os_mistake
 from rebsync.long_numbers import MOST_DIGITS
 from rebsync.roundtrip.conform.recording import Event, Place
-from rebsync.roundtrip.conform.wanted import Wanted
+from rebsync.roundtrip.conform.topic_filter import TopicFilter
 
 LONGEST = 2**24  # characters of a line
 
 
-def events(path: str, file: int, wanted: Wanted) -> Iterator[Event]:
+def events(path: str, file: int, wanted: TopicFilter) -> Iterator[Event]:
     """The events of a log, as its lines go. RebsyncError: it cannot be read as one."""
     try:
         with Path(path).open(encoding="utf-8") as lines:
@@ -37,7 +37,7 @@ def events(path: str, file: int, wanted: Wanted) -> Iterator[Event]:
         raise _wrong(path, 0, f"it is not UTF-8 text: {error.reason}") from None
 
 
-def _event(line: str, place: Place, path: str, wanted: Wanted) -> Event | None:
+def _event(line: str, place: Place, path: str, wanted: TopicFilter) -> Event | None:
     message = _parsed(line, path, place.number)
     name = message.get("topic")
     topic = wanted.topic(name, path) if isinstance(name, str) and name else None

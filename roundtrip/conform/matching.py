@@ -17,12 +17,12 @@ from rebsync.roundtrip.conform import path as run_path
 from rebsync.roundtrip.conform.conformance import Conformance, Deviation, Verdict
 from rebsync.roundtrip.conform.diagnosis import Diagnosis, shown_step
 from rebsync.roundtrip.conform.explanation import explanation
-from rebsync.roundtrip.conform.graph import Graph, Node
+from rebsync.roundtrip.conform.graph import Node, StateGraph
 from rebsync.roundtrip.conform.lateness import Clocks
 from rebsync.roundtrip.conform.observable import Observable
 from rebsync.roundtrip.conform.properties import Evaluation
 from rebsync.roundtrip.conform.recording import Event, Recording, Served
-from rebsync.roundtrip.conform.search import Found, Search
+from rebsync.roundtrip.conform.search import Search, SearchResult
 from rebsync.roundtrip.conform.starts import REACHED, Mode, Start, modes, start
 from rebsync.roundtrip.conform.stream import Stream
 from rebsync.roundtrip.conform.visited import Visited
@@ -86,7 +86,7 @@ def conform(
 
     `keeps_run`: the last steps of the run that fits are in the answer.
     """
-    graph = Graph(subject.program, subject.observable)
+    graph = StateGraph(subject.program, subject.observable)
     first = Stream(recording.events(), len(subject.program.rebecs), _unwatched)
     hidden = _hidden(subject, first, recording)
     attempt = _Attempt(subject, recording, graph, most, keeps_run, hidden)
@@ -134,7 +134,7 @@ class _Attempt:
 
     subject: Subject
     recording: Recording
-    graph: Graph
+    graph: StateGraph
     most: int
     keeps_run: bool
     hidden: frozenset[int]
@@ -164,9 +164,9 @@ class _Attempt:
         search = Search(graph, stream, tail, passed, path, self.hidden)
         found = search.run(begun.configs, begun.time) if begun.configs else None
         diagnosis = Diagnosis(graph, stream, subject.source, passed.by_rebec, passed.last)
-        answer = _Answer(subject, graph, stream, begun, passed, clocks, diagnosis, self.hidden).of(
-            found
-        )
+        answer = _Conclusion(
+            subject, graph, stream, begun, passed, clocks, diagnosis, self.hidden
+        ).of(found)
         is_lost = path is not None and path.is_lost
         is_known = not self.hidden
         properties = evaluation.result(begun.is_middle, is_lost, is_known)
@@ -188,9 +188,9 @@ class _Passed:
 
 
 @dataclass(frozen=True, slots=True)
-class _Answer:
+class _Conclusion:
     subject: Subject
-    graph: Graph
+    graph: StateGraph
     stream: Stream
     begun: Start
     passed: _Passed
@@ -198,7 +198,7 @@ class _Answer:
     diagnosis: Diagnosis
     hidden: frozenset[int]
 
-    def of(self, found: Found | None) -> Conformance:
+    def of(self, found: SearchResult | None) -> Conformance:
         """What there is to say at the end of a search."""
         if self.stream.read == 0 and self.stream.ended:
             return self._undetermined(0, 0, "nothing that the nodes served is in the recording")
@@ -218,7 +218,7 @@ class _Answer:
             case "refused":
                 return self._refused(found)
 
-    def _refused(self, found: Found) -> Conformance:
+    def _refused(self, found: SearchResult) -> Conformance:
         for dead in found.dead:
             self._remember(dead.config.positions)
         deviation = self.diagnosis.of(found)

@@ -19,7 +19,15 @@ from rebsync.checker.machine import Failed
 from rebsync.checker.program import Program
 from rebsync.checker.search import Interpreted
 from rebsync.records import dataclass
-from rebsync.roundtrip.conform.finite import Both, Either, Neither, Next, Owed, Progression, Rest
+from rebsync.roundtrip.conform.finite import (
+    Conjunction,
+    Disjunction,
+    Negation,
+    Next,
+    Owed,
+    Progression,
+    Rest,
+)
 from rebsync.roundtrip.conform.graph import Node
 
 RunVerdict: TypeAlias = Literal["satisfied", "violated", "open", "undetermined"]
@@ -199,11 +207,11 @@ def holds_at_the_end(rest: Rest) -> bool:
     match rest:
         case bool():
             return rest
-        case Both(parts):
+        case Conjunction(parts):
             return all(map(holds_at_the_end, parts))
-        case Either(parts):
+        case Disjunction(parts):
             return any(map(holds_at_the_end, parts))
-        case Neither(part):
+        case Negation(part):
             return not holds_at_the_end(part)
         case Next():
             return False

@@ -11,8 +11,8 @@ from rebsync.diagnostics import RebsyncError
 from rebsync.package import Package
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.recording import Event, Served
+from rebsync.roundtrip.conform.topic_filter import TopicFilter
 from rebsync.roundtrip.conform.topics import Topics
-from rebsync.roundtrip.conform.wanted import Wanted
 
 _REMEMBERED = 10_000  # state messages that two files may be apart
 _LOGS = (".jsonl", ".json", ".ndjson", ".log")
@@ -29,7 +29,7 @@ class Recordings:
 
     def events(self, with_sent: bool = False) -> Iterator[Event]:
         """What was recorded, by stamps; of one file in its order. RebsyncError: see readers."""
-        wanted = Wanted(self.topics, self.namespace, with_sent)
+        wanted = TopicFilter(self.topics, self.namespace, with_sent)
         streams = [
             _events(path, number, wanted, self.package) for number, path in enumerate(self.paths)
         ]
@@ -76,7 +76,7 @@ def _is_bag(path: str) -> bool:
     return Path(path).is_dir() or Path(path).suffix not in _LOGS
 
 
-def _events(path: str, file: int, wanted: Wanted, package: Package) -> Iterator[Event]:
+def _events(path: str, file: int, wanted: TopicFilter, package: Package) -> Iterator[Event]:
     if not _is_bag(path):
         from rebsync.roundtrip.conform.jsonlines import events
 

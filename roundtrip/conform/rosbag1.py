@@ -36,7 +36,7 @@ class Connection(NamedTuple):
     publisher: str
 
 
-class Message(NamedTuple):
+class RawMessage(NamedTuple):
     """A message; `time` in nanoseconds."""
 
     connection: int
@@ -44,7 +44,7 @@ class Message(NamedTuple):
     data: bytes | memoryview
 
 
-def records(file: BinaryIO) -> Iterator[tuple[int, Connection] | Message]:
+def records(file: BinaryIO) -> Iterator[tuple[int, Connection] | RawMessage]:
     """The connections, each before its messages, and the messages. Raises DamagedBag."""
     if file.readline(20) != _MAGIC:
         raise DamagedBag("it does not begin as a bag of ROS 1")
@@ -60,9 +60,9 @@ def records(file: BinaryIO) -> Iterator[tuple[int, Connection] | Message]:
                 yield _message(header, data)
 
 
-def _chunk(data: bytes) -> Iterator[tuple[int, Connection] | Message]:
+def _chunk(data: bytes) -> Iterator[tuple[int, Connection] | RawMessage]:
     view, position, end = memoryview(data), 0, len(data)
-    messages: list[Message] = []
+    messages: list[RawMessage] = []
     while position < end:
         start = position + 4
         position = start + _at(data, position)
@@ -85,10 +85,10 @@ def _at(data: bytes, position: int) -> int:
     return int.from_bytes(data[position : position + 4], "little")
 
 
-def _message(fields: dict[bytes, bytes], data: bytes | memoryview) -> Message:
+def _message(fields: dict[bytes, bytes], data: bytes | memoryview) -> RawMessage:
     try:
         seconds, nanoseconds = _TIME.unpack(fields[b"time"])
-        return Message(_LENGTH.unpack(fields[b"conn"])[0], seconds * 10**9 + nanoseconds, data)
+        return RawMessage(_LENGTH.unpack(fields[b"conn"])[0], seconds * 10**9 + nanoseconds, data)
     except (KeyError, struct.error):
         raise DamagedBag("a message has no time or no connection") from None
 

@@ -15,7 +15,7 @@ from typing import Literal
 from rebsync.checker.machine import EndlessBody
 from rebsync.checker.steps import Failure
 from rebsync.records import dataclass
-from rebsync.roundtrip.conform.graph import NOTHING, Fitting, Graph, Move
+from rebsync.roundtrip.conform.graph import NOTHING, Fitting, Move, StateGraph
 from rebsync.roundtrip.conform.path import Path
 from rebsync.roundtrip.conform.possible import Config, Dead, Observer, Reason
 from rebsync.roundtrip.conform.recording import Served
@@ -26,7 +26,7 @@ WIDEST = 20_000  # possible states at one moment
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class SearchResult:
     """How a search ended.
 
     `verdict`: a run that fits all ("fits"); none ("refused", with the possible states that came
@@ -54,7 +54,7 @@ class Search:
 
     def __init__(
         self,
-        graph: Graph,
+        graph: StateGraph,
         stream: Stream,
         tail: int = 0,
         passed: Observer = _nothing,
@@ -74,7 +74,7 @@ class Search:
         self._depth = -1
         self._overflow = False
 
-    def run(self, starts: Iterable[Config], time: int = 0) -> Found:
+    def run(self, starts: Iterable[Config], time: int = 0) -> SearchResult:
         """Searches from some possible states at a time on."""
         configs = list(starts)
         self._waiting = {}
@@ -94,13 +94,15 @@ class Search:
             except EndlessBody as endless:
                 return self._cut(time, f"a body of {self._body(endless.pc)} does not end")
             if found:
-                return Found("fits", self._depth, time, widest=self.widest)
+                return SearchResult("fits", self._depth, time, widest=self.widest)
             if self.widest > WIDEST:
                 return self._cut(time, f"more than {WIDEST} states of the model are possible")
             if not self._waiting:
                 if self.path is not None and self._dead:
                     self.path.settle(self._dead[0].time, self._dead[0].config)
-                return Found("refused", self._depth, time, tuple(self._dead), widest=self.widest)
+                return SearchResult(
+                    "refused", self._depth, time, tuple(self._dead), widest=self.widest
+                )
             time = min(self._waiting)
             configs = list(self._waiting.pop(time))
             self._drop(configs, time)
@@ -123,8 +125,8 @@ class Search:
             self.path.restart(time, after)
         return after, time
 
-    def _cut(self, time: int, reason: str) -> Found:
-        return Found("cut", max(self._depth, 0), time, (), reason, self.widest)
+    def _cut(self, time: int, reason: str) -> SearchResult:
+        return SearchResult("cut", max(self._depth, 0), time, (), reason, self.widest)
 
     def _body(self, pc: int) -> str:
         return self.graph.program.body_at(pc).name

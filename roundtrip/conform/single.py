@@ -6,7 +6,7 @@ which anything else happens that asks for a closer look; the search goes on from
 
 from __future__ import annotations
 
-from rebsync.roundtrip.conform.graph import Graph, Move, Node
+from rebsync.roundtrip.conform.graph import Move, Node, StateGraph
 from rebsync.roundtrip.conform.path import Visit
 from rebsync.roundtrip.conform.possible import Observer
 from rebsync.roundtrip.conform.stream import Positions, Stream
@@ -17,7 +17,9 @@ _OFTEN = 64  # observations after which those that were passed are let go
 class Single:
     """Follows one possible state."""
 
-    def __init__(self, graph: Graph, stream: Stream, passed: Observer, visit: Visit | None) -> None:
+    def __init__(
+        self, graph: StateGraph, stream: Stream, passed: Observer, visit: Visit | None
+    ) -> None:
         self._graph = graph
         self._stream = stream
         self._passed = passed

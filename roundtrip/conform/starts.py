@@ -10,7 +10,7 @@ from rebsync.checker.machine import EndlessBody
 from rebsync.checker.state import Local, State
 from rebsync.checker.steps import Failure
 from rebsync.records import dataclass
-from rebsync.roundtrip.conform.graph import Graph, Node
+from rebsync.roundtrip.conform.graph import Node, StateGraph
 from rebsync.roundtrip.conform.possible import Config
 from rebsync.roundtrip.conform.recording import Served
 from rebsync.roundtrip.conform.stream import Stream
@@ -41,7 +41,9 @@ class Start:
     unseen: int = 0
 
 
-def modes(graph: Graph, stream: Stream, hidden: frozenset[int] = frozenset()) -> tuple[Mode, ...]:
+def modes(
+    graph: StateGraph, stream: Stream, hidden: frozenset[int] = frozenset()
+) -> tuple[Mode, ...]:
     """The ways to begin that a recording leaves open, the one that says most first.
 
     Of the rebecs in `hidden` nothing is recorded.
@@ -56,7 +58,7 @@ def modes(graph: Graph, stream: Stream, hidden: frozenset[int] = frozenset()) ->
     return ("earliest", "latest")
 
 
-def start(graph: Graph, stream: Stream, mode: Mode, most: int = REACHED) -> Start:
+def start(graph: StateGraph, stream: Stream, mode: Mode, most: int = REACHED) -> Start:
     """The possible states from which a recording goes on."""
     if mode != "constructors":
         return _synchronised(graph, stream, mode, most)
@@ -71,7 +73,7 @@ def start(graph: Graph, stream: Stream, mode: Mode, most: int = REACHED) -> Star
     return replace(_from_constructors(graph, first), missing=tuple(missing))
 
 
-def _constructed(graph: Graph) -> list[int]:
+def _constructed(graph: StateGraph) -> list[int]:
     """The rebecs that have constructors: nodes of others show none."""
     return [r for r, info in enumerate(graph.program.rebecs) if info.constructor >= 0]
 
@@ -80,14 +82,14 @@ def _is_constructor(served: Served) -> bool:
     return served.server == CONSTRUCTOR and served.start == 0
 
 
-def _from_constructors(graph: Graph, first: dict[int, Served]) -> Start:
+def _from_constructors(graph: StateGraph, first: dict[int, Served]) -> Start:
     nodes = graph.start()
     configs = [c for node in nodes if (c := _possible(graph, node, first)) is not None]
     wrong = None if configs else _wrong(graph, nodes, first)
     return Start(tuple(configs), 0, False, mismatch=wrong)
 
 
-def _possible(graph: Graph, node: Node, first: dict[int, Served]) -> Config | None:
+def _possible(graph: StateGraph, node: Node, first: dict[int, Served]) -> Config | None:
     positions = []
     for rebec, local in enumerate(node.state):
         served = first.get(rebec)
@@ -97,7 +99,7 @@ def _possible(graph: Graph, node: Node, first: dict[int, Served]) -> Config | No
     return Config(node, tuple(positions))
 
 
-def _is_of(graph: Graph, local: Local, served: Served) -> bool:
+def _is_of(graph: StateGraph, local: Local, served: Served) -> bool:
     """Whether a constructor, whose end is observed, may have led to a state or be suspended."""
     if served.arguments or served.arrival != 0:
         return False
@@ -107,7 +109,7 @@ def _is_of(graph: Graph, local: Local, served: Served) -> bool:
     return served.now == 0 and is_same
 
 
-def _wrong(graph: Graph, nodes: tuple[Node, ...], first: dict[int, Served]) -> Served | None:
+def _wrong(graph: StateGraph, nodes: tuple[Node, ...], first: dict[int, Served]) -> Served | None:
     """The first constructor whose observation no start has."""
     for rebec, served in first.items():
         if not any(_is_of(graph, node.state[rebec], served) for node in nodes):
@@ -118,7 +120,7 @@ def _wrong(graph: Graph, nodes: tuple[Node, ...], first: dict[int, Served]) -> S
 # --- in the middle of a run
 
 
-def _synchronised(graph: Graph, stream: Stream, mode: Mode, most: int) -> Start:
+def _synchronised(graph: StateGraph, stream: Stream, mode: Mode, most: int) -> Start:
     """The reachable states that fit what each rebec has shown last."""
     rebecs = range(len(graph.program.rebecs))
     first = [served for rebec in rebecs if (served := stream.get(rebec, 0)) is not None]
@@ -147,7 +149,7 @@ def _synchronised(graph: Graph, stream: Stream, mode: Mode, most: int) -> Start:
     return Start(tuple(configs), time, True, is_whole, skipped=skipped, unseen=unseen)
 
 
-def _has_server(graph: Graph, rebec: int, name: str) -> bool:
+def _has_server(graph: StateGraph, rebec: int, name: str) -> bool:
     """Whether the class of a rebec has a message server, or is constructed."""
     program = graph.program
     servers = {program.servers[n].name for n in program.rebecs[rebec].dispatch if n >= 0}
@@ -155,7 +157,11 @@ def _has_server(graph: Graph, rebec: int, name: str) -> bool:
 
 
 def _fits(
-    graph: Graph, state: State, last: list[Served | None], following: list[Served | None], time: int
+    graph: StateGraph,
+    state: State,
+    last: list[Served | None],
+    following: list[Served | None],
+    time: int,
 ) -> bool:
     """Whether a state in which time is about to pass fits what was observed around that time."""
     for rebec, local in enumerate(state):
@@ -179,7 +185,7 @@ def _fits(
     return True
 
 
-def _reachable(graph: Graph, most: int) -> tuple[list[State], bool]:
+def _reachable(graph: StateGraph, most: int) -> tuple[list[State], bool]:
     """The reachable states in which time passes next, or nothing; and whether these are all."""
     view = graph.view
     begun = [s.result for s in view.initial_states()]

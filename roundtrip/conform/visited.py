@@ -9,7 +9,7 @@ from itertools import pairwise
 from rebsync.checker.steps import Failure
 from rebsync.checker.telling import Teller
 from rebsync.checker.trace import TraceStep
-from rebsync.roundtrip.conform.graph import Graph, Node
+from rebsync.roundtrip.conform.graph import Node, StateGraph
 from rebsync.source import Source
 
 STEPS = 150  # that are remembered
@@ -18,7 +18,7 @@ STEPS = 150  # that are remembered
 class Visited:
     """The states of the run that were visited last."""
 
-    def __init__(self, graph: Graph, source: Source) -> None:
+    def __init__(self, graph: StateGraph, source: Source) -> None:
         self._teller = Teller(graph.view, source)
         self._last: deque[tuple[int, Node]] = deque(maxlen=STEPS)
 

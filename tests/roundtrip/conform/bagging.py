@@ -129,7 +129,7 @@ def bag_of_log(log: Path, observable: Observable, path: Path) -> Path:
 
 def _of_data(store: Typestore, name: str, data: Any) -> object:  # noqa: ANN401
     """A message of its fields as JSON has them."""
-    values = {}
+    values: dict[str, Any] = {}
     for field, type_ in store.fielddefs[name][1]:
         values[field] = _value(store, type_, data[field])
     return store.types[name](**values)

@@ -24,7 +24,7 @@ def formulas(timed: bool) -> st.SearchStrategy[Formula]:
 
     def larger(inner: st.SearchStrategy[Formula]) -> st.SearchStrategy[Formula]:
         pairs = st.tuples(inner, inner)
-        found = [
+        found: list[st.SearchStrategy[Formula]] = [
             inner.map(Not),
             pairs.map(lambda p: And(*p)),
             pairs.map(lambda p: Or(*p)),

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from rebsync.roundtrip.conform.graph import Graph
+from rebsync.roundtrip.conform.graph import StateGraph
 from rebsync.roundtrip.conform.recording import Event, Served
-from rebsync.roundtrip.conform.search import Found, Search
+from rebsync.roundtrip.conform.search import Search, SearchResult
 from rebsync.roundtrip.conform.starts import Start, modes, start
 from rebsync.roundtrip.conform.stream import Stream
 from tests.checker.draw_outlines import Features
@@ -30,9 +30,9 @@ SOME = min(settings().max_examples, 20)  # drawing a model takes long
 UNTIL = 40
 
 
-def search(model: simulated.Given, run: list[Served]) -> tuple[Start, Found | None]:
+def search(model: simulated.Given, run: list[Served]) -> tuple[Start, SearchResult | None]:
     """What the search finds in a recording with these steps."""
-    graph = Graph(model.program, model.observable)
+    graph = StateGraph(model.program, model.observable)
     stream = Stream(iter(run), len(model.program.rebecs), _ignored)
     begun = start(graph, stream, modes(graph, stream)[0], 2000)
     if not begun.configs:

@@ -6,7 +6,7 @@ from rebsync.diagnostics import RebsyncError
 from rebsync.roundtrip.conform.topics import Topic, Topics
 
 
-class Wanted:
+class TopicFilter:
     """The topics of a model in one namespace: the chosen one, else the only one with states.
 
     `with_sent`: messages between rebecs, too.
