@@ -117,7 +117,7 @@ def test_the_page_shows_both_runs_and_the_deviation(tmp_path: Path) -> None:
     assert "A run of the model that fits" in page
     assert "data = 7, not" in page
     assert "Time error" in page
-    assert "http" not in page.replace("http://www.w3.org/2000/svg", "")
+    assert "://" not in page.replace("http://www.w3.org/2000/svg", "")
 
 
 def test_the_end_of_a_run_conforms_from_where_it_begins(tmp_path: Path) -> None:
