@@ -22,6 +22,7 @@ SECTIONS = (
     ("RS94x: extraction", codes.EXTRACTION),
     ("RS95x and RS96x: model and code in step", codes.STEP),
     ("RS97x: differences between two models", codes.DIFFERENCES),
+    ("RS98x: recorded runs", codes.CONFORMANCE),
 )
 
 HEAD = """\

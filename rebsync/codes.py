@@ -4,7 +4,7 @@ RS1xx syntax, RS2xx names, RS3xx types, RS4xx declarations and structure, RS5xx 
 model that is accepted, RS6xx warnings about robotic models (thesis, section 3.2), RS7xx what
 cannot be generated, RS8xx files, options and configuration, RS90x and RS91x properties, RS92x
 runs and state spaces, RS94x extraction, RS95x and RS96x model and code in step, RS97x
-differences between two models.
+differences between two models, RS98x recorded runs.
 """
 
 from __future__ import annotations
@@ -243,6 +243,17 @@ RUNS = {
     "RS931": "no C compiler for the compiled engine, or one that fails",
 }
 
+CONFORMANCE = {
+    "RS980": "a step that was recorded and that no run of the model has",
+    "RS981": "a bag, and no rosbags to read it with",
+    "RS982": "a recording that is damaged or cut off, or no recording",
+    "RS983": "a message of a recording whose fields are not those of the model",
+    "RS984": "a recorded run of which it is not known whether the model has it",
+    "RS985": "a recording with the nodes of several namespaces",
+    "RS986": "a recorded run in which a rule of the model is broken",
+    "RS987": "a property that a recorded run violates",
+}
+
 CODES: dict[str, str] = {
     **SYNTAX,
     **NAMES,
@@ -257,4 +268,5 @@ CODES: dict[str, str] = {
     **EXTRACTION,
     **DIFFERENCES,
     **STEP,
+    **CONFORMANCE,
 }

@@ -25,6 +25,19 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=lambda item: not item.nodeid.removeprefix("tests/").startswith(_LONG))
 
 
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Tells how true recorded runs of real nodes are to their models."""
+    reports = (r for found in terminalreporter.stats.values() for r in found)
+    properties = (p for r in reports for p in getattr(r, "user_properties", ()))
+    runs = {tuple(value) for name, value in properties if name == "fidelity"}
+    if runs:
+        from tests.ros1.fidelity import summary_lines
+
+        terminalreporter.section("fidelity of recorded runs")
+        for line in summary_lines(list(runs)):
+            terminalreporter.write_line(line)
+
+
 @pytest.fixture(autouse=True)
 def nothing_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """What one test has been refused as a cache is not told in the next."""

@@ -41,6 +41,10 @@ class Steps(Sequence[Step]):
     def __len__(self) -> int:
         return len(self._moves)
 
+    def actions(self) -> list[Action]:
+        """The actions of the steps, without the states that they lead to."""
+        return [action for action, _ in self._moves]
+
     @overload
     def __getitem__(self, index: int) -> Step: ...
     @overload

@@ -11,6 +11,7 @@ from rebsync.diagnostics import did_you_mean
 COMMANDS = {
     "accept": "Accept places of which no verdict can be given.",
     "check": "Tell whether packages and their models are in step.",
+    "conform": "Tell whether a recorded run is a run of the model.",
     "diff": "Compare two models, packages of code, or revisions of either.",
     "export": "Print a model in the form that another tool accepts.",
     "extract": "Read the code of a package back into a model.",

@@ -87,13 +87,17 @@ class Velocity:
 
 @dataclass(frozen=True, slots=True)
 class Recording:
-    """Everything that was heard; `late` is what came after the nodes were told to stop."""
+    """Everything that was heard; `late` is what came after the nodes were told to stop.
+
+    `run_log` is the log of the run, as `rebsync conform` reads it.
+    """
 
     served: tuple[Served, ...]
     messages: tuple[Heard, ...]
     log: tuple[Logged, ...]
     late: tuple[Heard, ...]
     output: str
+    run_log: Path = Path()
 
     def bodies(self, rebec: str) -> tuple[Served, ...]:
         """The message servers that a rebec served, in order."""
@@ -164,12 +168,15 @@ def read_recording(path: Path, output: str) -> Recording:
     heard = [_heard(line, zero) for line in lines if line["kind"] == "message"]
     logged = [_logged(line, zero) for line in lines if line["kind"] == "log"]
     during = sum(line["kind"] == "message" for line in lines[:end])
+    log = path.with_name("run.jsonl")  # what follows is after the nodes were told to stop
+    log.write_text("".join(f"{line}\n" for line in path.read_text().splitlines()[:end]))
     return Recording(
         tuple(_served(m) for m in heard[:during] if set(_BODY) <= set(m.fields)),
         tuple(heard[:during]),
         tuple(log for log in logged if not log.text.startswith(_RETRIED)),
         tuple(heard[during:]),
         output,
+        log,
     )
 
 

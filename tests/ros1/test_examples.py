@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import json
 import math
-from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -19,6 +17,7 @@ from rebsync.config import Config, parse_config
 from rebsync.source import Source
 from tests.forward.compiling import generated, written
 from tests.ros1.conftest import Build
+from tests.ros1.fidelity import FIDELITY, compared, fidelity, log_of, note, run_name
 from tests.ros1.paths import Way, nearest, write_paths
 from tests.ros1.recording import WARNING, Recording, Served
 from tests.ros1.run import Clock, run
@@ -44,7 +43,7 @@ class Example:
 
     `expected` has the model time `until` which it ran, at `rate` units a second where the clock
     does not wait for the nodes; `cells`, for each robot the expressions over its state that give
-    its cell; `served` and `final`, or for models
+    its cell; the properties that the run has `violated`; `served` and `final`, or for models
     that draw at random the servers that each rebec serves `first`, the `invariants` of all states,
     what has to be `reached` in some state, and what is `met` with the data that the stand-ins of
     sensors play where the clock does wait. Robots end up in their cells to `in_cell` cells,
@@ -118,12 +117,9 @@ def example(
     launch = workspace.root / "src" / name / "launch" / f"{name}.launch"
     clock = Clock(until=expected["until"] + 0.5, quiet=QUIET)
     recording = run(workspace, launch, tmp_path_factory.mktemp(name), clock)
+    note(recording.run_log, name, dialect)
     expected["reached"] = [*expected.get("reached", ()), *expected.get("met", ())]
     return Example(name, expected, recording)
-
-
-def _rebecs(recording: Recording) -> Sequence[str]:
-    return sorted({served.rebec for served in recording.served})
 
 
 # --- order and time ----------------------------------------------------------------------------
@@ -142,35 +138,20 @@ def test_nothing_is_lost_at_the_start(example: Example) -> None:
         assert all(b.arrival <= 1 for b in bodies)
 
 
-def test_no_message_is_taken_before_it_arrives(example: Example) -> None:
-    for served in example.recording.served:
-        assert served.start >= served.arrival
-        assert served.stamp >= served.now - SOON / 2
-
-
-def test_a_rebec_is_busy_until_its_body_ends(example: Example) -> None:
-    for rebec in _rebecs(example.recording):
-        for body, following in pairwise(example.recording.bodies(rebec)):
-            assert following.start >= body.now
-            assert body.now >= body.start
-
-
-def test_every_message_is_served(example: Example) -> None:
-    served = Counter((s.rebec, s.server, s.arrival) for s in example.recording.served)
-    bodies = {rebec: example.recording.bodies(rebec) for rebec in _rebecs(example.recording)}
-    last = {rebec: own[-1].arrival for rebec, own in bodies.items()}
-    sent = Counter(_sent(example.recording, last))
-    assert sent or len(last) == 1
-    assert not sent - served
-
-
-def _sent(recording: Recording, last: Mapping[str, int]) -> Iterator[tuple[str, str, int]]:
-    """The messages between rebecs that arrived before the last one that their receiver served."""
-    for message in recording.messages:
-        *_, receiver, server = message.topic.replace("/port/", "/").split("/")
-        timing = message.fields.get("timing")
-        if timing is not None and timing["arrival"] < last.get(receiver, 0):
-            yield receiver, server, timing["arrival"]
+def test_the_run_is_one_of_the_model(
+    example: Example, request: pytest.FixtureRequest, tmp_path: Path
+) -> None:
+    model = EXAMPLES / example.name / f"{example.name}.rebeca"
+    found = compared(model, log_of(example.recording, tmp_path))
+    request.node.user_properties.append(
+        (FIDELITY, fidelity(run_name(request, example.name), found))
+    )
+    assert found.verdict == "conforms", found.deviation or found.reason
+    assert found.compared == len(example.recording.served)
+    violated = [p.name for p in found.properties if p.verdict not in ("satisfied", "open")]
+    assert violated == example.expected.get("violated", [])
+    assert found.lateness.greatest is not None
+    assert found.lateness.greatest[2] >= -SOON / 2  # nothing is done before its time
 
 
 # --- states ------------------------------------------------------------------------------------

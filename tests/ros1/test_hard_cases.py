@@ -9,11 +9,13 @@ import pytest
 
 from tests.forward.compiling import CASES, case_config, case_files, written
 from tests.ros1.conftest import Build
+from tests.ros1.fidelity import FIDELITY, compared, fidelity, note
 from tests.ros1.recording import Recording
 from tests.ros1.run import Clock, run
 from tests.ros1.workspace import Workspace
 
 PlayCase = Callable[[str], Recording]
+VIOLATED = {"inheritance": "Station.arrived", "rebecs": "Node.visit"}  # messages to nobody
 
 NAMES = ("inheritance", "interfaces", "overloads", "rebecs")
 
@@ -29,12 +31,26 @@ def hard(
 
 
 @pytest.fixture
-def play_case(hard: Workspace, build_workspace: Build, tmp_path: Path) -> PlayCase:
-    """Runs a case by its name."""
+def play_case(
+    dialect: str, hard: Workspace, tmp_path: Path, record_property: Callable[[str, object], None]
+) -> PlayCase:
+    """Runs a case by its name: it does what its model says, up to where that breaks a rule."""
 
     def play(name: str) -> Recording:
         launch = hard.root / "src" / name / "launch" / f"{name}.launch"
-        return run(hard, launch, tmp_path, Clock(until=12, quiet=5))
+        recording = run(hard, launch, tmp_path, Clock(until=12, quiet=5))
+        note(recording.run_log, name, dialect)
+        case = CASES / f"{name}.rebeca"
+        found = compared(case, recording.run_log, case_config(case))
+        record_property(FIDELITY, fidelity(f"{name} {dialect}", found))
+        if name in VIOLATED:
+            assert found.deviation is not None
+            assert found.verdict == "violated"
+            assert VIOLATED[name] in found.deviation.message
+        else:
+            assert found.verdict == "conforms", found.deviation or found.reason
+            assert found.compared == found.recorded
+        return recording
 
     return play
 

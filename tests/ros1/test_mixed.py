@@ -17,23 +17,21 @@ from tests.ros1.conftest import Build
 from tests.ros1.run import Clock, run
 from tests.ros1.test_examples import (
     Example,
-    test_a_rebec_is_busy_until_its_body_ends,
     test_each_rebec_serves_what_the_model_says,
-    test_every_message_is_served,
     test_invariants_hold_in_every_state,
     test_nothing_is_lost_at_the_start,
     test_nothing_is_reported,
     test_the_run_ends_in_the_state_of_the_model,
+    test_the_run_is_one_of_the_model,
 )
 
 __all__ = [
-    "test_a_rebec_is_busy_until_its_body_ends",
     "test_each_rebec_serves_what_the_model_says",
-    "test_every_message_is_served",
     "test_invariants_hold_in_every_state",
     "test_nothing_is_lost_at_the_start",
     "test_nothing_is_reported",
     "test_the_run_ends_in_the_state_of_the_model",
+    "test_the_run_is_one_of_the_model",
 ]
 
 # A controller in C++ with robots in Python, and the reverse.

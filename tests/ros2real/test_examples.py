@@ -11,32 +11,28 @@ from tests.ros1 import test_examples as behaviour
 from tests.ros1.run import Clock
 from tests.ros1.test_examples import (
     Example,
-    test_a_rebec_is_busy_until_its_body_ends,
     test_each_rebec_serves_what_the_model_says,
-    test_every_message_is_served,
     test_invariants_hold_in_every_state,
-    test_no_message_is_taken_before_it_arrives,
     test_nothing_is_lost_at_the_start,
     test_nothing_is_reported,
     test_robots_keep_apart,
     test_the_run_ends_in_the_state_of_the_model,
     test_the_run_gets_somewhere,
+    test_the_run_is_one_of_the_model,
     test_the_unsafe_robots_collide,
     test_velocities_take_every_robot_to_its_cells,
 )
 from tests.ros2real.conftest import DIALECTS, Play
 
 __all__ = [
-    "test_a_rebec_is_busy_until_its_body_ends",
     "test_each_rebec_serves_what_the_model_says",
-    "test_every_message_is_served",
     "test_invariants_hold_in_every_state",
-    "test_no_message_is_taken_before_it_arrives",
     "test_nothing_is_lost_at_the_start",
     "test_nothing_is_reported",
     "test_robots_keep_apart",
     "test_the_run_ends_in_the_state_of_the_model",
     "test_the_run_gets_somewhere",
+    "test_the_run_is_one_of_the_model",
     "test_the_unsafe_robots_collide",
     "test_velocities_take_every_robot_to_its_cells",
 ]

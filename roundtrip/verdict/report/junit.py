@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from xml.sax.saxutils import escape, quoteattr
 
 from rebsync.records import dataclass
@@ -15,7 +15,7 @@ _HEAD = '<?xml version="1.0" encoding="UTF-8"?>\n<testsuites name="rebsync">\n'
 
 
 @dataclass(frozen=True, slots=True)
-class _Case:
+class Case:
     """A test case: `element` is what became of it, empty where it passed."""
 
     name: str
@@ -27,19 +27,22 @@ class _Case:
 
 def as_junit(outcomes: Sequence[Outcome]) -> str:
     """A test suite for each package: the step with its model, then each property."""
-    suites = "".join(_suite(outcome) for outcome in outcomes)
-    return f"{_HEAD}{suites}</testsuites>\n"
+    return suites_xml((outcome.root, list(_cases(outcome))) for outcome in outcomes)
 
 
-def _suite(outcome: Outcome) -> str:
-    cases = list(_cases(outcome))
+def suites_xml(suites: Iterable[tuple[str, Sequence[Case]]]) -> str:
+    """Test suites by their names, and the cases of each."""
+    return f"{_HEAD}{''.join(_suite(name, cases) for name, cases in suites)}</testsuites>\n"
+
+
+def _suite(name: str, cases: Sequence[Case]) -> str:
     failures, errors = (sum(c.element == e for c in cases) for e in ("failure", "error"))
     counts = f'tests="{len(cases)}" failures="{failures}" errors="{errors}"'
-    body = "".join(_element(outcome.root, case) for case in cases)
-    return f"  <testsuite name={_quoted(outcome.root)} {counts}>\n{body}  </testsuite>\n"
+    body = "".join(_element(name, case) for case in cases)
+    return f"  <testsuite name={_quoted(name)} {counts}>\n{body}  </testsuite>\n"
 
 
-def _element(root: str, case: _Case) -> str:
+def _element(root: str, case: Case) -> str:
     head = f"    <testcase classname={_quoted(root)} name={_quoted(case.name)}"
     text = without_commands(escape(printable(case.text)), "&#35;")
     if not case.element and text:
@@ -54,22 +57,22 @@ def _quoted(text: str) -> str:
     return without_old_commands(quoteattr(printable(text)), "&#35;")
 
 
-def _cases(outcome: Outcome) -> Iterator[_Case]:
+def _cases(outcome: Outcome) -> Iterator[Case]:
     verdict = verdict_of(outcome)
     first, *rest = map(one_line, lines(outcome))
     found = report(outcome.findings)
     if verdict == IN_STEP and not found:
         accepted = outcome.checked.accepted if outcome.checked is not None else ()
-        yield _Case(IN_STEP, text="".join(f"accepted {e.path}: {e.reason}\n" for e in accepted))
+        yield Case(IN_STEP, text="".join(f"accepted {e.path}: {e.reason}\n" for e in accepted))
     else:
         element = "failure" if outcome.checked is not None else "error"
         message = first.removeprefix(f"{one_line(outcome.root)}: ")
         text = "".join(f"{line}\n" for line in rest) + found
-        yield _Case(IN_STEP, element, verdict, message, text)
+        yield Case(IN_STEP, element, verdict, message, text)
     yield from _properties(outcome)
 
 
-def _properties(outcome: Outcome) -> Iterator[_Case]:
+def _properties(outcome: Outcome) -> Iterator[Case]:
     proof = outcome.proof
     if proof is None:
         return
@@ -77,15 +80,15 @@ def _properties(outcome: Outcome) -> Iterator[_Case]:
     from rebsync.roundtrip.behaviour.report import run_lines, violations
 
     if proof.verdict == "undetermined":
-        yield _Case("properties", "failure", "undetermined", proof.reason)
+        yield Case("properties", "failure", "undetermined", proof.reason)
         return
     broken = {v.name: v for v in violations(proof)}
     properties = proof.result.properties if proof.result is not None else ()
     for name, _ in properties:
         if name not in broken:
-            yield _Case(f"property {name}")
+            yield Case(f"property {name}")
     for violation in broken.values():
         run = lines_text(run_lines(proof, violation))
-        yield _Case(words.title(violation), "failure", "violated", violation.message, run)
+        yield Case(words.title(violation), "failure", "violated", violation.message, run)
     if not properties and not broken:
-        yield _Case("nothing goes wrong")
+        yield Case("nothing goes wrong")

@@ -68,8 +68,10 @@ class Recorder:
     def clock(self) -> float:
         return self.tick if self.simulated else time.time()
 
-    def write(self, kind: str, topic: str, data: object) -> None:
+    def write(self, kind: str, topic: str, data: object, node: str = "") -> None:
         line = {"kind": kind, "topic": topic, "stamp": round(self.clock, 6), "data": data}
+        if node:
+            line["node"] = node
         with self.lock:
             self.lines.append(json.dumps(line))
 
@@ -79,7 +81,7 @@ class Recorder:
             self.announced[message.rebec] = (message.zero or message.stamp) / 1e9
         if hasattr(message, "server"):
             self.last_served = self.clock
-        self.write("message", topic, data)
+        self.write("message", topic, data, message._connection_header.get("callerid", ""))
 
     def hear_log(self, message: Log) -> None:
         if message.name == rospy.get_name():

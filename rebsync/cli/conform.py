@@ -1,0 +1,115 @@
+"""`rebsync conform`: is a recorded run of the system a run of the verified model?"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from rebsync.cli.options import refuse_to_overwrite, write_output
+from rebsync.cli.problem import read_problem
+from rebsync.cli.status import Status, worst
+
+if TYPE_CHECKING:
+    from rebsync.roundtrip.conform.conformance import Conformance
+    from rebsync.roundtrip.conform.matching import Subject
+
+FORMATS = ("text", "json", "sarif", "github", "junit")
+_STATUS = {
+    "conforms": Status.CLEAN,
+    "deviates": Status.FINDINGS,
+    "violated": Status.VIOLATED,
+    "undetermined": Status.UNDETERMINED,
+}
+
+
+@click.command("conform")
+@click.argument("model", metavar="MODEL|PACKAGE")
+@click.argument("recordings", metavar="RECORDING...", nargs=-1, required=True)
+@click.option(
+    "--property",
+    "property_file",
+    metavar="FILE",
+    help="The properties (default: the .property file beside the model).",
+)
+@click.option(
+    "--namespace", metavar="NAME", help="The namespace of the nodes, where several were recorded."
+)
+@click.option(
+    "--max-states",
+    type=click.IntRange(1),
+    metavar="N",
+    help="States to look at where a recording begins in the middle (default: 200,000).",
+)
+@click.option("--page", metavar="FILE", help="Write a page (HTML) with the run beside the model.")
+@click.option(
+    "--format",
+    "style",
+    type=click.Choice(FORMATS),
+    default="text",
+    show_default=True,
+    help="How to print the answer.",
+)
+@click.option("-o", "--output", default="-", metavar="FILE", help="Write the answer to FILE.")
+@click.pass_context
+def command(ctx: click.Context, /, model: str, recordings: tuple[str, ...], **_: object) -> Status:
+    """Tell whether a recorded run is a run of the model.
+
+    RECORDING is a bag of ROS 1 or ROS 2, or a log of JSON lines; several are of one run. Exit
+    status: 0 it conforms, 1 it does not, 2 something cannot be read, 3 a property, or a rule of the
+    model, is violated, 4 undetermined.
+    """
+    from rebsync.roundtrip.conform.matching import conform
+    from rebsync.roundtrip.conform.reading import recordings as opened
+    from rebsync.roundtrip.conform.report.formats import as_text
+    from rebsync.roundtrip.conform.starts import REACHED
+    from rebsync.roundtrip.conform.topics import Topics
+
+    given: dict[str, Any] = ctx.params
+    subject = _subject(model, given["property_file"])
+    for written in filter(None, (given["page"], given["output"])):
+        for read in (subject.source.path, *recordings):
+            refuse_to_overwrite(read, written)
+    observable = subject.observable
+    topics = Topics.of(observable)
+    recording = opened(recordings, topics, observable.package, given["namespace"])
+    most, keeps = given["max_states"] or REACHED, given["page"] is not None
+    found = conform(subject, recording, most=most, keeps_run=keeps)
+    if given["page"] is not None:
+        from rebsync.roundtrip.conform.report.page import conformance_page
+
+        write_output(given["page"], conformance_page(found, subject, recording.paths))
+    write_output(given["output"], as_text(found, subject, recording.paths, given["style"]))
+    return _status(found)
+
+
+def _subject(model: str, property_file: str | None) -> Subject:
+    """A model by its path, or that of a package that was generated from it."""
+    from rebsync.config import config_of_record, settings_beside
+    from rebsync.roundtrip.conform.matching import Subject
+
+    if not Path(model).is_dir():
+        _, config = settings_beside(model)
+        return Subject.of(read_problem(model, property_file), config)
+    from rebsync.roundtrip.package.discovery import find
+    from rebsync.roundtrip.package.model_file import model_of
+    from rebsync.roundtrip.package.record import read_record
+
+    packages = list(find((model,), None))
+    if len(packages) > 1:
+        raise click.UsageError(f'there are {len(packages)} packages in "{model}": name one')
+    record = read_record(packages[0].root)
+    path = model_of(packages[0], record)
+    config = config_of_record(record.options) or settings_beside(path)[1]
+    return Subject.of(read_problem(path, property_file), config)
+
+
+def _status(found: Conformance) -> Status:
+    statuses = [_STATUS[found.verdict]]
+    for evaluated in found.properties:
+        if evaluated.verdict == "violated":
+            statuses.append(Status.VIOLATED)
+        elif evaluated.verdict == "undetermined":
+            statuses.append(Status.UNDETERMINED)
+    return worst(statuses)

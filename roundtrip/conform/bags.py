@@ -1,0 +1,197 @@
+"""Bags of ROS 1 and ROS 2 as events; the message types are those of the recording, or the model's.
+
+Types and the storages of ROS 2 are read by rosbags, without an installation of ROS.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path, PurePath
+from typing import Any
+
+from rebsync.diagnostics import RebsyncError
+from rebsync.files import os_mistake
+from rebsync.forward.message_files import message_files
+from rebsync.package import Package
+from rebsync.roundtrip.conform.recording import Event, Place
+from rebsync.roundtrip.conform.rosbag1 import Connection, DamagedBag, TruncatedBag, records
+from rebsync.roundtrip.conform.topic_filter import TopicFilter
+from rebsync.roundtrip.conform.topics import Topic
+
+_NANO = 1e-9
+INSTALL = "pip install 'rebsync[bags]'"
+_CLOCK = "builtin_interfaces/Time clock"
+
+Decode = Callable[[Any], object]
+
+
+class _Fields(Mapping[str, Any]):
+    """A message of rosbags by the names of its fields."""
+
+    __slots__ = ("_message",)
+
+    def __init__(self, message: object) -> None:
+        self._message = message
+
+    def __getitem__(self, name: str) -> Any:  # noqa: ANN401
+        try:
+            return getattr(self._message, name)
+        except AttributeError:
+            raise KeyError(name) from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(getattr(self._message, "__dataclass_fields__", ()))
+
+    def __len__(self) -> int:
+        return len(getattr(self._message, "__dataclass_fields__", ()))
+
+
+class _Source:
+    """What makes events of the raw messages of one file."""
+
+    def __init__(
+        self, path: str, file: int, wanted: TopicFilter, package: Package, is_2: bool
+    ) -> None:
+        self.path, self.file, self.wanted = path, file, wanted
+        self.package, self.is_2 = package, is_2
+        self.number = 0
+
+    def decoder(self, type_: str, definition: str, topic: Topic) -> Decode:
+        """What makes a message of bytes. RebsyncError: the type cannot be known."""
+        from rosbags.interfaces.typing import Typesdict
+        from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+        store = get_typestore(Stores.ROS2_HUMBLE if self.is_2 else Stores.ROS1_NOETIC)
+        name = type_ if "/msg/" in type_ else type_.replace("/", "/msg/", 1)
+        try:
+            types: Typesdict = {}
+            if definition:
+                types.update(get_types_from_msg(definition, name))
+            elif name not in store.fielddefs:
+                owner = name.split("/")[0]
+                for file, text in message_files(self.package).items():
+                    stem = Path(file).stem
+                    if file.endswith(".msg"):
+                        renamed = text.replace(f"{self.package.name}/", f"{owner}/")
+                        types.update(get_types_from_msg(renamed, f"{owner}/msg/{stem}"))
+            store.register({k: v for k, v in types.items() if k not in store.fielddefs})
+            found = store.get_msgdef(name)
+        except Exception as error:
+            raise self.wrong(f"the type {type_} of {topic.name} is not known: {error}") from None
+        cls: Any = found.cls
+        if not self.is_2:
+            read1 = found.deserialize_ros1
+            return lambda raw: read1(raw, 0, cls, store)[0]
+        return lambda raw: store.deserialize_cdr(raw, name)
+
+    def event(self, topic: Topic, decode: Decode, raw: object, time: int, node: str) -> Event:
+        """The event of a message. RebsyncError: it is not as its type says."""
+        try:
+            place = Place(self.file, self.number)
+            return topic.convert(_Fields(decode(raw)), time * _NANO, place, node)
+        except KeyError as error:
+            what = f"has no field {error}"
+        except Exception as error:
+            what = f"is not as its type says: {error}"
+        text = f"message {self.number} of {topic.name} {what}"
+        raise RebsyncError.of(self.path, "RS983", text, "is it a recording of this model?")
+
+    def wrong(self, what: str, hint: str | None = None) -> RebsyncError:
+        """The mistake that the file cannot be read."""
+        return RebsyncError.of(self.path, "RS982", what, hint)
+
+
+def events_1(path: str, file: int, wanted: TopicFilter, package: Package) -> Iterator[Event]:
+    """The events of a bag of ROS 1, in the order of the file."""
+    source = _Source(path, file, wanted, package, False)
+    readers: dict[int, tuple[Topic, Decode, str] | None] = {}
+    try:
+        with Path(path).open("rb") as opened:
+            for record in records(opened):
+                if isinstance(record[1], Connection):
+                    number, connection = record[0], record[1]
+                    if number not in readers:
+                        readers[number] = _reader(source, connection)
+                    continue
+                number, time, raw = record
+                source.number += 1
+                reader = readers.get(number)
+                if reader is not None:
+                    topic, decode, node = reader
+                    yield source.event(topic, decode, raw, time, node)
+    except TruncatedBag as error:
+        raise source.wrong(f"it is cut off: {error}", "what was recorded last is lost") from None
+    except DamagedBag as error:
+        raise source.wrong(str(error)) from None
+    except OSError as error:
+        raise os_mistake(path, error) from None
+
+
+def _reader(source: _Source, connection: Connection) -> tuple[Topic, Decode, str] | None:
+    topic = source.wanted.topic(connection.topic, source.path)
+    if topic is None:
+        return None
+    decode = source.decoder(connection.type, connection.definition, topic)
+    return topic, decode, connection.publisher
+
+
+def events_2(path: str, file: int, wanted: TopicFilter, package: Package) -> Iterator[Event]:
+    """The events of a bag of ROS 2: a folder, or a file of one of its storages."""
+    source = _Source(path, file, wanted, package, True)
+    try:
+        for part in _parts(Path(path)):
+            yield from _of_part(source, part)
+    except (RebsyncError, GeneratorExit):
+        raise
+    except FileNotFoundError as error:
+        raise source.wrong(f"it is no bag of ROS 2: {error}") from None
+    except OSError as error:
+        raise os_mistake(path, error) from None
+    except Exception as error:  # of rosbags, of sqlite, of zstd: each has its own
+        raise source.wrong(f"it cannot be read as a bag of ROS 2: {error}") from None
+
+
+def _parts(path: Path) -> list[Path]:
+    """What is read one after the other: the files of a folder, unless they are compressed.
+
+    A folder as a whole lacks, for rosbags, what was recorded with another quality of service than
+    its metadata say.
+    """
+    if not path.is_dir():
+        return [path]
+    metadata = path / "metadata.yaml"
+    import yaml
+
+    about = yaml.safe_load(metadata.read_text(encoding="utf-8"))["rosbag2_bagfile_information"]
+    names = [PurePath(name).name for name in about["relative_file_paths"]]
+    if about.get("compression_mode") or any(PurePath(name).suffix == ".zstd" for name in names):
+        return [path]
+    return [path / name for name in names]
+
+
+def _of_part(source: _Source, part: Path) -> Iterator[Event]:
+    from rosbags.interfaces import MessageDefinitionFormat
+    from rosbags.rosbag2 import Reader
+
+    with Reader(part) as reader:
+        readers: dict[int, tuple[Topic, Decode]] = {}
+        connections = []
+        expected = 0
+        for connection in reader.connections:
+            topic = source.wanted.topic(connection.topic, source.path)
+            if topic is None:
+                continue
+            is_msg = connection.msgdef.format is MessageDefinitionFormat.MSG
+            definition = connection.msgdef.data if is_msg else ""
+            readers[connection.id] = (topic, source.decoder(connection.msgtype, definition, topic))
+            connections.append(connection)
+            expected += connection.msgcount
+        before = source.number
+        if connections:
+            for connection, time, raw in reader.messages(connections):
+                source.number += 1
+                topic, decode = readers[connection.id]
+                yield source.event(topic, decode, raw, time, "")
+    if source.number - before < expected:
+        read = source.number - before
+        raise source.wrong(f"it has {expected} messages of the model, and only {read} can be read")

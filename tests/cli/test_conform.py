@@ -1,0 +1,215 @@
+"""`rebsync conform`: exit statuses, formats, and recordings that cannot be read or compared."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+from xml.etree import ElementTree
+
+import jsonschema
+import pytest
+
+from tests.cli.run import ROOT, rebsync
+
+BAGS = ROOT / "tests" / "roundtrip" / "conform" / "recordings"
+BAG = BAGS / "running_example-cpp.bag"
+MODEL = str(ROOT / "examples" / "running_example")
+SCHEMA = json.loads((ROOT / "docs" / "conform.schema.json").read_text(encoding="utf-8"))
+
+
+def log(path: Path, *changes: tuple[int, str, object]) -> Path:
+    """The steps of a real run as a log, with some fields changed: step, field, value."""
+    from tests.roundtrip.conform.test_recordings import of_bag, steps
+
+    observable = of_bag(BAG).observable
+    lines = []
+    for number, step in enumerate(steps(BAG)):
+        data: dict[str, object] = {
+            name: getattr(step, name) for name in ("server", "arguments", "arrival", "start", "now")
+        }
+        for slot in observable.program.rebecs[step.rebec].state:
+            cells = list(step.cells[slot.offset : slot.offset + slot.size])
+            data[slot.name] = cells if slot.type.dimensions else cells[0]
+        data |= {field: value for at, field, value in changes if at == number}
+        topic = f"/{observable.nodes[step.rebec]}/state"
+        lines.append(json.dumps({"topic": topic, "stamp": step.stamp, "data": data}))
+    path.write_text("".join(f"{line}\n" for line in lines))
+    return path
+
+
+def robots_step() -> int:
+    """A step of a robot in the middle of the run."""
+    from tests.roundtrip.conform.test_recordings import steps
+
+    return next(n for n, step in enumerate(steps(BAG)) if n > 55 and step.rebec == 1)
+
+
+def test_a_good_run_conforms(tmp_path: Path) -> None:
+    done = rebsync("conform", MODEL, str(BAG), cwd=tmp_path)
+    assert done.status == 0, done.err
+    assert done.out.splitlines()[0].endswith("running_example.rebeca: conforms, 114 steps")
+
+
+def test_a_log_is_read_as_a_bag_is(tmp_path: Path) -> None:
+    done = rebsync("conform", MODEL, str(log(tmp_path / "run.jsonl")), cwd=tmp_path)
+    assert done.status == 0, done.out
+    assert "conforms, 114 steps" in done.out
+
+
+def test_what_deviates_is_told_in_every_format(tmp_path: Path) -> None:
+    at = robots_step()
+    path = str(log(tmp_path / "run.jsonl", (at, "data", 7)))
+    text = rebsync("conform", MODEL, path, cwd=tmp_path)
+    assert text.status == 1
+    assert "wrong state: " in text.out
+    assert "data = 7, not" in text.out
+    assert f"{path}, message {at + 1}" in text.out
+    assert "  allowed: " in text.out
+    found = rebsync("conform", MODEL, path, "--format", "json", cwd=tmp_path)
+    assert found.status == 1
+    answer = json.loads(found.out)
+    jsonschema.validate(answer, SCHEMA)
+    assert answer["deviation"]["kind"] == "wrong state"
+    assert answer["deviation"]["number"] == at + 1
+    sarif = json.loads(rebsync("conform", MODEL, path, "--format", "sarif", cwd=tmp_path).out)
+    assert sarif["runs"][0]["results"][0]["ruleId"] == "RS980"
+    github = rebsync("conform", MODEL, path, "--format", "github", cwd=tmp_path).out
+    assert github.startswith("::error file=")
+    junit = ElementTree.fromstring(
+        rebsync("conform", MODEL, path, "--format", "junit", cwd=tmp_path).out
+    )
+    assert junit.find("testsuite") is not None
+    assert [c.get("type") for c in junit.iter("failure")] == ["deviates"]
+
+
+@pytest.mark.parametrize("name", ["running_example-cpp", "inheritance-py"])
+def test_answers_fit_the_schema(name: str, tmp_path: Path) -> None:
+    model = {"running_example-cpp": MODEL}.get(
+        name, str(ROOT / "tests/forward/cases/inheritance.rebeca")
+    )
+    done = rebsync("conform", model, str(BAGS / f"{name}.bag"), "--format", "json", cwd=tmp_path)
+    jsonschema.validate(json.loads(done.out), SCHEMA)
+
+
+def test_a_run_that_breaks_a_property_is_a_violation(tmp_path: Path) -> None:
+    model = str(ROOT / "examples" / "experiment2_unsafe")
+    done = rebsync("conform", model, str(BAGS / "experiment2_unsafe-cpp.bag"), cwd=tmp_path)
+    assert done.status == 3
+    assert "conforms, 33 steps" in done.out
+    assert "Collision_Avoidance: violated (at 4)" in done.out
+
+
+def test_a_run_in_which_the_model_breaks_a_rule_is_a_violation(tmp_path: Path) -> None:
+    model = str(ROOT / "tests" / "forward" / "cases" / "inheritance.rebeca")
+    done = rebsync("conform", model, str(BAGS / "inheritance-cpp.bag"), cwd=tmp_path)
+    assert done.status == 3
+    assert "model failure: a message goes to nobody in Station.arrived" in done.out
+
+
+def test_the_page_shows_both_runs_and_the_deviation(tmp_path: Path) -> None:
+    path = str(log(tmp_path / "run.jsonl", (robots_step(), "data", 7)))
+    done = rebsync("conform", MODEL, path, "--page", "page.html", cwd=tmp_path)
+    assert done.status == 1
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert page.count("<svg") >= 3
+    assert "Recorded" in page
+    assert "A run of the model that fits" in page
+    assert "data = 7, not" in page
+    assert "Time error" in page
+    assert "://" not in page.replace("http://www.w3.org/2000/svg", "")
+
+
+def test_the_end_of_a_run_conforms_from_where_it_begins(tmp_path: Path) -> None:
+    path = log(tmp_path / "run.jsonl")
+    path.write_text("".join(path.read_text().splitlines(keepends=True)[50:]))
+    done = rebsync("conform", MODEL, str(path), cwd=tmp_path)
+    assert done.status == 0, done.out
+    assert "the recording begins in the middle" in done.out
+
+
+def test_parts_of_a_run_are_merged(tmp_path: Path) -> None:
+    path = log(tmp_path / "run.jsonl")
+    lines = path.read_text().splitlines(keepends=True)
+    parts = [tmp_path / "a.jsonl", tmp_path / "b.jsonl", tmp_path / "c.jsonl"]
+    for part, chosen in zip(parts, (lines[:60], lines[40:90], lines[85:]), strict=True):
+        part.write_text("".join(chosen))
+    done = rebsync("conform", MODEL, *map(str, reversed(parts)), cwd=tmp_path)
+    assert done.status == 0, done.out
+    assert "conforms, 114 steps" in done.out
+
+
+def test_nothing_that_was_served_is_no_conformance(tmp_path: Path) -> None:
+    for content in ("", '{"topic": "/other", "stamp": 1, "data": {}}\n'):
+        (tmp_path / "run.jsonl").write_text(content)
+        done = rebsync("conform", MODEL, "run.jsonl", cwd=tmp_path)
+        assert done.status == 4
+        assert "nothing that the nodes served is in the recording" in done.out
+
+
+def damaged(path: Path, how: str) -> None:
+    """A bag that is not as it should be."""
+    data = BAG.read_bytes()
+    match how:
+        case "cut off":
+            path.write_bytes(data[: len(data) * 2 // 3])
+        case "empty":
+            path.write_bytes(b"")
+        case "text":
+            path.write_text("no bag\n")
+        case "flipped":
+            middle = len(data) // 2
+            path.write_bytes(data[:middle] + bytes(200) + data[middle + 200 :])
+
+
+@pytest.mark.parametrize("how", ["cut off", "empty", "text", "flipped"])
+@pytest.mark.parametrize("ending", [".bag", ".mcap", ".db3"])
+def test_what_is_no_bag_cannot_be_read(how: str, ending: str, tmp_path: Path) -> None:
+    damaged(tmp_path / f"run{ending}", how)
+    done = rebsync("conform", MODEL, f"run{ending}", cwd=tmp_path)
+    assert done.status == 2
+    assert "RS98" in done.err
+    assert "Traceback" not in done.err
+
+
+@pytest.mark.parametrize(
+    ("line", "code"),
+    [
+        ("no json", "RS982"),
+        ("[1]", "RS982"),
+        ('{"topic": "/robot1/state", "stamp": "now", "data": {}}', "RS982"),
+        ('{"topic": "/robot1/state", "stamp": 1, "data": 3}', "RS982"),
+        ('{"topic": "/robot1/state", "stamp": 1, "data": {"server": "P1"}}', "RS983"),
+    ],
+)
+def test_lines_that_are_no_messages_are_told(line: str, code: str, tmp_path: Path) -> None:
+    (tmp_path / "run.jsonl").write_text(line + "\n")
+    done = rebsync("conform", MODEL, "run.jsonl", cwd=tmp_path)
+    assert done.status == 2
+    assert code in done.err
+    assert "line 1: " in done.err
+
+
+def test_a_recording_of_another_model_is_told(tmp_path: Path) -> None:
+    done = rebsync("conform", str(ROOT / "examples" / "experiment2"), str(BAG), cwd=tmp_path)
+    assert done.status == 2
+    assert "RS983" in done.err
+
+
+def test_two_namespaces_need_a_choice(tmp_path: Path) -> None:
+    path = log(tmp_path / "run.jsonl")
+    text = path.read_text()
+    both = [text.replace('"/', '"/a/'), text.replace('"/', '"/b/')]
+    path.write_text("".join(both))
+    done = rebsync("conform", MODEL, "run.jsonl", cwd=tmp_path)
+    assert done.status == 2
+    assert "--namespace" in done.err
+    done = rebsync("conform", MODEL, "run.jsonl", "--namespace", "/b", cwd=tmp_path)
+    assert done.status == 0, done.out
+
+
+def test_a_recording_is_not_overwritten(tmp_path: Path) -> None:
+    shutil.copy(BAG, tmp_path / "run.bag")
+    done = rebsync("conform", MODEL, "run.bag", "-o", "run.bag", cwd=tmp_path)
+    assert done.status == 2
+    assert (tmp_path / "run.bag").read_bytes() == BAG.read_bytes()

@@ -1,0 +1,144 @@
+"""Bags of real runs on a roscore (recordings/): they conform, and with faults they do not.
+
+`python -m tests.roundtrip.conform.record DIR` makes the bags anew, of logs of the ROS 1 tests.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from rebsync.roundtrip.conform.conformance import Conformance
+from rebsync.roundtrip.conform.matching import Subject, conform
+from rebsync.roundtrip.conform.reading import recordings
+from rebsync.roundtrip.conform.recording import Served
+from rebsync.roundtrip.conform.topics import Topics
+from tests.forward.compiling import CASES, case_config
+from tests.ros1.fidelity import subject
+from tests.roundtrip.conform.bagging import write_bag
+from tests.roundtrip.conform.faults import (
+    Fault,
+    dropped,
+    late,
+    repeated,
+    second_publisher,
+    swapped,
+    wrong_state,
+)
+from tests.roundtrip.conform.oracle import is_run
+from tests.roundtrip.conform.simulated import Given, Recorded
+
+HERE = Path(__file__).parent
+EXAMPLES = HERE.parents[2] / "examples"
+BAGS = sorted((HERE / "recordings").glob("*.bag"))
+# Where the model itself breaks a rule, which nodes report and models do not go on from.
+VIOLATED = {"inheritance", "rebecs"}
+FAULTS: dict[str, tuple[Fault, set[str]]] = {
+    "dropped": (dropped, {"lost state", "lost message", "wrong state", "unexpected", "silent"}),
+    "late": (late, {"late"}),
+    "wrong state": (wrong_state, {"wrong state", "no start"}),
+    "swapped": (swapped, {"swapped", "lost state", "lost message", "unexpected", "wrong state"}),
+    "second publisher": (second_publisher, {"second publisher"}),
+    "repeated": (repeated, {"repeated"}),
+}
+SIMPLE = [b for b in BAGS if b.stem.rsplit("-", 1)[0] not in {*VIOLATED, "warehouse"}]
+
+
+@cache
+def of_bag(bag: Path) -> Subject:
+    """The model of a recording."""
+    name = bag.stem.rsplit("-", 1)[0]
+    example = EXAMPLES / name / f"{name}.rebeca"
+    if example.exists():
+        return subject(example)
+    case = CASES / f"{name}.rebeca"
+    return subject(case, case_config(case))
+
+
+def read(bag: Path) -> Conformance:
+    """What is said of a bag."""
+    of = of_bag(bag)
+    opened = recordings([str(bag)], Topics.of(of.observable), of.observable.package, None)
+    return conform(of, opened)
+
+
+@cache
+def steps(bag: Path) -> tuple[Served, ...]:
+    """The steps of a recording."""
+    of = of_bag(bag)
+    opened = recordings([str(bag)], Topics.of(of.observable), of.observable.package, None)
+    found = (event for event in opened.events() if isinstance(event, Served))
+    return tuple(e._replace(stamp=e.stamp - 100.0) for e in found)
+
+
+def test_there_are_recordings_of_both_languages() -> None:
+    assert len(BAGS) >= 10
+    assert {b.stem.rsplit("-", 1)[1] for b in BAGS} == {"cpp", "py"}
+
+
+@pytest.mark.parametrize("bag", BAGS, ids=lambda b: b.stem)
+def test_good_recordings_are_not_accused(bag: Path) -> None:
+    found = read(bag)
+    if bag.stem.rsplit("-", 1)[0] in VIOLATED:
+        assert found.verdict == "violated"
+        assert found.deviation is not None
+        assert found.deviation.message.startswith("a message goes to nobody")
+    else:
+        assert (found.verdict, found.compared) == ("conforms", found.recorded), found.deviation
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+@pytest.mark.parametrize("bag", SIMPLE, ids=lambda b: b.stem)
+def test_faults_are_found_at_their_steps(bag: Path, fault: str) -> None:
+    of, run = of_bag(bag), steps(bag)
+    make, kinds = FAULTS[fault]
+    given = Given(of.program, of.observable)
+    tried = 0
+    for at in _places(run):
+        if fault == "wrong state" and not run[at].cells:
+            continue
+        faulty = make(run, at)
+        found = conform(of, Recorded(tuple(faulty)))
+        if is_run(given, faulty, 20_000):  # two messages of one moment may be served in any order
+            assert found.verdict == "conforms", at
+            continue
+        tried += 1
+        assert found.verdict == "deviates", (at, found.reason)
+        assert found.deviation is not None
+        if sum(step[:4] == run[at][:4] for step in run) == 1:  # else any of these may be it
+            assert found.deviation.kind in kinds, (at, found.deviation)
+        assert _is_near(run, at, found), (at, found.deviation)
+    assert tried > 0
+
+
+def _places(run: tuple[Served, ...]) -> list[int]:
+    """Steps in the first third, in the middle, and in the last third, no constructors."""
+    count = len(run)
+    served = [n for n, s in enumerate(run) if s.server != "constructor"]
+    return [min(served, key=lambda n: abs(n - count * part // 6)) for part in (1, 2, 3, 4)]
+
+
+def _is_near(run: tuple[Served, ...], at: int, found: Conformance) -> bool:
+    """Whether the step that is told is the faulty one, or the first that shows the fault."""
+    assert found.deviation is not None
+    told = found.deviation
+    own = [s for s in run[at + 1 :] if s.rebec == run[at].rebec]
+    until = own[0].start if own else run[-1].now
+    return run[at].start <= told.time <= until
+
+
+@pytest.mark.parametrize("storage", ["ros1", "sqlite3", "mcap"])
+def test_a_bag_with_a_fault_says_where_it_is(storage: str, tmp_path: Path) -> None:
+    bag = HERE / "recordings" / "running_example-cpp.bag"
+    of, run = of_bag(bag), steps(bag)
+    at = len(run) // 2
+    path = tmp_path / ("faulty.bag" if storage == "ros1" else "faulty")
+    write_bag(path, of.observable, wrong_state(run, at), storage)  # type: ignore[arg-type]
+    opened = recordings([str(path)], Topics.of(of.observable), of.observable.package, None)
+    found = conform(of, opened)
+    assert found.deviation is not None
+    assert found.deviation.kind == "wrong state"
+    assert found.deviation.place is not None
+    assert found.deviation.place.number == at + 1  # messages of a bag are counted from 1
