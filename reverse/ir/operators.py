@@ -13,6 +13,7 @@ class Operator(Enum):
     MULTIPLY = "*"
     MATRIX_MULTIPLY = "@"
     TRUE_DIVIDE = "/"  # the quotient as a float
+    CLASSIC_DIVIDE = "div"  # of two whole numbers the floor, else the quotient as a float
     FLOOR_DIVIDE = "div_floor"
     TRUNCATING_DIVIDE = "div_trunc"
     FLOOR_MODULO = "mod_floor"  # has the sign of the divisor
