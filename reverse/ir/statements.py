@@ -102,7 +102,10 @@ class Insert:
 
 @dataclass(frozen=True, slots=True)
 class Declare:
-    """A local variable begins to be; without a value it holds nothing that may be read."""
+    """A local variable begins to be; without a value it holds nothing that may be read.
+
+    An attribute of a class that is declared is one that each object will have.
+    """
 
     target: Lvalue
     type: Type = UNKNOWN

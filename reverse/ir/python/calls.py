@@ -9,11 +9,11 @@ from tree_sitter import Node
 from rebsync.reverse.ir import calls as c
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir.python.context import MAPPING, Lowering, NoLowering, Operand
-from rebsync.reverse.ir.python.references import attribute
+from rebsync.reverse.ir.python.references import attribute, element
 from rebsync.reverse.ir.python.symbols import ScopeKind, Symbols
 from rebsync.reverse.python.py_tree import field, named, text_of
 
-_SUPER = e.LibraryReference("builtins.super")
+_SUPER = "builtins.super"
 
 
 def call(ctx: Lowering, node: Node) -> e.Expression:
@@ -46,11 +46,15 @@ def _callee(ctx: Lowering, node: Node) -> c.Callee:
 
 
 def _of_value(value: e.Expression, node: Node) -> c.Callee:
-    if value == _SUPER:
-        raise NoLowering("`super` that is no object of a call", node)
     if isinstance(value, e.LibraryReference):
+        if value.name == _SUPER and not _has_arguments(node):
+            raise NoLowering("`super` that is no object of a call", node)
         return c.LibraryCallee(value.name)
     return c.ValueCallee(value)
+
+
+def _has_arguments(function: Node) -> bool:
+    return function.parent is not None and bool(named(field(function.parent, "arguments")))
 
 
 def _fixed(ctx: Lowering, callee: c.Callee) -> c.Callee:
@@ -81,12 +85,10 @@ def _operand(ctx: Lowering, node: Node) -> Callable[[], Operand]:
     match node.type:
         case "keyword_argument":
             return lambda: ctx.value(field(node, "value"))
-        case "list_splat":
-            return lambda: e.Spread(ctx.value(named(node)[0]), ctx.place(node))
         case "dictionary_splat":
             return lambda: _named_rest(ctx, node)
         case _:
-            return lambda: ctx.value(node)
+            return lambda: element(ctx, node)
 
 
 def _named_rest(ctx: Lowering, node: Node) -> e.Expression:
@@ -115,17 +117,17 @@ def _super_receiver(ctx: Lowering, node: Node) -> tuple[e.Expression, str] | Non
     """The object and the class of `super()` or `super(Class, self)` in a method."""
     if node.type != "call" or text_of(field(node, "function")) != "super":
         return None
-    if ctx.name(field(node, "function")) != _SUPER:
+    function = ctx.name(field(node, "function"))
+    if not isinstance(function, e.LibraryReference) or function.name != _SUPER:
         return None
     method = _method(ctx.scope)
     arguments = named(field(node, "arguments"))
-    if method is None or (method is not ctx.function and not arguments):
+    owner = method.parent if method is not None else None
+    first = _first_parameter(method) if method is not None else None
+    if arguments and not (owner and first and _says_the_same(arguments, owner, first)):
+        return None  # a call like others, of a class and an object
+    if owner is None or first is None or (method is not ctx.function and not arguments):
         raise NoLowering("`super` outside of a method", node)
-    owner = method.parent
-    first = _first_parameter(method)
-    assert owner is not None
-    if first is None or (arguments and not _says_the_same(arguments, owner, first)):
-        raise NoLowering("`super` of another class or object", node)
     receiver = ctx.names.resolve(first, ctx.scope, ctx.place(node))
     return receiver, owner.name
 

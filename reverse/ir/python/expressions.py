@@ -20,7 +20,7 @@ from rebsync.reverse.ir.python.context import (
     NoLowering,
     Operand,
 )
-from rebsync.reverse.ir.python.references import attribute, name_target, unsupported_value
+from rebsync.reverse.ir.python.references import attribute, element, name_target, unsupported_value
 from rebsync.reverse.ir.python.results import has_truth, result_of, type_of
 from rebsync.reverse.ir.types import (
     TRUTH,
@@ -205,18 +205,9 @@ def _slice(ctx: Lowering, node: Node) -> e.Expression:
 def _display(ctx: Lowering, node: Node) -> e.Expression:
     """A list, tuple or set of elements."""
     type_ = {"list": SEQUENCE, "set": SET}.get(node.type, TUPLE)
-    elements = ctx.operands([partial(_element, ctx, n) for n in named(node)])
+    elements = ctx.operands([partial(element, ctx, n) for n in named(node)])
     found = tuple(x for x in elements if not isinstance(x, e.FormatPiece))
     return e.Build(type_, found, ctx.place(node))
-
-
-def _element(ctx: Lowering, node: Node) -> Operand:
-    """An element of a display, which may be spread."""
-    if node.type == "parenthesized_list_splat":
-        node = named(node)[0]
-    if node.type == "list_splat":
-        return e.Spread(ctx.value(named(node)[0]), ctx.place(node))
-    return ctx.value(node)
 
 
 def _dictionary(ctx: Lowering, node: Node) -> e.Expression:
@@ -274,6 +265,16 @@ def _name(ctx: Lowering, node: Node) -> e.Expression:
     return ctx.name(node)
 
 
+def _starred(ctx: Lowering, node: Node) -> e.Expression:
+    """The grammar reads `*f(x)` as `(*f)(x)` behind a `return`: see `element`."""
+    above = node.parent
+    if above is None or above.type not in ("call", "attribute", "subscript"):
+        raise NoLowering("a star has no meaning here", node)
+    if above.type == "subscript" and node != field(above, "value"):
+        raise NoLowering("elements of an index", node)
+    return ctx.value(named(node)[0])
+
+
 def _await(ctx: Lowering, node: Node) -> e.Expression:
     value = ctx.value(named(node)[0])
     target = ctx.temporary(node)
@@ -323,6 +324,7 @@ _RULES: Mapping[str, Callable[[Lowering, Node], e.Expression]] = {
     "set_comprehension": comprehensions.comprehension,
     "dictionary_comprehension": comprehensions.comprehension,
     "generator_expression": comprehensions.generator,
+    "list_splat": _starred,
     "await": _await,
     "yield": _yield,
 }

@@ -109,10 +109,36 @@ def _piece(ctx: Lowering, part: str | Node) -> e.FormatPiece:
         raise NoLowering("a formatted value that is not Python", part)
     style = part.child_by_field_name("format_specifier")
     conversion = part.child_by_field_name("type_conversion")
-    style_text: e.Expression | None = None
-    if style is not None:
-        if any(c.type == "format_expression" for c in style.named_children):
-            raise NoLowering("a format that is computed", style)
-        style_text = e.Literal(text_of(style)[1:], TEXT, "", ctx.place(style))
-    value = ctx.value(shown)
-    return e.FormatPiece(value, text_of(conversion) if conversion is not None else "", style_text)
+    parts = [shown, *_computed(style)]
+    value, *inner = ctx.values(parts)
+    text = text_of(conversion) if conversion is not None else ""
+    return e.FormatPiece(value, text, _style(ctx, style, inner))
+
+
+def _computed(style: Node | None) -> list[Node]:
+    """The values within a format."""
+    found = [c for c in style.named_children if c.type == "format_expression"] if style else []
+    for node in found:
+        if len(node.named_children) != 1:
+            raise NoLowering("a format of a format", node)
+    return [node.named_children[0] for node in found]
+
+
+def _style(ctx: Lowering, style: Node | None, values: list[e.Expression]) -> e.Expression | None:
+    """How a value is made text: the words behind the colon, and values among them."""
+    if style is None:
+        return None
+    if not values:
+        return e.Literal(text_of(style)[1:], TEXT, "", ctx.place(style))
+    pieces: list[e.FormatPiece] = []
+    at = style.start_byte + 1
+    inner = [c for c in style.named_children if c.type == "format_expression"]
+    for node, value in zip(inner, values, strict=True):
+        pieces += [_words(ctx, at, node.start_byte), e.FormatPiece(value)]
+        at = node.end_byte
+    pieces.append(_words(ctx, at, style.end_byte))
+    return e.Format(tuple(pieces), TEXT, True, ctx.place(style))
+
+
+def _words(ctx: Lowering, start: int, end: int) -> e.FormatPiece:
+    return e.FormatPiece(e.Literal(ctx.py.data[start:end].decode("utf-8", "replace"), TEXT))

@@ -43,6 +43,8 @@ class Names:
     def resolve(self, name: str, scope: Symbols, place: Span) -> e.Expression:
         """What a use of a name in a scope stands for; `name` is mangled already."""
         binding = lookup(name, scope)
+        if binding is scope and self._is_before(name, scope, place):
+            binding = lookup(name, scope.parent) if scope.parent else None
         if binding is None:
             return self._free(name, module_scope(scope), place)
         if (found := self._import(name, binding)) is not None:
@@ -50,6 +52,14 @@ class Names:
         if binding.kind is ScopeKind.CLASS:
             return e.Attribute(e.ClassReference(binding.name), name, dynamic=False, place=place)
         return variable(name, binding, scope, place)
+
+    def _is_before(self, name: str, scope: Symbols, place: Span) -> bool:
+        """Whether a use in the body of a class comes before what binds the name there."""
+        if scope.kind is not ScopeKind.CLASS:
+            return False
+        py = self.binder(module_scope(scope).name).py
+        end = scope.first[name]
+        return place.start < py.characters(end, end).start
 
     def _free(self, name: str, module: Symbols, place: Span) -> e.Expression:
         """What no scope but the module may bind."""

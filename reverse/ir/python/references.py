@@ -6,10 +6,10 @@ from tree_sitter import Node
 
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.ir.python.context import Lowering
+from rebsync.reverse.ir.python.context import Lowering, Operand
 from rebsync.reverse.ir.python.names import lookup, module_scope, variable
 from rebsync.reverse.ir.python.symbols import ScopeKind, Symbols
-from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.reverse.python.py_tree import field, named, text_of
 
 
 def attribute(ctx: Lowering, target: e.Expression, name: str, node: Node) -> e.Expression:
@@ -35,6 +35,27 @@ def name_target(ctx: Lowering, node: Node, at: Symbols | None = None) -> e.Lvalu
     if binding.kind is ScopeKind.CLASS:
         return e.Attribute(e.ClassReference(binding.name), name, dynamic=False, place=place)
     return variable(name, binding, scope, place)
+
+
+def element(ctx: Lowering, node: Node) -> Operand:
+    """An element of a display, or an argument by its place; either may be spread."""
+    if node.type == "parenthesized_list_splat":
+        node = named(node)[0]
+    if node.type == "list_splat":
+        return e.Spread(ctx.value(named(node)[0]), ctx.place(node))
+    value = ctx.value(node)
+    return e.Spread(value, ctx.place(node)) if _starts_with_star(node) else value
+
+
+def _starts_with_star(node: Node) -> bool:
+    """Whether the grammar reads `*f(x)` as a call of `*f`."""
+    inner: Node | None = node
+    while inner is not None and inner.type in _PARTS:
+        inner = inner.child_by_field_name(_PARTS[inner.type])
+    return inner is not None and inner.type == "list_splat"
+
+
+_PARTS = {"call": "function", "attribute": "object", "subscript": "value"}
 
 
 def unsupported_value(ctx: Lowering, node: Node, reason: str) -> e.Temporary:

@@ -13,7 +13,7 @@ from rebsync.reverse.ir.python.context import Lowering, NoLowering
 from rebsync.reverse.ir.python.patterns import match
 from rebsync.reverse.ir.python.references import name_target, unsupported
 from rebsync.reverse.ir.python.results import has_truth
-from rebsync.reverse.ir.python.symbols import imported_name
+from rebsync.reverse.ir.python.symbols import ScopeKind, imported_name
 from rebsync.reverse.ir.python.targets import assign_all, augment, delete
 from rebsync.reverse.python.py_imports import module_of
 from rebsync.reverse.python.py_tree import field, named, text_of
@@ -96,7 +96,8 @@ def _assignment(ctx: Lowering, node: Node) -> None:
     targets = [field(node, "left")]
     value = node.child_by_field_name("right")
     if value is None:
-        return  # `x: int` says nothing
+        _declare(ctx, node)
+        return
     while value.type == "assignment":
         targets.append(field(value, "left"))
         value = field(value, "right")
@@ -105,6 +106,15 @@ def _assignment(ctx: Lowering, node: Node) -> None:
     mark = len(ctx.out)
     assign_all(ctx, targets, value, node)
     _store_directly(ctx, mark)
+    if node.child_by_field_name("type") is not None:
+        _declare(ctx, node)
+
+
+def _declare(ctx: Lowering, node: Node) -> None:
+    """`x: int` says nothing but in a class, where it may be what makes a field of objects."""
+    left = field(node, "left")
+    if ctx.scope.kind is ScopeKind.CLASS and left.type == "identifier":
+        ctx.emit(s.Declare(name_target(ctx, left), place=ctx.place(node)))
 
 
 def _store_directly(ctx: Lowering, mark: int) -> None:

@@ -29,8 +29,9 @@ class ScopeKind(Enum):
 class Symbols:
     """A scope: `name` is that of the function or class, unique in the program.
 
-    `bound` counts by name what binds it, `imports` are the imports among these; `uses` are the
-    names that are read or bound. `has_yield` of a function whose calls make generators.
+    `bound` counts by name what binds it, `first` is where the first of these ends, `imports` are
+    the imports among these; `uses` are the names that are read or bound. `has_yield` of a function
+    whose calls make generators.
     """
 
     kind: ScopeKind
@@ -38,6 +39,7 @@ class Symbols:
     node: Node
     parent: Symbols | None = None
     bound: dict[str, int] = with_default(default_factory=dict)
+    first: dict[str, int] = with_default(default_factory=dict)
     imports: dict[str, list[tuple[Node, Node]]] = with_default(default_factory=dict)
     globals: set[str] = with_default(default_factory=set)
     nonlocals: set[str] = with_default(default_factory=set)
@@ -143,7 +145,7 @@ class Binder:
             yield from self._open_comprehension(node, inner, scope)
             return
         if kind is not ScopeKind.LAMBDA:
-            bind(scope, text_of(field(node, "name")))
+            bind(scope, text_of(field(node, "name")), node)
         parameters = node.child_by_field_name("parameters")
         for parameter in named(parameters) if parameters is not None else ():
             outer = self._parameter(parameter, inner)
@@ -172,14 +174,14 @@ class Binder:
         """Binds a parameter; gives its default, which stands in the scope around."""
         match node.type:
             case "identifier":
-                bind(inner, text_of(node))
+                bind(inner, text_of(node), node)
             case "default_parameter" | "typed_default_parameter":
                 bind_target(inner, field(node, "name"))
                 return field(node, "value")
             case "typed_parameter":
                 return self._parameter(node.named_children[0], inner)
             case "list_splat_pattern" | "dictionary_splat_pattern":
-                bind(inner, text_of(node).lstrip("* "))
+                bind(inner, text_of(node).lstrip("* "), node)
             case "tuple_pattern":  # of Python 2
                 bind_target(inner, node)
             case _:
@@ -201,14 +203,14 @@ class Binder:
             case "identifier":
                 use = scope.mangled(text_of(node))
                 scope.uses.add(use)
-            case "assignment" | "for_statement":
-                bind_target(scope, field(node, "left"))
-            case "augmented_assignment":
+            case "assignment" | "augmented_assignment":
+                bind_target(scope, field(node, "left"), node)
+            case "for_statement":
                 bind_target(scope, field(node, "left"))
             case "named_expression":
                 around = scope.function
                 name = text_of(field(node, "name"))
-                bind(around, name)
+                bind(around, name, node)
                 around.walrus.add(around.mangled(name))
             case "as_pattern_target":
                 for target in named(node):
@@ -228,7 +230,7 @@ class Binder:
                 self._note_import(node, scope)
             case "case_clause":
                 for target in _captures(node):
-                    bind(scope, text_of(target))
+                    bind(scope, text_of(target), target)
             case "yield":
                 scope.function.has_yield = True
             case other if other in _PYTHON_2:
@@ -242,7 +244,7 @@ class Binder:
             self.has_future_division |= any("division" in text_of(n) for n in names)
         for name in names:
             target = imported_name(name)
-            bind(scope, target)
+            bind(scope, target, node)
             scope.imports.setdefault(scope.mangled(target), []).append((node, name))
         if any(c.type == "wildcard_import" for c in node.named_children):
             self.star_imports.append(node)
@@ -254,19 +256,20 @@ def imported_name(name: Node) -> str:
     return text_of(alias) if alias is not None else text_of(name).partition(".")[0]
 
 
-def bind(scope: Symbols, name: str) -> None:
-    """A scope binds a name once more."""
+def bind(scope: Symbols, name: str, node: Node) -> None:
+    """A scope binds a name once more, at the end of a node."""
     name = scope.mangled(name)
     scope.bound[name] = scope.bound.get(name, 0) + 1
+    scope.first.setdefault(name, node.end_byte)
 
 
-def bind_target(scope: Symbols, target: Node) -> None:
-    """A scope binds the names of a target of an assignment, a loop and the like."""
+def bind_target(scope: Symbols, target: Node, within: Node | None = None) -> None:
+    """A scope binds the names of a target, at the end of the assignment that it is within."""
     if target.type == "identifier":
-        bind(scope, text_of(target))
+        bind(scope, text_of(target), within or target)
     elif target.type in _PATTERNS or target.type in _STARRED or _is_group(target):
         for inner in named(target):
-            bind_target(scope, inner)
+            bind_target(scope, inner, within)
 
 
 def _is_group(node: Node) -> bool:

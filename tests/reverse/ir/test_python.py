@@ -1,0 +1,35 @@
+"""Python lowered to the form does what Python does: the cases of `cases/*.toml`, run by both."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir.walk import statements
+from tests.reverse.ir.running import by_form, natively, program_of
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+_CASES = {
+    name: str(case["code"])
+    for path in sorted((Path(__file__).parent / "cases").glob("*.toml"))
+    for name, case in tomllib.loads(path.read_text("utf-8")).items()
+}
+
+
+@pytest.mark.parametrize("name", _CASES)
+def test_the_form_does_what_python_does(name: str) -> None:
+    assert by_form(_CASES[name]) == natively(_CASES[name])
+
+
+@pytest.mark.parametrize("name", _CASES)
+def test_everything_has_a_lowering(name: str) -> None:
+    program = program_of(_CASES[name])
+    bodies = (program.function(f).body for f in program.functions)
+    assert not [n for body in bodies for n in statements(body) if isinstance(n, s.Unsupported)]
