@@ -32,6 +32,7 @@ class Names:
     code: PyCode
     binders: dict[str, Binder] = with_default(default_factory=dict)
     changing: frozenset[str] | None = None
+    _active: set[tuple[str, str]] = with_default(default_factory=set)
 
     def binder(self, path: str) -> Binder:
         """The binder of a file, made when it is first asked for."""
@@ -91,7 +92,12 @@ class Names:
         module = module_scope(scope)
         if scope.parent is None and name in self.binder(module.name).assigned_globals:
             return None
+        key = module.name, name
+        if key in self._active:
+            return None  # modules that import a name from each other
+        self._active.add(key)
         found = {self.imported(node, item, module) for node, item in imports}
+        self._active.discard(key)
         return found.pop() if len(found) == 1 else None
 
     def imported(self, node: Node, item: Node, module: Symbols) -> e.Expression | None:
@@ -104,7 +110,7 @@ class Names:
             return self.module(wanted if whole else wanted.partition(".")[0], module)
         source = module_of(node)
         found = self.module(source, module)
-        if isinstance(found, e.ModuleReference):
+        if isinstance(found, e.ModuleReference) and found.name != module.name:
             inner = self.module_member(found, wanted)
             if inner is not None:
                 return inner

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from random import Random
 
 import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
 
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.walk import statements
+from tests.reverse.ir.drawing import module_text
 from tests.reverse.ir.running import by_form, natively, program_of
 
 if sys.version_info >= (3, 11):
@@ -33,3 +37,11 @@ def test_everything_has_a_lowering(name: str) -> None:
     program = program_of(_CASES[name])
     bodies = (program.function(f).body for f in program.functions)
     assert not [n for body in bodies for n in statements(body) if isinstance(n, s.Unsupported)]
+
+
+@given(st.randoms(use_true_random=False))
+def test_drawn_modules(random: Random) -> None:
+    text = module_text(random)
+    assume(text is not None)
+    assert text is not None
+    assert by_form(text) == natively(text)
