@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -16,6 +17,7 @@ from rebsync.source import Source
 from tests.reverse.ir.interpreter import Interpreter
 
 MODULE = "case.py"
+_OBJECT = re.compile(r"<[\w.]*?(\w+) object at 0x\w+>")
 _PREFIX = "LOG = []\ndef log(x):\n    LOG.append(x)\n    return x\n"
 
 
@@ -58,4 +60,4 @@ def _outcome(space: dict[str, Any]) -> list[str]:
 
 
 def _shown(log: Iterable[object]) -> list[str]:
-    return [repr(entry) for entry in log]
+    return [_OBJECT.sub(r"<\1>", repr(entry)) for entry in log]

@@ -20,21 +20,21 @@ if sys.version_info >= (3, 11):
 else:
     import tomli as tomllib
 
-_CASES = {
+CASES = {
     name: str(case["code"])
     for path in sorted((Path(__file__).parent / "cases").glob("*.toml"))
     for name, case in tomllib.loads(path.read_text("utf-8")).items()
 }
 
 
-@pytest.mark.parametrize("name", _CASES)
+@pytest.mark.parametrize("name", CASES)
 def test_the_form_does_what_python_does(name: str) -> None:
-    assert by_form(_CASES[name]) == natively(_CASES[name])
+    assert by_form(CASES[name]) == natively(CASES[name])
 
 
-@pytest.mark.parametrize("name", _CASES)
+@pytest.mark.parametrize("name", CASES)
 def test_everything_has_a_lowering(name: str) -> None:
-    program = program_of(_CASES[name])
+    program = program_of(CASES[name])
     bodies = (program.function(f).body for f in program.functions)
     assert not [n for body in bodies for n in statements(body) if isinstance(n, s.Unsupported)]
 
