@@ -3,7 +3,7 @@
     python -m tests.reverse.ir.dropped DIRECTORY...
 
 Each directory with Python in it is extracted. A server of the model and the method of its name in
-the class of its name are compared: attributes that the method may write (`reverse/analysis/effects`)
+the class of its name are compared: attributes that the method may write (its effects in the form)
 and that are state variables must be among what the server writes. It knows names only, so it is a
 report for people, and no verdict.
 """
@@ -21,11 +21,12 @@ from rebsync.reverse.analysis.effects import EffectAnalysis
 from rebsync.reverse.analysis.library_effects import RECEIVER, LibraryEffect
 from rebsync.reverse.analysis.locations import Member
 from rebsync.reverse.analysis.writes import written
+from rebsync.reverse.findings import Grade
 from rebsync.reverse.ir.program import Class, Program
 from rebsync.reverse.ir.python.lowering import python_program
 from rebsync.reverse.python.py_index import PyCode
 from rebsync.reverse.python.py_tree import parse
-from rebsync.reverse.recovery import extract
+from rebsync.reverse.recovery import Extracted, extract
 from rebsync.source import Source
 from tests.reverse.ir.tracing import TABLE
 
@@ -59,15 +60,15 @@ class Dropped:
     why: tuple[str, ...] = ()
 
 
-def dropped(folder: Path) -> tuple[list[Dropped], int]:
-    """The report on one directory, and how many findings its extraction has."""
+def dropped(folder: Path) -> tuple[list[Dropped], Extracted]:
+    """The report on one directory, and what was extracted."""
     paths = [p for p in sorted(folder.rglob("*")) if p.suffix in _READ and p.is_file()]
     files = {p.relative_to(folder).as_posix(): Source(str(p), p.read_text("utf-8")) for p in paths}
     extracted = extract(files)
     sources = [source for name, source in files.items() if name.endswith(".py")]
     program = python_program(PyCode.of([parse(source) for source in sources]))
     analysis = EffectAnalysis(program, _known)
-    return list(_compared(extracted.model, program, analysis)), len(extracted.findings)
+    return list(_compared(extracted.model, program, analysis)), extracted
 
 
 def _compared(model: m.Model, program: Program, analysis: EffectAnalysis) -> Iterator[Dropped]:
@@ -112,13 +113,15 @@ def main(folders: list[str]) -> None:
     """Prints what is dropped, and the figures."""
     kinds: Counter[str] = Counter()
     for folder in map(Path, folders):
-        servers, findings = dropped(folder)
+        servers, extracted = dropped(folder)
+        listed = any(f.grade is Grade.UNREADABLE for f in extracted.findings)
         for server in servers:
             kind = "unknown" if server.names is None else "dropped" if server.names else "silent"
-            kinds[f"{kind}, {'exact' if not findings else 'with findings'}"] += 1
+            kinds[f"{kind}, {'listed' if listed else 'not listed'}"] += 1
             if server.names is None or server.names:
                 shown = ", ".join(server.names or server.why[:2])
-                print(f"{folder.name}: {server.server}: {kind}: {shown}; findings: {findings}")
+                where = f"{folder.name}: {server.server}"
+                print(f"{where}: {kind}: {shown}{'' if listed else ' (not listed)'}")
     print(dict(kinds))
 
 
