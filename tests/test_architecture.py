@@ -11,11 +11,18 @@ from pathlib import Path
 
 from rebsync import model as m
 from rebsync.printing import print_model
+from rebsync.reverse.analysis.effects import EffectAnalysis
+from rebsync.reverse.analysis.library_effects import WITH, LibraryEffect
+from rebsync.reverse.analysis.locations import Elements, Member
 from rebsync.reverse.build.field_order import in_order
 from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.generated.ros1_classes import Classes
 from rebsync.reverse.generated.ros1_messages import own_messages
+from rebsync.reverse.ir.dump import dump_function
+from rebsync.reverse.ir.python.lowering import python_program
+from rebsync.reverse.python.py_index import PyCode
+from rebsync.reverse.python.py_tree import parse as parse_python
 from rebsync.reverse.recovery import extract
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import parse
@@ -28,6 +35,25 @@ _READ = (*CODE, ".launch", ".msg", ".txt", ".xml", ".yaml")
 _FENCE = re.compile(r"```text\n.*?```\n", re.DOTALL)
 _SECTION = "## From a `.cpp` to a `.rebeca`"
 _CLASS, _SERVER = "R1", "P1"
+_FORM = "## The form"
+_NODE = """\
+class Robot(Node):
+    def on_limit(self, message):
+        with self.lock:
+            self.limit = message.data // 2
+            if 0 < self.limit < self.sensed():
+                self.publisher.publish(Int32(data=self.limit))
+
+    def sensed(self):
+        self.asked += 1
+        return self.distance
+"""
+_SERVED = "robot.py:Robot.on_limit"
+_KNOWN = {
+    "std_msgs.msg.Int32": LibraryEffect(calls=False),
+    ".publish": LibraryEffect(acts=True, calls=False),
+    WITH: LibraryEffect(acts=True),
+}
 
 
 def stages() -> Iterator[str]:
@@ -59,6 +85,24 @@ def stages() -> Iterator[str]:
     yield f"rebecs {rebecs}\nstatements of {_CLASS}.{_SERVER}: {told}\nfindings: {findings}\n"
 
 
+def form() -> Iterator[str]:
+    """A function of Python, what it is in the intermediate form, and its effects."""
+    yield _NODE
+    imports = "from rclpy.node import Node\nfrom std_msgs.msg import Int32\n"
+    code = PyCode.of([parse_python(Source("robot.py", imports + _NODE))])
+    program = python_program(code)
+    yield dump_function(program.function(_SERVED))
+    effects = EffectAnalysis(program, _KNOWN.get).of(_SERVED)
+    written = sorted(w.name for w in effects.writes if isinstance(w, Member) and w.name)
+    elements = [w for w in effects.writes if isinstance(w, Elements)]
+    yield (
+        f"writes {', '.join(written)}{' and elements' * bool(elements)}\n"
+        f"acts by {', '.join(sorted(effects.acts))}\n"
+        f"runs {', '.join(sorted(effects.functions))}\n"
+        f"may do anything: {effects.anything}\n"
+    )
+
+
 def _tree(function: CppFunction) -> str:
     """The first statement in the tree of a body."""
     assert function.body is not None
@@ -71,10 +115,15 @@ def _tree(function: CppFunction) -> str:
 def page_of(text: str) -> str:
     """The page with what the stages give now."""
     head, section, rest = text.partition(_SECTION)
-    given = stages()
-    shown = _FENCE.sub(lambda _: f"```text\n{next(given)}```\n", rest)
+    before, start, shown_form = head.partition(_FORM)
+    return f"{before}{start}{_filled(shown_form, form())}{section}{_filled(rest, stages())}"
+
+
+def _filled(text: str, given: Iterator[str]) -> str:
+    """A part of the page with what is given in its fences."""
+    shown = _FENCE.sub(lambda _: f"```text\n{next(given)}```\n", text)
     assert next(given, None) is None, "a fence for each stage"
-    return f"{head}{section}{shown}"
+    return shown
 
 
 def test_the_page_shows_what_each_stage_gives() -> None:

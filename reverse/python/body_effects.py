@@ -13,10 +13,12 @@ from rebsync.reverse.python.body_reading import Reading, nonlocals
 from rebsync.reverse.python.body_scope import Frame, Message, Own, Var
 from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_index import Scope, last_name
-from rebsync.reverse.python.py_tree import field, nodes_in, text_of
-from rebsync.reverse.python.py_worth import Class, Function, Made, Value, Ways
+from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
+from rebsync.reverse.python.py_worth import Class, Function, Instance, Made, Value, Ways
 
 _LOCK = re.compile(LOCKS)
+DEFINITIONS = frozenset({"function_definition", "class_definition", "decorated_definition"})
+_DECORATORS = frozenset({"staticmethod", "classmethod", "property"})
 _DEEPEST = 4
 HARMLESS_DECORATORS = frozenset({"staticmethod"})
 _WORDS = frozenset({"await", "yield", "named_expression"})
@@ -66,6 +68,25 @@ def _is_one(reading: Reading, node: Node, frame: Frame) -> bool:
     )
 
 
+def defines_only(reading: Reading, node: Node, frame: Frame) -> bool:
+    """Whether defining a function or class changes nothing: decorators, defaults, class bodies."""
+    match node.type:
+        case "decorated_definition":
+            decorators = (text_of(c).lstrip("@ ") for c in node.children if c.type == "decorator")
+            inner = field(node, "definition")
+            return all(d in _DECORATORS for d in decorators) and defines_only(reading, inner, frame)
+        case "function_definition":
+            parameters = named(field(node, "parameters"))
+            values = (p.child_by_field_name("value") for p in parameters)
+            return all(v is None or is_harmless(reading, v, frame) for v in values)
+        case "class_definition":
+            bases = node.child_by_field_name("superclasses")
+            parts = [*named(field(node, "body")), *([bases] if bases is not None else [])]
+            return all(defines_only(reading, part, frame) for part in parts)
+        case _:
+            return is_harmless(reading, node, frame)
+
+
 def is_quiet(reading: Reading, way: Value, depth: int = 0) -> bool:
     """Whether a function of the files touches nothing that is a node's, as far as it is seen.
 
@@ -77,6 +98,8 @@ def is_quiet(reading: Reading, way: Value, depth: int = 0) -> bool:
             inner = [reading.code.scope_of(b.node, scope.py) for b in made if b.how == "scope"]
             is_node = scope in reading.nodes
             return not is_node and all(is_quiet_body(reading, s, depth) for s in inner)
+        case Instance():
+            return False  # an object is called
         case Function(scope):
             return scope.owner not in reading.nodes and is_quiet_body(reading, scope, depth)
         case _:

@@ -13,6 +13,7 @@ from rebsync.reverse.graph import ParameterFact, RateFact, SubscriptionFact, Tim
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python import body_calls, body_loops, body_methods
+from rebsync.reverse.python.body_effects import is_harmless
 from rebsync.reverse.python.py_index import CLASS, arguments_of, last_name
 from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import Class
@@ -30,6 +31,8 @@ def asked(reader: BodyStatementReader, call: Node) -> Iterator[m.Statement] | No
     name = reader.reading.external(function, reader.frame)
     plain, _ = arguments_of(call)
     if libraries.kind_of(name) is Kind.SLEEP and len(plain) == 1:
+        if not is_harmless(reader.reading, plain[0], reader.frame):
+            raise Unread(reader.frame.span(call), "how long this waits is not known")
         return iter((delay(body_calls.units(reader.expressions, plain[0]), reader, call),))
     if last_name(function) == "sleep" and function.type == "attribute":
         made = reader.reading.made_by(field(function, "object"), reader.frame)

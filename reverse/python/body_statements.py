@@ -19,7 +19,13 @@ from rebsync.reverse.python import (
     body_stores,
     body_variables,
 )
-from rebsync.reverse.python.body_effects import is_harmless, is_lock, is_log
+from rebsync.reverse.python.body_effects import (
+    DEFINITIONS,
+    defines_only,
+    is_harmless,
+    is_lock,
+    is_log,
+)
 from rebsync.reverse.python.body_expressions import short
 from rebsync.reverse.python.body_returns import always_leaves
 from rebsync.reverse.python.body_scope import (
@@ -30,9 +36,8 @@ from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.statements import UNREADABLE
 
 _NOTHING = frozenset(
-    {"comment", "pass_statement", "global_statement", "import_statement", "class_definition"}
-    | {"import_from_statement", "function_definition", "decorated_definition", "print_statement"}
-    | {"future_import_statement", "nonlocal_statement"}
+    {"comment", "pass_statement", "global_statement", "import_statement", "print_statement"}
+    | {"import_from_statement", "future_import_statement", "nonlocal_statement"}
 )
 # What runs behind a `try` even if something in it leaves the function or a loop; or does not.
 _BEHIND = frozenset({"finally_clause", "else_clause"})
@@ -78,6 +83,8 @@ class PyStatements(BodyStatementReader):
 
     def _listed(self, node: Node) -> list[m.Statement]:
         if node.type in _NOTHING:
+            return []
+        if node.type in DEFINITIONS and defines_only(self.reading, node, self.frame):
             return []
         if self.only and not any(word in text_of(node) for word in self.only):
             return []
@@ -131,6 +138,8 @@ class PyStatements(BodyStatementReader):
             case "delete_statement":
                 for inner in named(node):
                     body_variables.forget(self, inner)
+            case kind if kind in DEFINITIONS:
+                raise Unread(span, "what runs when this is defined may change the node")
             case "raise_statement":
                 raise Unread(span, "an exception ends the callback: the model has none")
             case _:
@@ -253,9 +262,12 @@ class PyStatements(BodyStatementReader):
     def _with(self, node: Node) -> Iterator[m.Statement]:
         clause = named(node)[0]
         for item in named(clause):
-            if not is_lock(self.reading, field(item, "value"), self.frame):
+            value = field(item, "value")
+            if not is_lock(self.reading, value, self.frame):
                 why = "what entering and leaving this does is not known"
                 raise Unread(self.frame.span(node), why)
+            if value.type == "as_pattern":
+                body_variables.forget(self, field(value, "alias").named_children[0])
         yield from self.statements(named(field(node, "body")))
 
 

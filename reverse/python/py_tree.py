@@ -61,9 +61,12 @@ def text_of(node: Node) -> str:
     return text.decode("utf-8", "replace") if text else ""
 
 
+_EXTRAS = ("comment", "line_continuation")
+
+
 def named(node: Node) -> list[Node]:
-    """The named children of a node but for comments."""
-    return [c for c in node.named_children if c.type != "comment"]
+    """The named children of a node but for comments and the ends of lines that go on."""
+    return [c for c in node.named_children if c.type not in _EXTRAS]
 
 
 def field(node: Node, name: str) -> Node:

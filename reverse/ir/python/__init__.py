@@ -1,0 +1,1 @@
+"""Python to the intermediate form: one function at a time, from the trees of `reverse/python`."""

@@ -1,0 +1,76 @@
+"""Going through the intermediate form: the parts of each node, in the order of evaluation."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator
+from functools import cache
+from operator import attrgetter
+from typing import TypeAlias, get_args
+
+from rebsync.reverse.ir import calls as c
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir.program import Function
+
+Node: TypeAlias = (
+    e.Expression
+    | e.Spread
+    | e.FormatPiece
+    | e.Capture
+    | s.Statement
+    | s.Argument
+    | s.Callee
+    | s.Case
+    | s.Handler
+)
+_NODES: tuple[type, ...] = tuple(
+    kind
+    for module in (c, e, s)
+    for kind in vars(module).values()
+    if isinstance(kind, type) and kind.__module__ == module.__name__
+)
+
+
+def parts(node: Node | Function) -> Iterator[Node]:
+    """The nodes directly within a node."""
+    for get in _getters(type(node)):  # type: ignore[arg-type]
+        yield from _nodes(get(node))
+
+
+def walk(node: Node | Function | s.Body) -> Iterator[Node]:
+    """A node and all within it, each before its parts; of a function or body, what is within."""
+    waiting = list(parts(node)) if isinstance(node, Function) else list(_nodes(node))
+    waiting.reverse()
+    while waiting:
+        current = waiting.pop()
+        yield current
+        waiting += reversed(list(parts(current)))
+
+
+def statements(body: s.Body) -> Iterator[s.Statement]:
+    """All statements of a body, those within others included; none of closures."""
+    return (n for n in walk(body) if isinstance(n, STATEMENTS))  # type: ignore[misc]
+
+
+def _nodes(value: object) -> Iterator[Node]:
+    if isinstance(value, _NODES):
+        yield value  # type: ignore[misc]
+    elif isinstance(value, tuple):
+        for inner in value:
+            yield from _nodes(inner)
+
+
+@cache
+def _getters(kind: type) -> tuple[attrgetter[object], ...]:
+    """What reads the fields of a kind of node that may hold nodes."""
+    names = [f.name for f in dataclasses.fields(kind) if f.name not in _NO_NODES]
+    return tuple(map(attrgetter, names))
+
+
+_NO_NODES = frozenset({"place", "type", "name", "dynamic", "reason"})
+
+SIMPLE: tuple[type, ...] = get_args(s.Simple)
+STRUCTURED: tuple[type, ...] = get_args(s.Structured)
+STATEMENTS = SIMPLE + STRUCTURED
+LVALUES: tuple[type, ...] = get_args(e.Lvalue)
