@@ -7,7 +7,7 @@ import shutil
 from pathlib import Path
 from xml.etree import ElementTree
 
-import jsonschema
+import jsonschema  # type: ignore[import-untyped]
 import pytest
 
 from tests.cli.run import ROOT, rebsync
