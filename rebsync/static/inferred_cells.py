@@ -46,6 +46,8 @@ def cell_of(info: ClassInfo) -> CellOf:
     bodies = [_Body.of(block) for block in _blocks(info)]
     names = set(variables_of(info, ("byte", "short", "int")))
     x, y = (_variable(bodies, axis, names) for axis in (0, 1))
+    if x is not None and x == y:  # it goes with diagonal moves: which axis it is only names say
+        x, y = (x if _is_named(x, axis) else None for axis in (0, 1))
     moves = [any(body.along(axis) for body in bodies) for axis in (0, 1)]
     if x is None and not moves[0]:
         x = _beside(y, 1, names)
@@ -101,8 +103,12 @@ def _variable(bodies: Sequence[_Body], axis: int, names: set[str]) -> str | None
     if not any(body.along(axis) for body in bodies):
         return None
     found = [name for name in sorted(names) if all(body.follows(axis, name) for body in bodies)]
-    named = [n for n in found if n.endswith(f"[{axis}]") or _LETTERS[axis].search(n)]
+    named = [name for name in found if _is_named(name, axis)]
     return next((several[0] for several in (found, named) if len(several) == 1), None)
+
+
+def _is_named(name: str, axis: int) -> bool:
+    return name.endswith(f"[{axis}]") or bool(_LETTERS[axis].search(name))
 
 
 def _change(node: Node) -> Change | None:

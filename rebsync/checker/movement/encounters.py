@@ -24,18 +24,14 @@ class _Stretch:
     dx: float
     dy: float
 
-    def distance(self, time: float) -> float:
-        share = (time - self.start) / (self.end - self.start)
-        return math.hypot(self.x + self.dx * share, self.y + self.dy * share)
-
     def nearest(self) -> tuple[float, float]:
         """The least distance, and when it is that."""
         square = self.dx * self.dx + self.dy * self.dy
         share = 0.0
         if square > _EXACT:
             share = min(max(-(self.x * self.dx + self.y * self.dy) / square, 0.0), 1.0)
-        time = self.start + (self.end - self.start) * share
-        return self.distance(time), time
+        distance = math.hypot(self.x + self.dx * share, self.y + self.dy * share)
+        return distance, self.start + (self.end - self.start) * share
 
     def near(self) -> tuple[float, float] | None:
         """From when to when it is nearer than NEAR: the distance is convex over time."""
@@ -91,7 +87,7 @@ def _stretches(one: Way, other: Way, end: float) -> Iterator[_Stretch]:
     """Stretches of time in which both robots go straight on, at least one."""
     times = {0.0, end, *(pose.time for way in (one, other) for pose in way.poses)}
     inside = sorted(time for time in times if 0 <= time <= end)
-    for start, until in pairwise(inside if len(inside) > 1 else [0.0, 1.0]):
+    for start, until in pairwise(inside if len(inside) > 1 else [0.0, 0.0]):
         # At a time of two poses the later one counts for what follows.
         middle = (start + until) / 2
         a, b = one.at(start), other.at(start)

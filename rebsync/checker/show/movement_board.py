@@ -11,7 +11,7 @@ from rebsync.records import dataclass
 
 COLOURS = 8  # of robots, in the style of the page; then from the first again
 _WIDE, _HIGH = 560, 230  # pixels, for a cell as large as fits
-_LEAST, _MOST = 3.0, 64.0
+_MOST = 64.0
 _MARGIN = 26.0
 _LABELS = 26.0  # pixels between two coordinates at least
 _STEPS = (1, 2, 5)
@@ -35,7 +35,7 @@ class Board:
         left, right = _whole([pose.x for pose in poses])
         bottom, top = _whole([pose.y for pose in poses])
         fits = min(_WIDE / (right - left + 1), _HIGH / (top - bottom + 1))
-        return cls(left, bottom, right, top, min(max(fits, _LEAST), _MOST))
+        return cls(left, bottom, right, top, min(fits, _MOST))
 
     @property
     def width(self) -> float:
