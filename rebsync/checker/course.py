@@ -18,11 +18,12 @@ class Moved(NamedTuple):
 
 
 class Delayed(NamedTuple):
-    """A delay of `time` units that begins."""
+    """A delay of `time` units that begins; `pc` is its instruction."""
 
     elapsed: int
     sends: int
     time: int
+    pc: int
 
 
 Course: TypeAlias = Moved | Delayed

@@ -220,7 +220,7 @@ class Machine:
         time = self.stack.pop()
         if time < 0:
             raise self.fail("time")
-        self.course.append(Delayed(self.elapsed, len(self.sends), time))
+        self.course.append(Delayed(self.elapsed, len(self.sends), time, self.pc - 1))
         if self.splits:
             self.delayed, self.running = time, False
         else:

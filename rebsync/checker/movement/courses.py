@@ -120,7 +120,7 @@ def _done(
                 yield Deed(rebec, at, "move", x, y)
             case Moved():
                 yield Deed(rebec, at, "lost")
-            case Delayed(_, _, duration):
+            case Delayed(_, _, duration, _):
                 yield Deed(rebec, at, "delay", duration=duration)
     local = outcome.result
     if not isinstance(result, Failure) and isinstance(local, Local) and local.point is None:
