@@ -29,14 +29,18 @@ body { font: 15px/1.5 system-ui, sans-serif; margin: 1.5em; color: #222; backgro
 .conforms { background: #cfc; } .deviates, .violated { background: #fcc; }
 .plot .axis { stroke: #888; } .plot .zero { stroke: #ccc; } .plot circle { fill: #247; }
 .plot circle.greatest { fill: #c22; } .plot text { font-size: 12px; fill: #444; }
+.times { overflow-x: auto; } .times table { border-collapse: collapse; font-size: 13px; }
+.times td, .times th { padding: 2px 8px; text-align: left; border-bottom: 1px solid #ddd; }
 table.lines { border-collapse: collapse; font-size: 13px; }
 table.lines th { color: #888; font-weight: normal; text-align: right; padding-right: 1em; }
 tr:target { background: #fd8; }
 """
 
 
-def conformance_page(found: Conformance, subject: Subject, paths: Sequence[str]) -> str:
-    """The page of a comparison of a recorded run with a model."""
+def conformance_page(
+    found: Conformance, subject: Subject, paths: Sequence[str], more: Sequence[Markup] = ()
+) -> str:
+    """The page of a comparison of a recorded run with a model; `more` are further sections."""
     title = f"{subject.source.path} and {', '.join(paths)}"
     verdict = element("strong", found.verdict, class_=f"verdict {found.verdict}")
     said = element("p", "\n".join(lines(found, subject, paths)), class_="said")
@@ -47,6 +51,7 @@ def conformance_page(found: Conformance, subject: Subject, paths: Sequence[str])
             *_deviation(found.deviation),
             _charts(found, subject),
             _plot(found.lateness),
+            *more,
             source_section(subject.source, None),
         ),
     )

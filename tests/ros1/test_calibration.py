@@ -1,0 +1,95 @@
+"""A robot that is slower than its model, on a real roscore: it is found before it crashes."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+from rebsync.config import Config
+from tests.cli.run import Outcome, rebsync
+from tests.forward.compiling import generated, written
+from tests.ros1.conftest import Build
+from tests.ros1.recording import Recording
+from tests.ros1.run import Clock, run
+
+MODEL = Path(__file__).parent / "models" / "crossing.rebeca"
+CONFIG = Config(package="crossing", target="ros1-py")
+UNTIL = 12.0
+SLOW = "        time.sleep(3.3)  # the real robot's wheels\n"
+WAITS = "        self._mailbox.delay(2)"
+SETTINGS = 'package = "crossing"\ntarget = "ros1-py"\nallow = ["deadlock"]\n'
+
+
+def recorded(
+    build_workspace: Build, tmp_path_factory: pytest.TempPathFactory, name: str, slow: bool
+) -> Recording:
+    """A run of the package on the real clock; a slow robot's body takes longer than it says."""
+    folder = tmp_path_factory.mktemp(name)
+    package = written(generated(MODEL.read_text(), "crossing", CONFIG), folder, "crossing", CONFIG)
+    body = package / "src" / "crossing" / "first.py"
+    if slow:
+        text = body.read_text().replace("import rospy", "import time\n\nimport rospy", 1)
+        body.write_text(text.replace(WAITS, f"{SLOW}{WAITS}"))
+    workspace = build_workspace(f"calibration_{name}", [package])
+    launch = workspace.root / "src" / "crossing" / "launch" / "crossing.launch"
+    directory = tmp_path_factory.mktemp(f"{name}_run")
+    return run(workspace, launch, directory, Clock(until=UNTIL, quiet=UNTIL, rate=None))
+
+
+@pytest.fixture
+def model(tmp_path: Path) -> Path:
+    """The model, its property and its settings, to be changed."""
+    for suffix in (".rebeca", ".property"):
+        shutil.copy(MODEL.with_suffix(suffix), tmp_path)
+    (tmp_path / "rebsync.toml").write_text(SETTINGS)
+    return tmp_path / MODEL.name
+
+
+@pytest.fixture(scope="module")
+def slow(build_workspace: Build, tmp_path_factory: pytest.TempPathFactory) -> Recording:
+    return recorded(build_workspace, tmp_path_factory, "slow", True)
+
+
+@pytest.fixture(scope="module")
+def sound(build_workspace: Build, tmp_path_factory: pytest.TempPathFactory) -> Recording:
+    return recorded(build_workspace, tmp_path_factory, "sound", False)
+
+
+def conform(model: Path, recording: Recording, *options: str) -> Outcome:
+    """What the command says of a recording."""
+    return rebsync("conform", model.name, str(recording.run_log), *options, cwd=model.parent)
+
+
+def test_a_robot_in_time_needs_no_other_model(sound: Recording, model: Path) -> None:
+    before = model.read_bytes()
+    answer = conform(model, sound, "--apply", "--format", "json")
+    assert answer.status == 0, answer.out
+    times = json.loads(answer.out)["times"]
+    assert {p["state"] for p in times["proposals"]} == {"kept"}
+    assert model.read_bytes() == before
+    delay = next(p for p in times["places"] if p["line"] == 17)
+    assert (delay["measured"]["count"], delay["model"]) == (3, [2])
+    assert 1.9 < delay["measured"]["least"] <= delay["measured"]["greatest"] < 2.5
+
+
+def test_a_slow_robot_is_found_before_it_crashes(slow: Recording, model: Path) -> None:
+    """It did not crash, its times are the model's by its own clock; and it would crash."""
+    text = model.read_text()
+    answer = conform(model, slow, "--calibrate")
+    assert "conforms" in answer.out
+    assert model.read_text() == text
+    assert answer.status == 3, answer.out
+    answer = conform(model, slow, "--apply", "--format", "json")
+    assert answer.status == 3, answer.out
+    delay = next(p for p in json.loads(answer.out)["times"]["places"] if p["line"] == 17)
+    assert 3.2 < delay["measured"]["least"] <= delay["measured"]["greatest"] < 4
+    changed = text.replace("delay(2);  // as", "delay(?(2, 3, 4));  // as", 1)
+    assert model.read_text() == changed
+    assert rebsync("lint", model.name, cwd=model.parent).status == 0
+    assert rebsync("verify", model.name, cwd=model.parent).status == 3
+    again = conform(model, slow, "--apply")
+    assert "conforms" in again.out
+    assert model.read_text() == changed
