@@ -94,7 +94,9 @@ def _verified(problem: Problem, text: str) -> Result:
     from rebsync.config import settings_beside
 
     allowed = frozenset(settings_beside(problem.source.path)[1].allow)
-    return verify(with_text(problem, text), Options(limits=Limits(seconds=LONGEST), allowed=allowed))
+    return verify(
+        with_text(problem, text), Options(limits=Limits(seconds=LONGEST), allowed=allowed)
+    )
 
 
 def said(result: Result) -> str:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from rebsync.checker.problem import Problem
     from rebsync.config import Config
     from rebsync.roundtrip.conform.conformance import Conformance
+    from rebsync.static.cells import CellOf
 
 FORMATS = ("text", "json", "sarif", "github", "junit")
 _STATUS = {
@@ -91,10 +92,20 @@ def command(ctx: click.Context, /, model: str, recordings: tuple[str, ...], **_:
         times = calibrated(subject, problem, recording, proposes, given["applies"])
     if given["page"] is not None:
         from rebsync.roundtrip.calibration.report import times_section
-        from rebsync.roundtrip.conform.report.page import conformance_page
+        from rebsync.roundtrip.conform.movement import recorded_movement
+        from rebsync.roundtrip.conform.report.page import conformance_page, numbered
 
         more = [times_section(times.calibration)] if times is not None else []
-        write_output(given["page"], conformance_page(found, subject, recording.paths, more))
+        moved = recorded_movement(
+            observable,
+            problem.analysis,
+            _cells(problem),
+            recording,
+            found.lateness.zero,
+            numbered(found),
+        )
+        page = conformance_page(found, subject, recording.paths, more, moved)
+        write_output(given["page"], page)
     shown = times if proposes or given["times"] else None
     extra = list(shown.lines(subject.source.path, problem.source.text)) if shown else []
     data = calibration_json(shown.calibration) if shown else None
@@ -121,6 +132,14 @@ def _problem(model: str, property_file: str | None) -> tuple[Problem, Config]:
     path = model_of(packages[0], record)
     config = config_of_record(record.options) or settings_beside(path)[1]
     return read_problem(path, property_file), config
+
+
+def _cells(problem: Problem) -> dict[str, CellOf]:
+    """What the settings beside a model say of the cells of robots."""
+    from rebsync.config import settings_beside
+    from rebsync.grammars.cells import parse_cells
+
+    return parse_cells(*settings_beside(problem.source.path), problem.analysis)
 
 
 def _status(found: Conformance) -> Status:

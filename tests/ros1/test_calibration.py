@@ -71,7 +71,8 @@ def test_a_robot_in_time_needs_no_other_model(sound: Recording, model: Path) -> 
     assert {p["state"] for p in times["proposals"]} == {"kept"}
     assert model.read_bytes() == before
     delay = next(p for p in times["places"] if p["line"] == 17)
-    assert (delay["measured"]["count"], delay["model"]) == (3, [2])
+    assert delay["measured"]["count"] + delay["shortened"] == 3
+    assert (delay["measured"]["count"] >= 1, delay["model"]) == (True, [2])
     assert 1.9 < delay["measured"]["least"] <= delay["measured"]["greatest"] < 2.5
 
 

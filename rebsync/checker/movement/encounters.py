@@ -48,24 +48,24 @@ class _Stretch:
         return self.start + length * first, self.start + length * last
 
 
-def encounters(ways: Sequence[Way], end: float) -> tuple[Encounter, ...]:
+def encounters(ways: Sequence[Way], end: float, begin: float = 0.0) -> tuple[Encounter, ...]:
     """The times at which two robots whose cells are known are too near, in their order."""
     found = [
         encounter
         for one, other in combinations([way for way in ways if way.start.known], 2)
         if _boxes_meet(one, other)
-        for encounter in _meetings(one, other, _known_until(one, other, end))
+        for encounter in _meetings(one, other, begin, _known_until(one, other, end))
     ]
     return tuple(sorted(found, key=lambda each: (each.start, each.robots)))
 
 
-def nearest(ways: Sequence[Way], end: float) -> Encounter | None:
+def nearest(ways: Sequence[Way], end: float, begin: float = 0.0) -> Encounter | None:
     """The closest that any two robots come whose cells are known."""
     found = [
         Encounter((one.robot, other.robot), time, time, time, distance)
         for one, other in combinations([way for way in ways if way.start.known], 2)
         for distance, time in [
-            min(s.nearest() for s in _stretches(one, other, _known_until(one, other, end)))
+            min(s.nearest() for s in _stretches(one, other, begin, _known_until(one, other, end)))
         ]
     ]
     return min(found, key=lambda each: (each.distance, each.time, each.robots), default=None)
@@ -83,11 +83,11 @@ def _boxes_meet(one: Way, other: Way) -> bool:
     )
 
 
-def _stretches(one: Way, other: Way, end: float) -> Iterator[_Stretch]:
+def _stretches(one: Way, other: Way, begin: float, end: float) -> Iterator[_Stretch]:
     """Stretches of time in which both robots go straight on, at least one."""
-    times = {0.0, end, *(pose.time for way in (one, other) for pose in way.poses)}
-    inside = sorted(time for time in times if 0 <= time <= end)
-    for start, until in pairwise(inside if len(inside) > 1 else [0.0, 0.0]):
+    times = {begin, end, *(pose.time for way in (one, other) for pose in way.poses)}
+    inside = sorted(time for time in times if begin <= time <= end)
+    for start, until in pairwise(inside if len(inside) > 1 else [begin, begin]):
         # At a time of two poses the later one counts for what follows.
         middle = (start + until) / 2
         a, b = one.at(start), other.at(start)
@@ -97,11 +97,11 @@ def _stretches(one: Way, other: Way, end: float) -> Iterator[_Stretch]:
         yield _Stretch(start, until, x, y, dx, dy)
 
 
-def _meetings(one: Way, other: Way, end: float) -> Iterator[Encounter]:
+def _meetings(one: Way, other: Way, begin: float, end: float) -> Iterator[Encounter]:
     """The encounters of two robots: stretches that follow each other are one."""
     robots = (one.robot, other.robot)
     current: Encounter | None = None
-    for stretch in _stretches(one, other, end):
+    for stretch in _stretches(one, other, begin, end):
         near = stretch.near()
         if near is None:
             continue

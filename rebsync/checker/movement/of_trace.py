@@ -35,11 +35,12 @@ def movement_of(
     return movement_along(ways, until)
 
 
-def movement_along(ways: Iterable[Way], until: float) -> Movement:
-    """The movement of robots along ways, with where they meet; the run ends at `until`."""
+def movement_along(ways: Iterable[Way], until: float, begin: float = 0.0) -> Movement:
+    """The movement of robots along ways, with where they meet; a run from `begin` to `until`."""
     every = tuple(ways)
     end = max([until, *(way.poses[-1].time for way in every)])
-    return Movement(every, until, end, encounters(every, end), nearest(every, end))
+    meet, near = encounters(every, end, begin), nearest(every, end, begin)
+    return Movement(every, until, end, meet, near, begin)
 
 
 def has_moves(analysis: Analysis) -> bool:

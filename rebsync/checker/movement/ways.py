@@ -65,7 +65,7 @@ class Encounter:
 
 @dataclass(frozen=True, slots=True)
 class Movement:
-    """The ways of all robots of a run that ends at `until`.
+    """The ways of all robots of a run from `begin` to `until`.
 
     Moves that it began are driven to their end, which is at `end`. `nearest` is the closest that
     two robots come, None when there are no two whose cells are known.
@@ -76,6 +76,7 @@ class Movement:
     end: float
     encounters: tuple[Encounter, ...] = ()
     nearest: Encounter | None = None
+    begin: float = 0.0
 
 
 Moving: TypeAlias = Callable[[Trace], Movement | None]

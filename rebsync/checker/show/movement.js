@@ -23,6 +23,7 @@
   function player(root) {
     const scene = JSON.parse(root.querySelector('.scene-data').textContent);
     const host = root.closest('.run') || root;
+    const chart = document.getElementById(root.dataset.chart);
     const board = root.querySelector('.board');
     const [cell, zeroX, zeroY, below] =
       ['cell', 'x', 'y', 'below'].map((name) => Number(board.dataset[name]));
@@ -38,7 +39,7 @@
     const play = root.querySelector('[data-act=play]');
     const speed = root.querySelector('.speed');
     let step = 0; // its position among the steps
-    let time = 0;
+    let time = scene.begin;
     let playing = 0; // the number of the frame that is asked for
     let asking = false;
 
@@ -121,11 +122,26 @@
         const detail = scene.steps[step][0];
         host.dispatchEvent(new CustomEvent('stepwanted', { detail }));
         asking = false;
+        mark();
+      }
+    }
+
+    // Marks the step in a chart that nobody else looks after.
+    function mark() {
+      if (!chart) return;
+      const number = scene.steps[step][0];
+      chart.querySelectorAll('.on').forEach((part) => part.classList.remove('on'));
+      chart.querySelectorAll(`[data-step="${number}"]`).forEach((part) => part.classList.add('on'));
+      const row = chart.querySelector(`.row[data-step="${number}"]`);
+      if (!row) return;
+      const [there, here] = [chart.getBoundingClientRect(), row.getBoundingClientRect()];
+      if (here.top < there.top || here.bottom > there.bottom) {
+        chart.scrollTop += here.top - there.top - there.height / 2;
       }
     }
 
     function toTime(at) {
-      time = Math.min(Math.max(at, 0), scene.end);
+      time = Math.min(Math.max(at, scene.begin), scene.end);
       toStep(stepAt(time));
       draw();
     }
@@ -140,7 +156,7 @@
     // Time goes on with the clock, but stays a moment at each of several steps at one time.
     function start() {
       if (time >= scene.end) {
-        time = 0;
+        time = scene.begin;
         toStep(0);
       }
       play.textContent = 'Pause';
@@ -207,6 +223,19 @@
       draw();
     });
     host.addEventListener('playwanted', () => acts.play());
+    if (chart) {
+      chart.addEventListener('click', (event) => {
+        const part = event.target.closest('[data-step]');
+        const at = part ? scene.steps.findIndex((each) => each[0] === Number(part.dataset.step)) : -1;
+        if (at >= 0) walk(at - step);
+      });
+      document.addEventListener('keydown', (event) => {
+        const act = { p: 'play', j: 'forward', k: 'back' }[event.key];
+        const typed = event.target.matches('input, select');
+        if (act && !typed && !event.ctrlKey && !event.metaKey && !event.altKey) acts[act]();
+      });
+      document.documentElement.classList.add('js');
+    }
     drawValues();
     draw();
   }

@@ -18,10 +18,15 @@ SPEEDS = ("0.25", "0.5", "1", "2", "5", "10", "50")
 _SAID = 8  # encounters that are listed
 
 
-def movement_section(movement: Movement, steps: Sequence[Frame], name: str) -> Markup:
-    """The section of a run; `name` is unique in the page."""
+def movement_section(
+    movement: Movement, steps: Sequence[Frame], name: str, chart: str | None = None
+) -> Markup:
+    """The section of a run; `name` is unique in the page.
+
+    `chart` is the id of what has the chart of the steps, in a page without a script of its own.
+    """
     data = json_text(scene(movement, steps)).replace("<", "\\u003c")
-    variables = {r.name: r.variables for r in steps[0].rebecs}
+    variables = {r.name: r.variables for step in reversed(steps) for r in step.rebecs}
     rows = [
         _robot(way, place, variables.get(way.robot, ())) for place, way in enumerate(movement.ways)
     ]
@@ -43,6 +48,7 @@ def movement_section(movement: Movement, steps: Sequence[Frame], name: str) -> M
             element("script", Markup(data), type="application/json", class_="scene-data"),
         ),
         class_="movement",
+        data_chart=chart,
         open=True,
         id=f"{name}-movement",
     )
@@ -57,10 +63,10 @@ def _controls(movement: Movement, name: str) -> Markup:
         "input",
         type="range",
         class_="time",
-        min="0",
+        min=repr(movement.begin),
         max=repr(movement.end),
         step="0.05",
-        value="0",
+        value=repr(movement.begin),
         aria_label="Time",
         id=f"{name}-time",
     )
@@ -108,10 +114,11 @@ def _remarks(movement: Movement) -> list[Markup]:
         said.append(element("p", f"and {len(movement.encounters) - _SAID} more encounters"))
     if not movement.encounters and movement.nearest is not None:
         one, other = movement.nearest.robots
-        far = f"{movement.nearest.distance:.2f} cells apart at {movement.nearest.time:g}"
+        far = f"{movement.nearest.distance:.2f} cells apart at {round(movement.nearest.time, 2):g}"
         said.append(element("p", f"Nearest: {one} and {other}, {far}.", class_="quiet"))
     if movement.end > movement.until:
-        text = f"The run ends at {movement.until:g}; moves that it began are drawn to their end."
+        text = "moves that it began are drawn to their end."
+        text = f"The run ends at {round(movement.until, 2):g}; {text}"
         said.append(element("p", text, class_="quiet"))
     unknown = [way.robot for way in movement.ways if not way.start.known]
     if len(movement.ways) > 1 and unknown:
@@ -121,7 +128,11 @@ def _remarks(movement: Movement) -> list[Markup]:
         )
         said.append(element("p", text, class_="quiet"))
     said += [
-        element("p", f"Where {way.robot} is after {way.lost:g} cannot be computed.", class_="quiet")
+        element(
+            "p",
+            f"Where {way.robot} is after {round(way.lost, 2):g} cannot be computed.",
+            class_="quiet",
+        )
         for way in movement.ways
         if way.lost is not None
     ]
@@ -131,6 +142,6 @@ def _remarks(movement: Movement) -> list[Markup]:
 def _meeting(each: Encounter) -> Markup:
     """A button that shows an encounter."""
     one, other = each.robots
-    text = f"{one} and {other} collide: {each.distance:.2f} cells apart at {each.time:g}"
+    text = f"{one} and {other} collide: {each.distance:.2f} cells apart at {round(each.time, 2):g}"
     button = element("button", text, type="button", data_time=repr(each.time))
     return element("li", button)

@@ -68,6 +68,7 @@ def _encounter(each: Encounter) -> Json:
 def scene(movement: Movement, steps: Sequence[Frame]) -> Json:
     """What the drawing plays: ways as lists of numbers, and the values that steps change."""
     return {
+        "begin": _short(movement.begin),
         "until": _short(movement.until),
         "end": _short(movement.end),
         "robots": [

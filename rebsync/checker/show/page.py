@@ -82,9 +82,11 @@ def _page(
     properties: Source | None,
 ) -> str:
     moves = any(run.movement is not None for run in runs)
-    styles = [_file("page.css"), STYLE, *([_file("movement.css")] if moves else [])]
-    # The drawing listens to the page: it comes first.
-    scripts = [*([_file("movement.js")] if moves else []), _file("page.js")]
+    styles = [own_file("colours.css"), own_file("page.css"), STYLE]
+    scripts = [own_file("page.js")]
+    if moves:
+        styles.append(own_file("movement.css"))
+        scripts.insert(0, own_file("movement.js"))  # it listens to the page: it comes first
     style = element("style", Markup("".join(styles)))
     script = element("script", Markup("".join(scripts)))
     aside = [source_section(source, coverage)]
@@ -112,7 +114,8 @@ def _page(
 
 
 @cache
-def _file(name: str) -> str:
+def own_file(name: str) -> str:
+    """A style or script of the pages."""
     return files("rebsync.checker.show").joinpath(name).read_text(encoding="utf-8")
 
 
