@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -96,6 +97,7 @@ def command(ctx: click.Context, /, model: str, recordings: tuple[str, ...], **_:
         from rebsync.roundtrip.conform.report.page import conformance_page, numbered
 
         more = [times_section(times.calibration)] if times is not None else []
+        until = found.deviation.served if found.deviation is not None else None
         moved = recorded_movement(
             observable,
             problem.analysis,
@@ -103,6 +105,7 @@ def command(ctx: click.Context, /, model: str, recordings: tuple[str, ...], **_:
             recording,
             found.lateness.zero,
             numbered(found),
+            until.stamp if until is not None else inf,
         )
         page = conformance_page(found, subject, recording.paths, more, moved)
         write_output(given["page"], page)

@@ -84,6 +84,8 @@ class Measuring:
         """A body that has ended."""
         self._count += 1
         ended = (served.stamp - self._zero) / self._unit
+        if served.server == CONSTRUCTOR:
+            ended = float(served.now)  # they run before time 0, and tell it when somebody listens
         before, free = self._last.get(served.rebec, (None, 0.0))
         self._last[served.rebec] = (served, ended)
         path = self._path(served, before)

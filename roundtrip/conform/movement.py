@@ -34,10 +34,12 @@ def recorded_movement(
     recording: Recording,
     zero: float,
     shown: Sequence[tuple[int, Served]],
+    until: float = math.inf,
 ) -> Recorded | None:
-    """How robots moved in the steps that are `shown`, which have numbers.
+    """How robots moved from the first of the steps that are `shown`, which have numbers.
 
-    `zero` is time 0 of the recording's clock. None where the model has no moves, or none was seen.
+    `zero` is time 0 of the recording's clock, `until` when on it to end. None where the model has
+    no moves, or none was seen.
     """
     if not shown or not has_moves(analysis):
         return None
@@ -48,10 +50,9 @@ def recorded_movement(
         if is_robot(analysis, name, ())
     }
     settings = observable.package.settings
-    last = max(served.stamp for _, served in shown)
     for event in recording.events():
         robot = robots.get(_rebec(event))
-        if robot is not None and event.stamp <= last:
+        if robot is not None and event.stamp <= until:
             robot.see(event, (event.stamp - zero) / settings.time_unit)
     ways = [way for robot in robots.values() if (way := robot.way()) is not None]
     frames = [

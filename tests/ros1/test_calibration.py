@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import shutil
 from pathlib import Path
 
@@ -12,14 +13,15 @@ from rebsync.config import Config
 from tests.cli.run import Outcome, rebsync
 from tests.forward.compiling import generated, written
 from tests.ros1.conftest import Build
+from tests.ros1.paths import Way
 from tests.ros1.recording import Recording
 from tests.ros1.run import Clock, run
 
 MODEL = Path(__file__).parent / "models" / "crossing.rebeca"
 CONFIG = Config(package="crossing", target="ros1-py")
 UNTIL = 12.0
-SLOW = "        time.sleep(3.3)  # the real robot's wheels\n"
-WAITS = "        self._mailbox.delay(2)"
+WAITS = "        self._mailbox.delay(2)  # as the data sheet says\n"
+SLOW = "        time.sleep(1.3)  # until it stands\n"
 SETTINGS = 'package = "crossing"\ntarget = "ros1-py"\nallow = ["deadlock"]\n'
 
 
@@ -32,7 +34,7 @@ def recorded(
     body = package / "src" / "crossing" / "first.py"
     if slow:
         text = body.read_text().replace("import rospy", "import time\n\nimport rospy", 1)
-        body.write_text(text.replace(WAITS, f"{SLOW}{WAITS}"))
+        body.write_text(text.replace(WAITS, f"{WAITS}{SLOW}"))
     workspace = build_workspace(f"calibration_{name}", [package])
     launch = workspace.root / "src" / "crossing" / "launch" / "crossing.launch"
     directory = tmp_path_factory.mktemp(f"{name}_run")
@@ -63,6 +65,17 @@ def conform(model: Path, recording: Recording, *options: str) -> Outcome:
     return rebsync("conform", model.name, str(recording.run_log), *options, cwd=model.parent)
 
 
+def apart(recording: Recording) -> list[float]:
+    """How far the robots are from each other, at many times."""
+    ways = []
+    for name, x, y in (("first", 0, 1), ("second", 1, 0)):
+        path = recording.path(name)
+        times = (0.0, *(stamp for stamp, _ in path))
+        ways.append(Way(name, times, ((x, y), *((x + p.x, y + p.y) for _, p in path))))
+    one, other = ways
+    return [math.dist(one.at(t / 20), other.at(t / 20)) for t in range(int(UNTIL * 20))]
+
+
 def test_a_robot_in_time_needs_no_other_model(sound: Recording, model: Path) -> None:
     before = model.read_bytes()
     answer = conform(model, sound, "--apply", "--format", "json")
@@ -77,7 +90,8 @@ def test_a_robot_in_time_needs_no_other_model(sound: Recording, model: Path) -> 
 
 
 def test_a_slow_robot_is_found_before_it_crashes(slow: Recording, model: Path) -> None:
-    """It did not crash, its times are the model's by its own clock; and it would crash."""
+    """It did not crash, and by its own clock it does what the model says; but it would crash."""
+    assert min(apart(slow)) > 0.5
     text = model.read_text()
     answer = conform(model, slow, "--calibrate")
     assert "conforms" in answer.out
