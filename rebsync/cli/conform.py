@@ -90,7 +90,8 @@ def command(ctx: click.Context, /, model: str, recordings: tuple[str, ...], **_:
     proposes = given["calibrate"] or given["applies"]
     times = None
     if proposes or given["times"] or given["page"] is not None:
-        times = calibrated(subject, problem, recording, proposes, given["applies"])
+        applies = given["applies"] and found.verdict == "conforms"
+        times = calibrated(subject, problem, recording, proposes, applies)
     if given["page"] is not None:
         from rebsync.roundtrip.calibration.report import times_section
         from rebsync.roundtrip.conform.movement import recorded_movement
@@ -111,6 +112,8 @@ def command(ctx: click.Context, /, model: str, recordings: tuple[str, ...], **_:
         write_output(given["page"], page)
     shown = times if proposes or given["times"] else None
     extra = list(shown.lines(subject.source.path, problem.source.text)) if shown else []
+    if given["applies"] and found.verdict != "conforms":
+        extra.append("nothing was written: the recorded run is none of the model")
     data = calibration_json(shown.calibration) if shown else None
     text = as_text(found, subject, recording.paths, given["style"], extra, data)
     write_output(given["output"], text)

@@ -68,11 +68,12 @@ def _rebec(event: Event) -> int:
 
 def _between(ways: list[Way], frames: list[Frame]) -> Recorded:
     """The ways from the first step to the last one."""
-    begin, until = frames[0].time, frames[-1].time
+    begin = frames[0].time
     kept = [
         replace(way, poses=(way.at(begin), *(pose for pose in way.poses if pose.time > begin)))
         for way in ways
     ]
+    until = max([frames[-1].time, *(way.poses[-1].time for way in kept)])
     return Recorded(movement_along(kept, until, begin), tuple(frames))
 
 

@@ -137,3 +137,12 @@ def test_velocities_say_where_a_robot_is(model: Path) -> None:
     second = next(robot for robot in scene["robots"] if robot["name"] == "second")
     places = {round(pose[0], 3): pose[2] for pose in second["path"]}
     assert places[7] == 0 and places[9] == pytest.approx(2)
+
+
+def test_a_run_that_is_none_of_the_model_is_not_written(model: Path) -> None:
+    text = model.read_text(encoding="utf-8").replace("x = x + 1;", "x = x + 2;")
+    model.write_text(text, encoding="utf-8")
+    answer = conform(model, "slow.jsonl", "--apply")
+    assert answer.status in (1, 3), answer.out
+    assert "nothing was written" in answer.out
+    assert model.read_text(encoding="utf-8") == text
