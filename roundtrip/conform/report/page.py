@@ -116,8 +116,11 @@ def _charts(found: Conformance, subject: Subject) -> Markup:
 
 
 def numbered(found: Conformance) -> list[tuple[int, Served]]:
-    """The last recorded steps with their numbers, the one that does not fit included."""
-    served = list(found.last[-SHOWN:])
+    """The last recorded steps with their numbers, as they came; the one that does not fit as well.
+
+    The steps of different rebecs pass the comparison in another order.
+    """
+    served = sorted(found.last, key=lambda each: each.stamp)[-SHOWN:]
     first = max(found.compared - len(served), 0) + 1
     if found.deviation is not None and found.deviation.served is not None:
         served.append(found.deviation.served)

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from rebsync.grammars.parser import parse_model
 from rebsync.roundtrip.calibration.measure import measure
 from rebsync.roundtrip.conform.matching import conform
+from rebsync.roundtrip.conform.recording import Served
 from rebsync.source import Source
 from rebsync.static import analyse
 from tests.roundtrip.calibration.jittered import (
@@ -185,7 +186,7 @@ def test_a_body_without_delay_that_takes_time_is_told() -> None:
     model = measurable(MODEL)
     recorded = Run(model, no_extra, Random(1)).make(90)
     late = [
-        e._replace(stamp=e.stamp + 3) if hasattr(e, "server") and e.server == "hear" else e
+        e._replace(stamp=e.stamp + 3) if isinstance(e, Served) and e.server == "hear" else e
         for e in recorded.events()
     ]
     found = calibrated(model, type(recorded)(tuple(late)))
