@@ -100,7 +100,9 @@ def test_a_slow_robot_is_found_before_it_crashes(slow: Recording, model: Path) -
     answer = conform(model, slow, "--apply", "--format", "json")
     assert answer.status == 3, answer.out
     delay = next(p for p in json.loads(answer.out)["times"]["places"] if p["line"] == 17)
-    assert 3.2 < delay["measured"]["least"] <= delay["measured"]["greatest"] < 4
+    # Later ones begin late, and wait for what is left of their time only.
+    assert 3.2 < delay["measured"]["greatest"] < 4
+    assert delay["measured"]["count"] + delay["shortened"] == 3
     changed = text.replace("delay(2);  // as", "delay(?(2, 3, 4));  // as", 1)
     assert model.read_text() == changed
     assert rebsync("lint", model.name, cwd=model.parent).status == 0
