@@ -51,6 +51,11 @@ class Calibrated:
             yield f"with what was measured: {said(self.result)}"
 
     @property
+    def verdict(self) -> str | None:
+        """The verdict on the model as proposed."""
+        return self.result.verdict if self.result is not None else None
+
+    @property
     def status(self) -> Status:
         """The status of the command, as far as it is about times."""
         found = [Status.CLEAN]

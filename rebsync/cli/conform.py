@@ -114,7 +114,7 @@ def command(ctx: click.Context, /, model: str, recordings: tuple[str, ...], **_:
     extra = list(shown.lines(subject.source.path, problem.source.text)) if shown else []
     if given["applies"] and found.verdict != "conforms":
         extra.append("nothing was written: the recorded run is none of the model")
-    data = calibration_json(shown.calibration) if shown else None
+    data = calibration_json(shown.calibration, shown.verdict) if shown else None
     text = as_text(found, subject, recording.paths, given["style"], extra, data)
     write_output(given["output"], text)
     return worst([_status(found), shown.status if shown else Status.CLEAN])

@@ -99,8 +99,8 @@ def _why(proposal: Proposal) -> str:
 # --- JSON --------------------------------------------------------------------------------------
 
 
-def calibration_json(found: Calibration) -> Json:
-    """What was measured and is proposed."""
+def calibration_json(found: Calibration, verdict: str | None) -> Json:
+    """What was measured and is proposed, and the verdict on that."""
     times = found.times
     return {
         "time_unit": times.time_unit,
@@ -113,6 +113,7 @@ def calibration_json(found: Calibration) -> Json:
             {"body": s.body, "line": s.line, "times": _statistics(_of(s))} for s in times.slow
         ],
         "proposals": [_proposal(proposal) for proposal in found.proposals],
+        "verified": verdict,
     }
 
 

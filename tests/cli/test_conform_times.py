@@ -8,6 +8,7 @@ import shutil
 from pathlib import Path
 from random import Random
 
+import jsonschema  # type: ignore[import-untyped]
 import pytest
 
 from rebsync.roundtrip.conform.recording import Announced, Served
@@ -75,9 +76,15 @@ def test_times_are_a_table(model: Path) -> None:
 def test_times_in_json_keep_to_the_schema(model: Path) -> None:
     answer = conform(model, "slow.jsonl", "--times", "--format", "json")
     data = json.loads(answer.out)
+    schema = json.loads((ROOT / "docs" / "conform.schema.json").read_text(encoding="utf-8"))
+    jsonschema.Draft202012Validator(schema).validate(data)
+    assert data["times"]["verified"] is None
     place = next(p for p in data["times"]["places"] if p["line"] == 17)
     assert place["measured"]["count"] == 3
     assert 3.3 < place["measured"]["least"] <= place["measured"]["greatest"] < 3.5
+    data = json.loads(conform(model, "slow.jsonl", "--calibrate", "--format", "json").out)
+    jsonschema.Draft202012Validator(schema).validate(data)
+    assert data["times"]["verified"] == "violated"
     assert json.loads(conform(model, "slow.jsonl", "--format", "json").out)["times"] is None
 
 
