@@ -12,7 +12,7 @@ from rebsync.roundtrip.calibration.times import Measured, Slow, Statistics, Time
 
 Json: TypeAlias = dict[str, Any]
 
-HEADS = ("line", "", "time", "model", "count", "least", "median", "99 %", "greatest", "")
+HEADS = ("line", "kind", "time", "model", "count", "least", "median", "99 %", "greatest", "body")
 _LEFT = frozenset({1, 2, 9})  # columns of text
 
 
