@@ -21,14 +21,14 @@ from rebsync.roundtrip.conform.recording import Served
 _REMEMBERED = 50_000  # bodies
 
 
-class Delay(NamedTuple):
+class DelayRun(NamedTuple):
     """A delay that ran: its instruction, and how long it is in the model."""
 
     pc: int
     time: int
 
 
-class Send(NamedTuple):
+class SendRun(NamedTuple):
     """A send that ran, `elapsed` units after its body began; `after` and `deadline` as evaluated.
 
     `message` is what its receiver shows of it: receiver, server, arguments.
@@ -41,14 +41,14 @@ class Send(NamedTuple):
     message: tuple[int, str, str]
 
 
-class Path(NamedTuple):
+class BodyPath(NamedTuple):
     """What a body ran, in its order."""
 
-    delays: tuple[Delay, ...]
-    sends: tuple[Send, ...]
+    delays: tuple[DelayRun, ...]
+    sends: tuple[SendRun, ...]
 
 
-class Bodies:
+class BodyRuns:
     """The bodies of a program, run again one by one."""
 
     def __init__(self, program: Program, observable: Observable) -> None:
@@ -58,9 +58,9 @@ class Bodies:
         self._actors = [
             Actor(program, index, "ftts", Coverage()) for index in range(len(program.rebecs))
         ]
-        self._known: dict[tuple[object, ...], tuple[Path, ...]] = {}
+        self._known: dict[tuple[object, ...], tuple[BodyPath, ...]] = {}
 
-    def paths(self, served: Served, before: Sequence[Cell] | None) -> tuple[Path, ...]:
+    def paths(self, served: Served, before: Sequence[Cell] | None) -> tuple[BodyPath, ...]:
         """The ways that a body can have gone; `before` is the state before, None of constructors.
 
         None of them: what was recorded is nothing that the model does.
@@ -115,7 +115,9 @@ class Bodies:
             return int(word == "true")
         return self._observable.reader(kind)(word)
 
-    def _fitting(self, served: Served, outcomes: Iterator[Outcome], taken: int) -> Iterator[Path]:
+    def _fitting(
+        self, served: Served, outcomes: Iterator[Outcome], taken: int
+    ) -> Iterator[BodyPath]:
         for outcome in outcomes:
             local = outcome.result
             if (
@@ -125,7 +127,7 @@ class Bodies:
             ):
                 yield self._path(outcome)
 
-    def _path(self, outcome: Outcome) -> Path:
+    def _path(self, outcome: Outcome) -> BodyPath:
         delays = [event for event in outcome.course if isinstance(event, Delayed)]
         sends = []
         for number, sent in enumerate(outcome.sends):
@@ -135,5 +137,5 @@ class Bodies:
             server = self._program.servers[message.server].name
             arguments = self._observable.arguments(message.server, message.arguments)
             shown = (sent.receiver, server, arguments)
-            sends.append(Send(sent.pc, elapsed, message.arrival - elapsed, due, shown))
-        return Path(tuple(Delay(d.pc, d.time) for d in delays), tuple(sends))
+            sends.append(SendRun(sent.pc, elapsed, message.arrival - elapsed, due, shown))
+        return BodyPath(tuple(DelayRun(d.pc, d.time) for d in delays), tuple(sends))

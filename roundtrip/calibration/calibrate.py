@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from rebsync.edits import apply_edits
 from rebsync.model import Call, Constructor, MessageServer, Method, Model, walk
 from rebsync.records import dataclass
-from rebsync.roundtrip.calibration.proposals import Place, Proposal, proposals
+from rebsync.roundtrip.calibration.proposals import Proposal, TimedPlace, proposals
 from rebsync.roundtrip.calibration.sites import time_of
-from rebsync.roundtrip.calibration.times import Measured, Times
+from rebsync.roundtrip.calibration.times import Measured, RunTimes
 from rebsync.source import Source
 
 
@@ -17,7 +17,7 @@ from rebsync.source import Source
 class Calibration:
     """What was measured, what is proposed, and the model's text with all of it."""
 
-    times: Times
+    times: RunTimes
     proposals: tuple[Proposal, ...]
     text: str
 
@@ -37,7 +37,7 @@ class Calibration:
         return bool(self.impossible) or bool(self.times.slow)
 
 
-def calibrate(source: Source, model: Model, times: Times) -> Calibration:
+def calibrate(source: Source, model: Model, times: RunTimes) -> Calibration:
     """What a model has to allow; its text keeps everything else, comments and layout as well."""
     given = [place for each in times.places for place in _place(each, model)]
     found = proposals(times, given)
@@ -45,7 +45,7 @@ def calibrate(source: Source, model: Model, times: Times) -> Calibration:
     return Calibration(times, found, apply_edits(source.text, edits))
 
 
-def _place(measured: Measured, model: Model) -> Iterator[Place]:
+def _place(measured: Measured, model: Model) -> Iterator[TimedPlace]:
     """A place that can change: a deadline is a demand, and a period the sum of other times."""
     site = measured.site
     if site.kind == "deadline" or site.kind == "period":
@@ -59,5 +59,5 @@ def _place(measured: Measured, model: Model) -> Iterator[Place]:
                     continue
                 expression = time_of(call, site.kind)
                 if expression is not None and expression.span == site.span:
-                    yield Place(measured, expression, isinstance(member, MessageServer))
+                    yield TimedPlace(measured, expression, isinstance(member, MessageServer))
                     return

@@ -1,4 +1,4 @@
-"""Model x Recording -> Times."""
+"""Model x Recording -> RunTimes."""
 
 from __future__ import annotations
 
@@ -9,7 +9,15 @@ from rebsync.model import Model
 from rebsync.records import dataclass
 from rebsync.roundtrip.calibration.measuring import Measuring, Series
 from rebsync.roundtrip.calibration.sites import Sites, time_of
-from rebsync.roundtrip.calibration.times import Kind, Measured, Sample, Site, Slow, Times, quantile
+from rebsync.roundtrip.calibration.times import (
+    Kind,
+    Measured,
+    RunTimes,
+    Sample,
+    Slow,
+    TimeSite,
+    quantile,
+)
 from rebsync.roundtrip.conform.lateness import Clocks
 from rebsync.roundtrip.conform.matching import Subject
 from rebsync.roundtrip.conform.recording import Recording, Served
@@ -17,7 +25,7 @@ from rebsync.roundtrip.conform.recording import Recording, Served
 _KINDS: tuple[Kind, ...] = ("delay", "after", "deadline", "period")
 
 
-def measure(subject: Subject, model: Model, recording: Recording) -> Times:
+def measure(subject: Subject, model: Model, recording: Recording) -> RunTimes:
     """What a recording of a model's nodes took. It is read twice: for time 0, and for the rest."""
     clocks = Clocks(subject.observable.nodes, subject.time_unit)
     for event in recording.events():
@@ -36,7 +44,7 @@ class _Result:
     sites: Sites
     measuring: Measuring
 
-    def times(self) -> Times:
+    def times(self) -> RunTimes:
         slack = self.subject.slack / self.subject.time_unit
         latency = self._latency(slack)
         places = [
@@ -44,7 +52,7 @@ class _Result:
             for kind, series in zip(_KINDS, self._series(), strict=True)
             for place in self._places(kind, series)
         ]
-        return Times(
+        return RunTimes(
             tuple(sorted(places, key=lambda p: (p.site.span.start, _KINDS.index(p.site.kind)))),
             tuple(self._slow(slack)),
             latency,
@@ -69,9 +77,9 @@ class _Result:
 
     def _places(self, kind: Kind, series: Mapping[int, Series]) -> Iterable[Measured]:
         """The places of a kind: several instructions are one where a class inherits a body."""
-        samples: dict[Site, list[Sample]] = defaultdict(list)
-        shared: dict[Site, set[int]] = defaultdict(set)
-        shortened: dict[Site, int] = defaultdict(int)
+        samples: dict[TimeSite, list[Sample]] = defaultdict(list)
+        shared: dict[TimeSite, set[int]] = defaultdict(set)
+        shortened: dict[TimeSite, int] = defaultdict(int)
         for pc in self._candidates(kind, series):
             site = self.sites.site(pc, kind)
             samples[site] += series[pc].samples() if pc in series else ()

@@ -11,7 +11,7 @@ from array import array
 from collections import defaultdict, deque
 from typing import NamedTuple
 
-from rebsync.roundtrip.calibration.bodies import Bodies, Path, Send
+from rebsync.roundtrip.calibration.bodies import BodyPath, BodyRuns, SendRun
 from rebsync.roundtrip.calibration.times import Sample
 from rebsync.roundtrip.conform.matching import Subject
 from rebsync.roundtrip.conform.recording import Served
@@ -26,7 +26,7 @@ Key = tuple[int, str, str, int]
 class _Sending(NamedTuple):
     """A send with when it happened, in units since time 0, and the body that it is in."""
 
-    send: Send
+    send: SendRun
     at: float
     by: Served
     ended: float
@@ -38,7 +38,7 @@ class _Ran(NamedTuple):
     served: Served
     ended: float
     free: float
-    path: Path | None
+    path: BodyPath | None
 
 
 class Series:
@@ -66,7 +66,7 @@ class Measuring:
         self._unit = subject.time_unit
         self._soon = _SOON * subject.slack / subject.time_unit
         self._zero = zero
-        self._bodies = Bodies(subject.program, subject.observable)
+        self._bodies = BodyRuns(subject.program, subject.observable)
         self._last: dict[int, tuple[Served, float]] = {}
         self._sent: dict[Key, deque[_Sending]] = defaultdict(deque)
         self._unmatched: dict[Key, deque[_Ran]] = defaultdict(deque)
@@ -114,7 +114,7 @@ class Measuring:
         """How many bodies were seen."""
         return self._count
 
-    def _path(self, served: Served, before: Served | None) -> Path | None:
+    def _path(self, served: Served, before: Served | None) -> BodyPath | None:
         """What a body ran, if that is certain; of the first body of a rebec nobody knows it."""
         if before is None and served.server != CONSTRUCTOR:
             self.unknown += 1
@@ -126,7 +126,7 @@ class Measuring:
             return None
         return paths[0]
 
-    def _send(self, ran: _Ran, path: Path) -> None:
+    def _send(self, ran: _Ran, path: BodyPath) -> None:
         served = ran.served
         total = served.now - served.start
         for send in path.sends:
@@ -153,7 +153,7 @@ class Measuring:
         if sending is not None:
             self._message(ran, sending, began, late)
 
-    def _body(self, served: Served, path: Path, took: float, late: float, began: float) -> None:
+    def _body(self, served: Served, path: BodyPath, took: float, late: float, began: float) -> None:
         total = served.now - served.start
         delays = [delay for delay in path.delays if delay.time > 0]
         if not delays:

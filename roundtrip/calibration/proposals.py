@@ -18,7 +18,7 @@ from typing import Literal, TypeAlias
 from rebsync.diagnostics import Edit
 from rebsync.model import Assign, Binary, Choice, Conditional, Expression, IntLiteral, Paren
 from rebsync.records import dataclass
-from rebsync.roundtrip.calibration.times import Measured, Sample, Times
+from rebsync.roundtrip.calibration.times import Measured, RunTimes, Sample
 
 MOST = 64  # values of one choice
 _CLOSE = 1e-6
@@ -44,7 +44,7 @@ class Proposal:
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class TimedPlace:
     """A place with its expression, and whether a choice may stand there."""
 
     measured: Measured
@@ -52,12 +52,12 @@ class Place:
     may_choose: bool
 
 
-def proposals(times: Times, places: Iterable[Place]) -> tuple[Proposal, ...]:
+def proposals(times: RunTimes, places: Iterable[TimedPlace]) -> tuple[Proposal, ...]:
     """What is proposed for each delay and `after` of a model."""
     return tuple(_proposal(times, place) for place in places)
 
 
-def _proposal(times: Times, place: Place) -> Proposal:
+def _proposal(times: RunTimes, place: TimedPlace) -> Proposal:
     measured = place.measured
     if not measured.samples:
         return Proposal(measured, "kept", reason="it was not measured")
@@ -76,14 +76,14 @@ def _proposal(times: Times, place: Place) -> Proposal:
     return Proposal(measured, "change", text)
 
 
-def _in_time(times: Times, measured: Measured) -> str:
+def _in_time(times: RunTimes, measured: Measured) -> str:
     latest = max(sample.late for sample in measured.samples)
     if latest <= times.slack:
         return f"no body ends more than the slack after its time ({max(latest, 0.0):.2f} units)"
     return "it takes what the model says, and is late because others are"
 
 
-def _needed(times: Times, samples: Sequence[Sample]) -> Iterator[tuple[int, int]]:
+def _needed(times: RunTimes, samples: Sequence[Sample]) -> Iterator[tuple[int, int]]:
     """For values of the model, by how many units they are exceeded."""
     if not any(_is_slow(times, sample) for sample in samples):
         return
@@ -95,7 +95,7 @@ def _needed(times: Times, samples: Sequence[Sample]) -> Iterator[tuple[int, int]
     yield from most.items()
 
 
-def _is_slow(times: Times, sample: Sample) -> bool:
+def _is_slow(times: RunTimes, sample: Sample) -> bool:
     """Whether a body was later than the slack, and was so by itself."""
     return sample.late > times.slack and sample.excess > times.latency + _CLOSE
 

@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 from rebsync.checker.show.markup import Markup, element, joined
 from rebsync.roundtrip.calibration.calibrate import Calibration
 from rebsync.roundtrip.calibration.proposals import Proposal
-from rebsync.roundtrip.calibration.times import Measured, Slow, Statistics, Times
+from rebsync.roundtrip.calibration.times import Measured, RunTimes, Slow, Statistics
 
 Json: TypeAlias = dict[str, Any]
 
@@ -16,7 +16,7 @@ HEADS = ("line", "kind", "time", "model", "count", "least", "median", "99 %", "g
 _LEFT = frozenset({1, 2, 9})  # columns of text
 
 
-def times_lines(times: Times) -> Iterator[str]:
+def times_lines(times: RunTimes) -> Iterator[str]:
     """The table of what was measured."""
     yield f"times in units of {times.time_unit:g} s: {_about(times)}"
     rows = [HEADS, *(_row(place) for place in times.places)]
@@ -46,14 +46,14 @@ def proposal_lines(found: Calibration) -> Iterator[str]:
         yield f"  no change of the model is needed: {_kept(found.times)}"
 
 
-def _about(times: Times) -> str:
+def _about(times: RunTimes) -> str:
     said = f"{times.bodies:,} bodies"
     if times.unknown:
         said += f", {times.unknown:,} of which are not certain"
     return f"{said}; one without a delay takes {times.latency:.3f}; slack {times.slack:g}"
 
 
-def _kept(times: Times) -> str:
+def _kept(times: RunTimes) -> str:
     return (
         f"nothing took longer than in the model by itself and ended more than the slack "
         f"({times.slack:g}) after its time"

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from rebsync.checker.program import Program
 from rebsync.model import Call, Constructor, Expression, MessageServer, Method, Model, walk
-from rebsync.roundtrip.calibration.times import Kind, Site
+from rebsync.roundtrip.calibration.times import Kind, TimeSite
 from rebsync.source import Source
 
 
@@ -22,14 +22,14 @@ class Sites:
         """The call that an instruction is of."""
         return self._of(pc)[0]
 
-    def site(self, pc: int, kind: Kind) -> Site:
+    def site(self, pc: int, kind: Kind) -> TimeSite:
         """The time of an instruction."""
         call, body = self._of(pc)
         expression = time_of(call, kind)
         assert expression is not None
         span = expression.span
         line = self._source.position(span.start).line
-        return Site(kind, span, line, self._source.text[span.start : span.end], body)
+        return TimeSite(kind, span, line, self._source.text[span.start : span.end], body)
 
     def line(self, pc: int) -> int:
         """The line of an instruction."""

@@ -14,7 +14,7 @@ Kind: TypeAlias = Literal["delay", "after", "deadline", "period"]
 
 
 @dataclass(frozen=True, slots=True)
-class Site:
+class TimeSite:
     """A time in a model: what kind, its expression, and the server or method that it is in."""
 
     kind: Kind
@@ -74,7 +74,7 @@ class Measured:
     begins late waits only for what is left.
     """
 
-    site: Site
+    site: TimeSite
     samples: tuple[Sample, ...]
     shared: tuple[int, ...] = ()
     shortened: int = 0
@@ -100,7 +100,7 @@ class Slow:
 
 
 @dataclass(frozen=True, slots=True)
-class Times:
+class RunTimes:
     """All that was measured.
 
     `latency` is what bodies without a delay take, 99 % of them, but no more than `slack`: what the

@@ -20,7 +20,7 @@ MOST = 4000  # poses of a robot: of a long run the last ones
 
 
 @dataclass(frozen=True, slots=True)
-class Recorded:
+class RecordedMovement:
     """The movement of a recorded run, and the steps that are shown with it."""
 
     movement: Movement
@@ -35,7 +35,7 @@ def recorded_movement(
     zero: float,
     shown: Sequence[tuple[int, Served]],
     until: float = math.inf,
-) -> Recorded | None:
+) -> RecordedMovement | None:
     """How robots moved from the first of the steps that are `shown`, which have numbers.
 
     `zero` is time 0 of the recording's clock, `until` when on it to end. None where the model has
@@ -66,7 +66,7 @@ def _rebec(event: Event) -> int:
     return event.rebec if isinstance(event, (Driven, Served)) else -1
 
 
-def _between(ways: list[Way], frames: list[Frame]) -> Recorded:
+def _between(ways: list[Way], frames: list[Frame]) -> RecordedMovement:
     """The ways from the first step to the last one."""
     begin = frames[0].time
     kept = [
@@ -74,7 +74,7 @@ def _between(ways: list[Way], frames: list[Frame]) -> Recorded:
         for way in ways
     ]
     until = max([frames[-1].time, *(way.poses[-1].time for way in kept)])
-    return Recorded(movement_along(kept, until, begin), tuple(frames))
+    return RecordedMovement(movement_along(kept, until, begin), tuple(frames))
 
 
 def _rebec_of(observable: Observable, served: Served) -> ShownRebec:

@@ -17,7 +17,7 @@ from rebsync.checker.steps import Action
 from rebsync.checker.trace import Change, ShownMessage, ShownRebec, Trace, TraceStep
 from rebsync.roundtrip.conform.conformance import Conformance, Deviation, Lateness
 from rebsync.roundtrip.conform.matching import Subject
-from rebsync.roundtrip.conform.movement import Recorded
+from rebsync.roundtrip.conform.movement import RecordedMovement
 from rebsync.roundtrip.conform.recording import Served
 from rebsync.roundtrip.conform.report.text import allowed_line, lines
 
@@ -47,7 +47,7 @@ def conformance_page(
     subject: Subject,
     paths: Sequence[str],
     more: Sequence[Markup] = (),
-    moved: Recorded | None = None,
+    moved: RecordedMovement | None = None,
 ) -> str:
     """The page of a comparison of a recorded run with a model.
 
@@ -93,7 +93,7 @@ def _deviation(deviation: Deviation | None) -> list[Markup]:
     ]
 
 
-def _movement(moved: Recorded | None) -> list[Markup]:
+def _movement(moved: RecordedMovement | None) -> list[Markup]:
     if moved is None:
         return []
     return [movement_section(moved.movement, moved.frames, "recorded-run", "recorded-chart")]
