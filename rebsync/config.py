@@ -19,7 +19,8 @@ FILE_NAME = "rebsync.toml"
 TARGETS = ("ros1-cpp", "ros1-py", "ros2-cpp", "ros2-py")
 DRIVES = ("holonomic", "differential")
 ALLOWED = ("deadlock",)
-APART = frozenset({"allow"})  # settings that no code depends on, and that are not recorded
+# Settings that no code depends on, and that are not recorded.
+APART = frozenset({"allow", "cells"})
 
 Drive: TypeAlias = Literal["holonomic", "differential"]
 
@@ -65,10 +66,20 @@ class ClassTarget:
 
 
 @dataclass(frozen=True, slots=True)
+class RobotCell:
+    """The cell of a robot, or of all robots of a class: expressions over its state variables."""
+
+    name: str
+    x: str
+    y: str
+
+
+@dataclass(frozen=True, slots=True)
 class Config:
     """The settings of one model; times in seconds, lengths in metres, angles in radians.
 
-    `allow` is what is no mistake to a verification; no code depends on it.
+    `allow` is what is no mistake to a verification, `cells` where robots are drawn; no code
+    depends on them.
     """
 
     package: str | None = None
@@ -90,6 +101,7 @@ class Config:
     sensors: tuple[SensorBinding, ...] = ()
     targets: tuple[ClassTarget, ...] = ()
     allow: tuple[str, ...] = ()
+    cells: tuple[RobotCell, ...] = ()
 
     def target_of(self, class_name: str) -> str:
         """The dialect of a class."""
@@ -173,6 +185,7 @@ def _config(table: Table) -> Config:
         sensors=_sensors(table),
         targets=_targets(table),
         allow=_allow(table),
+        cells=_cells(table),
     )
 
 
@@ -275,6 +288,21 @@ def _allow(table: Table) -> tuple[str, ...]:
             hint = did_you_mean(each, ALLOWED) or f"known: {', '.join(ALLOWED)}"
             table.wrong("allow", f'`allow` cannot have "{each}"', hint)
     return given
+
+
+def _cells(table: Table) -> tuple[RobotCell, ...]:
+    """The cells of robots: `[cells]`, `Carrier = ["cell % 4", 2]`."""
+    entry = table.table("cells")
+    found = []
+    for name, value in entry.named() if entry else ():
+        match value:
+            case [int() | str() as x, int() | str() as y] if not {bool} & {type(x), type(y)}:
+                found.append(RobotCell(name, str(x), str(y)))
+            case _:
+                hint = f'write {name} = ["x", "y"]: expressions over its state variables'
+                assert entry is not None
+                entry.wrong(name, f"`{name}` must have two coordinates", hint)
+    return tuple(found)
 
 
 def _matching(

@@ -14,6 +14,7 @@ from collections.abc import Callable
 from dataclasses import field
 from typing import NamedTuple
 
+from rebsync.checker.course import Course, Delayed, Moved
 from rebsync.checker.look import Look, unwatched
 from rebsync.checker.program import NO_DEADLINE, NULL, Cell, Instruction, Program, RebecInfo
 from rebsync.checker.state import Frame, Local, Message, Point
@@ -81,7 +82,8 @@ class Machine:
     `room` is how many messages the rebec may still send to itself. After the run `options` has
     the number of options of each choice that was evaluated, `picked` its instruction, `choices`
     the option taken. `elapsed` is the time that delays took (floating view). `delayed` is the
-    delay at which the body was suspended (exact view), or None when it ended.
+    delay at which the body was suspended (exact view), or None when it ended. `course` has its
+    delays, and its moves if the program has them.
     """
 
     program: Program
@@ -103,6 +105,7 @@ class Machine:
     options: list[int] = field(default_factory=list)
     picked: list[int] = field(default_factory=list)
     sends: list[Sent] = field(default_factory=list)
+    course: list[Course] = field(default_factory=list)
     running: bool = True
     delayed: int | None = None
     look: Look = unwatched
@@ -217,10 +220,16 @@ class Machine:
         time = self.stack.pop()
         if time < 0:
             raise self.fail("time")
+        self.course.append(Delayed(self.elapsed, len(self.sends), time, self.pc - 1))
         if self.splits:
             self.delayed, self.running = time, False
         else:
             self.elapsed += time
+
+    def move(self, i: Instruction) -> None:
+        """Pops a robot's offsets along X and Y; unless `a`, there are none: they are not known."""
+        y, x = (self.stack.pop(), self.stack.pop()) if i.a else (None, None)
+        self.course.append(Moved(self.elapsed, len(self.sends), x, y))
 
     def branch(self, i: Instruction, when: bool) -> None:
         """Jumps to `a` if the operand is `when`; `b` is 1 where no branch of the model is meant."""
@@ -328,6 +337,7 @@ _CONTROL: dict[str, Operation] = {
     "SEND": lambda m, i: m.send(i, None),
     "SENDBY": lambda m, i: m.send(i, m.stack.pop()),
     "DELAY": lambda m, i: m.delay(),
+    "MOVE": Machine.move,
     "ASSERT": Machine.check,
 }
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 from bisect import bisect
 from collections.abc import Iterator
 
+from rebsync.checker.course import Course
 from rebsync.checker.look import Look, unwatched
 from rebsync.checker.machine import WAYS, Coverage, EndlessBody, Failed, Machine, Sent
 from rebsync.checker.program import NO_DEADLINE, NULL, UNRANKED, Program
@@ -21,7 +22,7 @@ class Outcome:
     """A way to act: the new local state, or the failure after `sends` went out.
 
     `sends` has those to the rebec itself too, which are in the new state already. `picked` are
-    the instructions that evaluated the choices.
+    the instructions that evaluated the choices, `course` the delays (and moves) on the way.
     """
 
     slot: int
@@ -29,6 +30,7 @@ class Outcome:
     result: Local | Failure
     sends: tuple[Sent, ...] = ()
     picked: tuple[int, ...] = ()
+    course: tuple[Course, ...] = ()
 
 
 class Actor:
@@ -163,7 +165,12 @@ class Actor:
         self.largest = max(self.largest, len(bag) + served + len(own))
         result = failure or self._after(machine, local, bag, own)
         outcome = Outcome(
-            slot, tuple(machine.choices), result, tuple(machine.sends), tuple(machine.picked)
+            slot,
+            tuple(machine.choices),
+            result,
+            tuple(machine.sends),
+            tuple(machine.picked),
+            tuple(machine.course),
         )
         return machine, outcome
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,8 +13,10 @@ from rebsync.cli.problem import read_problem
 from rebsync.cli.status import Status, worst
 
 if TYPE_CHECKING:
+    from rebsync.checker.problem import Problem
+    from rebsync.config import Config
     from rebsync.roundtrip.conform.conformance import Conformance
-    from rebsync.roundtrip.conform.matching import Subject
+    from rebsync.static.cells import CellOf
 
 FORMATS = ("text", "json", "sarif", "github", "junit")
 _STATUS = {
@@ -42,6 +45,11 @@ _STATUS = {
     metavar="N",
     help="States to look at where a recording begins in the middle (default: 200,000).",
 )
+@click.option("--times", is_flag=True, help="Tell what each time of the model really took.")
+@click.option(
+    "--calibrate", is_flag=True, help="Propose what the model must allow to cover what it took."
+)
+@click.option("--apply", "applies", is_flag=True, help="Write that into the model.")
 @click.option("--page", metavar="FILE", help="Write a page (HTML) with the run beside the model.")
 @click.option(
     "--format",
@@ -60,14 +68,17 @@ def command(ctx: click.Context, /, model: str, recordings: tuple[str, ...], **_:
     status: 0 it conforms, 1 it does not, 2 something cannot be read, 3 a property, or a rule of the
     model, is violated, 4 undetermined.
     """
-    from rebsync.roundtrip.conform.matching import conform
+    from rebsync.cli.calibration import calibrated
+    from rebsync.roundtrip.calibration.report import calibration_json
+    from rebsync.roundtrip.conform.matching import Subject, conform
     from rebsync.roundtrip.conform.reading import recordings as opened
     from rebsync.roundtrip.conform.report.formats import as_text
     from rebsync.roundtrip.conform.starts import REACHED
     from rebsync.roundtrip.conform.topics import Topics
 
     given: dict[str, Any] = ctx.params
-    subject = _subject(model, given["property_file"])
+    problem, config = _problem(model, given["property_file"])
+    subject = Subject.of(problem, config)
     for written in filter(None, (given["page"], given["output"])):
         for read in (subject.source.path, *recordings):
             refuse_to_overwrite(read, written)
@@ -76,22 +87,46 @@ def command(ctx: click.Context, /, model: str, recordings: tuple[str, ...], **_:
     recording = opened(recordings, topics, observable.package, given["namespace"])
     most, keeps = given["max_states"] or REACHED, given["page"] is not None
     found = conform(subject, recording, most=most, keeps_run=keeps)
+    proposes = given["calibrate"] or given["applies"]
+    times = None
+    if proposes or given["times"] or given["page"] is not None:
+        applies = given["applies"] and found.verdict == "conforms"
+        times = calibrated(subject, problem, recording, proposes, applies)
     if given["page"] is not None:
-        from rebsync.roundtrip.conform.report.page import conformance_page
+        from rebsync.roundtrip.calibration.report import times_section
+        from rebsync.roundtrip.conform.movement import recorded_movement
+        from rebsync.roundtrip.conform.report.page import conformance_page, numbered
 
-        write_output(given["page"], conformance_page(found, subject, recording.paths))
-    write_output(given["output"], as_text(found, subject, recording.paths, given["style"]))
-    return _status(found)
+        more = [times_section(times.calibration)] if times is not None else []
+        until = found.deviation.served if found.deviation is not None else None
+        moved = recorded_movement(
+            observable,
+            problem.analysis,
+            _cells(problem),
+            recording,
+            found.lateness.zero,
+            numbered(found),
+            until.stamp if until is not None else inf,
+        )
+        page = conformance_page(found, subject, recording.paths, more, moved)
+        write_output(given["page"], page)
+    shown = times if proposes or given["times"] else None
+    extra = list(shown.lines(subject.source.path, problem.source.text)) if shown else []
+    if given["applies"] and found.verdict != "conforms":
+        extra.append("nothing was written: the recorded run is none of the model")
+    data = calibration_json(shown.calibration, shown.verdict) if shown else None
+    text = as_text(found, subject, recording.paths, given["style"], extra, data)
+    write_output(given["output"], text)
+    return worst([_status(found), shown.status if shown else Status.CLEAN])
 
 
-def _subject(model: str, property_file: str | None) -> Subject:
-    """A model by its path, or that of a package that was generated from it."""
+def _problem(model: str, property_file: str | None) -> tuple[Problem, Config]:
+    """A model by its path, or that of a package that was generated from it; with its settings."""
     from rebsync.config import config_of_record, settings_beside
-    from rebsync.roundtrip.conform.matching import Subject
 
     if not Path(model).is_dir():
         _, config = settings_beside(model)
-        return Subject.of(read_problem(model, property_file), config)
+        return read_problem(model, property_file), config
     from rebsync.roundtrip.package.discovery import find
     from rebsync.roundtrip.package.model_file import model_of
     from rebsync.roundtrip.package.record import read_record
@@ -102,7 +137,15 @@ def _subject(model: str, property_file: str | None) -> Subject:
     record = read_record(packages[0].root)
     path = model_of(packages[0], record)
     config = config_of_record(record.options) or settings_beside(path)[1]
-    return Subject.of(read_problem(path, property_file), config)
+    return read_problem(path, property_file), config
+
+
+def _cells(problem: Problem) -> dict[str, CellOf]:
+    """What the settings beside a model say of the cells of robots."""
+    from rebsync.config import settings_beside
+    from rebsync.grammars.cells import parse_cells
+
+    return parse_cells(*settings_beside(problem.source.path), problem.analysis)
 
 
 def _status(found: Conformance) -> Status:

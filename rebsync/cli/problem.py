@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -39,6 +40,17 @@ def read_problem(model: str, property_file: str | None, *, untimed: bool = False
         return Problem(source, analysis, Properties())
     properties = read_source(path)
     return Problem(source, analysis, _properties(properties, analysis), properties)
+
+
+def with_text(problem: Problem, text: str) -> Problem:
+    """The problem with another text of its model, which has no mistakes."""
+    source = Source(problem.source.path, text)
+    analysis = _analysed(source, untimed=False)
+    properties = problem.property_source
+    if properties is None:
+        return replace(problem, source=source, analysis=analysis)
+    checked = _properties(properties, analysis)
+    return replace(problem, source=source, analysis=analysis, properties=checked)
 
 
 def keep_what_is_read(problem: Problem, *written: str | None, replayed: str | None = None) -> None:

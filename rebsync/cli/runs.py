@@ -9,7 +9,7 @@ from rebsync.cli.options import write_output
 from rebsync.cli.status import Status
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.files import read_source
-from rebsync.source import NOWHERE, Source
+from rebsync.source import NOWHERE
 
 if TYPE_CHECKING:
     from rebsync.checker.problem import Problem
@@ -18,30 +18,32 @@ if TYPE_CHECKING:
 STYLES = ("text", "json", "svg", "html")
 
 
-def write_run(trace: Trace, source: Source, style: str, output: str) -> None:
-    """Writes a run to a file, or to standard output for `-`."""
+def write_run(trace: Trace, problem: Problem, style: str, output: str) -> None:
+    """Writes a run of a model to a file, or to standard output for `-`."""
     if style == "text" and output == "-":
         from rebsync.checker.show.text import print_trace
 
         print_trace(trace, sys.stdout)
         return
-    write_output(output, _text(trace, source, style))
+    write_output(output, _text(trace, problem, style))
 
 
-def _text(trace: Trace, source: Source, style: str) -> str:
+def _text(trace: Trace, problem: Problem, style: str) -> str:
     match style:
         case "json":
             from rebsync.checker.show.data import trace_json
+            from rebsync.cli.moving import moving_in
 
-            return trace_json(trace)
+            return trace_json(trace, moving_in(problem))
         case "svg":
             from rebsync.checker.show.chart import chart
 
             return chart(trace)
         case "html":
             from rebsync.checker.show.page import trace_page
+            from rebsync.cli.moving import moving_in
 
-            return trace_page(trace, source)
+            return trace_page(trace, problem.source, moving_in(problem))
         case _:
             from rebsync.checker.show.pieces import plain
             from rebsync.checker.show.text import trace_lines
@@ -72,5 +74,5 @@ def replay_file(
         hint = "the model has changed since: verify it again"
         found = Diagnostic("RS924", NOWHERE, message, hint)
         raise RebsyncError([Findings(source, (found,))]) from None
-    write_run(trace, problem.source, style, output)
+    write_run(trace, problem, style, output)
     return Status.VIOLATED if trace.steps[-1].failure else Status.CLEAN

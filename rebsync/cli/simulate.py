@@ -81,7 +81,7 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
         reason = endless_reason(program, endless.pc)
     if told and not (given["interactive"] and _told_already(given["style"], output)):
         trace = Trace(problem.source.path, semantics, tuple(told))
-        write_run(trace, problem.source, given["style"], output)
+        write_run(trace, problem, given["style"], output)
     if reason is not None:
         say(f"the run ends here: {reason}", err=True)
         return Status.UNDETERMINED

@@ -200,12 +200,15 @@ def _text(result: Result, problem: Problem, style: str, wanted: str | None) -> s
     match style:
         case "json":
             from rebsync.checker.show.data import result_json
+            from rebsync.cli.moving import moving_in
 
-            return result_json(result)
+            return result_json(result, moving_in(problem))
         case "html":
             from rebsync.checker.show.page import result_page
+            from rebsync.cli.moving import moving_in
 
-            return result_page(result, problem.source, problem.property_source)
+            moving = moving_in(problem)
+            return result_page(result, problem.source, problem.property_source, moving)
         case "svg":
             from rebsync.checker.show.chart import chart
 

@@ -70,7 +70,18 @@ class Ticked(NamedTuple):
     place: Place
 
 
-Event: TypeAlias = "Served | Sent | Announced | Ticked"
+class Driven(NamedTuple):
+    """A velocity that a robot was told (cmd_vel), from `stamp` on: m/s and rad/s."""
+
+    rebec: int
+    x: float
+    y: float
+    turn: float
+    stamp: float
+    place: Place
+
+
+Event: TypeAlias = "Served | Sent | Announced | Ticked | Driven"
 
 
 class Recording(Protocol):

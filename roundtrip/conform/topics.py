@@ -9,7 +9,15 @@ from rebsync.model import Type
 from rebsync.package import MessageType
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.observable import Observable
-from rebsync.roundtrip.conform.recording import Announced, Event, Place, Sent, Served, Ticked
+from rebsync.roundtrip.conform.recording import (
+    Announced,
+    Driven,
+    Event,
+    Place,
+    Sent,
+    Served,
+    Ticked,
+)
 
 _NEVER = 2**63 - 1
 _NANO = 1e-9
@@ -41,7 +49,7 @@ class Topics:
         states = [_state(observable, rebec) for rebec in range(len(observable.nodes))]
         others = [Topic("startup", "Announcement", _announced), Topic("clock", "", _ticked)]
         return cls(
-            {t.name: t for t in (*states, *others)},
+            {t.name: t for t in (*states, *others, *_drives(observable))},
             {t.name: t for t in _servers(observable)},
         )
 
@@ -88,6 +96,27 @@ def _ticked(message: Message, stamp: float, place: Place, publisher: str) -> Eve
         seconds = getattr(clock, "sec", None)
         clock = seconds + clock.nanosec * _NANO if seconds is not None else float("nan")
     return Ticked(float(clock), stamp, place)
+
+
+def _drives(observable: Observable) -> Iterator[Topic]:
+    """The velocities that robots are told."""
+    for rebec, info in enumerate(observable.program.rebecs):
+        names = _lineage(observable, info.class_name)
+        if any(observable.package.node_class(name).moves for name in names):
+            yield Topic(f"{observable.nodes[rebec]}/cmd_vel", "Twist", _driven(rebec))
+
+
+def _driven(rebec: int) -> Convert:
+    def convert(message: Message, stamp: float, place: Place, publisher: str) -> Event:
+        linear, angular = message["linear"], message["angular"]
+        x, y, turn = _member(linear, "x"), _member(linear, "y"), _member(angular, "z")
+        return Driven(rebec, x, y, turn, stamp, place)
+
+    return convert
+
+
+def _member(value: Any, name: str) -> float:  # noqa: ANN401
+    return float(value[name] if isinstance(value, Mapping) else getattr(value, name))
 
 
 def _servers(observable: Observable) -> Iterator[Topic]:

@@ -37,10 +37,14 @@ def size_of(type_: Type) -> int:
 
 @dataclass
 class World:
-    """What the bodies of a model share: the instructions, and who is known by which number."""
+    """What the bodies of a model share: the instructions, and who is known by which number.
+
+    With `moves` the `@Move` of robots are instructions too.
+    """
 
     analysis: Analysis
     look: Look = unwatched
+    moves: bool = False
     code: list[Instruction] = field(default_factory=list)
     spans: list[Span] = field(default_factory=list)
     bodies: list[Body | None] = field(default_factory=list)

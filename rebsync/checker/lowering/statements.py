@@ -5,6 +5,7 @@ from __future__ import annotations
 from rebsync.checker.lowering.conversions import convert
 from rebsync.checker.lowering.emitter import Emitter, kind_of, size_of
 from rebsync.checker.lowering.expressions import as_kind, discard, value
+from rebsync.checker.lowering.moves import moves
 from rebsync.checker.lowering.places import Place, store
 from rebsync.checker.program import Slot
 from rebsync.model import (
@@ -65,7 +66,7 @@ def statement(node: Statement, e: Emitter) -> None:
         case Continue():
             e.continues[-1].append(e.emit("JUMP"))
         case Empty():
-            pass
+            moves(node, e)
         case _:
             assert_never(node)
 

@@ -34,16 +34,21 @@ _NO_PROPERTIES = p.Properties()
 
 
 def lower(
-    analysis: Analysis, properties: p.Properties = _NO_PROPERTIES, look: Look = unwatched
+    analysis: Analysis,
+    properties: p.Properties = _NO_PROPERTIES,
+    look: Look = unwatched,
+    moves: bool = False,
 ) -> tuple[Program, tuple[f.NamedFormula, ...]]:
     """The program of a model without errors, and the entries of its properties in file order.
 
     The predicates of the program are the largest parts of the formulas without temporal
     operators; an assertion is one predicate. `look` is called now and then, and may raise.
+    With `moves` the program also tells what `@Move` says, which only the interpreter runs: its
+    steps are those of the program without.
     """
     main = analysis.model.main
     assert main is not None and not analysis.errors
-    world = World(analysis, look)
+    world = World(analysis, look, moves)
     for rebec in main.rebecs:
         world.class_numbers.setdefault(rebec.type.name, len(world.class_numbers))
         world.rebec_numbers[rebec.name] = len(world.rebec_numbers)

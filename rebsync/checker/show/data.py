@@ -7,8 +7,10 @@ import re
 from collections.abc import Iterable
 from typing import Any, TypeAlias
 
+from rebsync.checker.movement.ways import Moving, nowhere
 from rebsync.checker.result import Coverage, Result, Violation
 from rebsync.checker.show import words
+from rebsync.checker.show.movement_data import movement_json
 from rebsync.checker.trace import ShownMessage, ShownRebec, Trace, TraceStep
 from rebsync.terminal import json_text
 
@@ -20,15 +22,15 @@ _REAL = re.compile(r"-?[0-9]+(\.[0-9]+)?(e[-+]?[0-9]+)?")
 _WORDS: dict[str, Value] = {"true": True, "false": False, "null": None}
 
 
-def result_json(result: Result) -> str:
-    """The answer of `rebsync verify`."""
+def result_json(result: Result, moving: Moving = nowhere) -> str:
+    """The answer of `rebsync verify`; `moving` gives the movement of robots in its runs."""
     return dump(
         {
             "verdict": result.verdict,
             "reason": result.reason,
             "caveats": list(result.caveats),
             "properties": dict(result.properties),
-            "violations": [_violation(violation) for violation in result.violations],
+            "violations": [_violation(violation, moving) for violation in result.violations],
             "coverage": _coverage(result.coverage),
             "states": result.states,
             "transitions": result.transitions,
@@ -44,9 +46,9 @@ def result_json(result: Result) -> str:
     )
 
 
-def trace_json(trace: Trace) -> str:
+def trace_json(trace: Trace, moving: Moving = nowhere) -> str:
     """A run by itself, as `--replay` takes it."""
-    return dump(_trace(trace))
+    return dump(_trace(trace, moving))
 
 
 def dump(value: Json) -> str:
@@ -76,23 +78,24 @@ def rebec_json(rebec: ShownRebec) -> Json:
     }
 
 
-def _violation(violation: Violation) -> Json:
+def _violation(violation: Violation, moving: Moving) -> Json:
     return {
         "kind": violation.kind,
         "name": violation.name,
         "message": violation.message,
         "path": violation.path,
         "line": violation.line,
-        **_trace(violation.trace),
+        **_trace(violation.trace, moving),
     }
 
 
-def _trace(trace: Trace) -> Json:
+def _trace(trace: Trace, moving: Moving) -> Json:
     return {
         "model": trace.model,
         "semantics": trace.semantics,
         "loop": trace.loop,
         "trace": [_step(step) for step in trace.steps],
+        "movement": movement_json(moving(trace)),
     }
 
 

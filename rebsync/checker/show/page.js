@@ -64,6 +64,7 @@
     for (const name of ['step', 'taken', 'sent']) {
       parts(name).forEach((part) => part.classList.add('on'));
     }
+    run.dispatchEvent(new CustomEvent('stepselected', { detail: step }));
     revealRow(row);
     revealStep(run.querySelector(`.msc .step[data-step="${step}"]`));
     const line = row.dataset.line && document.getElementById(`L${row.dataset.line}`);
@@ -121,6 +122,7 @@
 
   const keys = {
     j: () => move(1), ArrowDown: () => move(1), k: () => move(-1), ArrowUp: () => move(-1),
+    p: () => run.dispatchEvent(new CustomEvent('playwanted')),
     Home: () => move(-Infinity), End: () => move(Infinity), '[': () => turn(-1), ']': () => turn(1),
   };
 
@@ -135,14 +137,19 @@
 
   if (runs.length === 0) return;
   document.documentElement.classList.add('js');
+  // Who plays a run asks for its steps.
+  runs.forEach((each) => each.addEventListener('stepwanted', (event) => {
+    const row = rows().find((one) => one.dataset.step === String(event.detail));
+    if (each === run && row) select(row, false);
+  }));
   document.addEventListener('keydown', (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches('input')) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches('input, select')) return;
     if (!(event.key in keys)) return;
     event.preventDefault();
     keys[event.key]();
   });
   document.addEventListener('click', (event) => {
-    if (event.target.closest('a, input, label')) return;
+    if (event.target.closest('a, input, label, .movement')) return;
     const part = event.target.closest('[data-step]');
     const line = event.target.closest('#source [data-line]');
     const flight = event.target.closest('.flight');

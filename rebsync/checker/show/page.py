@@ -9,11 +9,14 @@ from collections.abc import Sequence
 from functools import cache
 from importlib.resources import files
 
+from rebsync.checker.movement.ways import Movement, Moving, nowhere
 from rebsync.checker.result import Coverage, Result, Violation
 from rebsync.checker.show import words
 from rebsync.checker.show.chart import chart_inside
 from rebsync.checker.show.chart_style import STYLE
 from rebsync.checker.show.markup import Markup, element, joined, metadata
+from rebsync.checker.show.movement import movement_section
+from rebsync.checker.show.movement_data import frames
 from rebsync.checker.show.page_source import coverage_section, source_section, text_section
 from rebsync.checker.show.page_states import states_table
 from rebsync.checker.trace import Trace
@@ -21,33 +24,45 @@ from rebsync.records import dataclass
 from rebsync.source import Source
 
 HELP = "Select a step: click it, or j and k or the arrow keys"
+PLAYS = "; p plays and pauses"
 OTHER_RUNS = "; [ and ] select another run"
 
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """A run of the page: its heading, the place that the heading is about, what is wrong."""
+    """A run of the page: its heading, the place that the heading is about, what is wrong.
+
+    `movement` is that of its robots, if the model moves any.
+    """
 
     heading: str
     trace: Trace
+    movement: Movement | None
     message: str = ""
     place: str | None = None  # the target of a link in the page
     ending: str | None = None
 
 
-def result_page(result: Result, source: Source, property_source: Source | None = None) -> str:
-    """The page of a verification of the model `source`."""
-    runs = [_shown(violation, source, property_source) for violation in result.violations]
+def result_page(
+    result: Result,
+    source: Source,
+    property_source: Source | None = None,
+    moving: Moving = nowhere,
+) -> str:
+    """The page of a verification of the model `source`; `moving` gives the movement of runs."""
+    runs = [_shown(each, source, property_source, moving) for each in result.violations]
     return _page(source, _summary(result), runs, result.coverage, property_source)
 
 
-def trace_page(trace: Trace, source: Source) -> str:
+def trace_page(trace: Trace, source: Source, moving: Moving = nowhere) -> str:
     """The page of one run of the model `source`."""
-    run = Shown(f"Run of {words.counted(len(trace.steps), 'step')}", trace)
+    run = Shown(f"Run of {words.counted(len(trace.steps), 'step')}", trace, moving(trace))
     return _page(source, element("p", words.view_of(trace.semantics)), [run], None, None)
 
 
-def _shown(violation: Violation, source: Source, properties: Source | None) -> Shown:
+def _shown(
+    violation: Violation, source: Source, properties: Source | None, moving: Moving
+) -> Shown:
     trace = violation.trace
     failed = any(step.failure is not None for step in trace.steps)
     ending = None if failed or trace.loop is not None else violation.message
@@ -56,7 +71,7 @@ def _shown(violation: Violation, source: Source, properties: Source | None) -> S
         place = f"L{violation.line}"
     elif violation.line and properties is not None and violation.path == properties.path:
         place = f"P{violation.line}"
-    return Shown(words.title(violation), trace, violation.message, place, ending)
+    return Shown(words.title(violation), trace, moving(trace), violation.message, place, ending)
 
 
 def _page(
@@ -66,8 +81,14 @@ def _page(
     coverage: Coverage | None,
     properties: Source | None,
 ) -> str:
-    style = element("style", Markup(_file("page.css") + STYLE))
-    script = element("script", Markup(_file("page.js")))
+    moves = any(run.movement is not None for run in runs)
+    styles = [own_file("colours.css"), own_file("page.css"), STYLE]
+    scripts = [own_file("page.js")]
+    if moves:
+        styles.append(own_file("movement.css"))
+        scripts.insert(0, own_file("movement.js"))  # it listens to the page: it comes first
+    style = element("style", Markup("".join(styles)))
+    script = element("script", Markup("".join(scripts)))
     aside = [source_section(source, coverage)]
     if coverage is not None:
         aside.append(coverage_section(coverage))
@@ -87,13 +108,14 @@ def _page(
         ),
     )
     head = element(
-        "head", joined(*metadata(_file("page.js")), element("title", source.path), style)
+        "head", joined(*metadata("".join(scripts)), element("title", source.path), style)
     )
     return f"<!DOCTYPE html>\n{element('html', head, body, lang='en')}\n"
 
 
 @cache
-def _file(name: str) -> str:
+def own_file(name: str) -> str:
+    """A style or script of the pages."""
     return files("rebsync.checker.show").joinpath(name).read_text(encoding="utf-8")
 
 
@@ -136,10 +158,11 @@ def _tabs(runs: Sequence[Shown]) -> Markup:
     ]
     if not links:
         return Markup("")
+    plays = PLAYS if any(run.movement is not None for run in runs) else ""
     if len(links) == 1:
-        return element("p", f"{HELP}.", class_="help")
+        return element("p", f"{HELP}{plays}.", class_="help")
     tabs = element("nav", joined(*links), aria_label="Runs")
-    return joined(tabs, element("p", f"{HELP}{OTHER_RUNS}.", class_="help"))
+    return joined(tabs, element("p", f"{HELP}{OTHER_RUNS}{plays}.", class_="help"))
 
 
 # --- runs --------------------------------------------------------------------------------------
@@ -157,9 +180,12 @@ def _run(run: Shown, number: int) -> Markup:
     )
     table = states_table(run.trace, name, run.ending)
     states = element("div", table, class_="pane", tabindex="0", aria_label="States", role="group")
+    parts = [element("h2", run.heading, *about)]
+    if run.movement is not None:
+        parts.append(movement_section(run.movement, frames(run.trace), name))
     return element(
         "section",
-        joined(element("h2", run.heading, *about), element("div", chart, states, class_="panes")),
+        joined(*parts, element("div", chart, states, class_="panes")),
         class_="run",
         id=name,
         data_run=str(number),

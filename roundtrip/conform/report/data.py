@@ -19,8 +19,10 @@ from rebsync.roundtrip.conform.recording import Served
 Json: TypeAlias = dict[str, Any]
 
 
-def conformance_json(found: Conformance, subject: Subject, paths: Sequence[str]) -> str:
-    """The answer of `rebsync conform`."""
+def conformance_json(
+    found: Conformance, subject: Subject, paths: Sequence[str], times: Json | None = None
+) -> str:
+    """The answer of `rebsync conform`; `times` is what the run took, where it was measured."""
     late = found.lateness
     return dump(
         {
@@ -43,6 +45,7 @@ def conformance_json(found: Conformance, subject: Subject, paths: Sequence[str])
             },
             "properties": [_property(evaluated) for evaluated in found.properties],
             "notes": list(found.notes),
+            "times": times,
         }
     )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from rebsync.checker.show.data import Json
 from rebsync.report import report
 from rebsync.roundtrip.conform.conformance import Conformance
 from rebsync.roundtrip.conform.matching import Subject
@@ -12,19 +13,26 @@ from rebsync.roundtrip.verdict.report.junit import Case, suites_xml
 from rebsync.terminal import lines_text
 
 
-def as_text(found: Conformance, subject: Subject, paths: Sequence[str], style: str) -> str:
-    """The answer in one of the forms of the command."""
+def as_text(
+    found: Conformance,
+    subject: Subject,
+    paths: Sequence[str],
+    style: str,
+    more: Sequence[str] = (),
+    times: Json | None = None,
+) -> str:
+    """The answer in one of the forms of the command; `more` lines, and `times` of the run."""
     match style:
         case "json":
             from rebsync.roundtrip.conform.report.data import conformance_json
 
-            return conformance_json(found, subject, paths)
+            return conformance_json(found, subject, paths, times)
         case "sarif" | "github":
             return report(findings(found, subject), style)
         case "junit":
             return suites_xml([(subject.source.path, list(_cases(found, subject, paths)))])
         case _:
-            return lines_text(lines(found, subject, paths))
+            return lines_text([*lines(found, subject, paths), *more])
 
 
 def _cases(found: Conformance, subject: Subject, paths: Sequence[str]) -> Iterator[Case]:

@@ -1,27 +1,31 @@
 """One page: the recorded run beside the model's, the deviation marked, and the error of time.
 
-It needs nothing but itself, and has no scripts.
+It needs nothing but itself; its only script plays how the robots moved.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import count
 
 from rebsync.checker.show.chart import chart_inside
 from rebsync.checker.show.chart_style import STYLE
 from rebsync.checker.show.markup import Markup, element, joined, metadata
+from rebsync.checker.show.movement import movement_section
+from rebsync.checker.show.page import own_file
 from rebsync.checker.show.page_source import source_section
 from rebsync.checker.steps import Action
 from rebsync.checker.trace import Change, ShownMessage, ShownRebec, Trace, TraceStep
 from rebsync.roundtrip.conform.conformance import Conformance, Deviation, Lateness
 from rebsync.roundtrip.conform.matching import Subject
+from rebsync.roundtrip.conform.movement import RecordedMovement
 from rebsync.roundtrip.conform.recording import Served
 from rebsync.roundtrip.conform.report.text import allowed_line, lines
 
 SHOWN = 40  # steps of each chart
 _STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; margin: 1.5em; color: #222; background: #fff; }
+.movement { color: var(--ink); background: var(--back); font-size: 14px; }
+#recorded-chart { max-height: 70vh; overflow: auto; }
 .sides { display: flex; gap: 2em; align-items: flex-start; flex-wrap: wrap; }
 .sides > section { overflow-x: auto; max-width: 100%; }
 .said { white-space: pre-wrap; font-family: monospace; }
@@ -29,29 +33,46 @@ body { font: 15px/1.5 system-ui, sans-serif; margin: 1.5em; color: #222; backgro
 .conforms { background: #cfc; } .deviates, .violated { background: #fcc; }
 .plot .axis { stroke: #888; } .plot .zero { stroke: #ccc; } .plot circle { fill: #247; }
 .plot circle.greatest { fill: #c22; } .plot text { font-size: 12px; fill: #444; }
+.heads { display: none; } table.lines code { white-space: pre; }
+.times { overflow-x: auto; } .times table { border-collapse: collapse; font-size: 13px; }
+.times td, .times th { padding: 2px 8px; text-align: left; border-bottom: 1px solid #ddd; }
 table.lines { border-collapse: collapse; font-size: 13px; }
 table.lines th { color: #888; font-weight: normal; text-align: right; padding-right: 1em; }
 tr:target { background: #fd8; }
 """
 
 
-def conformance_page(found: Conformance, subject: Subject, paths: Sequence[str]) -> str:
-    """The page of a comparison of a recorded run with a model."""
+def conformance_page(
+    found: Conformance,
+    subject: Subject,
+    paths: Sequence[str],
+    more: Sequence[Markup] = (),
+    moved: RecordedMovement | None = None,
+) -> str:
+    """The page of a comparison of a recorded run with a model.
+
+    `more` are further sections; `moved` is how the robots moved.
+    """
     title = f"{subject.source.path} and {', '.join(paths)}"
     verdict = element("strong", found.verdict, class_=f"verdict {found.verdict}")
+    script = own_file("movement.js") if moved is not None else ""
     said = element("p", "\n".join(lines(found, subject, paths)), class_="said")
     body = element(
         "body",
         joined(
             element("header", element("h1", title), element("p", verdict), said),
             *_deviation(found.deviation),
+            *_movement(moved),
             _charts(found, subject),
             _plot(found.lateness),
+            *more,
             source_section(subject.source, None),
+            element("script", Markup(script)) if script else Markup(""),
         ),
     )
-    style = element("style", Markup(_STYLE + STYLE))
-    head = element("head", joined(*metadata(""), element("title", title), style))
+    moves = own_file("colours.css") + own_file("movement.css") if script else ""
+    style = element("style", Markup(moves + _STYLE + STYLE))
+    head = element("head", joined(*metadata(script), element("title", title), style))
     return f"<!DOCTYPE html>\n{element('html', head, body, lang='en')}\n"
 
 
@@ -72,6 +93,12 @@ def _deviation(deviation: Deviation | None) -> list[Markup]:
     ]
 
 
+def _movement(moved: RecordedMovement | None) -> list[Markup]:
+    if moved is None:
+        return []
+    return [movement_section(moved.movement, moved.frames, "recorded-run", "recorded-chart")]
+
+
 # --- the charts
 
 
@@ -82,23 +109,30 @@ def _charts(found: Conformance, subject: Subject) -> Markup:
     if recorded.steps:
         ending = found.deviation.message if found.deviation is not None else None
         drawn = chart_inside(recorded, ending, "recorded")
-        sides.append(element("section", element("h2", "Recorded"), drawn))
+        sides.append(element("section", element("h2", "Recorded"), drawn, id="recorded-chart"))
     if run:
         drawn = chart_inside(Trace(subject.source.path, "tts", run), None, "model")
         sides.append(element("section", element("h2", "A run of the model that fits"), drawn))
     return element("div", *sides, class_="sides")
 
 
-def _recorded(found: Conformance, subject: Subject) -> Trace:
-    """The last recorded steps, the one that does not fit included."""
-    served = list(found.last[-SHOWN:])
+def numbered(found: Conformance) -> list[tuple[int, Served]]:
+    """The last recorded steps with their numbers, as they came; the one that does not fit as well.
+
+    The steps of different rebecs pass the comparison in another order.
+    """
+    served = sorted(found.last, key=lambda each: each.stamp)[-SHOWN:]
+    first = max(found.compared - len(served), 0) + 1
     if found.deviation is not None and found.deviation.served is not None:
         served.append(found.deviation.served)
-    numbers = count(max(found.compared - len(found.last[-SHOWN:]), 0) + 1)
+    return list(enumerate(served, first))
+
+
+def _recorded(found: Conformance, subject: Subject) -> Trace:
     before: dict[int, Served] = {}
     steps = []
-    for each in served:
-        steps.append(_step(next(numbers), each, before.get(each.rebec), subject))
+    for number, each in numbered(found):
+        steps.append(_step(number, each, before.get(each.rebec), subject))
         before[each.rebec] = each
     return Trace(subject.source.path, "tts", tuple(steps))
 

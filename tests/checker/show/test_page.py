@@ -169,7 +169,7 @@ def test_texts_can_be_told_from_their_background(chromium: Browser, page: Path) 
         emulated = {"cmd": "Emulation.setEmulatedMedia", "params": {"features": features}}
         chromium.command("POST", "goog/cdp/execute", emulated)
         chromium.open(page)
-        assert chromium.run(_LEAST_CONTRAST) >= 4.5, scheme
+        assert chromium.run(LEAST_CONTRAST) >= 4.5, scheme
 
 
 def test_it_loads_nothing_and_breaks_nothing(chromium: Browser, page: Path) -> None:
@@ -242,7 +242,7 @@ _IN_VIEW = """
     return ['.run.on .states tr.on', '.run.on .msc .step.on .number', '.lines tr.on']
         .map((s) => document.querySelector(s)).filter((p) => p !== null).every(inside);
 """
-_LEAST_CONTRAST = """
+LEAST_CONTRAST = """
     const channel = (c) => c <= 10.31475 ? c / 3294.6 : ((c / 255 + 0.055) / 1.055) ** 2.4;
     const parse = (text) => (text.match(/[0-9.]+/g) || []).map(Number);
     const light = ([r, g, b]) => 0.2126 * channel(r) + 0.7152 * channel(g) + 0.0722 * channel(b);
@@ -257,8 +257,10 @@ _LEAST_CONTRAST = """
         const [a, b] = [light(one), light(other)].sort((x, y) => y - x);
         return (a + 0.05) / (b + 0.05);
     };
-    const texts = [...document.querySelectorAll('h1,h2,p,li,span,th,td,code,small,a,em,strong')];
-    const svg = [...document.querySelectorAll('.msc text')];
+    const texts = [...document.querySelectorAll(
+        'h1,h2,p,li,span,th,td,code,small,a,em,strong,b,button,select,output,label,summary')]
+        .filter((part) => part.textContent.trim());
+    const svg = [...document.querySelectorAll('.msc text, .board text')];
     return Math.min(
         ...texts.map((t) => ratio(parse(getComputedStyle(t).color), back(t))),
         ...svg.map((t) => ratio(parse(getComputedStyle(t).fill), back(t))),

@@ -1,0 +1,1 @@
+"""Tests of times that are measured and fed back."""
