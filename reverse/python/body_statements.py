@@ -84,7 +84,9 @@ class PyStatements(BodyStatementReader):
     def _listed(self, node: Node) -> list[m.Statement]:
         if node.type in _NOTHING:
             return []
-        if node.type in DEFINITIONS and defines_only(self.reading, node, self.frame):
+        if node.type in DEFINITIONS and (
+            self.frame.is_start or defines_only(self.reading, node, self.frame)
+        ):
             return []
         if self.only and not any(word in text_of(node) for word in self.only):
             return []
