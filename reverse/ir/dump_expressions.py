@@ -44,8 +44,9 @@ def dump_type(type_: t.Type) -> str:
             return f"message {name}"
         case t.Handle(name):
             return f"handle {name}"
-        case t.Reference(to, may_be_null):
-            return f"{'*' if may_be_null else '&'}{dump_type(to)}"
+        case t.Reference(to, may_be_null, ownership):
+            sign = f"{ownership.value} *" if ownership.value else "*" if may_be_null else "&"
+            return f"{sign}{dump_type(to)}"
         case t.FunctionType(parameters, result):
             inner = "..." if parameters is None else ", ".join(map(dump_type, parameters))
             return f"({inner}) -> {dump_type(result)}"

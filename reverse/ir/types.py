@@ -108,12 +108,21 @@ class Handle:
     name: str
 
 
+class Ownership(Enum):
+    """Whether a value ends with the references to it."""
+
+    NONE = ""
+    UNIQUE = "unique"  # with this one
+    SHARED = "shared"  # with the last one
+
+
 @dataclass(frozen=True, slots=True)
 class Reference:
     """What leads to a value that others may reach as well; it leads nowhere if it may be null."""
 
     to: Type
     may_be_null: bool = False
+    ownership: Ownership = Ownership.NONE
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,177 @@
+"""Explicit conversions ([expr.cast], [expr.static.cast]), `sizeof`, `new` and `delete`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from tree_sitter import Node
+
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.cpp.context import (
+    Context,
+    Unlowered,
+    Value,
+    lower_value,
+    lowers_expression,
+)
+from rebsync.reverse.ir.cpp.conversions import converted
+from rebsync.reverse.ir.cpp.initialisation import by_arguments, initialised
+from rebsync.reverse.ir.cpp.objects import class_of, implicitly
+from rebsync.reverse.ir.cpp.types import SIZE, Declared, ReferenceKind
+from rebsync.reverse.ir.operators import Conversion
+from rebsync.reverse.syntax.cpp_tree import named, part
+from rebsync.source import Span
+
+NAMED_CASTS = frozenset({"static_cast", "const_cast", "reinterpret_cast", "dynamic_cast"})
+
+
+def named_cast(
+    context: Context, name: str, types: Sequence[Node], nodes: Sequence[Node], place: Span
+) -> Value:
+    """`static_cast<T>(x)` and its kin."""
+    if len(types) != 1 or len(nodes) != 1:
+        raise Unlowered("a cast of other than one value")
+    declared = context.world.types.descriptor(context.cpp, context.scope, types[0])
+    value = lower_value(context, nodes[0])
+    if name == "dynamic_cast":
+        return _dynamic(context, value, declared, place)
+    if name == "reinterpret_cast" and not isinstance(declared.type, t.Reference):
+        raise Unlowered("bits taken for those of another type")
+    return cast(context, value, declared, place)
+
+
+def _dynamic(context: Context, value: Value, declared: Declared, place: Span) -> Value:
+    """`dynamic_cast<T*>(p)`: null where the object is of no such class; it is up to its class."""
+    if not isinstance(declared.type, t.Reference):
+        raise Unlowered("a dynamic cast to a reference, which may throw")
+    found = e.Convert(Conversion.CAST, value.expression, declared.type, True, place)
+    return Value(found, declared.type)
+
+
+@lowers_expression("cast_expression")
+def c_cast(context: Context, node: Node) -> Value:
+    """`(T)x`."""
+    declared = context.world.types.descriptor(context.cpp, context.scope, part(node, "type"))
+    return cast(context, lower_value(context, part(node, "value")), declared, context.place(node))
+
+
+def cast(context: Context, value: Value, declared: Declared, place: Span) -> Value:
+    """What a static cast gives: implicit conversions, and those to enumerations and void."""
+    to = declared.type
+    if to == t.UNKNOWN:
+        raise Unlowered("a cast to a type that is not known")
+    if declared.reference is not ReferenceKind.NONE:
+        is_lvalue = value.is_lvalue and declared.reference is not ReferenceKind.RVALUE
+        return Value(value.expression, to, is_lvalue)
+    match to:
+        case t.Nothing():
+            context.emit(s.Evaluate(value.expression, place))
+            return Value(e.Literal(None, t.NOTHING, place=place), t.NOTHING)
+        case t.Enumeration(_, underlying):
+            number = cast(context, value, Declared(underlying), place).expression
+            return Value(e.Convert(Conversion.CAST, number, to, False, place), to)
+        case t.Reference() if value.is_lvalue or isinstance(value.type, t.Reference):
+            found = converted(value.expression, value.type, to, place)
+            if found is not None:
+                return Value(found, to)
+    return implicitly(context, Value(value.expression, value.type, value.is_lvalue), to, place)
+
+
+@lowers_expression("sizeof_expression", "alignof_expression")
+def size_of(context: Context, node: Node) -> Value:
+    """`sizeof`: known of numbers; nothing is evaluated."""
+    place, type_node = context.place(node), node.child_by_field_name("type")
+    type_: t.Type = t.UNKNOWN
+    if type_node is not None:
+        type_ = context.world.types.descriptor(context.cpp, context.scope, type_node).type
+    elif (value := node.child_by_field_name("value")) is not None:
+        with context.body(), context.trial():
+            type_ = lower_value(context, value).type
+    count = _bytes(type_) if node.type == "sizeof_expression" else None
+    if count is not None:
+        return Value(e.Literal(count, SIZE, place=place), SIZE)
+    target = context.temporary(SIZE, place)
+    context.emit(s.Call(target, s.LibraryCallee("sizeof"), (), place))
+    return Value(target, SIZE)
+
+
+def _bytes(type_: t.Type) -> int | None:
+    match type_:
+        case t.Integer(int(bits)) | t.Float(bits):
+            return bits // 8 if bits % 8 == 0 else None
+        case t.Truth():
+            return 1
+        case t.Enumeration(_, underlying):
+            return _bytes(underlying)
+        case t.Array(element, length):
+            inner = _bytes(element)
+            return None if inner is None else inner * length
+        case _:
+            return None
+
+
+@lowers_expression("new_expression")
+def new(context: Context, node: Node) -> Value:
+    """`new T(a)`: an object that a pointer leads to."""
+    place = context.place(node)
+    if node.child_by_field_name("declarator") or node.child_by_field_name("placement"):
+        raise Unlowered("an array or a place for new objects")
+    type_ = context.world.types.of(context.cpp, context.scope, part(node, "type"))
+    arguments = node.child_by_field_name("arguments")
+    nodes = [] if arguments is None else [arguments]
+    return created(context, type_, t.Reference(type_, True), nodes, place)
+
+
+def created(
+    context: Context, type_: t.Type, pointer: t.Reference, nodes: Sequence[Node], place: Span
+) -> Value:
+    """A new object with the pointer to it; `nodes` is the list of arguments, or empty."""
+    if class_of(context, type_) is None:
+        return _created_value(context, type_, pointer, nodes, place)
+    target = context.temporary(pointer, place)
+    mark = len(context.out)
+    if nodes and nodes[0].type == "initializer_list":
+        initialised(context, target, type_, nodes[0])
+    else:
+        by_arguments(context, target, type_, named(nodes[0]) if nodes else [], place)
+    last = context.out[-1] if len(context.out) > mark else None
+    if isinstance(last, s.Construct) or (
+        isinstance(last, s.Assign) and isinstance(last.value, e.Copy | e.BuildRecord)
+    ):
+        return Value(target, pointer)
+    raise Unlowered("a new object that is made in parts")
+
+
+def _created_value(
+    context: Context, type_: t.Type, pointer: t.Reference, nodes: Sequence[Node], place: Span
+) -> Value:
+    """A new number, text or object of a library."""
+    if nodes and nodes[0].type == "initializer_list":
+        raise Unlowered("a new value of a list in braces")
+    inner = named(nodes[0]) if nodes else []
+    values = [lower_value(context, n) for n in inner]
+    arguments = tuple(s.Argument(v.expression) for v in values)
+    target = context.temporary(pointer, place)
+    name = f"new {type_.name}" if isinstance(type_, t.Record | t.Message) else "new"
+    context.emit(s.Call(target, s.LibraryCallee(name), arguments, place))
+    return Value(target, pointer)
+
+
+@lowers_expression("delete_expression")
+def delete(context: Context, node: Node) -> Value:
+    """`delete p`: nothing where it is null, else the object ends."""
+    place, inner = context.place(node), named(node)
+    nothing = Value(e.Literal(None, t.NOTHING, place=place), t.NOTHING)
+    if any(child.type == "[" for child in node.children) or len(inner) != 1:
+        raise Unlowered("an array that ends")
+    value = lower_value(context, inner[0])
+    if not isinstance(value.type, t.Reference):
+        raise Unlowered("the end of what is not known")
+    pointer = value.expression
+    object_ = e.Dereference(pointer, value.type.to, value.type.to == t.UNKNOWN, place)
+    name = value.type.to.name if isinstance(value.type.to, t.Record) else None
+    test = e.Convert(Conversion.TRUTH, pointer, t.TRUTH, False, place)
+    context.emit(s.If(test, (s.Destroy(object_, name, place),), (), False, place))
+    return nothing

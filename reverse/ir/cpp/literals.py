@@ -1,0 +1,89 @@
+"""Literals of C++: numbers with their types ([lex.icon], [lex.fcon]), characters and texts."""
+
+from __future__ import annotations
+
+import re
+
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.cpp.conversions import holds
+from rebsync.reverse.ir.cpp.types import CHAR, FLOAT, INT, LONG, SIZE, STRING, UNSIGNED
+from rebsync.source import Span
+
+_ESCAPES = {
+    **{"n": "\n", "t": "\t", "r": "\r", "0": "\0", "a": "\a", "b": "\b", "f": "\f", "v": "\v"},
+    **{"\\": "\\", "'": "'", '"': '"', "?": "?"},
+}
+_ESCAPE = re.compile(r"\\(x[0-9a-fA-F]+|[0-7]{1,3}|.)", re.DOTALL)
+_IS_FLOAT = re.compile(r"(?!0[xX]).*[.eE]|0[xX].*[.pP]")
+_RAW = re.compile(r'(?:u8)?R"([^(]*)\((.*)\)\1"\Z', re.DOTALL)
+
+
+def number(text: str, place: Span) -> e.Literal | None:
+    """A number; None where no type of ours has it."""
+    plain = text.replace("'", "")
+    if _IS_FLOAT.match(plain):
+        return _floating(text, plain, place)
+    digits = plain.rstrip("uUlLzZ")
+    suffix = plain[len(digits) :].lower()
+    try:
+        value = int(digits, 8 if re.fullmatch(r"0[0-7]+", digits) else 0)
+    except ValueError:
+        return None
+    is_decimal = digits[0] != "0" or digits == "0"
+    for type_ in (INT, UNSIGNED, LONG, SIZE):
+        is_wide = type_.bits == 64
+        if ("l" in suffix and not is_wide) or ("u" in suffix and type_.signed):
+            continue
+        if not type_.signed and is_decimal and "u" not in suffix:
+            continue
+        if holds(type_, value):
+            return e.Literal(value, type_, text, place)
+    return None
+
+
+def _floating(text: str, plain: str, place: Span) -> e.Literal | None:
+    suffix = plain[-1].lower() if plain[-1] in "fFlL" and not plain.lower().startswith("0x") else ""
+    digits = plain[: len(plain) - len(suffix)]
+    if suffix == "l":
+        return None
+    try:
+        value = float.fromhex(digits) if digits.lower().startswith("0x") else float(digits)
+    except ValueError:
+        return None
+    return e.Literal(value, FLOAT if suffix == "f" else t.DOUBLE, text, place)
+
+
+def character(text: str, place: Span) -> e.Literal | None:
+    """A character of one byte, as the number that it is."""
+    inner = unescaped(text[1:-1]) if text.startswith("'") else None
+    if inner is None or len(inner) != 1 or ord(inner) > 127:
+        return None
+    return e.Literal(ord(inner), CHAR, text, place)
+
+
+def string(text: str, place: Span) -> e.Literal | None:
+    """A text in quotes."""
+    raw = _RAW.match(text)
+    if raw is not None:
+        return e.Literal(raw[2], STRING, text, place)
+    quoted = text.removeprefix("u8")
+    inner = unescaped(quoted[1:-1]) if quoted.startswith('"') else None
+    return None if inner is None else e.Literal(inner, STRING, text, place)
+
+
+def unescaped(text: str) -> str | None:
+    """What escapes stand for; None for one that is not known."""
+    try:
+        return _ESCAPE.sub(_escape, text.replace("\\\n", ""))
+    except (KeyError, ValueError):
+        return None
+
+
+def _escape(match: re.Match[str]) -> str:
+    inner = match[1]
+    if inner[0] == "x":
+        return chr(int(inner[1:], 16))
+    if inner[0] in "01234567":
+        return chr(int(inner, 8))
+    return _ESCAPES[inner]

@@ -1,0 +1,254 @@
+"""Objects of C++: addresses, copies and moves, construction and the end of their lifetime."""
+
+from __future__ import annotations
+
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.cpp.classes import (
+    copies_trivially,
+    ends_silently,
+    has_unknown_base,
+    implicit_constructor,
+    members,
+    needs_constructor,
+)
+from rebsync.reverse.ir.cpp.context import Context, Unlowered, Value
+from rebsync.reverse.ir.cpp.conversions import converted
+from rebsync.reverse.ir.cpp.symbols import ClassSymbol
+from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
+from rebsync.reverse.ir.operators import Conversion
+from rebsync.source import Span
+
+
+def dereferenced(pointer: e.Expression, type_: t.Type, place: Span) -> Value:
+    """What a pointer or reference leads to."""
+    if isinstance(pointer, e.AddressOf):
+        return Value(pointer.target, type_, is_lvalue=True)
+    return Value(e.Dereference(pointer, type_, type_ == t.UNKNOWN, place), type_, is_lvalue=True)
+
+
+def address(context: Context, value: Value, place: Span) -> e.Expression:
+    """A reference to an object; to a new temporary one for a value ([conv.rval])."""
+    expression = value.expression
+    type_ = t.Reference(value.type)
+    if value.is_lvalue:
+        if isinstance(expression, e.Dereference):
+            return expression.reference
+        if isinstance(expression, e.Lvalue):
+            return e.AddressOf(expression, type_, place)
+        raise Unlowered("a reference to what is not known as an object")
+    target = context.stored(expression, value.type, place)
+    return e.AddressOf(target, type_, place)
+
+
+def as_value(context: Context, value: Value, place: Span) -> e.Expression:
+    """A value of its own: of an lvalue or xvalue a copy, as its class makes copies."""
+    if not value.is_lvalue and not is_xvalue(value):
+        return value.expression
+    match value.type:
+        case t.Record() | t.Container() | t.Array() | t.Optional() | t.Message() | t.Unknown():
+            return _copied(context, value, place)
+        case _:
+            return value.expression
+
+
+def is_xvalue(value: Value) -> bool:
+    """Whether it names an object that stays, which may be taken from ([basic.lval])."""
+    expression = value.expression
+    return isinstance(expression, e.Lvalue) and not isinstance(expression, e.Temporary)
+
+
+def _copied(context: Context, value: Value, place: Span) -> e.Expression:
+    if copies_trivially(context.world, value.type):
+        return e.Copy(value.expression, value.type, place)
+    owner = class_of(context, value.type)
+    if owner is None:
+        raise Unlowered("a container whose elements' class makes copies by itself")
+    target = context.temporary(value.type, place)
+    context.world.construct(context, target, owner, [value], place)
+    ended_later(context, target, value.type, place)
+    return target
+
+
+def class_of(context: Context, type_: t.Type) -> ClassSymbol | None:
+    """The class of the program that objects of a type are of."""
+    return context.world.symbols.classes.get(type_.name) if isinstance(type_, t.Record) else None
+
+
+# --- conversions that a class may have a part in ---------------------------------------------------
+
+
+def implicitly(context: Context, value: Value, to: t.Type, place: Span) -> Value:
+    """A value converted to a type ([conv]); `Unlowered` where that is not known."""
+    if value.type == to or to == t.UNKNOWN:
+        return value
+    owner = class_of(context, value.type)
+    if owner is not None:
+        if isinstance(to, t.Record) and context.world.symbols.descends(owner.name, to.name):
+            return Value(value.expression, to, value.is_lvalue)
+        result = context.world.conversion(context, value, owner, to, place)
+        if result is not None:
+            return result
+    target = class_of(context, to)
+    if target is not None and value.type != t.UNKNOWN:
+        made = context.temporary(to, place)
+        context.world.construct(context, made, target, [value], place)
+        ended_later(context, made, to, place)
+        return Value(made, to)
+    if owner is not None and not isinstance(to, t.Record | t.FunctionType):
+        raise Unlowered("a conversion of an object that its class does not declare")
+    found = converted(value.expression, value.type, to, place)
+    if found is not None:
+        return Value(found, to, value.is_lvalue and found is value.expression)
+    if isinstance(to, t.Record | t.FunctionType | t.Handle | t.Message) or _of_library(value.type):
+        made_value = e.Convert(Conversion.CAST, as_value(context, value, place), to, True, place)
+        return Value(made_value, to)
+    raise Unlowered("a conversion that is not known")
+
+
+def _of_library(type_: t.Type) -> bool:
+    return isinstance(type_, t.Record | t.Message | t.Handle)
+
+
+def passed(context: Context, value: Value, declared: Declared, place: Span) -> e.Expression:
+    """An argument for a parameter: a value of its own, or a reference ([dcl.init.ref])."""
+    if declared.reference is ReferenceKind.NONE:
+        found = implicitly(context, value, declared.type, place)
+        return as_value(context, found, place)
+    same = declared.type in (value.type, t.UNKNOWN) or is_base(context, declared.type, value.type)
+    if not same:
+        value = implicitly(context, value, declared.type, place)
+    if value.is_lvalue:
+        return address(context, value, place)
+    is_fresh = isinstance(value.expression, e.Temporary)
+    found_address = address(context, value, place)
+    if not is_fresh and isinstance(found_address, e.AddressOf):
+        ended_later(context, found_address.target, value.type, place)
+    return found_address
+
+
+def is_base(context: Context, base: t.Type, type_: t.Type) -> bool:
+    """Whether a class is a base of another."""
+    known = isinstance(base, t.Record) and isinstance(type_, t.Record)
+    return known and context.world.symbols.descends(type_.name, base.name)  # type: ignore[union-attr]
+
+
+# --- beginning and end of lifetimes ---------------------------------------------------------------
+
+
+def ending(context: Context, target: e.Lvalue, type_: t.Type, place: Span) -> s.Statement | None:
+    """The end of an object's lifetime, where that runs anything."""
+    if ends_silently(context.world, type_):
+        return None
+    return s.Destroy(target, type_.name if isinstance(type_, t.Record) else None, place)
+
+
+def ended_later(context: Context, target: e.Lvalue, type_: t.Type, place: Span) -> None:
+    """A temporary ends with the full-expression."""
+    statement = ending(context, target, type_, place)
+    if statement is not None:
+        context.end_later(statement)
+
+
+def ends_with_scope(context: Context, target: e.Lvalue, type_: t.Type, place: Span) -> None:
+    """A variable ends with the scope around."""
+    statement = ending(context, target, type_, place)
+    if statement is not None:
+        context.objects.append(statement)
+
+
+def default_value(context: Context, type_: t.Type, place: Span) -> e.Expression | None:
+    """What `T()` and `T{}` are ([dcl.init] value-initialisation); None where a constructor runs."""
+    match type_:
+        case t.Integer() | t.Enumeration():
+            return e.Literal(0, type_, place=place)
+        case t.Float():
+            return e.Literal(0.0, type_, place=place)
+        case t.Truth():
+            return e.Literal(False, type_, place=place)
+        case t.Text():
+            return e.Literal("", type_, place=place)
+        case t.Reference() | t.Optional() | t.FunctionType():
+            return e.Literal(None, type_, place=place)
+        case t.Container(t.ContainerKind.MAPPING):
+            return e.BuildMapping(type_, (), place)
+        case t.Container():
+            return e.Build(type_, (), place)
+        case t.Array(element, length):
+            values = [default_value(context, element, place) for _ in range(min(length, 256))]
+            if length > 256 or None in values:
+                return None
+            return e.Build(type_, tuple(v for v in values if v is not None), place)
+        case t.Record(name) if name in context.world.types.tuples:
+            return _tuple_value(context, type_, place)
+        case _:
+            return None
+
+
+def _tuple_value(context: Context, type_: t.Record, place: Span) -> e.Expression | None:
+    fields: list[tuple[str, e.Expression]] = []
+    for name, inner in context.world.types.tuples[type_.name]:
+        value = default_value(context, inner, place)
+        if value is None:
+            return None
+        fields.append((name, value))
+    return e.BuildRecord(type_, tuple(fields), place)
+
+
+def default_constructed(
+    context: Context, target: e.Lvalue, type_: t.Type, place: Span, is_local: bool = False
+) -> None:
+    """`T x;` ([dcl.init] default-initialisation): numbers and pointers hold nothing yet."""
+    owner = class_of(context, type_)
+    if owner is not None:
+        context.world.construct(context, target, owner, [], place)
+        return
+    if isinstance(type_, t.Integer | t.Float | t.Truth | t.Enumeration | t.Unknown):
+        return
+    if isinstance(type_, t.Reference) and type_.ownership is t.Ownership.NONE:
+        return
+    if isinstance(type_, t.Array) and class_of(context, type_.element) is not None:
+        elements = []
+        for _ in range(type_.length):
+            element = context.temporary(type_.element, place)
+            default_constructed(context, element, type_.element, place)
+            elements.append(element)
+        context.emit(s.Assign(target, e.Build(type_, tuple(elements), place), place))
+        return
+    value = default_value(context, type_, place)
+    if value is not None:
+        context.emit(s.Assign(target, value, place))
+    elif isinstance(type_, t.Record):
+        context.emit(s.Call(target, s.LibraryCallee(type_.name), (), place))
+    elif isinstance(type_, t.Message):
+        context.emit(s.Call(target, s.LibraryCallee(type_.name), (), place))
+
+
+def constructor_name(context: Context, owner: ClassSymbol) -> str | None:
+    """The implicit default constructor, if it runs anything."""
+    return implicit_constructor(owner) if needs_constructor(context.world, owner) else None
+
+
+def assigned_memberwise(
+    context: Context, owner: ClassSymbol, target: e.Expression, value: e.Expression, place: Span
+) -> None:
+    """The implicit copy assignment ([class.copy.assign]): bases first, then fields in order."""
+    if has_unknown_base(context.world, owner.name):
+        raise Unlowered("an assignment of objects with a base of a library")
+    for _, base in context.world.symbols.bases(owner):
+        if base is not None:
+            assigned_memberwise(context, base, target, value, place)
+    for member in members(context.world, owner):
+        type_ = member.declared.type
+        if member.declared.reference is not ReferenceKind.NONE:
+            raise Unlowered("an assignment of an object with a reference")
+        to = e.Attribute(target, member.key, type_, False, place)
+        from_ = e.Attribute(value, member.key, type_, False, place)
+        inner = class_of(context, type_)
+        if inner is not None:
+            assigned_memberwise(context, inner, to, from_, place)
+        else:
+            copy = as_value(context, Value(from_, type_, is_lvalue=True), place)
+            context.emit(s.Assign(to, copy, place))
+
