@@ -17,7 +17,7 @@ from rebsync.reverse.ir.cpp.context import (
     lowers_statement,
     unsupported,
 )
-from rebsync.reverse.ir.cpp.initialisation import by_value, initialised
+from rebsync.reverse.ir.cpp.initialisation import by_arguments, by_value, initialised
 from rebsync.reverse.ir.cpp.names import field_of
 from rebsync.reverse.ir.cpp.objects import (
     address,
@@ -80,16 +80,34 @@ def _no_variable(context: Context, node: Node, declarator: Node) -> None:
     """A function that is declared in a body; or `T x(a);`, which the grammar takes for one."""
     if declarator.type != "function_declarator":
         raise Unlowered("a declaration of a class in a body")
-    name, list_ = part(declarator, "declarator"), part(declarator, "parameters")
-    declared = context.world.types.declared(
-        context.cpp, context.scope, part(node, "type"), None
-    )
-    target = e.Local(context.unique(text_of(name)), declared.type, context.place(node))
-    context.bind(text_of(name), Value(target, declared.type, is_lvalue=True))
-    context.emit(s.Declare(target, declared.type, None, context.place(node)))
-    if named(list_):
-        reason = "a declaration of a function, or a variable with arguments"
-        context.emit(unsupported(context, node, reason, target))
+    name, list_ = text_of(part(declarator, "declarator")), named(part(declarator, "parameters"))
+    place = context.place(node)
+    type_ = context.world.types.declared(context.cpp, context.scope, part(node, "type"), None).type
+    local = e.Local(context.unique(name), type_, place)
+    mark = len(context.out)
+    try:
+        nodes = [_argument(context, each) for each in list_]
+        with context.full_expression():
+            by_arguments(context, local, type_, nodes, place)
+    except Unlowered as error:
+        del context.out[mark:]
+        context.emit(s.Declare(local, type_, None, place))
+        context.emit(unsupported(context, node, str(error), local))
+    context.bind(name, Value(local, type_, is_lvalue=True))
+    _begin(context, mark, local, type_, place)
+
+
+def _argument(context: Context, node: Node) -> Node:
+    """What looks like a parameter without a name, and is an argument: no type has its name."""
+    type_ = node.child_by_field_name("type")
+    if type_ is None or node.child_by_field_name("declarator") is not None:
+        raise Unlowered("a declaration of a function in a body")
+    text = text_of(type_)
+    is_name = type_.type in ("type_identifier", "qualified_identifier")
+    path = context.cpp.source.path
+    if not is_name or context.world.symbols.type_named(text, context.scope, path) is not None:
+        raise Unlowered("a declaration of a function in a body")
+    return type_
 
 
 def _is_static(node: Node) -> bool:

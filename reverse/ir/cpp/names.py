@@ -43,7 +43,7 @@ def this_object(context: Context) -> Value:
     return found
 
 
-@lowers_expression("identifier")
+@lowers_expression("identifier", "type_identifier")
 def identifier(context: Context, node: Node) -> Value:
     """An unqualified name."""
     name, place = text_of(node), context.place(node)

@@ -129,7 +129,7 @@ def enclosing_scope(node: Node) -> str:
 
 def joined(scope: str, name: str) -> str:
     """A name in a scope."""
-    return f"{scope}::{name}" if scope else name
+    return "::".join(filter(None, (scope, name)))
 
 
 def outward(scope: str) -> Iterator[str]:

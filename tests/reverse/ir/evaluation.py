@@ -9,6 +9,7 @@ from __future__ import annotations
 import importlib
 import math
 import operator as op
+import struct
 from collections.abc import Callable
 from dataclasses import field
 from typing import Any, TypeAlias
@@ -18,10 +19,11 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import Conversion, Operator
 from rebsync.reverse.ir.program import Function
+from tests.reverse.ir.memory import Object, Pointer
 
 # Any value of Python.
 Value: TypeAlias = Any
-PLAIN = (bool, int, float, complex, str, bytes, type(None))
+PLAIN = (bool, int, float, complex, str, bytes, type(None), Object, Pointer)
 
 
 @dataclass(eq=False, slots=True)
@@ -93,7 +95,19 @@ def wrapped(value: Value, type_: t.Type) -> Value:
     if isinstance(type_, t.Integer) and type_.bits is not None:
         value &= (1 << type_.bits) - 1
         return value - (1 << type_.bits) if type_.signed and value >> (type_.bits - 1) else value
+    if isinstance(type_, t.Float) and type_.bits == 32:
+        return struct.unpack("f", struct.pack("f", value))[0]
     return value
+
+
+def converted(conversion: Conversion, value: Value, type_: t.Type) -> Value:
+    """A value made one of a type."""
+    found = CONVERSIONS.get(conversion, lambda v: v)(value)
+    if isinstance(type_, t.Float) and isinstance(found, int):
+        found = float(found)
+    elif isinstance(type_, t.Integer) and isinstance(found, bool):
+        found = int(found)
+    return wrapped(found, type_)
 
 
 _CHECKS: dict[type, type | tuple[type, ...]] = {
@@ -183,7 +197,7 @@ class Evaluator:
                 value = self.eval(operand, frame)
                 is_container = isinstance(value, list | dict | set | tuple)
                 plain(expression.dynamic or is_container, value)
-                return UNARY[operator](value)
+                return wrapped(UNARY[operator](value), expression.type)
             case e.Binary(operator, left, right):
                 first, second = self.eval(left, frame), self.eval(right, frame)
                 by_identity = operator in (Operator.SAME, Operator.NOT_SAME)
@@ -201,7 +215,7 @@ class Evaluator:
             case e.Convert(conversion, operand, type_):
                 value = self.eval(operand, frame)
                 plain(expression.dynamic, value)
-                return wrapped(CONVERSIONS.get(conversion, lambda v: v)(value), type_)
+                return converted(conversion, value, type_)
             case e.Build(type_, elements):
                 return self._build(type_, elements, frame)
             case e.BuildMapping(_, entries):

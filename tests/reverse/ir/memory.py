@@ -1,0 +1,78 @@
+"""Objects and places of a language with values: what a pointer leads to, what a copy is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, MutableMapping
+from dataclasses import field
+from typing import Any
+
+from rebsync.records import dataclass
+
+
+class Thrown(Exception):
+    """Any value that is thrown."""
+
+    def __init__(self, value: Any) -> None:
+        super().__init__(value)
+        self.value = value
+
+
+@dataclass(eq=False, slots=True)
+class Object:
+    """An object of a class of the program, by its own class; a pointer to one is the object."""
+
+    class_name: str
+    fields: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass(slots=True)
+class Pointer:
+    """A place of a value that is no object: a key of the variables, fields or elements there."""
+
+    space: Any
+    key: Any
+
+    def read(self) -> Any:
+        """The value in the place."""
+        return self.space[self.key]
+
+    def write(self, value: Any) -> None:
+        """Stores a value."""
+        self.space[self.key] = value
+
+    def __eq__(self, other: object) -> bool:
+        same = isinstance(other, Pointer) and self.space is other.space
+        return same and self.key == other.key  # type: ignore[union-attr]
+
+
+@dataclass(eq=False, slots=True)
+class Alias:
+    """A variable that stands for an element."""
+
+    pointer: Pointer
+
+
+class Captured(MutableMapping[str, Any]):
+    """The variables of an enclosing function as a closure has them: own ones, and places."""
+
+    def __init__(self) -> None:
+        self.own: dict[str, Any] = {}
+        self.places: dict[str, Pointer] = {}
+
+    def __getitem__(self, name: str) -> Any:
+        return self.own[name] if name in self.own else self.places[name].read()
+
+    def __setitem__(self, name: str, value: Any) -> None:
+        if name in self.own:
+            self.own[name] = value
+        else:
+            self.places[name].write(value)
+
+    def __delitem__(self, name: str) -> None:
+        raise KeyError(name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter({**self.own, **self.places})
+
+    def __len__(self) -> int:
+        return len(self.own) + len(self.places)
