@@ -82,7 +82,7 @@ def find_member(world: World, owner: str, name: str) -> tuple[ClassSymbol, Field
 def methods_named(world: World, owner: str, name: str) -> list[FunctionSymbol]:
     """The overloads of the nearest class that has any of a name ([class.member.lookup])."""
     for class_ in world.symbols.lineage(owner):
-        found = [f for f in class_.functions if f.simple == name]
+        found = [f for f in class_.functions if f.simple == name != class_.simple]
         if found:
             return found
     return []

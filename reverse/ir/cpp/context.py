@@ -72,6 +72,15 @@ class World:
 
 
 @dataclass(slots=True)
+class PendingEnd:
+    """The end of a temporary that the statement `anchor` made; `flag` is true once it is made."""
+
+    anchor: s.Statement | None
+    ending: s.Statement
+    flag: e.Temporary | None = None
+
+
+@dataclass(slots=True)
 class Context:
     """The state of the lowering of one function or lambda.
 
@@ -94,7 +103,7 @@ class Context:
     locals: list[dict[str, Value]] = field(default_factory=lambda: [{}])
     out: list[s.Statement] = field(default_factory=list)
     objects: list[s.Statement] = field(default_factory=list)
-    pending: list[tuple[s.Statement, s.Statement]] = field(default_factory=list)
+    pending: list[PendingEnd] = field(default_factory=list)
     full: list[s.Statement] | None = None
     names: set[str] = field(default_factory=set)
     shared: set[str] = field(default_factory=set)
@@ -173,27 +182,46 @@ class Context:
         """Temporaries with destructors end at its end, the last one first ([class.temporary])."""
         full, pending = self.full, self.pending
         self.full, self.pending = self.out, []
+        start = len(self.out)
         try:
             yield
-            for anchor, ending in reversed(self.pending):
-                self._end(anchor, ending)
+            if any(t.flag is not None for t in self.pending):
+                for each in self.pending:
+                    self.flag(each, self.out)
+            for each in reversed(self.pending):
+                self._end(each, start)
         finally:
             self.full, self.pending = full, pending
 
     def end_later(self, ending: s.Statement) -> None:
         """A temporary made just now ends with the full-expression."""
-        if self.out is not self.full or not self.out:
-            raise Unlowered("a temporary with a destructor where it need not be made")
-        self.pending.append((self.out[-1], ending))
+        made = PendingEnd(self.out[-1] if self.out else None, ending)
+        self.pending.append(made)
+        if self.out is not self.full:
+            self.flag(made, self.out)
 
-    def _end(self, anchor: s.Statement, ending: s.Statement) -> None:
+    def flag(self, pending: PendingEnd, body: list[s.Statement]) -> None:
+        """Notes at run time that a temporary was made, as it need not be where it is to end."""
+        at = next((n + 1 for n, each in enumerate(body) if each is pending.anchor), None)
+        if pending.flag is None and at is not None:
+            place = pending.ending.place
+            pending.flag = self.temporary(t.TRUTH, place)
+            body.insert(at, s.Assign(pending.flag, e.Literal(True, t.TRUTH), place))
+
+    def _end(self, pending: PendingEnd, start: int) -> None:
         """All that comes behind the statement that made a temporary, and then its end."""
-        start = next((n + 1 for n, each in enumerate(self.out) if each is anchor), None)
-        if start is None:
+        place, final = pending.ending.place, pending.ending
+        if pending.flag is not None:
+            self.out.insert(start, s.Assign(pending.flag, e.Literal(False, t.TRUTH), place))
+            final = s.If(pending.flag, (pending.ending,), (), False, place)
+            at: int | None = start + 1
+        else:
+            at = next((n + 1 for n, x in enumerate(self.out) if x is pending.anchor), None)
+        if at is None:
             return  # it was taken back, as what is around it has no lowering
-        within = tuple(self.out[start:])
-        del self.out[start:]
-        self.emit(s.Try(within, final=(ending,), place=ending.place))
+        within = tuple(self.out[at:])
+        del self.out[at:]
+        self.emit(s.Try(within, final=(final,), place=place))
 
     # --- names ----------------------------------------------------------------------------------
 

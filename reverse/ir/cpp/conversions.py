@@ -86,6 +86,8 @@ def converted(value: e.Expression, from_: t.Type, to: t.Type, place: Span) -> e.
         case t.Text():
             if isinstance(from_, t.Reference) and from_.to == t.Integer(8):
                 return e.Convert(Conversion.TEXT, value, to, False, place)
+            if from_ == t.Integer(8):  # the text of one character
+                return e.Convert(Conversion.CAST, value, to, False, place)
         case t.Reference():
             return _to_reference(value, from_, to, place)
         case t.Optional(of):

@@ -165,13 +165,13 @@ def _object(
 
 def _begin(context: Context, mark: int, local: e.Local, type_: t.Type, place: Span) -> None:
     """The declaration before what gives the first value; both in one where that is one value."""
-    last = context.out[-1] if len(context.out) > mark else None
-    if isinstance(last, s.Assign) and last.target == local:
+    last = context.out[-1] if context.out else None
+    is_first = getattr(last, "target", None) == local
+    if isinstance(last, s.Assign) and is_first:
         context.out[-1] = s.Declare(local, type_, last.value, place)
-    elif last is not None and getattr(last, "target", None) == local:
-        context.out.insert(len(context.out) - 1, s.Declare(local, type_, None, place))
     else:
-        context.out.insert(mark, s.Declare(local, type_, None, place))
+        at = len(context.out) - 1 if is_first else mark
+        context.out.insert(at, s.Declare(local, type_, None, place))
     ends_with_scope(context, local, type_, place)
 
 

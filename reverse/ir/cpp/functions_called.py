@@ -21,7 +21,7 @@ from rebsync.reverse.ir.cpp.context import Context, Unlowered, Value, World, low
 from rebsync.reverse.ir.cpp.initialisation import initialised
 from rebsync.reverse.ir.cpp.objects import (
     address,
-
+    as_value,
     assigned_memberwise,
     class_of,
     copies_trivially,

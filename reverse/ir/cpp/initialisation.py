@@ -48,6 +48,9 @@ def by_value(
     if owner is not None and value.type == type_ and not value.is_lvalue:
         if _elided(context, target, value.expression):
             return
+    if owner is not None and value.type != t.UNKNOWN:
+        context.world.construct(context, target, owner, [value], place)
+        return
     converted = implicitly(context, value, type_, place)
     if not converted.is_lvalue and _elided(context, target, converted.expression):
         return
@@ -63,9 +66,9 @@ def _elided(context: Context, target: e.Lvalue, value: e.Expression) -> bool:
         return False
     context.out[-1] = _with_target(last, target)
     context.pending = [
-        (anchor, end)
-        for anchor, end in context.pending
-        if anchor is not last and not (isinstance(end, s.Destroy) and end.target == value)
+        p
+        for p in context.pending
+        if p.anchor is not last and not (isinstance(p.ending, s.Destroy) and p.ending.target == value)
     ]
     return True
 

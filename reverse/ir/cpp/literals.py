@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import struct
 
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import types as t
@@ -51,7 +52,18 @@ def _floating(text: str, plain: str, place: Span) -> e.Literal | None:
         value = float.fromhex(digits) if digits.lower().startswith("0x") else float(digits)
     except ValueError:
         return None
-    return e.Literal(value, FLOAT if suffix == "f" else t.DOUBLE, text, place)
+    if suffix == "f":
+        return e.Literal(single(value), FLOAT, text, place)
+    return e.Literal(value, t.DOUBLE, text, place)
+
+
+def single(value: float) -> float:
+    """The nearest float of 32 bits."""
+    try:
+        found: float = struct.unpack("f", struct.pack("f", value))[0]
+    except OverflowError:
+        return float("inf") if value > 0 else float("-inf")
+    return found
 
 
 def character(text: str, place: Span) -> e.Literal | None:

@@ -54,8 +54,7 @@ def operation_types(sign: str, left: t.Type, right: t.Type) -> tuple[t.Type, t.T
 def _of_texts(sign: str, left: t.Type, right: t.Type) -> tuple[t.Type, t.Type, t.Type]:
     text = left if isinstance(left, t.Text) else right
     if sign == "+":
-        sides = tuple(s if s == t.Integer(8) else text for s in (left, right))
-        return sides[0], sides[1], text
+        return text, text, text
     if sign in RELATIONS:
         return text, text, t.TRUTH
     raise Unlowered(f"an operation {sign} of a text")

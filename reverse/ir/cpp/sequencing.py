@@ -53,9 +53,8 @@ def _operands(
         parts.append(context.out[mark:])
     if not _conflict(context, parts, values, is_open):
         return [v.expression for v in values]
-    if any(anchor is each for anchor, _ in context.pending for p in parts for each in p):
-        if is_open:
-            raise Unlowered("temporaries with destructors in operands without an order")
+    if is_open:
+        _flag_temporaries(context, parts)
     del context.out[start:]
     found = [_spilled(context, p, v, place) for p, v in zip(parts, values, strict=True)]
     if is_open:
@@ -64,6 +63,16 @@ def _operands(
     else:
         context.emit(*(each for body, _ in found for each in body))
     return [expression for _, expression in found]
+
+
+def _flag_temporaries(context: Context, parts: list[list[s.Statement]]) -> None:
+    """Temporaries that end later, and are made in parts of which it is not known which comes first."""
+    making = [p for p in parts if any(t.anchor is each for t in context.pending for each in p)]
+    if len(making) > 1:
+        raise Unlowered("temporaries with destructors in several operands without an order")
+    for part in making:
+        for temporary in context.pending:
+            context.flag(temporary, part)
 
 
 def _conflict(

@@ -107,6 +107,8 @@ def converted(conversion: Conversion, value: Value, type_: t.Type) -> Value:
         found = float(found)
     elif isinstance(type_, t.Integer) and isinstance(found, bool):
         found = int(found)
+    elif isinstance(type_, t.Text) and isinstance(found, int):
+        found = chr(found)
     return wrapped(found, type_)
 
 

@@ -11,7 +11,7 @@ from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.ir.program import Class, FunctionKind, Program
 from tests.reverse.ir.control import Jump, Run
-from tests.reverse.ir.evaluation import Frame, Value, converted
+from tests.reverse.ir.evaluation import BINARY, Frame, Value, converted, wrapped
 from tests.reverse.ir.interpreter import Interpreter
 from tests.reverse.ir.memory import Alias, Captured, Object, Pointer, Thrown
 from tests.reverse.ir.standard_library import FUNCTIONS, METHODS, text_method
@@ -59,6 +59,9 @@ class ObjectInterpreter(Interpreter):
             case e.Binary(Operator.SAME | Operator.NOT_SAME, left, right) if not expression.dynamic:
                 same = _same(self.eval(left, frame), self.eval(right, frame))
                 return same is (expression.operator is Operator.SAME)
+            case e.Binary(operator, left, right) if not expression.dynamic:
+                value = BINARY[operator](self.eval(left, frame), self.eval(right, frame))
+                return wrapped(value, expression.type)
             case e.Convert(conversion, operand, type_) if not expression.dynamic:
                 return converted(conversion, self.eval(operand, frame), type_)
             case _:
