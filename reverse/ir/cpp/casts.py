@@ -9,6 +9,7 @@ from tree_sitter import Node
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.cpp.classes import ends_silently
 from rebsync.reverse.ir.cpp.context import (
     Context,
     Unlowered,
@@ -116,12 +117,27 @@ def _bytes(type_: t.Type) -> int | None:
 def new(context: Context, node: Node) -> Value:
     """`new T(a)`: an object that a pointer leads to."""
     place = context.place(node)
-    if node.child_by_field_name("declarator") or node.child_by_field_name("placement"):
-        raise Unlowered("an array or a place for new objects")
+    if node.child_by_field_name("placement"):
+        raise Unlowered("a place for a new object")
     type_ = context.world.types.of(context.cpp, context.scope, part(node, "type"))
+    length = node.child_by_field_name("declarator")
+    if length is not None:
+        return _new_array(context, length, type_, place)
     arguments = node.child_by_field_name("arguments")
     nodes = [] if arguments is None else [arguments]
     return created(context, type_, t.Reference(type_, True), nodes, place)
+
+
+def _new_array(context: Context, length: Node, type_: t.Type, place: Span) -> Value:
+    """`new T[n]` of what no constructor makes."""
+    counts = named(length)
+    if len(counts) != 1 or class_of(context, type_) is not None or type_ == t.UNKNOWN:
+        raise Unlowered("an array of new objects")
+    count = implicitly(context, lower_value(context, counts[0]), SIZE, place).expression
+    pointer = t.Reference(type_, may_be_null=True)
+    target = context.temporary(pointer, place)
+    context.emit(s.Call(target, s.LibraryCallee("new[]"), (s.Argument(count),), place))
+    return Value(target, pointer)
 
 
 def created(
@@ -164,9 +180,14 @@ def delete(context: Context, node: Node) -> Value:
     """`delete p`: nothing where it is null, else the object ends."""
     place, inner = context.place(node), named(node)
     nothing = Value(e.Literal(None, t.NOTHING, place=place), t.NOTHING)
-    if any(child.type == "[" for child in node.children) or len(inner) != 1:
-        raise Unlowered("an array that ends")
     value = lower_value(context, inner[0])
+    if any(child.type == "[" for child in node.children):
+        of = value.type.to if isinstance(value.type, t.Reference) else t.UNKNOWN
+        if not ends_silently(context.world, of):
+            raise Unlowered("an array of objects that end")
+        argument = s.Argument(value.expression)
+        context.emit(s.Call(None, s.LibraryCallee("delete[]"), (argument,), place))
+        return nothing
     if not isinstance(value.type, t.Reference):
         raise Unlowered("the end of what is not known")
     pointer = value.expression

@@ -37,10 +37,10 @@ from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.source import Span
 
 
-def read(context: Context, node: Node) -> Value:
-    """An operand that is only looked at: an lvalue as it stands, which is no copy."""
-    value = lower_value(context, node)
-    return Value(value.expression, value.type)
+_DURATIONS = {
+    **{"h": "hours", "min": "minutes", "s": "seconds", "ms": "milliseconds"},
+    **{"us": "microseconds", "ns": "nanoseconds"},
+}
 
 
 def truth(context: Context, node: Node) -> e.Expression:
@@ -68,6 +68,21 @@ def character(context: Context, node: Node) -> Value:
 def string(context: Context, node: Node) -> Value:
     """A text."""
     return _literal(literals.string(text_of(node), context.place(node)))
+
+
+@lowers_expression("user_defined_literal")
+def user_defined(context: Context, node: Node) -> Value:
+    """`500ms`: a call of the literal operator of that suffix."""
+    place, inner = context.place(node), named(node)
+    suffix = text_of(node)[len(text_of(inner[0])) :] if inner else ""
+    if suffix not in _DURATIONS:
+        raise Unlowered("a literal with a suffix that is not known")
+    value = lower_value(context, inner[0])
+    type_ = t.Record(f"std::chrono::{_DURATIONS[suffix]}")
+    target = context.temporary(type_, place)
+    callee = s.LibraryCallee(f'std::literals::operator""{suffix}')
+    context.emit(s.Call(target, callee, (s.Argument(value.expression),), place))
+    return Value(target, type_)
 
 
 @lowers_expression("concatenated_string")
@@ -331,7 +346,9 @@ def element(context: Context, of: Value, index: Value, place: Span) -> Value:
                 raise Unlowered("an element of an object without an operator for that")
             return called
         case t.Reference():
-            raise Unlowered("an element behind a pointer")
+            # What the pointer leads into is not known: any element of it.
+            found = e.Index(of.expression, index.expression, of.type.to, True, False, place)
+            return Value(found, of.type.to, is_lvalue=True)
         case _:
             found = e.Index(of.expression, index.expression, t.UNKNOWN, True, False, place)
             return Value(found, t.UNKNOWN, is_lvalue=True)

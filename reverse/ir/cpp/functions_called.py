@@ -385,7 +385,10 @@ def call_library(
     if isinstance(type_, t.Record | t.Message):
         context.emit(s.Call(target, s.LibraryCallee(type_.name), arguments, place))
         return
-    raise Unlowered("a construction of an object of a type that is not known")
+    if type_ != t.UNKNOWN:
+        raise Unlowered("a construction by arguments that is not known")
+    callee = s.LibraryCallee("constructor of a type that is not known")
+    context.emit(s.Call(target, callee, arguments, place))
 
 
 def library_arguments(

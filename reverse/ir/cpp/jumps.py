@@ -7,6 +7,7 @@ from tree_sitter import Node
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.cpp.classes import copies_trivially, ends_silently
 from rebsync.reverse.ir.cpp.context import (
     Context,
     Unlowered,
@@ -16,7 +17,7 @@ from rebsync.reverse.ir.cpp.context import (
     lowers_statement,
 )
 from rebsync.reverse.ir.cpp.initialisation import initialised
-from rebsync.reverse.ir.cpp.objects import as_value, ends_silently, passed
+from rebsync.reverse.ir.cpp.objects import as_value, class_of, passed
 from rebsync.reverse.ir.cpp.statements import one
 from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -67,7 +68,10 @@ def _is_own(context: Context, value: Value) -> bool:
 
 def _check_elision(context: Context, value: Value) -> None:
     """Whether a variable becomes the result itself, or is moved and ends, is up to the compiler."""
-    if _is_own(context, value) and not ends_silently(context.world, value.type):
+    is_written = not copies_trivially(context.world, value.type)
+    is_written |= class_of(context, value.type) is not None
+    is_silent = ends_silently(context.world, value.type)
+    if _is_own(context, value) and is_written and not is_silent:
         raise Unlowered("a result that is copied or not, as the compiler chooses")
 
 

@@ -18,7 +18,7 @@ from rebsync.reverse.ir.cpp.declarations import bind_parts
 from rebsync.reverse.ir.cpp.expressions import discarded
 from rebsync.reverse.ir.cpp.initialisation import element_value
 from rebsync.reverse.ir.cpp.objects import address, as_value, dereferenced, implicitly
-from rebsync.reverse.ir.cpp.statements import condition, one, with_start
+from rebsync.reverse.ir.cpp.statements import one, repeated, with_start
 from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
 from rebsync.reverse.syntax.cpp_declarations import declared_name
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -35,7 +35,7 @@ def while_statement(context: Context, node: Node) -> None:
         raise Unlowered("a condition")
     with context.scoped():
         with context.body() as prelude:
-            test = condition(context, value)
+            test = repeated(context, value)
         body = one(context, part(node, "body"))
     context.emit(s.Loop(test, body, tuple(prelude), dynamic=False, place=place))
 
@@ -45,7 +45,7 @@ def do_statement(context: Context, node: Node) -> None:
     """`do ... while (test)`: the first round is not tested."""
     body = one(context, part(node, "body"))
     with context.body() as prelude:
-        test = condition(context, part(node, "condition"))
+        test = repeated(context, part(node, "condition"))
     place = context.place(node)
     context.emit(
         s.Loop(test, body, tuple(prelude), body_first=True, dynamic=False, place=place)
@@ -63,7 +63,7 @@ def for_statement(context: Context, node: Node) -> None:
         with context.body() as prelude:
             test: e.Expression = e.Literal(True, t.TRUTH, place=place)
             if test_node is not None:
-                test = condition(context, test_node)
+                test = repeated(context, test_node)
         with context.body() as step, context.full_expression():
             if step_node is not None:
                 discarded(context, step_node)

@@ -6,7 +6,13 @@ from tree_sitter import Node
 
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import types as t
-from rebsync.reverse.ir.cpp.classes import field_key, field_type, find_member, methods_named
+from rebsync.reverse.ir.cpp.classes import (
+    field_key,
+    field_type,
+    find_member,
+    has_unknown_base,
+    methods_named,
+)
 from rebsync.reverse.ir.cpp.context import (
     Context,
     Unlowered,
@@ -119,10 +125,26 @@ def _named(context: Context, node: Node, name: str, place: Span) -> Value:
         raise Unlowered("the address of an overloaded function")
     if name in ("NULL", "nullptr"):
         return Value(e.Literal(None, t.NOTHING, name, place), t.NOTHING)
+    if "::" not in name and _may_be_inherited(context):
+        return Value(_inherited(context, name, place), t.UNKNOWN, is_lvalue=True)
     full = context.world.types.imported(context.cpp, name)
     if full == "std::nullopt":
         return Value(e.Literal(None, t.NOTHING, name, place), t.NOTHING)
     return Value(e.LibraryReference(full, t.UNKNOWN, place), t.UNKNOWN, is_lvalue=True)
+
+
+def _may_be_inherited(context: Context) -> bool:
+    """Whether a name that nobody declares may be a member of a base that is not known."""
+    owner = context.owner
+    return owner is not None and has_unknown_base(context.world, owner.name) and _has_this(context)
+
+
+def _has_this(context: Context) -> bool:
+    return context.local("this") is not None
+
+
+def _inherited(context: Context, name: str, place: Span) -> e.Expression:
+    return e.Attribute(this_object(context).expression, name, t.UNKNOWN, True, place)
 
 
 def function_value(context: Context, name: str, place: Span) -> Value:

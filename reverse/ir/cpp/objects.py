@@ -37,6 +37,8 @@ def address(context: Context, value: Value, place: Span) -> e.Expression:
             return expression.reference
         if isinstance(expression, e.Lvalue):
             return e.AddressOf(expression, type_, place)
+        if isinstance(expression, e.LibraryReference):
+            return expression
         raise Unlowered("a reference to what is not known as an object")
     target = context.stored(expression, value.type, place)
     return e.AddressOf(target, type_, place)

@@ -26,6 +26,7 @@ from rebsync.reverse.ir.cpp.expressions import discarded
 from rebsync.reverse.ir.cpp.initialisation import initialised
 from rebsync.reverse.ir.cpp.objects import as_value, ends_silently, implicitly, passed
 from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
+from rebsync.reverse.ir.operators import Conversion
 from rebsync.reverse.syntax.cpp_declarations import declared_name
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.source import Span
@@ -139,7 +140,6 @@ def _declared_condition(context: Context, node: Node) -> e.Expression:
     declarator, value = (found[0], None) if found else (node, None)
     if len(found) != 1:
         raise Unlowered("a condition that declares other than one variable")
-    objects, context.objects = context.objects, []
     value_node = node.child_by_field_name("value")
     if declarator.type != "init_declarator" and value_node is not None:
         _declare_with(context, node, declarator, value_node)
@@ -147,9 +147,6 @@ def _declared_condition(context: Context, node: Node) -> e.Expression:
         declare(context, node, declarator)
         value_node = declarator.child_by_field_name("value")
         declarator = part(declarator, "declarator")
-    if context.objects:
-        raise Unlowered("a condition that declares an object with a destructor")
-    context.objects = objects
     names = [n for n in [declarator] if n.type == "identifier"]
     while not names and named(declarator):
         declarator = named(declarator)[-1]
@@ -170,6 +167,45 @@ def _declare_with(context: Context, node: Node, declarator: Node, value: Node) -
         variable(context, text_of(name), declared, value, is_auto, context.place(node))
 
 
+def repeated(context: Context, node: Node) -> e.Expression:
+    """The condition of a loop, which is evaluated before each round."""
+    objects, context.objects = context.objects, []
+    test = condition(context, node)
+    if context.objects:
+        raise Unlowered("a condition of a loop that declares an object with a destructor")
+    context.objects = objects
+    return test
+
+
+@lowers_statement("preproc_if", "preproc_ifdef")
+def preprocessor(context: Context, node: Node) -> None:
+    """Alternatives of which the build takes one: that is not known here, but always the same."""
+    place, alternative = context.place(node), node.child_by_field_name("alternative")
+    head = node.child_by_field_name("condition") or part(node, "name")
+    objects, context.objects = context.objects, []
+    with context.body() as then:
+        for each in named(node):
+            if each not in (head, alternative):
+                lower_statement(context, each)
+    with context.body() as otherwise:
+        if alternative is not None:
+            _alternative(context, alternative)
+    if context.objects:
+        raise Unlowered("an object with a destructor that is there in some builds only")
+    context.objects = objects
+    macro = e.LibraryReference(f"#{text_of(head)}", t.UNKNOWN, place)
+    test = e.Convert(Conversion.TRUTH, macro, t.TRUTH, True, place)
+    context.emit(s.If(test, tuple(then), tuple(otherwise), False, place))
+
+
+def _alternative(context: Context, node: Node) -> None:
+    """`#else`, or `#elif` with its own condition."""
+    if node.type in ("preproc_elif", "preproc_elifdef"):
+        raise Unlowered("alternatives of which the build takes one of several")
+    for each in named(node):
+        lower_statement(context, each)
+
+
 @lowers_statement("if_statement")
 def if_statement(context: Context, node: Node) -> None:
     """`if (init; test) ... else ...`."""
@@ -181,11 +217,15 @@ def if_statement(context: Context, node: Node) -> None:
     is_scope = start is not None or value.type == "declaration"
 
     def whole() -> None:
+        objects, context.objects = context.objects, []
         test = condition(context, value)
-        then = one(context, part(node, "consequence"))
-        alternative = node.child_by_field_name("alternative")
-        otherwise = () if alternative is None else _else(context, alternative)
-        context.emit(s.If(test, then, otherwise, False, place))
+        endings, context.objects = context.objects, objects
+        with context.body() as body:
+            then = one(context, part(node, "consequence"))
+            alternative = node.child_by_field_name("alternative")
+            otherwise = () if alternative is None else _else(context, alternative)
+            context.emit(s.If(test, then, otherwise, False, place))
+        _ending(context, tuple(body), endings)
 
     if not is_scope:
         whole()
