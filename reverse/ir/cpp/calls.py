@@ -118,6 +118,8 @@ def _named(context: Context, function: Node, nodes: Sequence[Node], place: Span)
 def _qualified(context: Context, function: Node, nodes: Sequence[Node], place: Span) -> Value:
     """`a::f(x)`, `C::f(x)`, `f<T>(x)`."""
     inner, types = _without_template(function)
+    if types and _is_variable(context, inner):
+        raise Unlowered("a comparison that looks like a template")
     if inner in NAMED_CASTS:
         return named_cast(context, inner, types, nodes, place)
     outer, _, last = inner.rpartition("::")
@@ -128,6 +130,14 @@ def _qualified(context: Context, function: Node, nodes: Sequence[Node], place: S
             raise Unlowered("a call of a template")
         return _own_method(context, owner, last, nodes, place, True)
     return _free(context, function, inner, nodes, place, types)
+
+
+def _is_variable(context: Context, name: str) -> bool:
+    """Whether `a < b > (c)` is no call of a template: `a` is a variable."""
+    symbols, path = context.world.symbols, context.cpp.source.path
+    is_member = context.owner is not None and find_member(context.world, context.owner.name, name)
+    known = context.local(name) is not None or bool(is_member)
+    return known or symbols.variable_named(name, context.scope, path) is not None
 
 
 def _without_template(function: Node) -> tuple[str, list[Node]]:

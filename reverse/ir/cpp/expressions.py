@@ -290,7 +290,7 @@ def conditional(context: Context, node: Node) -> Value:
 def _common(first: t.Type, second: t.Type) -> t.Type:
     if first == second:
         return first
-    if is_arithmetic(first) and is_arithmetic(second):
+    if all(is_arithmetic(x) or isinstance(x, t.Enumeration) for x in (first, second)):
         return common_type(first, second)
     if t.UNKNOWN in (first, second):
         return t.UNKNOWN

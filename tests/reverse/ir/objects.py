@@ -372,6 +372,8 @@ class ObjectInterpreter(Interpreter):
         raise Thrown(raised)
 
     def _fits(self, handler: s.Handler, raised: BaseException, frame: Frame) -> bool:
+        if isinstance(raised, NotImplementedError | AssertionError):
+            return False  # of the interpreter, not of the program
         if not isinstance(raised, Thrown) or handler.types is None:
             return super()._fits(handler, raised, frame)
         return any(self._is_of(raised.value, kind) for kind in handler.types)

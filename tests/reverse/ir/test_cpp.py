@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from random import Random
 
 import pytest
+from hypothesis import Phase, given, settings
+from hypothesis import strategies as st
 
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.walk import statements
+from tests.reverse.ir.cpp_drawing import text_of
 from tests.reverse.ir.cpp_running import by_form, natively, program_of
 
 if sys.version_info >= (3, 11):
@@ -40,3 +44,11 @@ def test_everything_of_cpp_has_a_lowering(name: str) -> None:
     program = program_of(_CASES[name])
     bodies = (program.function(f).body for f in program.functions)
     assert not [n for body in bodies for n in statements(body) if isinstance(n, s.Unsupported)]
+
+
+@settings(max_examples=2, deadline=None, phases=(Phase.explicit, Phase.generate))
+@given(random=st.randoms(use_true_random=False))
+def test_drawn_texts_of_cpp(random: Random, tmp_path_factory: pytest.TempPathFactory) -> None:
+    texts = [text_of(random) for _ in range(25)]
+    for text, found in zip(texts, natively(texts, tmp_path_factory.mktemp("cpp")), strict=True):
+        assert found in (by_form(text), by_form(text, is_reversed=True)), text

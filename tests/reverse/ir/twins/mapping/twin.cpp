@@ -1,0 +1,9 @@
+#include <map>
+#include <string>
+int f(int k) {
+  std::map<int, int> table = {{1, 10}, {2, 20}};
+  table[k] = table.count(k) ? table[k] + 1 : 5;
+  int total = 0;
+  for (const auto& [key, value] : table) total += key * value;
+  return total;
+}
