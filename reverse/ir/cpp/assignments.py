@@ -152,5 +152,3 @@ def _of_library(context: Context, sign: str, to: Value, is_prefix: bool, place: 
     callee = s.LibraryCallee(f"operator{sign}")
     context.emit(s.Call(target, callee, (argument,), place))
     return to if is_prefix else Value(target, t.UNKNOWN)
-
-

@@ -75,9 +75,7 @@ def _functional_cast(
     return _construction(context, type_, nodes, place)
 
 
-def _construction(
-    context: Context, type_: t.Type, nodes: Sequence[Node], place: Span
-) -> Value:
+def _construction(context: Context, type_: t.Type, nodes: Sequence[Node], place: Span) -> Value:
     if type_ == t.UNKNOWN:
         raise Unlowered("a construction of an object of a type that is not known")
     if len(nodes) == 1 and class_of(context, type_) is None:
@@ -259,6 +257,7 @@ def call_value(context: Context, value: Value, nodes: Sequence[Node], place: Spa
     declared = [_declared(p) for p in value.type.parameters]
     if len(declared) != len(nodes):
         raise Unlowered("a call of a function value with other arguments than it takes")
+
     def operand(node: Node, to: Declared) -> Callable[[], Value]:
         def lowered() -> Value:
             if to.type == t.UNKNOWN and to.reference is ReferenceKind.NONE:
@@ -280,4 +279,3 @@ def _declared(type_: t.Type) -> Declared:
     if is_reference and type_.ownership is t.Ownership.NONE:  # type: ignore[union-attr]
         return Declared(type_.to, ReferenceKind.CONSTANT)  # type: ignore[union-attr]
     return Declared(type_)
-

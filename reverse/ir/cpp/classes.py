@@ -16,7 +16,13 @@ _SILENT_NAMES = frozenset(
     {
         *("std::ostringstream", "std::istringstream", "std::mutex", "std::recursive_mutex"),
         *("std::ofstream", "std::ifstream", "std::stack", "std::priority_queue", "std::bitset"),
-        *("std::multimap", "std::multiset", "std::random_device", "std::mt19937", "std::thread::id"),
+        *(
+            "std::multimap",
+            "std::multiset",
+            "std::random_device",
+            "std::mt19937",
+            "std::thread::id",
+        ),
         *("std::string_view", "std::default_random_engine", "std::exception", "std::runtime_error"),
     }
 )

@@ -98,7 +98,12 @@ class Collected:
     ) -> None:
         """What a declaration declares, but for fields."""
         type_ = node if node.type in _CLASSES or node.type == "enum_specifier" else None
-        if node.type in ("declaration", "field_declaration", "type_definition", "alias_declaration"):
+        if node.type in (
+            "declaration",
+            "field_declaration",
+            "type_definition",
+            "alias_declaration",
+        ):
             type_ = node.child_by_field_name("type")
         if type_ is not None and type_.type in _CLASSES:
             self._class(cpp, type_, scope, is_template)
@@ -150,7 +155,9 @@ class Collected:
         if node.type == "alias_declaration":
             name = node.child_by_field_name("name")
             if name is not None:
-                self.aliases.append(AliasSymbol(joined(scope, text_of(name)), type_, None, cpp, scope))
+                self.aliases.append(
+                    AliasSymbol(joined(scope, text_of(name)), type_, None, cpp, scope)
+                )
             return
         for declarator in node.children_by_field_name("declarator"):
             inner = declarator
@@ -181,7 +188,9 @@ def _bits(member: Node, declarator: Node) -> Node | None:
     clauses = [c for c in member.named_children if c.type in ("bitfield_clause", "ERROR")]
     for clause in clauses:
         if clause.start_byte >= declarator.end_byte:
-            inner = clause if clause.type == "bitfield_clause" else next(iter(named(clause)), clause)
+            inner = (
+                clause if clause.type == "bitfield_clause" else next(iter(named(clause)), clause)
+            )
             return next(iter(named(inner)), None)
     return None
 

@@ -39,21 +39,13 @@ class Value:
 
 
 # Constructs an object of a class in a variable, of arguments.
-Constructing: TypeAlias = (
-    "Callable[[Context, e.Lvalue, ClassSymbol, list[Value], Span], None]"
-)
+Constructing: TypeAlias = "Callable[[Context, e.Lvalue, ClassSymbol, list[Value], Span], None]"
 # An object of a class made a value of another type by a function of its class; None without one.
-Converting: TypeAlias = (
-    "Callable[[Context, Value, ClassSymbol, t.Type, Span], Value | None]"
-)
+Converting: TypeAlias = "Callable[[Context, Value, ClassSymbol, t.Type, Span], Value | None]"
 # Constructs an object of a class of a library.
-LibraryCalling: TypeAlias = (
-    "Callable[[Context, e.Lvalue, t.Type, Sequence[Node], Span], None]"
-)
+LibraryCalling: TypeAlias = "Callable[[Context, e.Lvalue, t.Type, Sequence[Node], Span], None]"
 # Calls an operator function of the program; None where there is none for these operands.
-OperatorCalling: TypeAlias = (
-    "Callable[[Context, str, list[Value], Span], Value | None]"
-)
+OperatorCalling: TypeAlias = "Callable[[Context, str, list[Value], Span], Value | None]"
 
 
 @dataclass(frozen=True, slots=True)

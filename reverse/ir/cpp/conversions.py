@@ -148,9 +148,7 @@ def _between_integers(
     return e.Convert(conversion, value, to, False, place)
 
 
-def _to_float(
-    value: e.Expression, from_: t.Type, to: t.Float, place: Span
-) -> e.Expression | None:
+def _to_float(value: e.Expression, from_: t.Type, to: t.Float, place: Span) -> e.Expression | None:
     if isinstance(value, e.Literal) and isinstance(value.value, int | float) and to.bits == 64:
         return e.Literal(float(value.value), to, value.text, place)
     match from_:
@@ -208,5 +206,3 @@ def rank(from_: t.Type, to: t.Type) -> int | None:
     if isinstance(from_, t.FunctionType) and isinstance(to, t.FunctionType):
         return 3
     return None
-
-

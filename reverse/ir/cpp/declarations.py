@@ -33,7 +33,12 @@ from rebsync.reverse.syntax.cpp_declarations import declared_name
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.source import Span
 
-_NO_EFFECT = ("using_declaration", "alias_declaration", "type_definition", "static_assert_declaration")
+_NO_EFFECT = (
+    "using_declaration",
+    "alias_declaration",
+    "type_definition",
+    "static_assert_declaration",
+)
 
 
 @lowers_statement(*_NO_EFFECT, "comment", ";", "empty_statement")
@@ -333,5 +338,3 @@ def _static_local(
     test = e.Unary(Operator.NOT, ready, t.TRUTH, False, place)
     context.emit(s.If(test, tuple(body), (), False, place))
     context.bind(text_of(name), Value(static, declared.type, is_lvalue=True))
-
-

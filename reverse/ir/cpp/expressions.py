@@ -104,9 +104,7 @@ def _literal(found: e.Literal | None) -> Value:
 @lowers_expression("true", "false")
 def boolean(context: Context, node: Node) -> Value:
     """A truth."""
-    return Value(
-        e.Literal(node.type == "true", t.TRUTH, node.type, context.place(node)), t.TRUTH
-    )
+    return Value(e.Literal(node.type == "true", t.TRUTH, node.type, context.place(node)), t.TRUTH)
 
 
 @lowers_expression("null", "nullptr")
@@ -165,9 +163,7 @@ def _again(value: Value, found: e.Expression, place: Span) -> Value:
     return Value(found, value.type, value.is_lvalue)
 
 
-def _short_circuit(
-    context: Context, is_and: bool, left: Node, right: Node, place: Span
-) -> Value:
+def _short_circuit(context: Context, is_and: bool, left: Node, right: Node, place: Span) -> Value:
     """`&&` and `||`: the right operand is evaluated only where it counts ([expr.log.and])."""
     first = truth(context, left)
     with context.body() as body:

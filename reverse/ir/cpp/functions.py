@@ -219,9 +219,7 @@ def _delegate(context: Context, owner: ClassSymbol, given: dict[str, Node]) -> N
     call_function(context, function, nodes, context.place(given[owner.simple]), receiver, True)
 
 
-def _base(
-    context: Context, name: str, base: ClassSymbol | None, node: Node | None
-) -> None:
+def _base(context: Context, name: str, base: ClassSymbol | None, node: Node | None) -> None:
     place = context.place(node) if node is not None else NOWHERE
     nodes = named(node) if node is not None else []
     this = _this(context)

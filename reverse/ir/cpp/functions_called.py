@@ -300,9 +300,7 @@ def conversion(
     return implicitly(context, call(context, function, [], place, value), to, place)
 
 
-def call_operator(
-    context: Context, name: str, values: list[Value], place: Span
-) -> Value | None:
+def call_operator(context: Context, name: str, values: list[Value], place: Span) -> Value | None:
     """An operator function for operands of which one is an object of the program ([over.oper])."""
     owners = [class_of(context, v.type) for v in values]
     enums = any(isinstance(v.type, t.Enumeration) for v in values)
@@ -407,5 +405,3 @@ def library_arguments(
 
     found = in_any_order(context, [operand(node) for node in nodes], place)
     return tuple(s.Argument(x) for x in found)
-
-

@@ -40,9 +40,7 @@ def initialised(context: Context, target: e.Lvalue, type_: t.Type, node: Node) -
     by_value(context, target, type_, value, place)
 
 
-def by_value(
-    context: Context, target: e.Lvalue, type_: t.Type, value: Value, place: Span
-) -> None:
+def by_value(context: Context, target: e.Lvalue, type_: t.Type, value: Value, place: Span) -> None:
     """Copy-initialisation by a value; one that a call or constructor made is the object itself."""
     owner = class_of(context, type_)
     if owner is not None and value.type == type_ and not value.is_lvalue:
@@ -68,7 +66,8 @@ def _elided(context: Context, target: e.Lvalue, value: e.Expression) -> bool:
     context.pending = [
         p
         for p in context.pending
-        if p.anchor is not last and not (isinstance(p.ending, s.Destroy) and p.ending.target == value)
+        if p.anchor is not last
+        and not (isinstance(p.ending, s.Destroy) and p.ending.target == value)
     ]
     return True
 
@@ -165,7 +164,9 @@ def braced(context: Context, target: e.Lvalue, type_: t.Type, node: Node) -> Non
         return
     match type_:
         case t.Container(t.ContainerKind.MAPPING, (key, value)):
-            context.emit(s.Assign(target, _mapping(context, type_, key, value, nodes, place), place))
+            context.emit(
+                s.Assign(target, _mapping(context, type_, key, value, nodes, place), place)
+            )
         case t.Container(_, (element, *_)):
             built = _elements(context, type_, element, nodes, place)
             context.emit(s.Assign(target, e.Build(type_, built, place), place))
@@ -310,7 +311,9 @@ def _aggregate(
         if field.declared.reference is not ReferenceKind.NONE:
             raise Unlowered("an aggregate with a reference")
         node = nodes[number] if number < len(nodes) else field.symbol.value
-        operands.append(_field_operand(context, owner, field.declared, node, field.symbol.cpp, place))
+        operands.append(
+            _field_operand(context, owner, field.declared, node, field.symbol.cpp, place)
+        )
     values = in_order(context, operands, place)
     pairs = tuple((f.key, v) for f, v in zip(fields, values, strict=True))
     built = e.BuildRecord(t.Record(owner.name), pairs, place)
@@ -330,7 +333,11 @@ def _field_operand(  # noqa: PLR0913
             target = context.temporary(type_, place)
             default_constructed(context, target, type_, place)
             return Value(target, type_)
-        if cpp is not context.cpp or node.parent is not None and node.parent.type == "field_declaration":
+        if (
+            cpp is not context.cpp
+            or node.parent is not None
+            and node.parent.type == "field_declaration"
+        ):
             with context.reading(cpp, owner.name):
                 return Value(element_value(context, type_, node), type_)
         return Value(element_value(context, type_, node), type_)

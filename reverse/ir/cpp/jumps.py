@@ -24,7 +24,6 @@ from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.source import Span
 
 
-
 @lowers_statement("return_statement")
 def return_statement(context: Context, node: Node) -> None:
     """`return value;`: as the function's result."""
@@ -156,4 +155,3 @@ def _exception_type(context: Context, type_: t.Type, place: Span, text: str) -> 
     if isinstance(type_, t.Record) and type_.name in context.world.symbols.classes:
         return e.ClassReference(type_.name, place)
     return e.LibraryReference(context.world.types.imported(context.cpp, text), place=place)
-

@@ -63,7 +63,10 @@ class _Capturing:
         if name not in self.initial and not by_reference and not is_variable:
             if not isinstance(expression, e.Global | e.Literal):
                 found = copied(self.enclosing, name, found, self.place)
-        if isinstance(found.expression, e.Local) and found.expression.name in self.enclosing.aliases:
+        if (
+            isinstance(found.expression, e.Local)
+            and found.expression.name in self.enclosing.aliases
+        ):
             if not by_reference:
                 found = copied(self.enclosing, name, found, self.place)
         return Value(self._within(found.expression, by_reference), found.type, found.is_lvalue)

@@ -103,6 +103,8 @@ def is_pure(name: str) -> bool:
     if space in _KINDS.values() or space in ("std::string", "std::optional", "std::array"):
         return last in _ASKING or last in _FINDING or last in _ELEMENTS
     functions = _FLOATING | _PREDICATES | _SAME | {"abs", "to_string", "labs", "llabs"}
-    return (space in ("", "std") and last in functions) or name == "sizeof" or (
-        space == "std::literals"
+    return (
+        (space in ("", "std") and last in functions)
+        or name == "sizeof"
+        or (space == "std::literals")
     )

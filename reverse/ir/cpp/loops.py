@@ -25,7 +25,6 @@ from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.source import Span
 
 
-
 @lowers_statement("while_statement")
 def while_statement(context: Context, node: Node) -> None:
     """`while (test)`."""
@@ -47,9 +46,7 @@ def do_statement(context: Context, node: Node) -> None:
     with context.body() as prelude:
         test = repeated(context, part(node, "condition"))
     place = context.place(node)
-    context.emit(
-        s.Loop(test, body, tuple(prelude), body_first=True, dynamic=False, place=place)
-    )
+    context.emit(s.Loop(test, body, tuple(prelude), body_first=True, dynamic=False, place=place))
 
 
 @lowers_statement("for_statement")

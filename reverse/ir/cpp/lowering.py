@@ -142,7 +142,9 @@ def class_of_program(world: World, owner: ClassSymbol) -> Class:
     methods = tuple((method_key(world, f), f.name) for f in own if not _is_special(owner, f))
     virtual = {method_key(world, f) for f in own if is_virtual(world, f)}
     destructor = owner.destructor
-    if any(c.destructor is not None and c.destructor.is_virtual for c in symbols.lineage(owner.name)):
+    if any(
+        c.destructor is not None and c.destructor.is_virtual for c in symbols.lineage(owner.name)
+    ):
         virtual.add(DESTRUCTOR)
     fields = [Field(m.key, m.declared.form) for m in members(world, owner)]
     shared = [f for f in owner.fields if f.is_static]

@@ -46,9 +46,7 @@ def library_method(  # noqa: PLR0913
     return result or _called(context, of, name, nodes, place)
 
 
-def _called(
-    context: Context, of: Value, name: str, nodes: Sequence[Node], place: Span
-) -> Value:
+def _called(context: Context, of: Value, name: str, nodes: Sequence[Node], place: Span) -> Value:
     class_name = _library_base(context, of.type) or library_class(of.type)
     if class_name is None:
         arguments = library_arguments(context, nodes, place, is_pure=False)
@@ -206,11 +204,14 @@ def _pointer(  # noqa: PLR0913
     return None
 
 
-def _atomic(
-    context: Context, of: Value, name: str, nodes: Sequence[Node], place: Span
-) -> Value:
+def _atomic(context: Context, of: Value, name: str, nodes: Sequence[Node], place: Span) -> Value:
     """Methods of `std::atomic`, which is lowered as the value that it holds."""
-    operator: dict[str, str] = {"fetch_add": "+", "fetch_sub": "-", "fetch_or": "|", "fetch_and": "&"}
+    operator: dict[str, str] = {
+        "fetch_add": "+",
+        "fetch_sub": "-",
+        "fetch_or": "|",
+        "fetch_and": "&",
+    }
     if name == "load" and not nodes:
         return Value(of.expression, of.type)
     if name == "store" and nodes:

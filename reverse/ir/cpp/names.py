@@ -77,17 +77,13 @@ def qualified(context: Context, node: Node) -> Value:
     return _named(context, node, name, place)
 
 
-def _own_member(
-    context: Context, owner: ClassSymbol, symbol: FieldSymbol, place: Span
-) -> Value:
+def _own_member(context: Context, owner: ClassSymbol, symbol: FieldSymbol, place: Span) -> Value:
     if symbol.is_static:
         return static_member(context.world, owner, symbol, place)
     return member_of(context, this_object(context), owner, symbol, place)
 
 
-def static_member(
-    world: World, owner: ClassSymbol, symbol: FieldSymbol, place: Span
-) -> Value:
+def static_member(world: World, owner: ClassSymbol, symbol: FieldSymbol, place: Span) -> Value:
     """A member that all objects of a class share."""
     type_ = field_type(world, owner, symbol).type
     found = e.Attribute(e.ClassReference(owner.name, place), symbol.name, type_, False, place)
@@ -115,7 +111,9 @@ def _named(context: Context, node: Node, name: str, place: Span) -> Value:
     variable = symbols.variable_named(name, context.scope, path)
     if variable is not None:
         return global_value(context.world, variable, place)
-    macro = symbols.code.constant(context.cpp, name) or symbols.code.constants_for(context.cpp).get(name)
+    macro = symbols.code.constant(context.cpp, name) or symbols.code.constants_for(context.cpp).get(
+        name
+    )
     if macro is not None and name.rpartition("::")[2].isupper():
         return _macro(context, node, macro)
     functions = symbols.functions_named(name, context.scope, path)
@@ -171,9 +169,7 @@ def global_value(world: World, variable: VariableSymbol, place: Span) -> Value:
     return Value(found, declared.type, is_lvalue=True)
 
 
-def enumerator_value(
-    world: World, enum: EnumSymbol, name: str, text: str, place: Span
-) -> Value:
+def enumerator_value(world: World, enum: EnumSymbol, name: str, text: str, place: Span) -> Value:
     """An enumerator as a constant of its enumeration."""
     number = enumerators(world, enum).get(name)
     if number is None:

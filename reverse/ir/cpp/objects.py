@@ -253,4 +253,3 @@ def assigned_memberwise(
         else:
             copy = as_value(context, Value(from_, type_, is_lvalue=True), place)
             context.emit(s.Assign(to, copy, place))
-

@@ -109,9 +109,7 @@ def unary(context: Context, sign: str, operand: Value, place: Span) -> Value:
     if sign in ("!", "not"):
         truth = implicitly(context, operand, t.TRUTH, place)
         is_dynamic = operand.type == t.UNKNOWN
-        return Value(
-            e.Unary(Operator.NOT, truth.expression, t.TRUTH, is_dynamic, place), t.TRUTH
-        )
+        return Value(e.Unary(Operator.NOT, truth.expression, t.TRUTH, is_dynamic, place), t.TRUTH)
     operators = {"-": Operator.NEGATE, "+": Operator.PLUS, "~": Operator.INVERT}
     operator = operators.get({"compl": "~"}.get(sign, sign))
     if operator is None:

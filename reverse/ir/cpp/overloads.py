@@ -103,9 +103,7 @@ def resolve(
         ranks = _ranks(context, function, arguments)
         if ranks is not None:
             ranked.append((ranks, function))
-    best = [
-        f for r, f in ranked if all(_is_better(r, other) for other, g in ranked if g is not f)
-    ]
+    best = [f for r, f in ranked if all(_is_better(r, other) for other, g in ranked if g is not f)]
     if len(best) != 1:
         raise Unlowered("a call whose overload is not known")
     return _callable(best[0])
@@ -117,9 +115,7 @@ def _callable(function: FunctionSymbol) -> FunctionSymbol:
     return function
 
 
-def _without_redeclared(
-    world: World, functions: Sequence[FunctionSymbol]
-) -> list[FunctionSymbol]:
+def _without_redeclared(world: World, functions: Sequence[FunctionSymbol]) -> list[FunctionSymbol]:
     """Of functions that only differ in `const` the one that is not: most objects are not constant.
 
     Their bodies would differ if they did not mean the same; where they have two, both stay.
@@ -217,7 +213,9 @@ def _converts(context: Context, function: FunctionSymbol, from_: t.Type) -> bool
     parameters = signature(context.world, function).parameters
     if not parameters or any(p.default is None for p in parameters[1:]):
         return False
-    return from_ == parameters[0].declared.type or rank(from_, parameters[0].declared.type) is not None
+    return (
+        from_ == parameters[0].declared.type or rank(from_, parameters[0].declared.type) is not None
+    )
 
 
 def conversion_function(owner: ClassSymbol, world: World, to: t.Type) -> FunctionSymbol | None:

@@ -145,7 +145,8 @@ def _holds(context: Context, expression: e.Expression, changed: set[e.Lvalue | N
             return name == "this" or is_private
         case e.AddressOf(target):
             return isinstance(target, e.Local | e.Temporary | e.Global | e.Captured) or (
-                isinstance(target, e.Attribute) and _holds(context, e.AddressOf(target.object), changed)  # type: ignore[arg-type]
+                isinstance(target, e.Attribute)
+                and _holds(context, e.AddressOf(target.object), changed)  # type: ignore[arg-type]
             )
         case e.Unary(_, operand) | e.Convert(_, operand):
             return _holds(context, operand, changed)

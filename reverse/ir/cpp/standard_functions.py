@@ -17,9 +17,7 @@ from rebsync.reverse.ir.cpp.sequencing import in_any_order
 from rebsync.reverse.syntax.cpp_tree import text_of
 from rebsync.source import Span
 
-Standard: TypeAlias = Callable[
-    [Context, Sequence[Node], Sequence[Node], Span], "Value | None"
-]
+Standard: TypeAlias = Callable[[Context, Sequence[Node], Sequence[Node], Span], "Value | None"]
 
 
 def _move(

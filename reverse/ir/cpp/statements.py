@@ -260,7 +260,10 @@ def _else(context: Context, node: Node) -> s.Body:
 def switch(context: Context, node: Node) -> None:
     """`switch`: cases go on into the next ones."""
     clause, place = part(node, "condition"), context.place(node)
-    start, value_node = clause.child_by_field_name("initializer"), clause.child_by_field_name("value")
+    start, value_node = (
+        clause.child_by_field_name("initializer"),
+        clause.child_by_field_name("value"),
+    )
     if value_node is None or value_node.type == "declaration":
         raise Unlowered("a switch over a variable that it declares")
 

@@ -102,7 +102,9 @@ class Symbols:
         self, name: str, full: str, group: list[Declaration], defined: Declaration
     ) -> None:
         if name in self.functions:
-            name = f"{name} in {defined.code.cpp.source.path}:{defined.code.node.start_point.row + 1}"
+            name = (
+                f"{name} in {defined.code.cpp.source.path}:{defined.code.node.start_point.row + 1}"
+            )
         symbol = symbol_of(name, tuple(group), defined)
         self.functions[name] = symbol
         owner = self.classes.get(symbol.owner or "")
@@ -204,11 +206,13 @@ def known_node(symbol: TypeSymbol):  # type: ignore[no-untyped-def]
 def _signature(declaration: Declaration) -> tuple[str, ...]:
     """The parameters' types as text, with what tells references and pointers apart."""
     found: list[str] = []
-    for parameter, type_ in zip(
-        declaration.code.parameters, declaration.code.types, strict=True
-    ):
+    for parameter, type_ in zip(declaration.code.parameters, declaration.code.types, strict=True):
         declarator = parameter.node.child_by_field_name("declarator")
-        marks = "".join(c for c in text_of(declarator).partition("(")[0] if c in "&*") if declarator else ""
+        marks = (
+            "".join(c for c in text_of(declarator).partition("(")[0] if c in "&*")
+            if declarator
+            else ""
+        )
         is_const = bool(marks) and "const" in text_of(parameter.node).split()
         found.append(f"{'const ' * is_const}{type_}{marks}")
     return tuple(found)

@@ -120,9 +120,7 @@ class TypeReader:
             node = inner if inner is not None else _last(node)
         return Declared(of, reference, is_constant)
 
-    def _array(
-        self, cpp: Cpp, scope: str, of: t.Type, node: Node, is_constant: bool
-    ) -> Declared:
+    def _array(self, cpp: Cpp, scope: str, of: t.Type, node: Node, is_constant: bool) -> Declared:
         """`int x[2][3]`: the innermost bound is the outermost of the text."""
         lengths: list[int | None] = []
         current: Node | None = node
@@ -293,7 +291,10 @@ class TypeReader:
 
     def _function(self, cpp: Cpp, scope: str, node: Node) -> t.Type:
         """`void(int, const A&)`, the argument of `std::function`."""
-        declarator, result = node.child_by_field_name("declarator"), node.child_by_field_name("type")
+        declarator, result = (
+            node.child_by_field_name("declarator"),
+            node.child_by_field_name("type"),
+        )
         list_ = declarator.child_by_field_name("parameters") if declarator is not None else None
         if list_ is None or result is None:
             return t.FunctionType()

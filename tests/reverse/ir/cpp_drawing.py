@@ -66,7 +66,13 @@ _VALUES = (
 )
 _EFFECTS = (
     *("say({})", "base.v({})", "der.twice({})", "narrow({})", "counted()", "base.Base::v({})"),
-    *("Guard({}, total).get()", "by_value({})", "by_reference({})", "made({}).x", "narrow(0.5 + i8)"),
+    *(
+        "Guard({}, total).get()",
+        "by_value({})",
+        "by_reference({})",
+        "made({}).x",
+        "narrow(0.5 + i8)",
+    ),
 )
 _SIGNS = ("+", "-", "*", "&", "|", "^")
 _COMPARED = ("<", "<=", ">", ">=", "==", "!=")
@@ -112,7 +118,9 @@ class Drawing:
             inner = f"static_cast<int8_t>({self.number(0)})"
             return self.pick(_EFFECTS).format(inner)
         if kind == 4:
-            return f"({self.number(depth - 1)} {self.pick(('/', '%'))} (({self.number(0)} & 7) + 1))"
+            return (
+                f"({self.number(depth - 1)} {self.pick(('/', '%'))} (({self.number(0)} & 7) + 1))"
+            )
         if kind == 5:
             return f"({self.number(depth - 1)} {self.pick(('<<', '>>'))} ({self.number(0)} & 5))"
         if kind == 6:
@@ -165,9 +173,13 @@ class Drawing:
                 return f"{self.pick(_TYPES)} {name} = {self.full()}; note({name});\n"
             case 7:
                 place, sign = self.pick(_PLACES), self.pick(("++", "--"))
-                return self.pick((f"{place}{sign};\n", f"{sign}{place};\n", f"note({place}{sign});\n"))
+                return self.pick(
+                    (f"{place}{sign};\n", f"{sign}{place};\n", f"note({place}{sign});\n")
+                )
             case 8:
-                return self.pick(("q = p;\n", "p = q + r;\n", "r -= i8;\n", "q = made(u8);\n", "p = P{1, 2};\n"))
+                return self.pick(
+                    ("q = p;\n", "p = q + r;\n", "r -= i8;\n", "q = made(u8);\n", "p = P{1, 2};\n")
+                )
             case 9:
                 name = self.name()
                 return f"P {name} = {self.pick(('p', 'q', 'p + q'))}; {name}.x += 5; note({name}.small);\n"
@@ -197,8 +209,12 @@ class Drawing:
             case 4:
                 return f"{{ uint8_t {name} = 254; do {self.block(depth, True)} while (++{name} > 250); }}\n"
             case 5:
-                guards = self.pick((f"Guard {name}(i8, total);", f"Guard {name}(3, i), {name}b({name});"))
-                return "{ " + guards + " " + self.block(depth, in_loop) + f"note({name}.get()); }}\n"
+                guards = self.pick(
+                    (f"Guard {name}(i8, total);", f"Guard {name}(3, i), {name}b({name});")
+                )
+                return (
+                    "{ " + guards + " " + self.block(depth, in_loop) + f"note({name}.get()); }}\n"
+                )
             case 6:
                 return self.switch(depth, in_loop)
             case 7:

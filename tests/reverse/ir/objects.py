@@ -135,7 +135,9 @@ class ObjectInterpreter(Interpreter):
                 return None if value is None else self._copy(value, of)
             case _ if isinstance(value, Object):
                 types = dict(self._field_types(value.class_name))
-                copies = {n: self._copy(v, types.get(n, t.UNKNOWN)) for n, v in value.fields.items()}
+                copies = {
+                    n: self._copy(v, types.get(n, t.UNKNOWN)) for n, v in value.fields.items()
+                }
                 return Object(value.class_name, copies)
             case _:
                 return value
@@ -201,7 +203,9 @@ class ObjectInterpreter(Interpreter):
         return None
 
     def _switch(self, value: Value, cases: tuple[s.Case, ...], frame: Frame) -> Run:
-        starts = [n for n, c in enumerate(cases) if any(self.value(v, frame) == value for v in c.values)]
+        starts = [
+            n for n, c in enumerate(cases) if any(self.value(v, frame) == value for v in c.values)
+        ]
         starts = starts or [n for n, c in enumerate(cases) if c.is_default]
         for case in cases[starts[0] :] if starts else ():
             jump = yield from self.body(case.body, frame)
