@@ -7,6 +7,7 @@ from tree_sitter import Node
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.cpp.classes import copies_trivially
 from rebsync.reverse.ir.cpp.context import (
     Context,
     Unlowered,
@@ -20,7 +21,6 @@ from rebsync.reverse.ir.cpp.objects import (
     as_value,
     assigned_memberwise,
     class_of,
-    copies_trivially,
     dereferenced,
     implicitly,
 )

@@ -78,9 +78,9 @@ def _functional_cast(
 def _construction(context: Context, type_: t.Type, nodes: Sequence[Node], place: Span) -> Value:
     if type_ == t.UNKNOWN:
         raise Unlowered("a construction of an object of a type that is not known")
-    if len(nodes) == 1 and class_of(context, type_) is None:
-        if not isinstance(type_, t.Container | t.Record | t.Message):
-            return cast(context, lower_value(context, nodes[0]), Declared(type_), place)
+    is_object = isinstance(type_, t.Container | t.Record | t.Message)
+    if len(nodes) == 1 and not is_object:
+        return cast(context, lower_value(context, nodes[0]), Declared(type_), place)
     return _made(context, type_, nodes, place, in_braces=False)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from rebsync.records import dataclass
 from rebsync.reverse.ir import types as t
@@ -94,6 +94,13 @@ def methods_named(world: World, owner: str, name: str) -> list[FunctionSymbol]:
     return []
 
 
+def is_base(world: World, base: t.Type, type_: t.Type) -> bool:
+    """Whether a type is a class that another is, or descends from."""
+    if not isinstance(base, t.Record) or not isinstance(type_, t.Record):
+        return False
+    return world.symbols.descends(type_.name, base.name)
+
+
 def has_unknown_base(world: World, owner: str) -> bool:
     """Whether a class has a base that the program does not have."""
     symbols = world.symbols
@@ -153,7 +160,7 @@ def copies_trivially(world: World, type_: t.Type) -> bool:
             return True
 
 
-def _parts_are(world: World, owner: ClassSymbol, holds) -> bool:  # type: ignore[no-untyped-def]
+def _parts_are(world: World, owner: ClassSymbol, holds: Callable[[World, t.Type], bool]) -> bool:
     parts = [m.declared.type for m in members(world, owner) if not _refers(m.declared)]
     bases = [t.Record(b.name if b is not None else name) for name, b in world.symbols.bases(owner)]
     return all(holds(world, type_) for type_ in (*bases, *parts))

@@ -221,10 +221,10 @@ def _function(
     found, converts_to = function_of(cpp, node, owner or ""), None
     qualifier = ""
     if found is None:
-        cast = _operator_cast(node)
-        if cast is None:
+        conversion = _operator_cast(node)
+        if conversion is None:
             return None
-        qualifier, cast = cast
+        qualifier, cast = conversion
         found, converts_to = _conversion(cpp, node, cast), cast.child_by_field_name("type")
     else:
         qualifier = _qualifier(node)

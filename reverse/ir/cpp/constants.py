@@ -68,9 +68,9 @@ class Constants:
         if self.world is None:
             return None
         for variable in self.world.symbols.variables.get(name, ()):
-            if variable.cpp.source.path == path and variable.value is not None:
-                if _is_constant(variable.type):
-                    return self.number(variable.value, variable.scope, variable.cpp)
+            is_it = variable.cpp.source.path == path and _is_constant(variable.type)
+            if variable.value is not None and is_it:
+                return self.number(variable.value, variable.scope, variable.cpp)
         return None
 
     def _static(self, class_: str, name: str) -> int | None:

@@ -9,6 +9,7 @@ from tree_sitter import Node
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.cpp.classes import is_base
 from rebsync.reverse.ir.cpp.context import (
     Context,
     Unlowered,
@@ -25,7 +26,6 @@ from rebsync.reverse.ir.cpp.objects import (
     dereferenced,
     ends_with_scope,
     implicitly,
-    is_base,
 )
 from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
 from rebsync.reverse.ir.operators import Operator
@@ -192,7 +192,7 @@ def _reference(
     if value is None:
         raise Unlowered("a reference to nothing")
     found = _initial(context, declared, value)
-    same = found.type == declared.type or is_base(context, declared.type, found.type)
+    same = found.type == declared.type or is_base(context.world, declared.type, found.type)
     if not same:
         found = implicitly(context, found, declared.type, place)
     _refer(context, name, local, Declared(declared.type, declared.reference), found, place)

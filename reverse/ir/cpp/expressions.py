@@ -36,7 +36,6 @@ from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.source import Span
 
-
 _DURATIONS = {
     **{"h": "hours", "min": "minutes", "s": "seconds", "ms": "milliseconds"},
     **{"us": "microseconds", "ns": "nanoseconds"},
@@ -244,11 +243,10 @@ def comma(context: Context, node: Node) -> Value:
 
 def discarded(context: Context, node: Node) -> None:
     """An expression for what it does ([expr.context])."""
-    value = lower_value(context, node)
-    if not isinstance(value.expression, e.Literal | e.Temporary | e.Lvalue):
-        context.emit(s.Evaluate(value.expression, context.place(node)))
-    elif isinstance(value.expression, e.Lvalue) and _may_run(value.expression):
-        context.emit(s.Evaluate(value.expression, context.place(node)))
+    found = lower_value(context, node).expression
+    is_silent = isinstance(found, e.Literal | e.Lvalue) and not _may_run(found)
+    if not is_silent:
+        context.emit(s.Evaluate(found, context.place(node)))
 
 
 def _may_run(expression: e.Expression) -> bool:

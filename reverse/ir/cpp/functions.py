@@ -1,8 +1,8 @@
-"""Functions of C++: parameters, bodies, constructors with what they initialise ([class.base.init])."""
+"""Functions of C++: parameters, bodies, and what constructors initialise ([class.base.init])."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from tree_sitter import Node
 
@@ -167,7 +167,7 @@ def initialise_parts(context: Context, owner: ClassSymbol, list_: Node | None) -
         return
     for name, base in context.world.symbols.bases(owner):
         node = given.get(name.rpartition("::")[2])
-        _guarded(context, node, None, lambda n=name, b=base, x=node: _base(context, n, b, x))  # type: ignore[misc]
+        _guarded(context, node, None, lambda n=name, b=base, x=node: _base(context, n, b, x))
     for member in members(context.world, owner):
         node = given.get(member.symbol.name)
         target = _target(context, member, node)
@@ -176,11 +176,13 @@ def initialise_parts(context: Context, owner: ClassSymbol, list_: Node | None) -
             context,
             where,
             target,
-            lambda m=member, x=node, to=target: _member(context, owner, m, to, x),  # type: ignore[misc]
+            lambda m=member, x=node, to=target: _member(context, owner, m, to, x),
         )
 
 
-def _guarded(context: Context, node: Node | None, target: e.Lvalue | None, lower) -> None:  # type: ignore[no-untyped-def]
+def _guarded(
+    context: Context, node: Node | None, target: e.Lvalue | None, lower: Callable[[], None]
+) -> None:
     """One initialisation, which is a full-expression."""
     mark = len(context.out)
     try:

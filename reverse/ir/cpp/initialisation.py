@@ -21,7 +21,7 @@ from rebsync.reverse.ir.cpp.objects import (
 from rebsync.reverse.ir.cpp.sequencing import in_order
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol
 from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
-from rebsync.reverse.syntax.cpp_tree import named
+from rebsync.reverse.syntax.cpp_tree import Cpp, named
 from rebsync.source import Span
 
 _SCALARS = t.Integer | t.Float | t.Truth | t.Enumeration | t.Text | t.Reference | t.FunctionType
@@ -43,9 +43,9 @@ def initialised(context: Context, target: e.Lvalue, type_: t.Type, node: Node) -
 def by_value(context: Context, target: e.Lvalue, type_: t.Type, value: Value, place: Span) -> None:
     """Copy-initialisation by a value; one that a call or constructor made is the object itself."""
     owner = class_of(context, type_)
-    if owner is not None and value.type == type_ and not value.is_lvalue:
-        if _elided(context, target, value.expression):
-            return
+    is_made = owner is not None and value.type == type_ and not value.is_lvalue
+    if is_made and _elided(context, target, value.expression):
+        return
     if owner is not None and value.type != t.UNKNOWN:
         context.world.construct(context, target, owner, [value], place)
         return
@@ -320,8 +320,13 @@ def _aggregate(
     context.emit(s.Assign(target, built, place))
 
 
-def _field_operand(  # noqa: PLR0913
-    context: Context, owner: ClassSymbol, declared: Declared, node: Node | None, cpp, place: Span
+def _field_operand(
+    context: Context,
+    owner: ClassSymbol,
+    declared: Declared,
+    node: Node | None,
+    cpp: Cpp,
+    place: Span,
 ) -> Callable[[], Value]:
     type_ = declared.type
 
@@ -333,10 +338,8 @@ def _field_operand(  # noqa: PLR0913
             target = context.temporary(type_, place)
             default_constructed(context, target, type_, place)
             return Value(target, type_)
-        if (
-            cpp is not context.cpp
-            or node.parent is not None
-            and node.parent.type == "field_declaration"
+        if cpp is not context.cpp or (
+            node.parent is not None and node.parent.type == "field_declaration"
         ):
             with context.reading(cpp, owner.name):
                 return Value(element_value(context, type_, node), type_)

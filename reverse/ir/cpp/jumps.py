@@ -134,7 +134,7 @@ def _caught(
         context.cpp, context.scope, part(node, "type"), declarator
     )
     kind = _exception_type(context, declared.type, place, text_of(part(node, "type")))
-    names = [n for n in _identifiers(declarator)]
+    names = _identifiers(declarator)
     if not names:
         return (kind,), None
     local = e.Local(context.unique(names[0]), declared.type, place)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import field, replace
+from typing import Any
 
 from tree_sitter import Node
 
@@ -50,25 +51,22 @@ class _Capturing:
                 by_reference = self.explicit.get(name, self.default == "&")
             if found is None:
                 return None
-            if name not in self.initial and name not in self.explicit and not self.default:
-                if not isinstance(found.expression, e.Literal | e.Global):
-                    raise Unlowered("a variable that a lambda does not capture")
+            is_listed = bool(self.default) or name in self.initial or name in self.explicit
+            if not is_listed and not isinstance(found.expression, e.Literal | e.Global):
+                raise Unlowered("a variable that a lambda does not capture")
             self.values[name] = self._captured(found, name, by_reference or name == "this")
         return self.values[name]
 
     def _captured(self, found: Value, name: str, by_reference: bool) -> Value:
         """A variable as the lambda sees it; by value what a reference leads to is copied."""
         expression = found.expression
-        is_variable = isinstance(expression, e.Local | e.Captured)
-        if name not in self.initial and not by_reference and not is_variable:
-            if not isinstance(expression, e.Global | e.Literal):
-                found = copied(self.enclosing, name, found, self.place)
-        if (
-            isinstance(found.expression, e.Local)
-            and found.expression.name in self.enclosing.aliases
-        ):
-            if not by_reference:
-                found = copied(self.enclosing, name, found, self.place)
+        is_shared = isinstance(expression, e.Local | e.Captured | e.Global | e.Literal)
+        if name not in self.initial and not by_reference and not is_shared:
+            found = copied(self.enclosing, name, found, self.place)
+        local = found.expression
+        is_alias = isinstance(local, e.Local) and local.name in self.enclosing.aliases
+        if is_alias and not by_reference:
+            found = copied(self.enclosing, name, found, self.place)
         return Value(self._within(found.expression, by_reference), found.type, found.is_lvalue)
 
     def _within(self, expression: e.Expression, by_reference: bool) -> e.Expression:
@@ -87,7 +85,7 @@ class _Capturing:
                 return expression
 
     def _parts(self, expression: e.Expression) -> e.Expression:
-        changed = {
+        changed: Any = {
             f.name: self._within(inner, by_reference=False)
             for f in dataclasses.fields(expression)
             if f.name in ("object", "reference", "index", "target")

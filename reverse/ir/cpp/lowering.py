@@ -18,23 +18,18 @@ from rebsync.reverse.ir.cpp.classes import (
     needs_constructor,
 )
 from rebsync.reverse.ir.cpp.constants import Constants
+from rebsync.reverse.ir.cpp.construction import call_library, construct, conversion
 from rebsync.reverse.ir.cpp.context import Context, Unlowered, World
 from rebsync.reverse.ir.cpp.functions import (
     lambda_names,
     lower_function,
     lower_implicit_constructor,
 )
-from rebsync.reverse.ir.cpp.functions_called import (
-    call_library,
-    call_operator,
-    construct,
-    conversion,
-    is_virtual,
-    method_key,
-)
-from rebsync.reverse.ir.cpp.initialisation import initialised
+from rebsync.reverse.ir.cpp.functions_called import is_virtual, method_key
+from rebsync.reverse.ir.cpp.initialisation import initialised, value_initialised
 from rebsync.reverse.ir.cpp.names import global_value
 from rebsync.reverse.ir.cpp.objects import default_constructed
+from rebsync.reverse.ir.cpp.operator_functions import call_operator
 from rebsync.reverse.ir.cpp.symbol_table import Symbols
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol, FunctionSymbol
 from rebsync.reverse.ir.cpp.types import ReferenceKind, TypeReader
@@ -198,12 +193,12 @@ def lower_module(world: World, cpp: Cpp) -> Function:
 def _static_members(context: Context, owner: ClassSymbol) -> None:
     for symbol in owner.fields:
         declared = field_type(context.world, owner, symbol)
-        if symbol.is_static and symbol.value is not None:
-            if declared.reference is ReferenceKind.NONE:
-                class_ = e.ClassReference(owner.name)
-                target = e.Attribute(class_, symbol.name, declared.type, False)
-                context.scope = owner.name
-                _begins(context, target, declared.type, symbol.value)
+        is_value = declared.reference is ReferenceKind.NONE
+        if symbol.is_static and symbol.value is not None and is_value:
+            class_ = e.ClassReference(owner.name)
+            target = e.Attribute(class_, symbol.name, declared.type, False)
+            context.scope = owner.name
+            _begins(context, target, declared.type, symbol.value)
 
 
 def _begins(context: Context, target: e.Lvalue, type_: t.Type, value: Node | None) -> None:
@@ -221,8 +216,6 @@ def _begins(context: Context, target: e.Lvalue, type_: t.Type, value: Node | Non
 
 
 def _zero(context: Context, target: e.Lvalue, type_: t.Type) -> None:
-    from rebsync.reverse.ir.cpp.initialisation import value_initialised
-
     if isinstance(type_, t.Unknown):
         raise Unlowered("a variable of a type that is not known")
     if isinstance(type_, t.Record | t.Message):

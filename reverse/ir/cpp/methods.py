@@ -23,7 +23,7 @@ _PUTTING = frozenset({"push_back", "push_front", "push", "insert", "assign", "re
 _EMPTYING = frozenset({"pop_back", "pop_front", "pop", "clear", "reserve", "shrink_to_fit"})
 
 
-def library_method(  # noqa: PLR0913
+def library_method(
     context: Context,
     of: Value,
     name: str,
@@ -149,7 +149,7 @@ def _put(
     return stored_result(context, callee, arguments, Declared(t.NOTHING), place)
 
 
-def _emplaced(  # noqa: PLR0913
+def _emplaced(
     context: Context,
     of: Value,
     element: t.Type | None,
@@ -172,7 +172,7 @@ def _emplaced(  # noqa: PLR0913
 # --- optionals, pointers, atomics -----------------------------------------------------------------
 
 
-def _optional(  # noqa: PLR0913
+def _optional(
     context: Context, of: Value, inner: t.Type, name: str, nodes: Sequence[Node], place: Span
 ) -> Value | None:
     match name:
@@ -189,7 +189,7 @@ def _optional(  # noqa: PLR0913
             return None
 
 
-def _pointer(  # noqa: PLR0913
+def _pointer(
     context: Context, of: Value, type_: t.Reference, name: str, nodes: Sequence[Node], place: Span
 ) -> Value | None:
     """Methods of smart pointers."""

@@ -1,4 +1,4 @@
-"""What names mean in a body ([basic.lookup]): locals, members, variables, enumerators, functions."""
+"""What names mean in a body ([basic.lookup]): locals, members, variables, functions."""
 
 from __future__ import annotations
 
@@ -206,9 +206,9 @@ def _macro(context: Context, node: Node, macro: tuple[Cpp, Node]) -> Value:
     """The expression that a macro without arguments stands for."""
     cpp, value = macro
     around = node.parent.type if node.parent is not None else ""
-    if cpp.source.text.startswith("const auto x =") and value.type in _OPERATIONS:
-        if around in _OPERATIONS:
-            raise Unlowered("a macro whose text may bind otherwise than it looks")
+    is_text = cpp.source.text.startswith("const auto x =")
+    if is_text and value.type in _OPERATIONS and around in _OPERATIONS:
+        raise Unlowered("a macro whose text may bind otherwise than it looks")
     with context.reading(cpp, context.scope):
         return lower_value(context, value)
 

@@ -10,6 +10,7 @@ from rebsync.reverse.ir.cpp.classes import (
     ends_silently,
     has_unknown_base,
     implicit_constructor,
+    is_base,
     members,
     needs_constructor,
 )
@@ -78,7 +79,7 @@ def class_of(context: Context, type_: t.Type) -> ClassSymbol | None:
     return context.world.symbols.classes.get(type_.name) if isinstance(type_, t.Record) else None
 
 
-# --- conversions that a class may have a part in ---------------------------------------------------
+# --- conversions that a class may have a part in --------------------------------------------------
 
 
 def implicitly(context: Context, value: Value, to: t.Type, place: Span) -> Value:
@@ -118,7 +119,9 @@ def passed(context: Context, value: Value, declared: Declared, place: Span) -> e
     if declared.reference is ReferenceKind.NONE:
         found = implicitly(context, value, declared.type, place)
         return as_value(context, found, place)
-    same = declared.type in (value.type, t.UNKNOWN) or is_base(context, declared.type, value.type)
+    same = declared.type in (value.type, t.UNKNOWN) or is_base(
+        context.world, declared.type, value.type
+    )
     if not same:
         value = implicitly(context, value, declared.type, place)
     if value.is_lvalue:
@@ -128,12 +131,6 @@ def passed(context: Context, value: Value, declared: Declared, place: Span) -> e
     if not is_fresh and isinstance(found_address, e.AddressOf):
         ended_later(context, found_address.target, value.type, place)
     return found_address
-
-
-def is_base(context: Context, base: t.Type, type_: t.Type) -> bool:
-    """Whether a class is a base of another."""
-    known = isinstance(base, t.Record) and isinstance(type_, t.Record)
-    return known and context.world.symbols.descends(type_.name, base.name)  # type: ignore[union-attr]
 
 
 # --- beginning and end of lifetimes ---------------------------------------------------------------
@@ -221,9 +218,7 @@ def default_constructed(
     value = default_value(context, type_, place)
     if value is not None:
         context.emit(s.Assign(target, value, place))
-    elif isinstance(type_, t.Record):
-        context.emit(s.Call(target, s.LibraryCallee(type_.name), (), place))
-    elif isinstance(type_, t.Message):
+    elif isinstance(type_, t.Record | t.Message):
         context.emit(s.Call(target, s.LibraryCallee(type_.name), (), place))
 
 

@@ -9,6 +9,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.cpp.classes import is_base
 from rebsync.reverse.ir.cpp.context import Context, Unlowered, Value, World
 from rebsync.reverse.ir.cpp.conversions import is_arithmetic, rank
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol, FunctionSymbol
@@ -188,9 +189,8 @@ def _rank(context: Context, argument: ArgumentValue, declared: Declared) -> int 
 
 def _rank_of_class(context: Context, from_: t.Type, to: t.Type) -> int | None:
     symbols = context.world.symbols
-    if isinstance(from_, t.Record) and isinstance(to, t.Record):
-        if symbols.descends(from_.name, to.name):
-            return 2
+    if is_base(context.world, to, from_):
+        return 2
     if isinstance(to, t.Record):
         owner = symbols.classes.get(to.name)
         if owner is None:

@@ -32,7 +32,7 @@ _READING = frozenset(
 
 
 def in_order(context: Context, operands: Sequence[Operand], place: Span) -> list[e.Expression]:
-    """Operands from the first to the last, as in braces: a later one may not change earlier ones."""
+    """Operands from the first to the last: a later one does not change earlier ones."""
     return _operands(context, operands, place, is_open=False)
 
 
@@ -66,7 +66,7 @@ def _operands(
 
 
 def _flag_temporaries(context: Context, parts: list[list[s.Statement]]) -> None:
-    """Temporaries that end later, and are made in parts of which it is not known which comes first."""
+    """Temporaries that end later, and are made in parts whose order is not known."""
     making = [p for p in parts if any(t.anchor is each for t in context.pending for each in p)]
     if len(making) > 1:
         raise Unlowered("temporaries with destructors in several operands without an order")
@@ -102,10 +102,9 @@ def _spilled(
 
 def has_effects(body: Sequence[s.Statement]) -> bool:
     """Whether statements do anything that others could see, but for temporaries."""
-    return any(
-        isinstance(node, s.Statement) and _does(node)  # type: ignore[arg-type]
-        for node in walk(tuple(body))
-    ) or any(is_dynamic(node) for node in walk(tuple(body)) if isinstance(node, e.Expression))
+    return any(isinstance(node, s.Statement) and _does(node) for node in walk(tuple(body))) or any(
+        is_dynamic(node) for node in walk(tuple(body)) if isinstance(node, e.Expression)
+    )
 
 
 def _does(statement: s.Statement) -> bool:
@@ -143,11 +142,10 @@ def _holds(context: Context, expression: e.Expression, changed: set[e.Lvalue | N
         case e.Local(name):
             is_private = name not in exposed(context) and expression not in changed
             return name == "this" or is_private
+        case e.AddressOf(e.Attribute(of)):
+            return isinstance(of, e.Lvalue) and _holds(context, e.AddressOf(of), changed)
         case e.AddressOf(target):
-            return isinstance(target, e.Local | e.Temporary | e.Global | e.Captured) or (
-                isinstance(target, e.Attribute)
-                and _holds(context, e.AddressOf(target.object), changed)  # type: ignore[arg-type]
-            )
+            return isinstance(target, e.Local | e.Temporary | e.Global | e.Captured)
         case e.Unary(_, operand) | e.Convert(_, operand):
             return _holds(context, operand, changed)
         case e.Binary(_, left, right) | e.And(left, right) | e.Or(left, right):

@@ -12,24 +12,19 @@ from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.cpp.context import (
     Context,
     Unlowered,
-    Value,
     full_value,
     lower_statement,
     lower_value,
-    lowers_expression,
     lowers_statement,
     unsupported,
 )
 from rebsync.reverse.ir.cpp.conversions import promoted
 from rebsync.reverse.ir.cpp.declarations import declarators, declare, variable
 from rebsync.reverse.ir.cpp.expressions import discarded
-from rebsync.reverse.ir.cpp.initialisation import initialised
-from rebsync.reverse.ir.cpp.objects import as_value, ends_silently, implicitly, passed
-from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
+from rebsync.reverse.ir.cpp.objects import implicitly
 from rebsync.reverse.ir.operators import Conversion
 from rebsync.reverse.syntax.cpp_declarations import declared_name
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-from rebsync.source import Span
 
 
 @lowers_statement("compound_statement")

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from typing import TypeAlias
+
+from tree_sitter import Node
 
 from rebsync.reverse.ir.cpp.collecting import Collected, Declaration, symbol_of
 from rebsync.reverse.ir.cpp.symbols import (
@@ -37,7 +40,8 @@ class Symbols:
         self.names = collected.names
         self.classes: dict[str, ClassSymbol] = {}
         self.types: dict[str, TypeSymbol | None] = {}
-        for found in (*collected.classes, *collected.enums, *collected.aliases):
+        declared: list[TypeSymbol] = [*collected.classes, *collected.enums, *collected.aliases]
+        for found in declared:
             self._add_type(found)
         self.variables: dict[str, list[VariableSymbol]] = {}
         for variable in collected.variables:
@@ -88,8 +92,6 @@ class Symbols:
     def _with_owner(self, each: Declaration) -> Declaration:
         """A qualified name that is a class's is of a member; it may be looked up outwards."""
         if each.owner is not None and each.owner not in self.classes:
-            from dataclasses import replace
-
             return replace(each, owner=None)
         return each
 
@@ -198,7 +200,7 @@ class Symbols:
         return any(c.name == base for c in self.lineage(name))
 
 
-def known_node(symbol: TypeSymbol):  # type: ignore[no-untyped-def]
+def known_node(symbol: TypeSymbol) -> Node:
     """The node that tells whether two declarations are one."""
     return symbol.type if isinstance(symbol, AliasSymbol) else symbol.node
 

@@ -1,4 +1,4 @@
-"""The entities that C++ files declare, by their full names: classes, functions, variables, types."""
+"""The entities that C++ files declare, by their full names."""
 
 from __future__ import annotations
 

@@ -77,6 +77,32 @@ _EFFECTS = (
 _SIGNS = ("+", "-", "*", "&", "|", "^")
 _COMPARED = ("<", "<=", ">", ">=", "==", "!=")
 
+_SIMPLE = (
+    ("{place}++;", "--{place};", "note({place}--);", "note(++{place});"),
+    ("q = p;", "p = q + r;", "r -= i8;", "q = made(u8);", "p = P{{1, 2}};"),
+    ("P {x} = p; {x}.x += 5; note({x}.small);", "P {x} = p + q; {x}.x += 5; note({x}.small);"),
+    ("change(total, p);", "change(i, made(2));", "change(p.x, r);", "change(list[0], q);"),
+    ("d = l * 0.5;", "d = u8 * f;", "d = i * d;"),
+    ("d = d > 1e6 || d < -1e6 ? 1 : d; f = d; note((int)d); note(f == d);",),
+    ("s += s.size() > 9 ? s.substr(0, 1) : s; s[0] = 'z'; note(s);", "s += std::to_string(u8);"),
+)
+# In these X is a name, TEST a condition and BODY a block.
+_LOOPS = (
+    "for (int X = 0; X < 3; ++X) BODY",
+    "{ int X = 3; while (X-- > 0) BODY }",
+    "{ uint8_t X = 254; do BODY while (++X > 250); }",
+)
+_SCOPES = (
+    "{ Guard X(i8, total); BODY note(X.get()); }",
+    "{ Guard X(3, i), Xb(X); BODY note(Xb.get()); }",
+    "try { Guard X(4, total); BODY if (TEST) throw 5; note(2); } catch (int k) { note(k); }",
+    "try { Guard X(4, i); BODY if (TEST) throw P{8}; } catch (const P& k) { note(k.x); }",
+    "try { if (TEST) throw P{8}; BODY } catch (...) { note(say(1)); }",
+    "for (auto& X : list) { X += i8; note(X); total ^= X; }",
+    "for (auto& [kX, vX] : table) { vX += kX; note(vX); }",
+    "{ std::unique_ptr<Base> X(new Derived(i8, u)); note(X->v(2)); BODY }",
+)
+
 
 class Drawing:
     """Draws with the choices of a `Random`."""
@@ -160,80 +186,35 @@ class Drawing:
         return self.simple()
 
     def simple(self) -> str:
-        kind = self.random.randrange(15)
-        match kind:
-            case 0 | 1:
-                return f"note({self.full()});\n"
-            case 2 | 3:
-                return f"{self.pick(_PLACES)} = {self.full()};\n"
-            case 4 | 5:
-                return f"{self.pick(_PLACES)} {self.pick(_SIGNS)}= {self.full(1)};\n"
-            case 6:
-                name = self.name()
-                return f"{self.pick(_TYPES)} {name} = {self.full()}; note({name});\n"
-            case 7:
-                place, sign = self.pick(_PLACES), self.pick(("++", "--"))
-                return self.pick(
-                    (f"{place}{sign};\n", f"{sign}{place};\n", f"note({place}{sign});\n")
-                )
-            case 8:
-                return self.pick(
-                    ("q = p;\n", "p = q + r;\n", "r -= i8;\n", "q = made(u8);\n", "p = P{1, 2};\n")
-                )
-            case 9:
-                name = self.name()
-                return f"P {name} = {self.pick(('p', 'q', 'p + q'))}; {name}.x += 5; note({name}.small);\n"
-            case 10:
-                return f"change({self.pick(('total', 'i', 'p.x', 'list[0]'))}, {self.pick(('p', 'made(2)', 'r'))});\n"
-            case 11:
-                return f"m = static_cast<Mode>({self.full(1)}); note(static_cast<int>(m));\n"
-            case 12:
-                return f"d = {self.pick(('u8', 'l', 'i', 'f'))} * {self.pick(('0.5', 'f', 'd'))}; d = d > 1e6 || d < -1e6 ? 1 : d; f = d; note((int)d); note(f == d);\n"
-            case 13:
-                return f"list.push_back({self.full(1)}); note(list.size());\n"
-            case _:
-                return f"s += {self.pick(('s.size() > 9 ? s.substr(0, 1) : s', 'std::to_string(u8)'))}; s[0] = 'z'; note(s);\n"
+        """A statement without others in it."""
+        name, place = self.name(), self.pick(_PLACES)
+        if (kind := self.random.randrange(12)) < len(_SIMPLE):
+            return self.pick(_SIMPLE[kind]).format(x=name, place=place) + "\n"
+        sign = self.pick(("=", *(f"{sign}=" for sign in _SIGNS)))
+        return self.pick(
+            (
+                f"note({self.full()});\n",
+                f"{place} {sign} {self.full()};\n",
+                f"{self.pick(_TYPES)} {name} = {self.full()}; note({name});\n",
+                f"m = static_cast<Mode>({self.full(1)}); note(static_cast<int>(m));\n",
+                f"list.push_back({self.full(1)}); note(list.size());\n",
+            )
+        )
 
     def nested(self, depth: int, in_loop: bool) -> str:
-        name = self.name()
-        match self.random.randrange(11):
-            case 0 | 1:
-                other = f"else {self.block(depth, in_loop)}" if self.random.random() < 0.5 else ""
-                self.calls = 1
-                return f"if ({self.test(2)}) {self.block(depth, in_loop)}{other}"
-            case 2:
-                loop = f"for (int {name} = 0; {name} < {self.random.randint(1, 4)}; ++{name}) "
-                return loop + self.block(depth, True)
-            case 3:
-                return f"{{ int {name} = 3; while ({name}-- > 0) {self.block(depth, True)}}}\n"
-            case 4:
-                return f"{{ uint8_t {name} = 254; do {self.block(depth, True)} while (++{name} > 250); }}\n"
-            case 5:
-                guards = self.pick(
-                    (f"Guard {name}(i8, total);", f"Guard {name}(3, i), {name}b({name});")
-                )
-                return (
-                    "{ " + guards + " " + self.block(depth, in_loop) + f"note({name}.get()); }}\n"
-                )
-            case 6:
-                return self.switch(depth, in_loop)
-            case 7:
-                thrown = self.pick(("throw 5", "throw P{8}", "say(1)"))
-                guard = f"Guard {name}(40, total); "
-                return (
-                    f"try {{ {guard}{self.block(depth, False)} if ({self.test(1)}) {thrown}; note(2); }}"
-                    f" catch (int k) {{ note(k); }} catch (const P& k) {{ note(k.x); }}\n"
-                )
-            case 8:
-                return f"for (auto& {name} : list) {{ {name} += i8; note({name}); {self.simple_quiet()} }}\n"
-            case 9:
-                return f"for (auto& [k{name}, v{name}] : table) {{ v{name} += k{name}; note(v{name}); }}\n"
-            case _:
-                return f"{{ std::unique_ptr<Base> {name}(new Derived(i8, u)); note({name}->v(2)); {self.block(depth, in_loop)} }}\n"
-
-    def simple_quiet(self) -> str:
-        """What does not change the list that is gone through."""
-        return f"total += {self.number(1)};" if not self.calls else "total ^= u8;"
+        """A statement with others in it."""
+        name, test = self.name(), self.test(1)
+        kind = self.random.randrange(11)
+        if kind < 2:
+            self.calls = 1
+            other = f"else {self.block(depth, in_loop)}" if self.random.random() < 0.5 else ""
+            return f"if ({self.test(2)}) {self.block(depth, in_loop)}{other}"
+        if kind == 2:
+            return self.switch(depth, in_loop)
+        is_loop = kind < 6
+        text = self.pick(_LOOPS if is_loop else _SCOPES)
+        body = self.block(depth, is_loop or (in_loop and "try" not in text))
+        return text.replace("BODY", body).replace("TEST", test).replace("X", name) + "\n"
 
     def switch(self, depth: int, in_loop: bool) -> str:
         end = self.pick(("break;", "", "break;"))

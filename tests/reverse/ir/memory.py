@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, MutableMapping
 from dataclasses import field
-from typing import Any
+from typing import Any, TypeAlias
 
 from rebsync.records import dataclass
+
+# Any value of the interpreter.
+Held: TypeAlias = Any
 
 
 class Thrown(Exception):
     """Any value that is thrown."""
 
-    def __init__(self, value: Any) -> None:
+    def __init__(self, value: Held) -> None:
         super().__init__(value)
         self.value = value
 
@@ -22,27 +25,28 @@ class Object:
     """An object of a class of the program, by its own class; a pointer to one is the object."""
 
     class_name: str
-    fields: dict[str, Any] = field(default_factory=dict)
+    fields: dict[str, Held] = field(default_factory=dict)
 
 
 @dataclass(slots=True)
 class Pointer:
     """A place of a value that is no object: a key of the variables, fields or elements there."""
 
-    space: Any
-    key: Any
+    space: Held
+    key: Held
 
-    def read(self) -> Any:
+    def read(self) -> Held:
         """The value in the place."""
         return self.space[self.key]
 
-    def write(self, value: Any) -> None:
+    def write(self, value: Held) -> None:
         """Stores a value."""
         self.space[self.key] = value
 
     def __eq__(self, other: object) -> bool:
-        same = isinstance(other, Pointer) and self.space is other.space
-        return same and self.key == other.key  # type: ignore[union-attr]
+        if not isinstance(other, Pointer):
+            return NotImplemented
+        return self.space is other.space and bool(self.key == other.key)
 
 
 @dataclass(eq=False, slots=True)
@@ -52,17 +56,17 @@ class Alias:
     pointer: Pointer
 
 
-class Captured(MutableMapping[str, Any]):
+class Captured(MutableMapping[str, Held]):
     """The variables of an enclosing function as a closure has them: own ones, and places."""
 
     def __init__(self) -> None:
-        self.own: dict[str, Any] = {}
+        self.own: dict[str, Held] = {}
         self.places: dict[str, Pointer] = {}
 
-    def __getitem__(self, name: str) -> Any:
+    def __getitem__(self, name: str) -> Held:
         return self.own[name] if name in self.own else self.places[name].read()
 
-    def __setitem__(self, name: str, value: Any) -> None:
+    def __setitem__(self, name: str, value: Held) -> None:
         if name in self.own:
             self.own[name] = value
         else:

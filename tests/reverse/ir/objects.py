@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -256,7 +255,7 @@ class ObjectInterpreter(Interpreter):
 
     # --- calls -----------------------------------------------------------------------------------
 
-    def _called(self, name: str, arguments: Any) -> Value:
+    def _called(self, name: str, arguments: Value) -> Value:
         """Runs a function; while a constructor or destructor runs, the object is of its class."""
         function = self.program.function(name)
         names = [p.name for p in function.parameters]
@@ -297,7 +296,7 @@ class ObjectInterpreter(Interpreter):
         raise NotImplementedError(name)
 
     def _text(
-        self, name: str, held: str, receiver: e.Expression, arguments: Any, frame: Frame
+        self, name: str, held: str, receiver: e.Expression, arguments: Value, frame: Frame
     ) -> Value:
         """Texts of Python do not change: what a method makes of one is stored."""
         result, after = text_method(name.rpartition("::")[2], held, arguments)
@@ -371,7 +370,7 @@ class ObjectInterpreter(Interpreter):
     # --- exceptions ------------------------------------------------------------------------------
 
     def _raise(self, raised: Value, cause: e.Expression | None, frame: Frame) -> None:
-        if isinstance(raised, BaseException) or isinstance(raised, type):
+        if isinstance(raised, BaseException | type):
             super()._raise(raised, cause, frame)
         raise Thrown(raised)
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
+
+from tests.reverse.ir.memory import Held
 
 FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "std::abs": abs,
@@ -35,7 +37,7 @@ METHODS: Mapping[str, Callable[..., Any]] = {
 }
 
 
-def text_method(name: str, held: str, arguments: Any) -> tuple[Any, str]:
+def text_method(name: str, held: str, arguments: Sequence[Held]) -> tuple[Held, str]:
     """What a method of a text gives, and the text after it."""
     match name:
         case "push_back":

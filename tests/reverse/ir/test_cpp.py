@@ -1,4 +1,4 @@
-"""C++ lowered to the form does what g++ makes of it: the cases of `cpp_cases/*.toml`, run by both."""
+"""C++ lowered to the form does what g++ makes of it: cases of `cpp_cases/*.toml`, run by both."""
 
 from __future__ import annotations
 
