@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from functools import partial
+
 from tree_sitter import Node
 
 from rebsync.reverse.ir import expressions as e
@@ -167,7 +169,7 @@ def initialise_parts(context: Context, owner: ClassSymbol, list_: Node | None) -
         return
     for name, base in context.world.symbols.bases(owner):
         node = given.get(name.rpartition("::")[2])
-        _guarded(context, node, None, lambda n=name, b=base, x=node: _base(context, n, b, x))
+        _guarded(context, node, None, partial(_base, context, name, base, node))
     for member in members(context.world, owner):
         node = given.get(member.symbol.name)
         target = _target(context, member, node)
@@ -176,7 +178,7 @@ def initialise_parts(context: Context, owner: ClassSymbol, list_: Node | None) -
             context,
             where,
             target,
-            lambda m=member, x=node, to=target: _member(context, owner, m, to, x),
+            partial(_member, context, owner, member, target, node),
         )
 
 

@@ -331,7 +331,7 @@ class ObjectInterpreter(Interpreter):
             is_virtual = named.virtual is not None and _DESTRUCTOR in named.virtual
             self._end(value, value.class_name if is_virtual else class_name)
         else:
-            self._end_value(value, target.type)  # type: ignore[union-attr]
+            self._end_value(value, target.type)
 
     def _end(self, object_: Object, class_name: str) -> None:
         """The destructor, then the fields from the last to the first, then the bases."""
