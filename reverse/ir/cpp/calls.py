@@ -124,8 +124,6 @@ def _qualified(context: Context, function: Node, nodes: Sequence[Node], place: S
     path = context.cpp.source.path
     owner = context.world.symbols.type_named(outer, context.scope, path) if outer else None
     if isinstance(owner, ClassSymbol) and methods_named(context.world, owner.name, last):
-        if types:
-            raise Unlowered("a call of a template")
         return _own_method(context, owner, last, nodes, place, True)
     return _free(context, function, inner, nodes, place, types)
 
@@ -177,8 +175,6 @@ def _free(
 ) -> Value:
     symbols, path = context.world.symbols, context.cpp.source.path
     found = symbols.functions_named(name, context.scope, path)
-    if found and types:
-        raise Unlowered("a call of a template")
     if found:
         chosen = resolve(context, found, argument_values(context, nodes))
         return call_function(context, chosen, nodes, place)
@@ -232,8 +228,6 @@ def _method(context: Context, function: Node, nodes: Sequence[Node], place: Span
         return library_method(context, receiver, name, nodes, types, place)
     candidates = methods_named(context.world, owner.name, name)
     if candidates:
-        if types:
-            raise Unlowered("a call of a template")
         chosen = resolve(context, candidates, argument_values(context, nodes))
         return call_function(context, chosen, nodes, place, receiver, "::" in qualified)
     if find_member(context.world, owner.name, name) is not None:

@@ -19,6 +19,7 @@ from rebsync.reverse.ir.cpp.classes import (
 from rebsync.reverse.ir.cpp.context import Context, Unlowered, Value
 from rebsync.reverse.ir.cpp.functions_called import call, default_arguments, library_arguments
 from rebsync.reverse.ir.cpp.objects import (
+    UNKNOWN_CONSTRUCTOR,
     as_value,
     assigned_memberwise,
     implicitly,
@@ -108,5 +109,5 @@ def call_library(
         return
     if type_ != t.UNKNOWN:
         raise Unlowered("a construction by arguments that is not known")
-    callee = s.LibraryCallee("constructor of a type that is not known")
+    callee = s.LibraryCallee(UNKNOWN_CONSTRUCTOR)
     context.emit(s.Call(target, callee, arguments, place))

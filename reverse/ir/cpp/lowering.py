@@ -89,7 +89,7 @@ class Lowering:
 
     def _defined(self) -> dict[str, FunctionSymbol]:
         symbols = self.world.symbols.functions
-        return {n: f for n, f in symbols.items() if f.code.body is not None and not f.is_template}
+        return {n: f for n, f in symbols.items() if f.code.body is not None}
 
     def _globals(self) -> Iterator[e.Global]:
         for variables in self.world.symbols.variables.values():
@@ -133,7 +133,7 @@ def class_of_program(world: World, owner: ClassSymbol) -> Class:
     """The class table's entry for a class."""
     symbols = world.symbols
     bases = symbols.bases(owner)
-    own = [f for f in owner.functions if not f.is_template]
+    own = owner.functions
     methods = tuple((method_key(world, f), f.name) for f in own if not _is_special(owner, f))
     virtual = {method_key(world, f) for f in own if is_virtual(world, f)}
     destructor = owner.destructor

@@ -22,6 +22,9 @@ from rebsync.reverse.ir.operators import Conversion
 from rebsync.source import Span
 
 
+UNKNOWN_CONSTRUCTOR = "constructor of a type that is not known"
+
+
 def dereferenced(pointer: e.Expression, type_: t.Type, place: Span) -> Value:
     """What a pointer or reference leads to."""
     if isinstance(pointer, e.AddressOf):
@@ -203,7 +206,10 @@ def default_constructed(
     if owner is not None:
         context.world.construct(context, target, owner, [], place)
         return
-    if isinstance(type_, t.Integer | t.Float | t.Truth | t.Enumeration | t.Unknown):
+    if isinstance(type_, t.Integer | t.Float | t.Truth | t.Enumeration):
+        return
+    if type_ == t.UNKNOWN:
+        context.emit(s.Call(target, s.LibraryCallee(UNKNOWN_CONSTRUCTOR), (), place))
         return
     if isinstance(type_, t.Reference) and type_.ownership is t.Ownership.NONE:
         return

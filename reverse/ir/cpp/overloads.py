@@ -95,8 +95,6 @@ def resolve(
     """The best viable function; `Unlowered` where none, or no single one, is known to be."""
     ranked: list[tuple[list[int], FunctionSymbol]] = []
     usable = [f for f in candidates if _takes(context.world, f, len(arguments))]
-    if any(f.is_template for f in usable):
-        raise Unlowered("a call of a template")
     distinct = _without_redeclared(context.world, usable)
     if len(distinct) == 1:
         return _callable(distinct[0])

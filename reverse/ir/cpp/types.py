@@ -146,6 +146,8 @@ class TypeReader:
     def of(self, cpp: Cpp, scope: str, node: Node) -> t.Type:
         """The type that a node names."""
         match node.type:
+            case "type_identifier" if _is_template_parameter(cpp, node):
+                return t.UNKNOWN
             case "primitive_type" | "type_identifier" | "namespace_identifier" | "identifier":
                 return self.named(cpp, scope, text_of(node))
             case "sized_type_specifier":
@@ -339,6 +341,21 @@ def _is_constant(type_: Node, declarator: Node | None) -> bool:
         c.type == "type_qualifier" and text_of(c) in ("const", "constexpr")
         for c in parent.named_children
     )
+
+
+def _is_template_parameter(cpp: Cpp, node: Node) -> bool:
+    """Whether a name is that of a parameter of a template around, which any type may be."""
+    if b"template" not in cpp.words:
+        return False
+    name, around = node.text, node.parent
+    while around is not None:
+        if around.type == "template_declaration":
+            list_ = around.child_by_field_name("parameters")
+            for parameter in named(list_) if list_ is not None else ():
+                if any(c.type == "type_identifier" and c.text == name for c in named(parameter)):
+                    return True
+        around = around.parent
+    return False
 
 
 def _is_pointer_to_function(node: Node) -> bool:
