@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 
 from tree_sitter import Node
 
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
-from rebsync.reverse.ir.cpp.classes import is_aggregate, members
+from rebsync.reverse.ir.cpp.classes import Member, is_aggregate, members
 from rebsync.reverse.ir.cpp.context import Context, Unlowered, Value, lower_value
 from rebsync.reverse.ir.cpp.objects import (
     as_value,
@@ -20,8 +21,8 @@ from rebsync.reverse.ir.cpp.objects import (
 )
 from rebsync.reverse.ir.cpp.sequencing import in_order
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol
-from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
-from rebsync.reverse.syntax.cpp_tree import Cpp, named
+from rebsync.reverse.ir.cpp.types import ReferenceKind
+from rebsync.reverse.syntax.cpp_tree import named
 from rebsync.source import Span
 
 _SCALARS = t.Integer | t.Float | t.Truth | t.Enumeration | t.Text | t.Reference | t.FunctionType
@@ -310,39 +311,25 @@ def _aggregate(
     for number, field in enumerate(fields):
         if field.declared.reference is not ReferenceKind.NONE:
             raise Unlowered("an aggregate with a reference")
-        node = nodes[number] if number < len(nodes) else field.symbol.value
-        operands.append(
-            _field_operand(context, owner, field.declared, node, field.symbol.cpp, place)
-        )
+        if number < len(nodes):
+            operands.append(_operand(context, field.declared.type, nodes[number]))
+        else:
+            operands.append(partial(_own_value, context, owner, field, place))
     values = in_order(context, operands, place)
     pairs = tuple((f.key, v) for f, v in zip(fields, values, strict=True))
     built = e.BuildRecord(t.Record(owner.name), pairs, place)
     context.emit(s.Assign(target, built, place))
 
 
-def _field_operand(
-    context: Context,
-    owner: ClassSymbol,
-    declared: Declared,
-    node: Node | None,
-    cpp: Cpp,
-    place: Span,
-) -> Callable[[], Value]:
-    type_ = declared.type
-
-    def operand() -> Value:
-        if node is None:
-            value = default_value(context, type_, place)
-            if value is not None:
-                return Value(value, type_)
-            target = context.temporary(type_, place)
-            default_constructed(context, target, type_, place)
-            return Value(target, type_)
-        if cpp is not context.cpp or (
-            node.parent is not None and node.parent.type == "field_declaration"
-        ):
-            with context.reading(cpp, owner.name):
-                return Value(element_value(context, type_, node), type_)
-        return Value(element_value(context, type_, node), type_)
-
-    return operand
+def _own_value(context: Context, owner: ClassSymbol, field: Member, place: Span) -> Value:
+    """What a field is where no element is given for it."""
+    type_, node = field.declared.type, field.symbol.value
+    if node is not None:
+        with context.reading(field.symbol.cpp, owner.name):
+            return Value(element_value(context, type_, node), type_)
+    value = default_value(context, type_, place)
+    if value is not None:
+        return Value(value, type_)
+    target = context.temporary(type_, place)
+    default_constructed(context, target, type_, place)
+    return Value(target, type_)
