@@ -19,7 +19,7 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import COMPARISONS, ImplicitCall, Operator
 from rebsync.reverse.ir.program import Function
-from rebsync.reverse.ir.walk import Node, parts
+from rebsync.reverse.ir.walk import Node, parts, walk
 from rebsync.source import Span
 
 
@@ -60,6 +60,7 @@ class _Visitor:
         self.graph = graph
         self.function = function
         self.found = Local()
+        self.aliases = _aliases(function)
 
     def visit(self, node: Node) -> None:
         """Notes what a node does, and all within it."""
@@ -91,6 +92,8 @@ class _Visitor:
     def _write(self, target: Node) -> None:
         """A target is stored in or deleted; what it is a part of is read."""
         match target:
+            case e.Local(name) if name in self.aliases:
+                self._writes(Elements())
             case e.Local(name):
                 if name in self.function.captured:
                     self._writes(CapturedVariable(self.function.name, name))
@@ -115,7 +118,7 @@ class _Visitor:
                 self.visit(holder)
                 self.visit(index)
             case e.Dereference(reference):
-                self._writes(Elements(), Member(None))
+                self._writes(Elements(), Member(None), *self.graph.addressed)
                 self.visit(reference)
             case _:
                 pass
@@ -127,6 +130,8 @@ class _Visitor:
 
     def _note(self, node: Node) -> None:
         match node:
+            case e.Local(name) if name in self.aliases:
+                self._reads(Elements())
             case e.Local(name):
                 if name in self.function.captured:
                     self._reads(CapturedVariable(self.function.name, name))
@@ -147,7 +152,7 @@ class _Visitor:
                 self._reads(Elements())
                 self._implicit(ImplicitCall.GET_ITEM, ImplicitCall.NUMBER, *_KEYS)
             case e.Dereference():
-                self._reads(Elements(), Member(None))
+                self._reads(Elements(), Member(None), *self.graph.addressed)
                 self.found.may_raise = True
             case _:
                 self._operation(node)
@@ -284,6 +289,13 @@ class _Visitor:
         if isinstance(value, e.Literal | e.Format | e.Binary | e.Unary):
             return Targets()
         return self.graph.value(value, self.function)
+
+
+def _aliases(function: Function) -> frozenset[str]:
+    """The variables of a function that stand for elements of what is iterated."""
+    loops = (n for n in walk(function) if isinstance(n, s.ForEach) and n.by_reference)
+    targets = (loop.target for loop in loops)
+    return frozenset(target.name for target in targets if isinstance(target, e.Local))
 
 
 def _target(node: Node) -> Node | None:

@@ -96,6 +96,11 @@ def _stored(node: object) -> Iterator[tuple[e.Expression, e.Expression | AnyValu
     match node:
         case s.Assign(target, value):
             yield target, value
+        case e.AddressOf(target):  # through which anything may be stored there
+            yield target, ANY_VALUE
+        case e.BuildRecord(_, fields):
+            for name, value in fields:
+                yield e.Attribute(node, name), value
         case s.Declare(target, _, value) if value is not None:
             yield target, value
         case s.CompoundAssign(target):

@@ -55,7 +55,8 @@ class Function:
     """A function with its body. The names of functions are unique in a program.
 
     The `receiver` is the parameter (the first) that is the object a method is called on, and
-    `owner` the class that declares it. `captured` are the locals that closures within share.
+    `owner` the class that declares it. `captured` are the locals that closures within share, or
+    references lead to.
     """
 
     name: str

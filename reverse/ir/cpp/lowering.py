@@ -146,13 +146,17 @@ def class_of_program(world: World, owner: ClassSymbol) -> Class:
     fields += [Field(f.name, field_type(world, owner, f).form, True) for f in shared]
     constructors = [f for f in owner.constructors if f.code.body is not None]
     has_body = destructor is not None and destructor.code.body is not None
+    operators = [(_OPERATORS[f.simple], method_key(world, f)) for f in own if f.simple in _OPERATORS]
+    if destructor is not None and has_body:
+        methods = (*methods, (DESTRUCTOR, destructor.name))
+        operators.append((ImplicitCall.DESTROY, DESTRUCTOR))
     return Class(
         owner.name,
         tuple(b.name if b is not None else world.types.imported(owner.cpp, n) for n, b in bases),
         methods,
         (),
         tuple(fields),
-        tuple((_OPERATORS[f.simple], f.simple) for f in own if f.simple in _OPERATORS),
+        tuple(operators),
         frozenset(virtual),
         constructors[0].name if len(constructors) == 1 else None,
         destructor.name if destructor is not None and has_body else None,

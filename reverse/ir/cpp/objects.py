@@ -39,6 +39,8 @@ def address(context: Context, value: Value, place: Span) -> e.Expression:
     if value.is_lvalue:
         if isinstance(expression, e.Dereference):
             return expression.reference
+        if isinstance(expression, e.Local):
+            context.shared.add(expression.name)
         if isinstance(expression, e.Lvalue):
             return e.AddressOf(expression, type_, place)
         if isinstance(expression, e.LibraryReference):

@@ -30,10 +30,15 @@ class Object:
 
 @dataclass(slots=True)
 class Pointer:
-    """A place of a value that is no object: a key of the variables, fields or elements there."""
+    """A place of a value that is no object: a key of the variables, fields or elements there.
+
+    `owner` and `kind` say what it is a place of, for those who note what is read and written.
+    """
 
     space: Held
     key: Held
+    owner: Held = None
+    kind: str = ""
 
     def read(self) -> Held:
         """The value in the place."""

@@ -32,8 +32,9 @@ class ObjectInterpreter(Interpreter):
     def _eval(self, expression: e.Expression, frame: Frame) -> Value:
         match expression:
             case e.Local(name) if isinstance(frame.locals.get(name), Alias):
-                return frame.locals[name].pointer.read()
+                return self._read(frame.locals[name].pointer)
             case e.Attribute(e.ClassReference(class_), name) if class_ not in self.classes:
+                self.note("read attribute", class_, name)
                 return self._static(class_).fields[name]
             case e.Attribute(holder, name):
                 found = self.eval(holder, frame)
@@ -44,7 +45,7 @@ class ObjectInterpreter(Interpreter):
             case e.Index(holder, index) if not expression.dynamic and not expression.from_end:
                 return self._element(expression, holder, index, frame)
             case e.Dereference(reference):
-                return _led_to(self.eval(reference, frame))
+                return self._led_to(self.eval(reference, frame))
             case e.AddressOf(target):
                 return self._address(target, frame)
             case e.Copy(operand, type_) | e.Move(operand, type_):
@@ -91,24 +92,44 @@ class ObjectInterpreter(Interpreter):
         match target:
             case e.Local(name):
                 held = frame.locals.get(name)
-                return held.pointer if isinstance(held, Alias) else Pointer(frame.locals, name)
+                if isinstance(held, Alias):
+                    return held.pointer
+                return Pointer(frame.locals, name, frame.function.name, "captured")
             case e.Temporary(number):
                 return Pointer(frame.temporaries, number)
             case e.Captured(function, name):
-                return Pointer(frame.around[function].locals, name)
+                return Pointer(frame.around[function].locals, name, function, "captured")
             case e.Global(module, name):
-                return Pointer(self.globals.setdefault(module, {}), name)
+                return Pointer(self.globals.setdefault(module, {}), name, module, "global")
             case e.Attribute(e.ClassReference(class_), name):
-                return Pointer(self._static(class_).fields, name)
+                return Pointer(self._static(class_).fields, name, class_, "attribute")
             case e.Attribute(holder, name):
-                return Pointer(self.eval(holder, frame).fields, name)
+                found = self.eval(holder, frame)
+                return Pointer(found.fields, name, found, "attribute")
             case e.Index(holder, index):
-                at = self.eval(index, frame)
-                return Pointer(self.eval(holder, frame), at)
+                at, container = self.eval(index, frame), self.eval(holder, frame)
+                return Pointer(container, at, container, "element")
             case e.Dereference(reference):
                 return self.eval(reference, frame)
             case _:
                 raise NotImplementedError(target)
+
+    def _led_to(self, value: Value) -> Value:
+        """What a pointer leads to; a value in an optional is there itself."""
+        assert value is not None, "a null pointer"
+        return self._read(value) if isinstance(value, Pointer) else value
+
+    def _read(self, pointer: Pointer) -> Value:
+        self._note_place("read", pointer)
+        return pointer.read()
+
+    def _write(self, pointer: Pointer, value: Value) -> None:
+        self._note_place("write", pointer)
+        pointer.write(value)
+
+    def _note_place(self, how: str, pointer: Pointer) -> None:
+        if pointer.owner is not None:
+            self.note(f"{how} {pointer.kind}", pointer.owner, pointer.key)
 
     def _static(self, class_: str) -> Object:
         return self.statics.setdefault(class_, Object(class_))
@@ -217,7 +238,7 @@ class ObjectInterpreter(Interpreter):
         assert isinstance(loop.target, e.Local)
         number = 0
         while number < len(elements):
-            frame.locals[loop.target.name] = Alias(Pointer(elements, number))
+            frame.locals[loop.target.name] = Alias(Pointer(elements, number, elements, "element"))
             number += 1
             jump: Jump | None = yield from self.body(loop.body, frame)
             if jump is not None and jump.kind is not s.Continue:
@@ -227,11 +248,12 @@ class ObjectInterpreter(Interpreter):
     def store(self, target: e.Lvalue | None, value: Value, frame: Frame) -> None:
         match target:
             case e.Local(name) if isinstance(frame.locals.get(name), Alias):
-                frame.locals[name].pointer.write(value)
+                self._write(frame.locals[name].pointer, value)
             case e.Global(module, name):
                 self.note("write global", module, name)
                 self.globals.setdefault(module, {})[name] = value
             case e.Attribute(e.ClassReference(class_), name) if class_ not in self.classes:
+                self.note("write attribute", class_, name)
                 self._static(class_).fields[name] = value
             case e.Attribute(holder, name) if isinstance(self.value(holder, frame), Object):
                 found = self.value(holder, frame)
@@ -245,7 +267,7 @@ class ObjectInterpreter(Interpreter):
                 if isinstance(found, Object):
                     found.fields = value.fields
                 else:
-                    found.write(value)
+                    self._write(found, value)
             case _:
                 super().store(target, value, frame)
 
@@ -279,7 +301,7 @@ class ObjectInterpreter(Interpreter):
                 method = self._method(object_.class_name, name)
                 return lambda *arguments: self._called(method, [object_, *arguments])
             case s.LibraryCallee("note"):
-                return lambda value: self.notes.append(_shown(_led_to(value)))
+                return lambda value: self.notes.append(_shown(self._led_to(value)))
             case s.LibraryCallee(name, None) if name in FUNCTIONS:
                 return FUNCTIONS[name]
             case s.LibraryCallee(name, receiver) if receiver is not None:
@@ -396,12 +418,6 @@ class ObjectInterpreter(Interpreter):
             self.store(handler.target, raised.value, frame)
             return (yield from self.body(handler.body, frame))
         return (yield from super()._handler(handler, raised, frame))
-
-
-def _led_to(value: Value) -> Value:
-    """What a pointer leads to; a value in an optional is there itself."""
-    assert value is not None, "a null pointer"
-    return value.read() if isinstance(value, Pointer) else value
 
 
 def _same(left: Value, right: Value) -> bool:

@@ -20,7 +20,7 @@ if sys.version_info >= (3, 11):
 else:
     import tomli as tomllib
 
-_CASES = {
+CASES = {
     name: str(case["code"])
     for path in sorted((Path(__file__).parent / "cpp_cases").glob("*.toml"))
     for name, case in tomllib.loads(path.read_text("utf-8")).items()
@@ -30,18 +30,18 @@ _CASES = {
 @pytest.fixture(scope="module")
 def native(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[str]]:
     """What each case does, all of them compiled at once."""
-    found = natively(list(_CASES.values()), tmp_path_factory.mktemp("cpp"))
-    return dict(zip(_CASES, found, strict=True))
+    found = natively(list(CASES.values()), tmp_path_factory.mktemp("cpp"))
+    return dict(zip(CASES, found, strict=True))
 
 
-@pytest.mark.parametrize("name", _CASES)
+@pytest.mark.parametrize("name", CASES)
 def test_the_form_does_what_cpp_does(name: str, native: dict[str, list[str]]) -> None:
-    assert native[name] in (by_form(_CASES[name]), by_form(_CASES[name], is_reversed=True))
+    assert native[name] in (by_form(CASES[name]), by_form(CASES[name], is_reversed=True))
 
 
-@pytest.mark.parametrize("name", _CASES)
+@pytest.mark.parametrize("name", CASES)
 def test_everything_of_cpp_has_a_lowering(name: str) -> None:
-    program = program_of(_CASES[name])
+    program = program_of(CASES[name])
     bodies = (program.function(f).body for f in program.functions)
     assert not [n for body in bodies for n in statements(body) if isinstance(n, s.Unsupported)]
 

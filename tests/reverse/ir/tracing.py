@@ -12,6 +12,7 @@ from rebsync.reverse.analysis.library_effects import (
     RECEIVER,
     WITH,
     LibraryEffect,
+    LibraryTable,
 )
 from rebsync.reverse.analysis.locations import (
     CapturedVariable,
@@ -82,9 +83,11 @@ class Tracer(Interpreter):
             raise
 
 
-def unsound(tracer: Tracer) -> list[tuple[str, str, Location | str]]:
+def unsound(
+    tracer: Tracer, table: LibraryTable = TABLE.get
+) -> list[tuple[str, str, Location | str]]:
     """What happened though the effects say that it cannot."""
-    analysis = EffectAnalysis(tracer.program, TABLE.get)
+    analysis = EffectAnalysis(tracer.program, table)
     found = []
     for function, how, what in sorted(tracer.seen, key=str):
         effects = analysis.of(function)
