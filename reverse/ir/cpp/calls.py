@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 
 from tree_sitter import Node
 
+from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.cpp.casts import NAMED_CASTS, cast, named_cast
@@ -246,6 +247,8 @@ def call_value(context: Context, value: Value, nodes: Sequence[Node], place: Spa
         return call_function(context, chosen, nodes, place, value)
     callee = s.ValueCallee(value.expression)
     if not isinstance(value.type, t.FunctionType) or value.type.parameters is None:
+        if nodes and not isinstance(value.expression, e.LibraryReference):
+            raise Unlowered("a call of a value that takes its arguments by value or by reference")
         arguments = library_arguments(context, nodes, place, is_pure=False)
         return stored_result(context, callee, arguments, AUTO, place)
     declared = [_declared(p) for p in value.type.parameters]

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 
 from tree_sitter import Node
@@ -44,15 +43,23 @@ from rebsync.source import NOWHERE, Span
 _THIS = "this"
 
 
-def lambda_names(function: FunctionSymbol) -> dict[int, str]:
-    """The names of the lambdas in a function, by where they begin."""
+def lambda_names(function: FunctionSymbol, owner: ClassSymbol | None) -> dict[int, str]:
+    """The names of the lambdas in a function; a constructor has those of the fields' own values."""
+    nodes = [function.code.initialisers, function.code.body]
+    if owner is not None and function.simple == owner.simple:
+        nodes += [field.value for field in owner.fields if not field.is_static]
+    return names_of_lambdas(function.name, nodes)
+
+
+def names_of_lambdas(around: str, nodes: Iterable[Node | None]) -> dict[int, str]:
+    """The names of the lambdas in some code, by their nodes."""
     found: dict[int, str] = {}
-    waiting = [n for n in (function.code.initialisers, function.code.body) if n is not None]
+    waiting = [n for n in nodes if n is not None]
     waiting.reverse()
     while waiting:
         node = waiting.pop()
         if node.type == "lambda_expression":
-            found[node.start_byte] = f"{function.name}::lambda{len(found) + 1}"
+            found[node.id] = f"{around}::lambda{len(found) + 1}"
         waiting += reversed(named(node))
     return found
 
@@ -62,7 +69,7 @@ def lower_function(world: World, symbol: FunctionSymbol) -> tuple[Function, list
     code = symbol.code
     owner = world.symbols.classes.get(symbol.owner or "")
     context = Context(world, code.cpp, symbol.name, symbol.scope, owner)
-    context.lambdas = lambda_names(symbol)
+    context.lambdas = lambda_names(symbol, owner)
     context.exposed = exposed_in(code.body) if code.body is not None else frozenset()
     context.result = signature(world, symbol).result
     place = context.place(code.node)
@@ -100,19 +107,22 @@ def _kind(symbol: FunctionSymbol, owner: ClassSymbol | None) -> FunctionKind:
     return FunctionKind.DESTRUCTOR if is_destructor else FunctionKind.FUNCTION
 
 
-def lower_implicit_constructor(world: World, owner: ClassSymbol) -> Function:
+def lower_implicit_constructor(world: World, owner: ClassSymbol) -> tuple[Function, list[Function]]:
     """The default constructor that the language declares ([class.default.ctor])."""
     name = implicit_constructor(owner)
     context = Context(world, owner.cpp, name, owner.name, owner)
+    context.lambdas = names_of_lambdas(name, [f.value for f in owner.fields if not f.is_static])
     place = context.place(owner.node)
     context.in_constructor = True
     parameters = (_bind_this(context, owner, place),)
     with context.body() as body:
         initialise_parts(context, owner, None)
     kind = FunctionKind.CONSTRUCTOR
-    return Function(
-        name, parameters, tuple(body), t.NOTHING, kind, _THIS, owner.name, frozenset(), place
+    captured = frozenset(context.shared)
+    found = Function(
+        name, parameters, tuple(body), t.NOTHING, kind, _THIS, owner.name, captured, place
     )
+    return found, context.closures
 
 
 def _bind_this(context: Context, owner: ClassSymbol, place: Span) -> Parameter:

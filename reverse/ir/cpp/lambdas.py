@@ -149,7 +149,7 @@ def lambda_expression(context: Context, node: Node) -> Value:
 
 
 def _name(context: Context, node: Node) -> str:
-    name = context.lambdas.get(node.start_byte)
+    name = context.lambdas.get(node.id)
     if name is None:
         raise Unlowered("a lambda in a place of its own")
     return name

@@ -24,6 +24,7 @@ from rebsync.reverse.ir.cpp.functions import (
     lambda_names,
     lower_function,
     lower_implicit_constructor,
+    names_of_lambdas,
 )
 from rebsync.reverse.ir.cpp.functions_called import is_virtual, method_key
 from rebsync.reverse.ir.cpp.initialisation import initialised, value_initialised
@@ -81,7 +82,14 @@ class Lowering:
     def program(self) -> Program:
         """The program, of which nothing is lowered yet."""
         for name, function in self._defined().items():
-            self._lambdas |= dict.fromkeys(lambda_names(function).values(), name)
+            owner = self.world.symbols.classes.get(function.owner or "")
+            self._lambdas |= dict.fromkeys(lambda_names(function, owner).values(), name)
+        for name, owner in self._implicit.items():
+            values = [f.value for f in owner.fields if not f.is_static]
+            self._lambdas |= dict.fromkeys(names_of_lambdas(name, values).values(), name)
+        for path, cpp in self._modules.items():
+            values = module_values(self.world, cpp)
+            self._lambdas |= dict.fromkeys(names_of_lambdas(path, values).values(), path)
         names = [*self._defined(), *self._lambdas, *self._implicit, *self._modules]
         classes = [class_of_program(self.world, c) for c in self.world.symbols.classes.values()]
         modules = [(path, path) for path in self._modules]
@@ -104,17 +112,16 @@ class Lowering:
         return self._bodies[name]
 
     def _add(self, name: str) -> None:
-        if name in self._modules:
-            self._bodies[name] = lower_module(self.world, self._modules[name])
-        elif name in self._implicit:
-            self._bodies[name] = lower_implicit_constructor(self.world, self._implicit[name])
+        around = self._lambdas.get(name, name)
+        if around in self._modules:
+            function, closures = lower_module(self.world, self._modules[around])
+        elif around in self._implicit:
+            function, closures = lower_implicit_constructor(self.world, self._implicit[around])
         else:
-            function, closures = lower_function(
-                self.world, self.world.symbols.functions[self._lambdas.get(name, name)]
-            )
-            self._bodies |= {f.name: f for f in (function, *closures)}
-            if name not in self._bodies:  # what is around a lambda has no lowering
-                self._bodies[name] = _unsupported(name)
+            function, closures = lower_function(self.world, self.world.symbols.functions[around])
+        self._bodies |= {f.name: f for f in (function, *closures)}
+        if name not in self._bodies:  # what is around a lambda has no lowering
+            self._bodies[name] = _unsupported(name)
 
 
 def _unsupported(name: str) -> Function:
@@ -146,7 +153,9 @@ def class_of_program(world: World, owner: ClassSymbol) -> Class:
     fields += [Field(f.name, field_type(world, owner, f).form, True) for f in shared]
     constructors = [f for f in owner.constructors if f.code.body is not None]
     has_body = destructor is not None and destructor.code.body is not None
-    operators = [(_OPERATORS[f.simple], method_key(world, f)) for f in own if f.simple in _OPERATORS]
+    operators = [
+        (_OPERATORS[f.simple], method_key(world, f)) for f in own if f.simple in _OPERATORS
+    ]
     if destructor is not None and has_body:
         methods = (*methods, (DESTRUCTOR, destructor.name))
         operators.append((ImplicitCall.DESTROY, DESTRUCTOR))
@@ -173,10 +182,19 @@ def _is_special(owner: ClassSymbol, function: FunctionSymbol) -> bool:
 # --- modules --------------------------------------------------------------------------------------
 
 
-def lower_module(world: World, cpp: Cpp) -> Function:
+def module_values(world: World, cpp: Cpp) -> list[Node | None]:
+    """The initialisers of the variables and static members of a file."""
+    symbols = world.symbols
+    fields = [f for c in symbols.classes.values() for f in c.fields if f.is_static]
+    variables = [v for found in symbols.variables.values() for v in found]
+    return [x.value for x in (*fields, *variables) if x.cpp is cpp]
+
+
+def lower_module(world: World, cpp: Cpp) -> tuple[Function, list[Function]]:
     """What a file does before the program starts: its variables and static members begin."""
     path = cpp.source.path
     context = Context(world, cpp, path, "")
+    context.lambdas = names_of_lambdas(path, module_values(world, cpp))
     place = context.place(cpp.root)
     for owner in world.symbols.classes.values():
         if owner.cpp is cpp:
@@ -191,7 +209,10 @@ def lower_module(world: World, cpp: Cpp) -> Function:
     for function in world.symbols.functions.values():
         if function.code.cpp is cpp and function.code.body is not None:
             _flags(context, function)
-    return Function(path, (), tuple(context.out), t.NOTHING, FunctionKind.MODULE, place=place)
+    body, captured = tuple(context.out), frozenset(context.shared)
+    kind = FunctionKind.MODULE
+    found = Function(path, (), body, t.NOTHING, kind, captured=captured, place=place)
+    return found, context.closures
 
 
 def _static_members(context: Context, owner: ClassSymbol) -> None:

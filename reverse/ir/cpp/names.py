@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from tree_sitter import Node
 
 from rebsync.reverse.ir import expressions as e
@@ -163,10 +165,24 @@ def global_value(world: World, variable: VariableSymbol, place: Span) -> Value:
     declared = world.types.declared(
         variable.cpp, variable.scope, variable.type, variable.declarator
     )
+    if declared.type == t.UNKNOWN and variable.value is not None:
+        declared = replace(declared, type=_deduced(world, variable))
     found = e.Global(variable.cpp.source.path, variable.name, declared.form, place)
     if declared.reference is not ReferenceKind.NONE:
         return dereferenced(found, declared.type, place)
     return Value(found, declared.type, is_lvalue=True)
+
+
+def _deduced(world: World, variable: VariableSymbol) -> t.Type:
+    """The type of an `auto` variable of a namespace by its initialiser, where that is simple."""
+    node = variable.value
+    if node is None or text_of(variable.type) != "auto" or node.type == "initializer_list":
+        return t.UNKNOWN
+    context = Context(world, variable.cpp, variable.name, variable.scope)
+    try:
+        return lower_value(context, node).type
+    except Unlowered:
+        return t.UNKNOWN
 
 
 def enumerator_value(world: World, enum: EnumSymbol, name: str, text: str, place: Span) -> Value:

@@ -21,7 +21,6 @@ from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
 from rebsync.reverse.ir.operators import Conversion
 from rebsync.source import Span
 
-
 UNKNOWN_CONSTRUCTOR = "constructor of a type that is not known"
 
 

@@ -109,7 +109,9 @@ def converted(conversion: Conversion, value: Value, type_: t.Type) -> Value:
         found = int(found)
     elif isinstance(type_, t.Text) and isinstance(found, int):
         found = chr(found)
-    return wrapped(found, type_)
+    result = wrapped(found, type_)
+    assert conversion is not Conversion.WIDEN or result == value, f"{value!r} is lost in {type_}"
+    return result
 
 
 _CHECKS: dict[type, type | tuple[type, ...]] = {
