@@ -187,7 +187,8 @@ def module_values(world: World, cpp: Cpp) -> list[Node | None]:
     symbols = world.symbols
     fields = [f for c in symbols.classes.values() for f in c.fields if f.is_static]
     variables = [v for found in symbols.variables.values() for v in found]
-    return [x.value for x in (*fields, *variables) if x.cpp is cpp]
+    values = [f.value for f in fields if f.cpp is cpp]
+    return [*values, *(v.value for v in variables if v.cpp is cpp)]
 
 
 def lower_module(world: World, cpp: Cpp) -> tuple[Function, list[Function]]:

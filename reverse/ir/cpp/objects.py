@@ -44,7 +44,8 @@ def address(context: Context, value: Value, place: Span) -> e.Expression:
             return e.AddressOf(expression, type_, place)
         if isinstance(expression, e.LibraryReference):
             return expression
-        raise Unlowered("a reference to what is not known as an object")
+        if value.type != t.UNKNOWN:
+            raise Unlowered("a reference to what is not known as an object")
     target = context.stored(expression, value.type, place)
     return e.AddressOf(target, type_, place)
 
