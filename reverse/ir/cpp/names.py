@@ -196,7 +196,12 @@ def enumerator_value(world: World, enum: EnumSymbol, name: str, text: str, place
 
 def enumerators(world: World, enum: EnumSymbol) -> dict[str, int | None]:
     """The enumerators of an enumeration with their values."""
+    cached: dict[int, dict[str, int | None]]
+    cached = world.symbols.__dict__.setdefault("enumerator values", {})
+    if enum.node.id in cached:  # perhaps those before the one that is asked from
+        return cached[enum.node.id]
     found: dict[str, int | None] = {}
+    cached[enum.node.id] = found
     body = enum.node.child_by_field_name("body")
     next_: int | None = 0
     for child in body.named_children if body is not None else ():
