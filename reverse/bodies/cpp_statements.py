@@ -25,12 +25,14 @@ from rebsync.reverse.bodies import (
 from rebsync.reverse.bodies.building import cell, is_calm, is_effect
 from rebsync.reverse.bodies.cpp_effects import Effects, touching
 from rebsync.reverse.bodies.cpp_expressions import MOVE
+from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_unknowns import Demote
 from rebsync.reverse.bodies.made_locals import tidied
 from rebsync.reverse.bodies.scope import Inline, Lambda, Meaning, Scope, Stores
 from rebsync.reverse.bodies.shared import WORDS
 from rebsync.reverse.bodies.touches import Touches
+from rebsync.reverse.bodies.unknown_names import UnknownNames
 from rebsync.reverse.bodies.wide_locals import broken_locals
 from rebsync.reverse.bodies.written import annotations_in
 from rebsync.reverse.findings import Unread
@@ -128,14 +130,19 @@ class CppStatements(CppStatementReader):
         """What stands for a statement that is not outside, if it can be read at all."""
         around = self._touching
         try:
+            read: Sequence[m.Statement] = ()
             if node.id in self.scope.instead or not self._is_outside(node):
-                return self._one(node, annotations, local)
+                read = self._one(node, annotations, local)
+            if not read:
+                self._check_names(node)
+            return read
+        except Unread as unread:
+            return self._listed(node, unread)
         except Demote as demote:
             self.shared.demote(demote.names)
         except RecursionError:
-            unread = self.unread(node, "this leads deeper than it can be read")
-            self.findings.unreadable(self.cpp.source, unread, self.within)
-            return (m.Empty((m.Annotation(UNREADABLE),), self.cpp.span(node)),)
+            why = "this leads deeper than it can be read"
+            return self._listed(node, self.unread(node, why))
         finally:
             self._touching = around
         return ()
@@ -171,6 +178,14 @@ class CppStatements(CppStatementReader):
         finally:
             self.before = around
 
+    def _check_names(self, node: Node) -> None:
+        """Raises `Unread` where a generated class does something to what nobody knows."""
+        if not has_mailbox(self.scope):
+            return
+        unknown = next(UnknownNames.of(self.scope, node).uses(node), None)
+        if unknown is not None:
+            raise self.unread(unknown, f'nobody here knows what "{text_of(unknown)}" does')
+
     def _unreadable(self, node: Node, unread: Unread) -> Iterator[m.Statement]:
         """What stands in the model for a statement that it lacks; nothing for what is outside.
 
@@ -191,9 +206,13 @@ class CppStatements(CppStatementReader):
                 unread = touches if cpp_special.says_more(node, unread) else unread
             except Unread:
                 pass
+        yield from self._listed(node, unread)
+
+    def _listed(self, node: Node, unread: Unread) -> tuple[m.Statement, ...]:
+        """Lists a statement as unreadable; what stands for it in the model."""
         self.findings.unreadable(self.cpp.source, unread, self.within)
         unread.with_traceback(None)  # the frames that it came through refer to it
-        yield m.Empty((m.Annotation(UNREADABLE),), self.cpp.span(node))
+        return (m.Empty((m.Annotation(UNREADABLE),), self.cpp.span(node)),)
 
     def _statement(
         self, node: Node, annotations: tuple[m.Annotation, ...], local: bool

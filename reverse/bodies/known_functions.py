@@ -19,6 +19,10 @@ _WAITING = frozenset(
         *("getline", "async", "call_once", "signal", "atexit", "at_quick_exit", "longjmp"),
     }
 )
+# Types whose objects run what they get, now or later.
+_RUNNING = frozenset(
+    {"thread", "jthread", "thread_group", "packaged_task", "function", "scoped_thread"}
+)
 # Functions that a node of ROS 2 inherits, and that only tell of it.
 _OF_NODE = frozenset({"get_clock", "get_name", "get_namespace", "get_fully_qualified_name"})
 _CONVERSION = re.compile(
@@ -58,10 +62,15 @@ def is_known(call: CppCall) -> bool:
     return of_node or takes_values(call) or _is_of_library(call.name)
 
 
+def starts_nothing(type_: str) -> bool:
+    """Whether to make an object of a library's type runs no code that somebody has given it."""
+    return type_.rpartition("::")[2] not in _RUNNING
+
+
 def is_harmless_object(name: str) -> bool:
     """Whether an object by a name is of a library, and waits for nobody."""
     waits = name.rpartition("::")[2] in ("cin", "wcin")
-    return name in STREAMS or (_is_of_library(name) and not waits)
+    return name in (*STREAMS, "stdout", "stderr") or (_is_of_library(name) and not waits)
 
 
 def takes_values(call: CppCall) -> bool:
