@@ -49,7 +49,8 @@ def _nothing(_: list[Served]) -> None:
 class Search:
     """One search. `tail` is how long before the end of the recording a body may end unobserved.
 
-    Of the rebecs in `hidden` nothing is recorded: they may do all that the model allows.
+    Of the rebecs in `hidden` nothing is recorded: they may do all that the model allows. With more
+    than `limit` possible states at one moment the search is cut.
     """
 
     def __init__(
@@ -60,8 +61,10 @@ class Search:
         passed: Observer = _nothing,
         path: Path | None = None,
         hidden: frozenset[int] = frozenset(),
+        limit: int = WIDEST,
     ) -> None:
         self.graph = graph
+        self.limit = limit
         self.hidden = hidden
         self.stream = stream
         self.tail = tail
@@ -95,8 +98,8 @@ class Search:
                 return self._cut(time, f"a body of {self._body(endless.pc)} does not end")
             if found:
                 return SearchResult("fits", self._depth, time, widest=self.widest)
-            if self.widest > WIDEST:
-                return self._cut(time, f"more than {WIDEST} states of the model are possible")
+            if self.widest > self.limit:
+                return self._cut(time, f"more than {self.limit} states of the model are possible")
             if not self._waiting:
                 if self.path is not None and self._dead:
                     self.path.settle(self._dead[0].time, self._dead[0].config)
@@ -168,7 +171,7 @@ class Search:
                 if each not in seen:
                     seen.add(each)
                     work.append(each)
-            if len(seen) > WIDEST:
+            if len(seen) > self.limit:
                 self.widest = len(seen)
                 return False
         return False

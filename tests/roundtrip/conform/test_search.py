@@ -28,6 +28,7 @@ FAMILIES: dict[str, Features] = {
 LONG = 20  # steps
 SOME = min(settings().max_examples, 20)  # drawing a model takes long
 UNTIL = 40
+WIDE = 1000  # possible states at one moment: more take long
 
 
 def search(model: simulated.Given, run: list[Served]) -> tuple[Start, SearchResult | None]:
@@ -37,7 +38,7 @@ def search(model: simulated.Given, run: list[Served]) -> tuple[Start, SearchResu
     begun = start(graph, stream, modes(graph, stream)[0], 2000)
     if not begun.configs:
         return begun, None
-    return begun, Search(graph, stream).run(begun.configs, begun.time)
+    return begun, Search(graph, stream, limit=WIDE).run(begun.configs, begun.time)
 
 
 def _ignored(_: Event) -> None:
@@ -71,6 +72,7 @@ def test_runs_with_a_fault_conform_if_they_are_runs(family: str, data: st.DataOb
         expected = is_run(model, faulty)
     except TooMany:
         assume(False)
+    assume(found is None or found.verdict != "cut")
     assert (found is not None and found.verdict == "fits") is expected, (fault, at)
 
 
@@ -85,4 +87,5 @@ def test_the_rest_of_a_run_conforms(family: str, data: st.DataObject) -> None:
     begun, found = search(model, rest)
     assume(begun.is_whole)
     assert found is not None
+    assume(found.verdict != "cut")
     assert found.verdict == "fits"
