@@ -14,6 +14,7 @@ from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_failing import may_fail
 from rebsync.reverse.bodies.cpp_plain_locals import declared_names
+from rebsync.reverse.bodies.known_functions import UNUSED
 from rebsync.reverse.bodies.scope import Ignored
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
@@ -91,7 +92,7 @@ def is_log(reader: CppStatementReader, statement: Node, node: Node) -> bool:
     function = part(node, "function")
     name = text_of(function)
     own = reader.scope.functions.get(name)
-    if name == "unused":
+    if name == UNUSED:
         given = [a for a in named(part(node, "arguments")) if a.type != "identifier"]
         if not all(is_calm(reader.expressions.read(a)) for a in given):
             raise reader.unread(statement, "this does something, whatever becomes of its value")

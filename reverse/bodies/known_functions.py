@@ -19,6 +19,7 @@ _WAITING = frozenset(
         *("getline", "async", "call_once", "signal", "atexit", "at_quick_exit", "longjmp"),
     }
 )
+UNUSED = "unused"  # of the run-time part of generated code: says that nothing uses a parameter
 # Types whose objects run what they get, now or later.
 _RUNNING = frozenset(
     {"thread", "jthread", "thread_group", "packaged_task", "function", "scoped_thread"}
@@ -58,7 +59,7 @@ def is_known(call: CppCall) -> bool:
     plain = call.name.partition("<")[0].rpartition("::")[2]
     if plain in _WAITING:
         return False
-    of_node = call.name in _OF_NODE or call.name in libraries.looking()
+    of_node = call.name in (*_OF_NODE, UNUSED) or call.name in libraries.looking()
     return of_node or takes_values(call) or _is_of_library(call.name)
 
 
