@@ -77,7 +77,18 @@ INT32 = signed(31)
 TRUTH = Interval(0, 1)
 ANY = Interval(-(1 << 65), 1 << 65)  # more than any integer of 64 bits
 INTEGERS = {"byte": signed(7), "short": signed(15), "int": INT32}  # the types of Timed Rebeca
+_UNSIGNED = frozenset({32, 64})
 _LONGEST = 64  # the distance of a shift that is followed
+
+
+def of_bits(bits: int) -> Interval:
+    """The values of a type of so many bits: with 32 and 64 it has no sign, else one beside them."""
+    return unsigned(bits) if bits in _UNSIGNED else signed(bits)
+
+
+def within_int(bits: int) -> Interval:
+    """The values of such a type that the model's `int` holds."""
+    return INT32.meet(of_bits(bits)) or INT32
 
 
 def of_unary(operator: str, of: Interval) -> Interval:

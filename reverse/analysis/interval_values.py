@@ -22,13 +22,13 @@ from rebsync.intervals import (
     exactly,
     of_binary,
     of_unary,
+    within_int,
 )
 from rebsync.records import dataclass
 from rebsync.reverse.analysis import writes
 from rebsync.reverse.analysis.needs import Mark, Need
 from rebsync.reverse.analysis.writes import array_of, variable_of, written
 from rebsync.reverse.bodies.building import bare, is_calm
-from rebsync.reverse.bodies.cpp_ranges import fitting
 from rebsync.source import Span
 
 _OPPOSITE = {"<": ">=", ">=": "<", ">": "<=", "<=": ">", "==": "!=", "!=": "=="}
@@ -101,7 +101,7 @@ class IntervalValues:
         if name in self.always:
             return self.always[name]
         if name in self.widths:
-            return fitting(self.widths[name])
+            return within_int(self.widths[name])
         return self._of_type(name)
 
     def _of_type(self, name: str) -> Interval:
@@ -340,7 +340,7 @@ class IntervalValues:
             whole = ANY if self.always.get(name) == ANY else self._of_type(name)
             self._now[name] = given.in_type(whole) if whole != ANY else ANY
             return self._now[name]
-        whole = fitting(self.widths[name])
+        whole = within_int(self.widths[name])
         if counts and self.trusts_counters and whole.low <= given.low <= whole.high < given.high:
             self.counted.add(name)
             given = Interval(given.low, whole.high)

@@ -15,9 +15,10 @@ from rebsync.intervals import (
     Interval,
     exactly,
     of_binary,
+    of_bits,
     of_unary,
-    signed,
     unsigned,
+    within_int,
 )
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_conversions import variable_of
@@ -31,7 +32,6 @@ from rebsync.static.types import is_boolean
 COMPARES = frozenset({"<", ">", "<=", ">=", "==", "!="})
 LOGICAL = frozenset({"&&", "||", "and", "or", "not", "!"})
 INT_BITS = 31  # without the sign
-_UNSIGNED = frozenset({32, 64})
 _DIGITS = re.compile(r"(0[xX][0-9a-fA-F]+|0[bB][01]+|[0-9]+)([uUlLzZ]*)\Z")
 _SIZES = frozenset({"size", "length", "max_size", "capacity", "count", "strlen", "distance"})
 NAMES_WIDE = re.compile(r"unsigned|long|size|uint|int64|32_t|64_t")
@@ -51,24 +51,14 @@ class Ranged:
         return INT32.includes(self.values)
 
 
-def values_of(bits: int) -> Interval:
-    """The values of a type: unsigned ones of 32 and 64 bits, others with a sign."""
-    return unsigned(bits) if bits in _UNSIGNED else signed(bits)
-
-
 def all_of(bits: int) -> Ranged:
     """Any value of a type."""
-    return Ranged(bits, values_of(bits))
-
-
-def fitting(bits: int) -> Interval:
-    """The values of a type that an `int` holds."""
-    return INT32.meet(values_of(bits)) or INT32
+    return Ranged(bits, of_bits(bits))
 
 
 def as_type(found: Ranged, bits: int) -> Ranged:
     """What becomes of a number in a type."""
-    return Ranged(bits, found.values.in_type(values_of(bits)))
+    return Ranged(bits, found.values.in_type(of_bits(bits)))
 
 
 def _int(values: Interval) -> Ranged:
@@ -140,7 +130,7 @@ def _of_model(type_: m.Type) -> Ranged | None:
 
 def _variable(scope: Scope, variable: Variable) -> Ranged | None:
     if variable.wide:
-        whole = values_of if variable.name in scope.overflowing else fitting
+        whole = of_bits if variable.name in scope.overflowing else within_int
         return Ranged(variable.wide, whole(variable.wide))
     if variable.type is None:
         return None

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.intervals import Interval, exactly
+from rebsync.intervals import Interval, exactly, of_bits
 from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_misread import ChainOperand
 from rebsync.reverse.bodies.cpp_ranges import (
@@ -25,7 +25,6 @@ from rebsync.reverse.bodies.cpp_ranges import (
     Ranged,
     as_type,
     range_of,
-    values_of,
 )
 from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.scope import Variable
@@ -153,7 +152,7 @@ def _wraps_first(node: Node, found: Ranged, bits: int) -> bool:
     """
     while node.type == "parenthesized_expression" and len(named(node)) == 1:
         node = named(node)[0]
-    whole = found.bits == 32 < bits and found.values == values_of(32)
+    whole = found.bits == 32 < bits and found.values == of_bits(32)
     return whole and node.type not in _PLACES
 
 
