@@ -6,7 +6,8 @@ import re
 from functools import lru_cache
 
 from rebsync.reverse.libraries import cpp as libraries
-from rebsync.reverse.libraries.routines import Effect, Kind
+from rebsync.reverse.libraries import effects
+from rebsync.reverse.libraries.routines import Effect, Kind, Language
 from rebsync.reverse.libraries.tables.standard import STREAMS
 from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
@@ -60,6 +61,8 @@ def is_known(call: CppCall) -> bool:
     if plain in _WAITING:
         return False
     of_node = call.name in (*_OF_NODE, UNUSED) or call.name in libraries.looking()
+    if effects.of_function(Language.CPP, call.name.removeprefix("::")).effect is Effect.NONE:
+        return True
     return of_node or takes_values(call) or _is_of_library(call.name)
 
 

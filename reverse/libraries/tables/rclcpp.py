@@ -95,6 +95,7 @@ _FUNCTIONS = {
     "rclcpp::shutdown": Routine(Kind.SHUTDOWN),
     "rclcpp::ok": Routine(Kind.RUNNING, result="bool"),
     "rclcpp::to_yaml": Routine(),
+    **_does(Effect.NONE, "rclcpp::get_logger", "rclcpp::get_c_string"),
     "rclcpp::Duration": Routine(Kind.SPAN),
 }
 _METHODS = {
