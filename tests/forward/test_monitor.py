@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from random import Random
+from typing import Any
 
 import pytest
 from hypothesis import assume, event, given, settings
@@ -30,6 +31,7 @@ from tests.forward.monitoring import (
 )
 
 _STEPS = 20
+_FEW, _USUAL = 128, 1024  # hypotheses: to follow more takes long
 FAMILIES: dict[str, Features] = {
     "timed": TIMED,
     "without delay": WITHOUT_DELAY,
@@ -46,8 +48,14 @@ class _Answer:
     waiting: int
 
 
+def _begun(m: Monitored, hypotheses: int) -> Any:  # noqa: ANN401
+    """A comparison that gives up at more than so many hypotheses."""
+    vars(m.core)["_HYPOTHESES"] = hypotheses
+    return m.core.Run(m.model)
+
+
 def _answer(m: Monitored, seen: Sequence[Seen]) -> _Answer:
-    run = m.core.Run(m.model)
+    run = _begun(m, _FEW)
     for each in seen:
         run.receive(m.core.Observation(*each))
         run.compare()
@@ -55,6 +63,7 @@ def _answer(m: Monitored, seen: Sequence[Seen]) -> _Answer:
 
 
 @pytest.mark.parametrize("family", FAMILIES)
+@settings(max_examples=25)
 @given(data=st.data(), seed=st.integers(0, 2**20))
 def test_true_runs_are_accepted(family: str, data: st.DataObject, seed: int) -> None:
     m = monitored(data.draw(systems(FAMILIES[family])).model)
@@ -65,7 +74,7 @@ def test_true_runs_are_accepted(family: str, data: st.DataObject, seed: int) -> 
 
 
 @pytest.mark.parametrize("family", FAMILIES)
-@settings(max_examples=20)
+@settings(max_examples=10)
 @given(data=st.data(), seed=st.integers(0, 2**20))
 def test_a_beginning_that_was_not_heard_is_filled_in(
     family: str, data: st.DataObject, seed: int
@@ -78,6 +87,7 @@ def test_a_beginning_that_was_not_heard_is_filled_in(
 
 
 @pytest.mark.parametrize("family", FAMILIES)
+@settings(max_examples=25)
 @given(data=st.data(), seed=st.integers(0, 2**20))
 def test_mutated_runs_are_judged_as_the_checker_judges_them(
     family: str, data: st.DataObject, seed: int
@@ -109,7 +119,7 @@ def driver(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize("family", FAMILIES)
-@settings(max_examples=15)
+@settings(max_examples=6)
 @given(data=st.data(), seed=st.integers(0, 2**20))
 def test_both_languages_say_the_same(
     driver: Path, family: str, data: st.DataObject, seed: int
@@ -127,7 +137,7 @@ def test_both_languages_say_the_same(
 
 def _told(m: Monitored, seen: Sequence[Seen]) -> str:
     """What the driver prints of a run, by the core in Python."""
-    run = m.core.Run(m.model)
+    run = _begun(m, _USUAL)
     for each in seen:
         run.receive(m.core.Observation(*each))
         run.compare()

@@ -6,7 +6,7 @@ import re
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from types import ModuleType
+from types import FrameType, ModuleType
 from typing import Any
 
 from rebsync.reverse.ir.program import Program
@@ -17,6 +17,7 @@ from rebsync.source import Source
 from tests.reverse.ir.interpreter import Interpreter
 
 MODULE = "case.py"
+SHORT = 3000  # lines that are run
 _OBJECT = re.compile(r"<[\w.]*?(\w+) object at 0x\w+>")
 _PREFIX = "LOG = []\ndef log(x):\n    LOG.append(x)\n    return x\n"
 
@@ -32,6 +33,26 @@ def natively(text: str) -> list[str]:
     with _known(module):
         exec(compile(_PREFIX + text, MODULE, "exec"), vars(module))
         return _outcome(vars(module))
+
+
+def is_short(text: str) -> bool:
+    """Whether Python runs few lines of a text: the interpreter takes hundreds of times as long."""
+    lines = 0
+
+    def counted(frame: FrameType, event: str, _: object) -> Any:  # noqa: ANN401
+        nonlocal lines
+        if frame.f_code.co_filename != MODULE:
+            return None
+        lines += event == "line"
+        return counted if lines <= SHORT else None
+
+    before = sys.gettrace()
+    sys.settrace(counted)
+    try:
+        natively(text)
+    finally:
+        sys.settrace(before)
+    return lines <= SHORT
 
 
 def by_form(text: str, interpreter: Interpreter | None = None) -> list[str]:
