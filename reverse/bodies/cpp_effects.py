@@ -12,7 +12,6 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies import cpp_roots, known_functions
 from rebsync.reverse.bodies.cpp_kinds import LEAVES, PLAIN, REPEATED
 from rebsync.reverse.bodies.cpp_macros import macro_bodies
-from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_misread import first_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this
 from rebsync.reverse.bodies.cpp_roots import declared_in, is_modelled, may_end, root
@@ -34,6 +33,7 @@ from rebsync.reverse.bodies.scope import (
     meant_by,
 )
 from rebsync.reverse.bodies.touches import Touches
+from rebsync.reverse.bodies.unknown_names import is_method_of_unknown, is_unknown_function
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
@@ -251,7 +251,7 @@ class Effects:
         of, meaning = self._root(call.target) if call.target is not None else ("", None)
         if call.target is None or isinstance(meaning, Itself):
             known = self._function(call, name)
-            known = self._held(node, name, call) or known
+            known = self._is_matrix(node, name, call) or known
         else:
             self._method(call, name, of, meaning)
         if (does := acts(call)) is not None:
@@ -271,7 +271,7 @@ class Effects:
                     return True
                 raise self._touches(call.node, f'"{name}" may be a macro that hides statements')
             case None | Ignored():
-                if has_mailbox(self.scope) and not self._is_known(call, name):
+                if is_unknown_function(self.scope, self._inner, call):
                     raise self._touches(call.node, f'nobody here knows what "{call.name}" does')
                 return False
             case Called() | Inline() as known:
@@ -280,21 +280,7 @@ class Effects:
             raise self._touches(call.node, f'"{name}" may change what the model has')
         return not any(known_functions.may_change(p) for f in meant for p in f.parameters)
 
-    def _is_stranger(self, call: CppCall, name: str, of: str) -> bool:
-        """Whether a body of generated code calls a function of an object that nobody knows."""
-        if not has_mailbox(self.scope) or not of or of in self._inner:
-            return False
-        if name in libraries.looking():
-            return False
-        return not known_functions.is_harmless_object(of)
-
-    def _is_known(self, call: CppCall, name: str) -> bool:
-        """Whether it is known of a function of others that it touches nothing but what it gets."""
-        if call.target is not None or name in self._inner or self.scope.meaning(name) is not None:
-            return True
-        return known_functions.is_known(call)
-
-    def _held(self, node: Node, name: str, call: CppCall) -> bool:
+    def _is_matrix(self, node: Node, name: str, call: CppCall) -> bool:
         """Whether a matrix is called; a function that somebody has put there may do anything.
 
         But for one that only gets an object that is outside, as a distribution gets a generator.
@@ -341,7 +327,7 @@ class Effects:
         target = call.target
         assert target is not None
         match meaning:
-            case None if self._is_stranger(call, name, of):
+            case None if is_method_of_unknown(self.scope, self._inner, of, name):
                 raise self._touches(call.node, f'nobody here knows what "{text_of(target)}" is')
             case None | Outside(reaches=False):
                 if name in libraries.named(Kind.PUBLISH) and (

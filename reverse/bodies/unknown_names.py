@@ -8,10 +8,12 @@ variable does nothing, whatever it is.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from collections.abc import Set as AbstractSet
 
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_roots import declared_in, identifiers_in
 from rebsync.reverse.bodies.known_functions import (
     is_harmless_object,
@@ -21,6 +23,8 @@ from rebsync.reverse.bodies.known_functions import (
     type_takes_values,
 )
 from rebsync.reverse.bodies.scope import Scope
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 _PLACES = frozenset({"field_expression", "subscript_expression", "pointer_expression"})
@@ -107,3 +111,21 @@ class UnknownNames:
         if name in self.inner or scope.meaning(name) is not None:
             return False
         return not any(name in names for names in known) and not is_harmless_object(name)
+
+
+def is_unknown_function(scope: Scope, inner: AbstractSet[str], call: CppCall) -> bool:
+    """Whether a body of generated code calls a free function that may touch more than it gets.
+
+    `inner` are the names that are declared inside what is looked at.
+    """
+    name = call.name.rpartition("::")[2]
+    if not has_mailbox(scope) or call.target is not None:
+        return False
+    return not (name in inner or scope.meaning(name) is not None or is_known(call))
+
+
+def is_method_of_unknown(scope: Scope, inner: AbstractSet[str], owner: str, name: str) -> bool:
+    """Whether a body of generated code calls a method of an object that nobody knows."""
+    if not has_mailbox(scope) or not owner or owner in inner:
+        return False
+    return name not in libraries.looking() and not is_harmless_object(owner)

@@ -37,10 +37,10 @@ OF_CODE = {
     ),
     "return": (
         "            self.send_self_A11()\n",
-        "            if self._data == 2:\n                return\n"
+        "            if self._pos[0] == 2:\n                return\n"
         "            self.send_self_A11()\n",
         [],
-        ["      if (data == 2) {", "        return;", "      }"],
+        ["      if (pos[0] == 2) {", "        return;", "      }"],
     ),
     "state variable": (
         "        self._data: int = int()  # rebsync: statevar R1.data\n",
