@@ -14,7 +14,7 @@ from rebsync.reverse.bodies.cpp_kinds import LEAVES, PLAIN, REPEATED
 from rebsync.reverse.bodies.cpp_macros import macro_bodies
 from rebsync.reverse.bodies.cpp_misread import first_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this
-from rebsync.reverse.bodies.cpp_roots import declared_in, is_modelled, may_end, root
+from rebsync.reverse.bodies.cpp_roots import declared_in, is_modelled, is_number, may_end, root
 from rebsync.reverse.bodies.known_functions import acts, takes_values, type_takes_values
 from rebsync.reverse.bodies.scope import (
     Called,
@@ -72,17 +72,11 @@ class Effects:
             if type_ not in PLAIN:  # as `check`, which would ask for the type again
                 _CHECKS.get(type_, Effects._inside)(self, child)
 
-    def _cast(self, node: Node) -> None:
-        self._misread(node) if is_misread(self.scope, node) else self._inside(node)
-
     def _pointer(self, node: Node) -> None:
         if text_of(node).startswith("&"):
             self.refers(named(node)[0])
         else:
             self._inside(node)
-
-    def _list(self, node: Node) -> None:
-        self._arguments(named(node))
 
     def _left(self, node: Node) -> None:
         if not self._loops:
@@ -112,15 +106,11 @@ class Effects:
             touches.at = node.start_byte, node.end_byte
         return touches
 
-    # --- what names stand for -------------------------------------------------------------------
-
     def _root(self, node: Node) -> tuple[str, Meaning | None]:
         return root(self.scope, self._inner, node)
 
     def _is_noted(self, name: str) -> bool:
         return self.everything or (name in self.own and name in self.scope.locals)
-
-    # --- writing --------------------------------------------------------------------------------
 
     def _assignment(self, node: Node) -> None:
         value = node.child_by_field_name("right")  # None of `x++`
@@ -158,22 +148,20 @@ class Effects:
         """An operator; of an object it may be a function: `stream >> count` changes `count`."""
         left, right = part(node, "left"), part(node, "right")
         self.check(left)
-        is_object = part(node, "operator").type in (">>", "&") and not self._is_number(left)
+        may_act = part(node, "operator").type in (">>", "&")
+        is_object = may_act and not is_number(self.scope, self._inner, left)
         self._arguments((right,)) if is_object else self.check(right)
 
     def _misread(self, node: Node) -> None:
+        if not is_misread(self.scope, node):
+            self._inside(node)
+            return
         first = first_of(self.cpp, self.scope, node)
         try:
             replace(self, cpp=first.cpp).check(first.node)
         except Touches as touches:
             raise self._touches(node, touches.why) from None
         self.check(part(part(node, "value"), "argument"))
-
-    def _is_number(self, node: Node) -> bool:
-        """Whether it is a literal or a variable of the model: no object with functions."""
-        if node.type in ("parenthesized_expression", "binary_expression"):
-            return all(self._is_number(c) for c in named(node))
-        return node.type == "number_literal" or isinstance(self._root(node)[1], Variable)
 
     def _subscripts(self, node: Node) -> None:
         """What is evaluated to find the place that is written."""
@@ -354,6 +342,9 @@ class Effects:
                     raise self._touches(call.node, f'this may change "{of}"')
         self.check(target)
 
+    def _elements(self, node: Node) -> None:
+        self._arguments(named(node))
+
     def _arguments(self, arguments: tuple[Node, ...] | list[Node]) -> None:
         """Arguments of a function that is not known: it may keep or change what it gets."""
         for argument in arguments:
@@ -388,12 +379,12 @@ _CHECKS: dict[str, Callable[[Effects, Node], None]] = {
     **dict.fromkeys(("assignment_expression", "update_expression"), Effects._assignment),
     "call_expression": Effects._call,
     "binary_expression": Effects._binary,
-    "cast_expression": Effects._cast,
+    "cast_expression": Effects._misread,
     "pointer_expression": Effects._pointer,
     "declaration": Effects._declaration,
     "compound_statement": Effects._block,
     **dict.fromkeys(("break_statement", "continue_statement"), Effects._left),
-    **dict.fromkeys(("new_expression", "argument_list", "initializer_list"), Effects._list),
+    **dict.fromkeys(("new_expression", "argument_list", "initializer_list"), Effects._elements),
     **dict.fromkeys(LEAVES, Effects._left_function),
     **dict.fromkeys(REPEATED, Effects._repeated),
     "for_range_loop": Effects._range,

@@ -59,6 +59,13 @@ def is_modelled(node: Node, meaning: Meaning | None) -> bool:
             return True
 
 
+def is_number(scope: Scope, inner: Collection[str], node: Node) -> bool:
+    """Whether it is a literal or a variable of the model: no object with functions."""
+    if node.type in ("parenthesized_expression", "binary_expression"):
+        return all(is_number(scope, inner, c) for c in named(node))
+    return node.type == "number_literal" or isinstance(root(scope, inner, node)[1], Variable)
+
+
 def path_in(node: Node) -> str:
     """The path of a field in its message: `linear.x` of `m.linear.x`; empty for all of it."""
     if node.type == "parenthesized_expression" and len(named(node)) == 1:

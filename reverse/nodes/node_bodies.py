@@ -41,13 +41,14 @@ from rebsync.reverse.nodes.node_held import Held, held
 from rebsync.reverse.nodes.node_kept import elements
 from rebsync.reverse.nodes.node_loops import NodeLoop, left
 from rebsync.reverse.nodes.node_servers import Server
-from rebsync.reverse.nodes.node_setup import Setup, around, send
+from rebsync.reverse.nodes.node_setup import Setup, send
 from rebsync.reverse.nodes.node_signatures import Signatures
 from rebsync.reverse.nodes.node_starts import Opening, StartStatements
 from rebsync.reverse.nodes.node_state import State
 from rebsync.reverse.nodes.node_tidying import without_values
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.syntax.cpp_calls import CppCall
+from rebsync.reverse.syntax.cpp_enclosing import enclosing_function
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 
@@ -209,7 +210,7 @@ class Bodies:
         """A callback as a message server."""
         function = server.callback.function
         if function is None:
-            function = around(server.body, self.unit.functions)
+            function = enclosing_function(server.body, self.unit.functions)
         local: dict[str, Meaning] = {}
         if server.arguments:
             scope = self.scope(server.cpp, function)

@@ -47,6 +47,7 @@ from rebsync.reverse.nodes.node_times import Times
 from rebsync.reverse.nodes.node_units import UnitFacts
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.syntax.cpp_declarations import declared_name
+from rebsync.reverse.syntax.cpp_enclosing import enclosing_function, enclosing_statement
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import inside, named, text_of
 
@@ -120,7 +121,7 @@ class Setup:
         for server in self.servers:
             if server.callback.lambda_ is None:
                 continue
-            function = around(server.body, self.state.unit.functions)
+            function = enclosing_function(server.body, self.state.unit.functions)
             if function is not None:
                 mentioned = {text_of(n) for n in identifiers_in(server.body)}
                 self.instead |= self.state.outlive(function, mentioned, False)
@@ -134,7 +135,7 @@ class Setup:
 
     def _plain(self, fact: Fact) -> None:
         """A call that asks for something is no statement of the model."""
-        statement = statement_of(fact.site.call)
+        statement = enclosing_statement(fact.site.call)
         kinds = ("expression_statement", "declaration", "field_initializer")
         if statement is not None and statement.type in kinds:
             self.instead[statement.id] = ()
@@ -176,7 +177,7 @@ class Setup:
             self.periodic[server.name] = period
             if fact.one_shot is False and self._is_switched(fact):
                 self.switches[server.name] = Switch(*self.state.switch(kept), period)
-        statement = statement_of(call)
+        statement = enclosing_statement(call)
         if statement is None or not (self._is_first(fact) or self._at_once(fact)):
             if statement is not None:
                 self.instead.pop(statement.id, None)
@@ -222,7 +223,7 @@ class Setup:
     # --- parameters -----------------------------------------------------------------------------
 
     def _parameter(self, fact: ParameterFact) -> None:
-        statement = statement_of(fact.site.call)
+        statement = enclosing_statement(fact.site.call)
         found = asked(fact, self.instances, lambda n: self._type(n, fact), self.facts)
         if found is None or statement is None:
             if statement is not None and statement.type == "expression_statement":
@@ -336,7 +337,7 @@ class Setup:
             ):
                 self.instead[loop.id] = ()
                 continue
-            statement = statement_of(call.node) if name in libraries.waiting() else None
+            statement = enclosing_statement(call.node) if name in libraries.waiting() else None
             if statement is None or not _is_call(statement, call.node):
                 continue
             own = call.target is None and "::" not in call.name
@@ -359,33 +360,10 @@ class Setup:
                     self.instead[after.id] = ()
 
 
-def around(node: Node, functions: Sequence[CppFunction]) -> CppFunction | None:
-    """The function that a lambda stands in."""
-    at: Node | None = node
-    while at is not None:
-        for function in functions:
-            if function.body is not None and function.body.id == at.id:
-                return function
-        at = at.parent
-    return None
-
-
 def send(server: str, after: int = 0) -> m.Statement:
     """`self.server() after(...)`."""
     time = m.IntLiteral(after) if after else None
     return m.ExpressionStatement(m.Call(m.Self(), server, (), time))
-
-
-def statement_of(node: Node) -> Node | None:
-    """The statement, or entry of an initialiser list, that a node is in."""
-    at: Node | None = node
-    while at is not None:
-        if at.type.endswith("_statement") or at.type in ("declaration", "field_initializer"):
-            return at
-        if at.type in ("function_definition", "lambda_expression"):
-            return None
-        at = at.parent
-    return None
 
 
 def _is_call(statement: Node, call: Node) -> bool:
