@@ -147,6 +147,12 @@ def test_a_constructor_that_was_not_heard_is_filled_in_and_named() -> None:
     assert _answer(m, seen) == _Answer(False, False, 0, missed=(1,))
     assert is_run(m, seen, [1])
     assert not is_run(m, seen)
+    watch = m.core.Watch(m.model, False)
+    for each in seen:
+        watch.receive(m.core.Observation(*each), 0.0)
+    status = watch.status(0.0)
+    assert status.facts["not heard from the beginning"] == "s"
+    assert status.message.endswith("; not heard from the beginning: s")
     seen.append((1, *served))  # of which there is one only
     assert _answer(m, seen).deviates
     assert not is_run(m, seen, [1])
