@@ -49,12 +49,29 @@ class Diagnosis:
             blamed = (each.rebec,) if each.rebec >= 0 else each.config.node.able
             for failure in each.failures:
                 yield (0, 0, 0.0), self._failure(each, failure)
+            found = []
             for rebec in blamed:
                 served = self.stream.get(rebec, each.config.positions[rebec])
-                deviation = self._deviation(each, rebec, served)
+                found.append((self._deviation(each, rebec, served), served))
+            has_cause = any(deviation.kind in _CAUSES for deviation, _ in found)
+            for deviation, served in found:
+                if has_cause and self._may_follow(deviation, served):
+                    continue
                 rank = _RANK.index(deviation.kind)
                 stamp = served.stamp if served is not None else float("inf")
                 yield (1, rank if rank < _CERTAIN else _CERTAIN, stamp), deviation
+
+    def _may_follow(self, deviation: Deviation, served: Served | None) -> bool:
+        """Whether it may follow from what another rebec did at this moment.
+
+        A message that does not wait may be one that the other one was to send; so may a message
+        that equals the one before, but for a time at which its rebec cannot serve any more.
+        """
+        if served is None or deviation.kind not in ("repeated", "unexpected"):
+            return False
+        before = self.before.get(served.rebec)
+        is_past = before is not None and served.start < before.now
+        return not is_past and served.server != "constructor"
 
     def _failure(self, dead: Dead, failure: Failure) -> Deviation:
         graph = self.graph
@@ -240,6 +257,7 @@ _RANK: tuple[Kind, ...] = (
     "repeated", "restarted", "second publisher", "wrong state", "swapped", "lost state",
     "lost message", "late", "early", "unexpected", "silent", "no start", "model failure",
 )  # fmt: skip
+_CAUSES = ("wrong state", "late", "early")  # of a message that waits: nobody else is to blame
 _CERTAIN = 3  # of these kinds one is told whatever else was recorded earlier
 
 

@@ -208,7 +208,7 @@ class _Conclusion:
             case "fits" if self.begun.unseen:
                 reason = (
                     f"it fits from {self.begun.time} on, but {self.begun.unseen} recorded steps "
-                    "before that could not be compared"
+                    "up to then could not be compared"
                 )
                 return self._undetermined(found.compared, found.time, reason)
             case "fits":

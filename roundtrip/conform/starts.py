@@ -29,7 +29,7 @@ class Start:
     """Possible states at a time; `is_middle`: by synchronisation, which `is_whole` if no state of
     the model was left out. `mismatch` is a constructor's observation that no start of the model
     has, `missing` are the rebecs whose constructors were not observed. `skipped` observations are
-    before that time, and `unseen` of them say more than where a rebec was."""
+    up to that time, and `unseen` of them say more than where a rebec was."""
 
     configs: tuple[Config, ...]
     time: int
@@ -140,13 +140,19 @@ def _synchronised(graph: StateGraph, stream: Stream, mode: Mode, most: int) -> S
         last.append(shown)
         following.append(served)
         positions.append(position)
-    states, is_whole = _reachable(graph, most)
-    configs = []
-    for state in states:
-        if _fits(graph, state, last, following, time):
-            configs.append(Config(graph.node(state), tuple(positions)))
-    skipped = sum(positions)
-    return Start(tuple(configs), time, True, is_whole, skipped=skipped, unseen=unseen)
+    reached = _reachable(graph, most)
+    at = tuple(positions)
+
+    def fitting(states: list[State]) -> tuple[Config, ...]:
+        fit = (s for s in states if _fits(graph, s, last, following, time))
+        return tuple(Config(graph.node(state), at) for state in fit)
+
+    configs, skipped = fitting(reached.passing), sum(positions)
+    if not configs and not any(following):
+        # It ends within this moment, of which only what each rebec has shown last is compared.
+        configs = fitting(reached.within)
+        unseen = skipped - sum(shown is not None for shown in last)
+    return Start(configs, time, True, reached.is_whole, skipped=skipped, unseen=unseen)
 
 
 def _has_server(graph: StateGraph, rebec: int, name: str) -> bool:
@@ -185,25 +191,35 @@ def _fits(
     return True
 
 
-def _reachable(graph: StateGraph, most: int) -> tuple[list[State], bool]:
-    """The reachable states in which time passes next, or nothing; and whether these are all."""
+@dataclass(frozen=True, slots=True)
+class _Reached:
+    """Reachable states: those in which time passes next, or nothing, and those within a moment."""
+
+    passing: list[State]
+    within: list[State]
+    is_whole: bool
+
+
+def _reachable(graph: StateGraph, most: int) -> _Reached:
+    """The reachable states, up to so many."""
     view = graph.view
     begun = [s.result for s in view.initial_states()]
     work = deque(s for s in begun if not isinstance(s, Failure))
     seen: set[State] = set(work)
-    found: list[State] = []
+    passing: list[State] = []
+    within: list[State] = []
     while work:
         state = work.popleft()
         try:
             steps = view.steps(state)
         except EndlessBody:
-            return found, False
-        if all(step.action.actor < 0 for step in steps):
-            found.append(state)
+            return _Reached(passing, within, False)
+        is_passing = all(step.action.actor < 0 for step in steps)
+        (passing if is_passing else within).append(state)
         for step in steps:
             if not isinstance(step.result, Failure) and step.result not in seen:
                 if len(seen) >= most:
-                    return found, False
+                    return _Reached(passing, within, False)
                 seen.add(step.result)
                 work.append(step.result)
-    return found, True
+    return _Reached(passing, within, True)

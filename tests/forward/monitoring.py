@@ -157,8 +157,13 @@ class TooLarge(Exception):
     """The oracle has looked at too many states."""
 
 
-def is_run(m: Monitored, seen: Sequence[Seen], most: int = 20000) -> bool:
-    """Whether some run of the checker's exact view has all observations."""
+def is_run(
+    m: Monitored, seen: Sequence[Seen], missed: Sequence[int] = (), most: int = 20000
+) -> bool:
+    """Whether some run of the checker's exact view has all observations.
+
+    Before the first observation of a rebec in `missed` there may have been others.
+    """
     queues = [[s for s in seen if s[0] == i] for i in range(len(m.program.rebecs))]
     exact = view_of(m.program, "tts")
     assert isinstance(exact, Exact)
@@ -169,7 +174,7 @@ def is_run(m: Monitored, seen: Sequence[Seen], most: int = 20000) -> bool:
         state, time, running, used = waiting.pop()
         if all(u == len(q) for u, q in zip(used, queues, strict=True)):
             return True
-        for following in _following(m, exact, queues, state, time, running, used):
+        for following in _following(m, exact, queues, missed, state, time, running, used):
             if following not in known:
                 known.add(following)
                 waiting.append(following)
@@ -182,6 +187,7 @@ def _following(
     m: Monitored,
     exact: Exact,
     queues: list[list[Seen]],
+    missed: Sequence[int],
     state: State,
     time: int,
     running: _Running,
@@ -191,21 +197,31 @@ def _following(
         if isinstance(step.result, Failure):
             continue
         after, new = _after(m, state, time, running, step)
-        now = list(used)
-        for each in new:
-            position = now[each[0]]
-            queue = queues[each[0]]
-            if position < len(queue):
-                if queue[position] != each:
-                    break
-                now[each[0]] += 1
-        else:
-            later = time + step.time
+        later = time + step.time
+        for now in _matched(queues, missed, used, new):
             if all(
                 u == len(q) or q[u][5] >= later or later == time
                 for u, q in zip(now, queues, strict=True)
             ):
-                yield step.result, later, after, tuple(now)
+                yield step.result, later, after, now
+
+
+def _matched(
+    queues: list[list[Seen]], missed: Sequence[int], used: tuple[int, ...], new: Sequence[Seen]
+) -> list[tuple[int, ...]]:
+    """The ways in which what a step shows may be among the observations; none: it is not."""
+    found = [used]
+    for each in new:
+        rebec = each[0]
+        ways = []
+        for before in found:
+            position, queue = before[rebec], queues[rebec]
+            if position == len(queue) or (position == 0 and rebec in missed):
+                ways.append(before)
+            if position < len(queue) and queue[position] == each:
+                ways.append((*before[:rebec], position + 1, *before[rebec + 1 :]))
+        found = ways
+    return found
 
 
 def without_beginning(m: Monitored, seen: Sequence[Seen], random: Random) -> list[Seen]:

@@ -45,9 +45,12 @@ FAMILIES: dict[str, Features] = {
 
 @dataclass(frozen=True)
 class _Answer:
+    """What is said of a run; `missed` are the rebecs that were not heard from their beginning."""
+
     deviates: bool
     doubts: bool
     waiting: int
+    missed: tuple[int, ...] = ()
 
 
 class _TooLong(BaseException):
@@ -77,7 +80,8 @@ def _answer(m: Monitored, seen: Sequence[Seen]) -> _Answer:
     finally:
         signal.setitimer(signal.ITIMER_VIRTUAL, 0)
         signal.signal(signal.SIGVTALRM, before)
-    return _Answer(run.deviation is not None, bool(run.doubt), run.waiting)
+    missed = tuple(i for i, r in enumerate(m.model.rebecs) if r.name in run.missed)
+    return _Answer(run.deviation is not None, bool(run.doubt), run.waiting, missed)
 
 
 @pytest.mark.parametrize("family", FAMILIES)
@@ -115,7 +119,7 @@ def test_mutated_runs_are_judged_as_the_checker_judges_them(
     assume(seen)
     answer = _answer(m, shuffled(seen, seed))
     try:
-        possible = is_run(m, seen)
+        possible = is_run(m, seen, answer.missed)
     except TooLarge:
         assume(False)
     if answer.deviates:
@@ -123,6 +127,35 @@ def test_mutated_runs_are_judged_as_the_checker_judges_them(
     elif not answer.doubts and not answer.waiting:
         assert possible, seen
     event(f"a run {possible}, {answer}")
+
+
+LATE = """
+reactiveclass C(2) {
+  statevars { boolean v; }
+  C() { self.m(); }
+  msgsrv m() { v = true; }
+}
+main { C r():(); C s():(); }
+"""
+
+
+def test_a_constructor_that_was_not_heard_is_filled_in_and_named() -> None:
+    """It may have been published before the monitor came: not so a state in the middle."""
+    m = monitored(LATE)
+    built, served = ("constructor", "", 0, 0, 0, (0,)), ("m", "", 0, 0, 0, (1,))
+    seen: list[Seen] = [(0, *built), (0, *served), (1, *served)]
+    assert _answer(m, seen) == _Answer(False, False, 0, missed=(1,))
+    assert is_run(m, seen, [1])
+    assert not is_run(m, seen)
+    watch = m.core.Watch(m.model, False)
+    for each in seen:
+        watch.receive(m.core.Observation(*each), 0.0)
+    status = watch.status(0.0)
+    assert status.facts["not heard from the beginning"] == "s"
+    assert status.message.endswith("; not heard from the beginning: s")
+    seen.append((1, *served))  # of which there is one only
+    assert _answer(m, seen).deviates
+    assert not is_run(m, seen, [1])
 
 
 # --- the core in C++ ----------------------------------------------------------------------------
