@@ -79,12 +79,18 @@ def is_unset(node: Node) -> bool:
 
 
 def markers_above(py: Py, node: Node) -> list[str]:
-    """The markers in the comments on the lines directly above something."""
+    """The markers in the comments on the lines directly above something.
+
+    They are those of what begins the line: of `if x: y()` the whole, and not `y()`.
+    """
     above = node.parent
     if above is not None and above.type == "decorated_definition":
         node = above
     found: list[str] = []
-    number = py.source.position(py.span(node).start).line - 1
+    position = py.source.position(py.span(node).start)
+    if py.source.line(position.line)[: position.column - 1].strip():
+        return found
+    number = position.line - 1
     while number > 0 and (line := py.source.line(number).strip()).startswith("#"):
         match = _MARKER.match(line)
         if match is not None:

@@ -12,7 +12,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
 from rebsync import model as m
@@ -22,7 +22,18 @@ from tests.roundtrip.python.packages import checked, made, python_of, told
 from tests.strategies import models
 
 TARGETS = ("ros1-py", "ros2-py")
-FEW = settings(max_examples=max(6, settings().max_examples // 5))  # each is written and read
+# Each is written and read: to shrink what fails takes longer than a test may.
+FEW = settings(
+    max_examples=max(6, settings().max_examples // 5), phases=set(Phase) - {Phase.shrink}
+)
+EMPTY = """
+reactiveclass Robot(4) {
+  Robot() { self.first(); }
+  @priority(3) msgsrv first() { ; }
+  msgsrv second() { @priority(2); }
+}
+main { Robot r():(); }
+"""
 
 
 @pytest.fixture(autouse=True, scope="module")
@@ -82,3 +93,14 @@ def test_layout_of_drawn_packages_does_not_matter(model: m.Model, target: str) -
         root = made("drawn", target, Path(folder), print_model(model))
         laid_out_anew(root)
         assert_in_step(root)
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_annotations_of_a_server_on_one_line_are_not_of_its_statement(
+    target: str, tmp_path: Path
+) -> None:
+    root = made("drawn", target, tmp_path, EMPTY)
+    laid_out_anew(root)
+    (robot,) = [p for p in python_of(root) if p.name == "robot.py"]
+    assert "def first(self) -> None: ...\n" in robot.read_text(encoding="utf-8")
+    assert_in_step(root)
