@@ -13,7 +13,7 @@ from typing import Literal, NamedTuple
 from rebsync import model as m
 from rebsync.source import Source
 from rebsync.static import Analysis
-from rebsync.static.symbols import BuiltinSymbol, Symbol
+from rebsync.static.symbols import BuiltinSymbol, MethodSymbol, Symbol
 from tests.checker.reference_bodies import Body
 from tests.checker.reference_frames import Fails, Key, Variables, World, key_of
 from tests.checker.reference_main import UNRANKED, Instance, environment, instances, priority
@@ -21,6 +21,7 @@ from tests.checker.reference_values import Value, bits, wrap, zero
 
 View = Literal["tts", "ftts", "core"]
 _CLOCK = ("now", "currentMessageArrival", "currentMessageDeadline")
+_WAITED = "currentMessageWaitingTime"
 _FOREVER = 2**31 - 1
 _CONSTRUCTOR: Key = ("", ())
 
@@ -37,9 +38,10 @@ class Mail(NamedTuple):
 
 @dataclass(frozen=True)
 class Stand:
-    """A suspended body: what it serves, where it is, and how to get there again."""
+    """A suspended body: what it serves since when, where it is, and how to get there again."""
 
     mail: Mail
+    taken: int
     frames: tuple[object, ...]
     start: Variables
     log: tuple[object, ...]
@@ -101,6 +103,7 @@ class _Present(World):
     mail: Mail
     drafts: list[_Draft]
     script: list[int]
+    taken: int
     options: list[int] = field(default_factory=list)
     elapsed: int = 0
 
@@ -120,7 +123,7 @@ class _Present(World):
             case "currentMessageDeadline":
                 return _FOREVER if self.mail.deadline is None else wrap(self.mail.deadline)
             case _:
-                return wrap(now - self.mail.arrival)
+                return wrap(self.taken - self.mail.arrival)
 
     def send(
         self, node: m.Call, receiver: int, key: Key, arguments: Value, times: tuple[int, int | None]
@@ -166,17 +169,38 @@ class Explorer:
     def identity(self, state: State) -> object:
         """What decides whether two states are the same."""
         clock = state.time if self.reads_clock else None
-        return clock, tuple(self._local(a, state.time) for a in state.actors)
+        return clock, tuple(self._local(i, a, state.time) for i, a in enumerate(state.actors))
 
-    def _local(self, actor: Actor, time: int) -> object:
+    def _local(self, index: int, actor: Actor, time: int) -> object:
         bag = [repr(_relative(mail, time)) for mail in actor.bag]
-        stand = actor.stand and (_relative(actor.stand.mail, time), actor.stand.frames)
+        stand: object = None
+        if actor.stand is not None:
+            mail = actor.stand.mail
+            asks = mail.key != _CONSTRUCTOR and self._asks(index, self._server(index, mail))
+            waited = actor.stand.taken - mail.arrival if asks else None
+            stand = (_relative(mail, time), waited, actor.stand.frames)
         return (
             tuple(bits(v) for v in actor.variables.values()),
             tuple(bag if self.view == "core" else sorted(bag)),
             max(actor.until - time, 0),
             stand,
         )
+
+    def _asks(self, index: int, declared: m.Node) -> bool:
+        """Whether a body, or a method that it may call, reads how long its message waited."""
+        work, seen = [declared], [declared]
+        while work:
+            for node in m.walk(work.pop()):
+                symbol = self.analysis.symbol_of(node)
+                if isinstance(symbol, BuiltinSymbol) and symbol.name == _WAITED:
+                    return True
+                if isinstance(node, m.Call) and isinstance(symbol, MethodSymbol):
+                    own = self.rebecs[index].info.methods
+                    called = [s.declaration for s in (symbol, *own) if s.name == symbol.name]
+                    new = [c for c in called if not any(c is each for each in seen)]
+                    work += new
+                    seen += new
+        return False
 
     def initial(self) -> Iterator[Result]:
         """The states after all constructors, or what went wrong in one."""
@@ -276,7 +300,9 @@ class Explorer:
         script: list[int] = []
         while True:
             drafts = self._drafts(state, index, bag, mail)
-            present = _Present(self.view, state.time, index, mail, drafts, script)
+            standing = state.actors[index].stand
+            since = state.time if standing is None else standing.taken
+            present = _Present(self.view, state.time, index, mail, drafts, script, since)
             yield self._run(state, index, present)
             taken = list(zip(present.script, present.options, strict=True))
             while taken and taken[-1][0] + 1 == taken[-1][1]:
@@ -308,7 +334,7 @@ class Explorer:
             until += present.elapsed
         except Suspended as suspended:
             frames = tuple(frame.identity() for frame in body.frames)
-            stand = Stand(present.mail, frames, start, tuple(body.log))
+            stand = Stand(present.mail, present.taken, frames, start, tuple(body.log))
             until += suspended.time
         except Fails as failed:
             rebec = self.rebecs[index if failed.rebec is None else failed.rebec]

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeAlias
 
+from rebsync.checker.lowering import waiting
 from rebsync.checker.lowering.conversions import convert
 from rebsync.checker.lowering.emitter import Emitter, kind_of, size_of
 from rebsync.checker.program import Kind
-from rebsync.model import Call, Choice, Expression, Self, StringLiteral, Super, Type
+from rebsync.model import Call, Choice, Expression, Method, Self, StringLiteral, Type
 from rebsync.static.names import bare
 from rebsync.static.symbols import BuiltinFunctionSymbol, MethodSymbol, ServerSymbol
 from rebsync.static.types import DOUBLE, INT
@@ -81,19 +82,14 @@ def _is_positive(time: Expression | None, e: Emitter) -> bool:
 def _invoke(node: Call, symbol: MethodSymbol, e: Emitter, value: Value) -> Kind:
     assert e.info is not None
     _arguments(node.arguments, symbol.signature, e, value)
-    called = symbol if isinstance(_target(node), Super) else _as_run(symbol, e)
+    called = waiting.as_run(node, symbol, e.info).declaration
+    assert isinstance(called, Method)
+    if waiting.takes_waiting(called, e.info, e.world):
+        waiting.push(e)
     with e.at(node.span):
-        e.emit("CALL", e.world.body_of(e.info, called.declaration), e.free)
+        e.emit("CALL", e.world.body_of(e.info, called), e.free)
     assert symbol.type is not None
     return kind_of(symbol.type)
-
-
-def _as_run(symbol: MethodSymbol, e: Emitter) -> MethodSymbol:
-    """The version of a method that the class of the rebec runs."""
-    assert e.info is not None
-    return next(
-        m for m in e.info.methods if m.name == symbol.name and m.signature == symbol.signature
-    )
 
 
 def _builtin(name: str, node: Call, e: Emitter, value: Value) -> Kind:

@@ -39,12 +39,14 @@ def size_of(type_: Type) -> int:
 class World:
     """What the bodies of a model share: the instructions, and who is known by which number.
 
-    With `moves` the `@Move` of robots are instructions too.
+    With `moves` the `@Move` of robots are instructions too. `asks_waiting`: some body reads how
+    long its message has waited.
     """
 
     analysis: Analysis
     look: Look = unwatched
     moves: bool = False
+    asks_waiting: bool = False
     code: list[Instruction] = field(default_factory=list)
     spans: list[Span] = field(default_factory=list)
     bodies: list[Body | None] = field(default_factory=list)
@@ -76,7 +78,10 @@ class World:
 
 @dataclass
 class Emitter:
-    """One body being lowered; `info` is the class that runs it, None for a predicate."""
+    """One body being lowered; `info` is the class that runs it, None for a predicate.
+
+    `waited` has how long the message waited, where that has to be kept.
+    """
 
     world: World
     info: ClassInfo | None
@@ -89,6 +94,7 @@ class Emitter:
     breaks: list[list[int]] = field(default_factory=list)
     continues: list[list[int]] = field(default_factory=list)
     span: Span = NOWHERE
+    waited: Slot | None = None
 
     def emit(self, op: str, a: int = 0, b: int = 0, constants: tuple[Cell, ...] = ()) -> int:
         """Adds an instruction; gives its place, for `patch`."""

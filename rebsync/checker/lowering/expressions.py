@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from rebsync.checker.lowering import calls
+from rebsync.checker.lowering import calls, waiting
 from rebsync.checker.lowering.conversions import constant, convert, met, promoted
 from rebsync.checker.lowering.emitter import Emitter, kind_of, size_of
 from rebsync.checker.lowering.places import Place, index_by, index_pushed, kept, push, store
@@ -52,7 +52,6 @@ _CLOCK = {
     "now": "NOW",
     "currentMessageArrival": "ARRIVAL",
     "currentMessageDeadline": "DEADLINE",
-    "currentMessageWaitingTime": "WAITING",
     "sender": "SENDER",
 }
 _OPERATORS = {
@@ -228,6 +227,9 @@ def _variable(node: Name | Member | Index, e: Emitter) -> Kind:
         case KnownRebecSymbol(name, _, owner):
             e.emit("KNOWN", e.known[f"{owner}.{name}"])
             return "rebec"
+        case BuiltinSymbol(waiting.NAME):
+            waiting.push(e)
+            return "int"
         case BuiltinSymbol(name):
             e.emit(_CLOCK[name])
             return "rebec" if name == "sender" else "int"

@@ -8,6 +8,7 @@ from dataclasses import replace
 from rebsync import properties as p
 from rebsync.checker import formulas as f
 from rebsync.checker.look import Look, unwatched
+from rebsync.checker.lowering import waiting
 from rebsync.checker.lowering.defines import Defines
 from rebsync.checker.lowering.emitter import Declared, Emitter, World, kind_of, size_of
 from rebsync.checker.lowering.predicates import Predicates
@@ -48,7 +49,7 @@ def lower(
     """
     main = analysis.model.main
     assert main is not None and not analysis.errors
-    world = World(analysis, look, moves)
+    world = World(analysis, look, moves, waiting.is_asked(analysis))
     for rebec in main.rebecs:
         world.class_numbers.setdefault(rebec.type.name, len(world.class_numbers))
         world.rebec_numbers[rebec.name] = len(world.rebec_numbers)
@@ -121,6 +122,7 @@ def _body(number: int, info: ClassInfo, declared: Declared, world: World) -> Non
     e = Emitter(world, info, returns, _slots(info), _known(info), span=declared.span)
     entry = e.here
     parameters = tuple(e.declare(q, q.name, q.type) for q in declared.parameters)
+    parameters = waiting.begin(declared, parameters, e)
     if declared.body is not None:
         statements(declared.body.statements, e)
     e.span = Span(declared.span.end, declared.span.end)
