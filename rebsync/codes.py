@@ -246,7 +246,7 @@ RUNS = {
 CONFORMANCE = {
     "RS980": "a step that was recorded and that no run of the model has",
     "RS981": "a bag, and no rosbags to read it with",
-    "RS982": "a recording that is damaged or cut off, or no recording",
+    "RS982": "a recording that cannot be read, or no recording",
     "RS983": "a message of a recording whose fields are not those of the model",
     "RS984": "a recorded run of which it is not known whether the model has it",
     "RS985": "a recording with the nodes of several namespaces",

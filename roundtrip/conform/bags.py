@@ -13,8 +13,9 @@ from rebsync.diagnostics import RebsyncError
 from rebsync.files import os_mistake
 from rebsync.forward.message_files import message_files
 from rebsync.package import Package
-from rebsync.roundtrip.conform.recording import Event, Place
-from rebsync.roundtrip.conform.rosbag1 import Connection, DamagedBag, TruncatedBag, records
+from rebsync.roundtrip.conform.mcap import whole_records
+from rebsync.roundtrip.conform.recording import Event, Place, Truncated
+from rebsync.roundtrip.conform.rosbag1 import Connection, DamagedBag, intact_records
 from rebsync.roundtrip.conform.topic_filter import TopicFilter
 from rebsync.roundtrip.conform.topics import Topic
 
@@ -55,6 +56,7 @@ class _Source:
         self.path, self.file, self.wanted = path, file, wanted
         self.package, self.is_2 = package, is_2
         self.number = 0
+        self.latest = 0  # ns, of the messages that were read
 
     def decoder(self, type_: str, definition: str, topic: Topic) -> Decode:
         """What makes a message of bytes. RebsyncError: the type cannot be known."""
@@ -86,6 +88,7 @@ class _Source:
 
     def event(self, topic: Topic, decode: Decode, raw: object, time: int, node: str) -> Event:
         """The event of a message. RebsyncError: it is not as its type says."""
+        self.latest = max(self.latest, time)
         try:
             place = Place(self.file, self.number)
             return topic.convert(_Fields(decode(raw)), time * _NANO, place, node)
@@ -95,6 +98,17 @@ class _Source:
             what = f"is not as its type says: {error}"
         text = f"message {self.number} of {topic.name} {what}"
         raise RebsyncError.of(self.path, "RS983", text, "is it a recording of this model?")
+
+    def end(self, why: str) -> Event:
+        """That the file cannot be read on. RebsyncError: nothing of it can be read."""
+        if not self.number:
+            raise self.wrong(why)
+        place = Place(self.file, self.number)
+        return Truncated(
+            f"{self.path} cannot be read after message {self.number}: {why}",
+            self.latest * _NANO,
+            place,
+        )
 
     def wrong(self, what: str, hint: str | None = None) -> RebsyncError:
         """The mistake that the file cannot be read."""
@@ -107,7 +121,7 @@ def events_1(path: str, file: int, wanted: TopicFilter, package: Package) -> Ite
     readers: dict[int, tuple[Topic, Decode, str] | None] = {}
     try:
         with Path(path).open("rb") as opened:
-            for record in records(opened):
+            for record in intact_records(opened):
                 if isinstance(record[1], Connection):
                     number, connection = record[0], record[1]
                     if number not in readers:
@@ -119,10 +133,8 @@ def events_1(path: str, file: int, wanted: TopicFilter, package: Package) -> Ite
                 if reader is not None:
                     topic, decode, node = reader
                     yield source.event(topic, decode, raw, time, node)
-    except TruncatedBag as error:
-        raise source.wrong(f"it is cut off: {error}", "what was recorded last is lost") from None
     except DamagedBag as error:
-        raise source.wrong(str(error)) from None
+        yield source.end(str(error))
     except OSError as error:
         raise os_mistake(path, error) from None
 
@@ -140,7 +152,11 @@ def events_2(path: str, file: int, wanted: TopicFilter, package: Package) -> Ite
     source = _Source(path, file, wanted, package, True)
     try:
         for part in _parts(Path(path)):
-            yield from _of_part(source, part)
+            with whole_records(part) as (readable, is_cut):
+                yield from _of_part(source, readable)
+            if is_cut:
+                yield source.end("it ends within a record")
+                return
     except (RebsyncError, GeneratorExit):
         raise
     except FileNotFoundError as error:
@@ -148,7 +164,7 @@ def events_2(path: str, file: int, wanted: TopicFilter, package: Package) -> Ite
     except OSError as error:
         raise os_mistake(path, error) from None
     except Exception as error:  # of rosbags, of sqlite, of zstd: each has its own
-        raise source.wrong(f"it cannot be read as a bag of ROS 2: {error}") from None
+        yield source.end(f"it cannot be read as a bag of ROS 2: {error}")
 
 
 def _parts(path: Path) -> list[Path]:

@@ -14,7 +14,7 @@ from typing import Any
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import os_mistake
 from rebsync.long_numbers import MOST_DIGITS
-from rebsync.roundtrip.conform.recording import Event, Place
+from rebsync.roundtrip.conform.recording import Event, Place, Truncated
 from rebsync.roundtrip.conform.topic_filter import TopicFilter
 
 LONGEST = 2**24  # characters of a line
@@ -22,19 +22,33 @@ LONGEST = 2**24  # characters of a line
 
 def events(path: str, file: int, wanted: TopicFilter) -> Iterator[Event]:
     """The events of a log, as its lines go. RebsyncError: it cannot be read as one."""
+    latest = -math.inf
     try:
         with Path(path).open(encoding="utf-8") as lines:
             number = 0
             while line := lines.readline(LONGEST):
                 number += 1
-                if not line.isspace():
-                    event = _event(line, Place(file, number), path, wanted)
+                place = Place(file, number)
+                if number > 1 and not line.endswith("\n") and not _is_json(line):
+                    why = f"{path} cannot be read after line {number - 1}: it ends within a line"
+                    yield Truncated(why, latest, place)
+                elif not line.isspace():
+                    event = _event(line, place, path, wanted)
                     if event is not None:
+                        latest = max(latest, event.stamp)
                         yield event
     except OSError as error:
         raise os_mistake(path, error) from None
     except UnicodeDecodeError as error:
         raise _wrong(path, 0, f"it is not UTF-8 text: {error.reason}") from None
+
+
+def _is_json(line: str) -> bool:
+    try:
+        json.loads(line)
+    except (ValueError, RecursionError):
+        return False
+    return True
 
 
 def _event(line: str, place: Place, path: str, wanted: TopicFilter) -> Event | None:

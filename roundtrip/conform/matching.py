@@ -211,6 +211,9 @@ class _Conclusion:
                     "up to then could not be compared"
                 )
                 return self._undetermined(found.compared, found.time, reason)
+            case "fits" if self.stream.truncated is not None:
+                reason = f"it fits so far, and {self.stream.truncated.why}"
+                return self._undetermined(found.compared, found.time, reason)
             case "fits":
                 return self._conformance("conforms", found.compared, found.time, found.widest)
             case "cut":
@@ -276,6 +279,8 @@ class _Conclusion:
                 raise
             why = error.findings[0].diagnostics[0].message
             notes.append(f"what follows the deviation cannot be read: {why}")
+        if self.stream.truncated is not None and not reason:
+            notes.append(self.stream.truncated.why)
         notes += self.clocks.notes()
         for rebec in sorted(self.hidden):
             name = self.subject.observable.nodes[rebec]

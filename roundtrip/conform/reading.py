@@ -10,7 +10,7 @@ from pathlib import Path
 from rebsync.diagnostics import RebsyncError
 from rebsync.package import Package
 from rebsync.records import dataclass
-from rebsync.roundtrip.conform.recording import Event, Served
+from rebsync.roundtrip.conform.recording import Event, Served, Truncated
 from rebsync.roundtrip.conform.topic_filter import TopicFilter
 from rebsync.roundtrip.conform.topics import Topics
 
@@ -28,7 +28,10 @@ class Recordings:
     namespace: str | None = None
 
     def events(self, with_sent: bool = False) -> Iterator[Event]:
-        """What was recorded, by stamps; of one file in its order. RebsyncError: see readers."""
+        """What was recorded, by stamps; of one file in its order. RebsyncError: see readers.
+
+        Where one file cannot be read on all end: what the others have is no whole run.
+        """
         wanted = TopicFilter(self.topics, self.namespace, with_sent)
         streams = [
             _events(path, number, wanted, self.package) for number, path in enumerate(self.paths)
@@ -42,6 +45,9 @@ def _once(events: Iterator[Event]) -> Iterator[Event]:
     """The events without those that another file has as well; each file may have one repeated."""
     counts: dict[tuple[object, ...], dict[int, int]] = {}
     for event in events:
+        if isinstance(event, Truncated):
+            yield event
+            return
         if not isinstance(event, Served):
             yield event
             continue

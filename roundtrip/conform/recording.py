@@ -81,7 +81,15 @@ class Driven(NamedTuple):
     place: Place
 
 
-Event: TypeAlias = "Served | Sent | Announced | Ticked | Driven"
+class Truncated(NamedTuple):
+    """Where a file cannot be read on, and why: what was recorded after that is not known."""
+
+    why: str
+    stamp: float
+    place: Place
+
+
+Event: TypeAlias = "Served | Sent | Announced | Ticked | Driven | Truncated"
 
 
 class Recording(Protocol):

@@ -44,25 +44,73 @@ class RawMessage(NamedTuple):
     data: bytes | memoryview
 
 
+def intact_records(file: BinaryIO) -> Iterator[tuple[int, Connection] | RawMessage]:
+    """The records up to the first damage, but for the last one before it. Raises DamagedBag.
+
+    What is damaged may begin within that one. A bag that ends within a record has all before it.
+    """
+    last: tuple[int, Connection] | RawMessage | None = None
+    try:
+        for record in records(file):
+            if last is not None:
+                yield last
+            last = record
+    except TruncatedBag:
+        if last is not None:
+            yield last
+        raise
+    if last is not None:
+        yield last
+
+
 def records(file: BinaryIO) -> Iterator[tuple[int, Connection] | RawMessage]:
     """The connections, each before its messages, and the messages. Raises DamagedBag."""
     if file.readline(20) != _MAGIC:
         raise DamagedBag("it does not begin as a bag of ROS 1")
     while head := file.read(4):
         header = _fields(_exactly(file, _size(head)))
-        data = _exactly(file, _size(file.read(4)))
-        match header.get(b"op", b"\0")[0]:
+        op, compression = _op(header), header.get(b"compression", b"none")
+        size = _size(file.read(4))
+        data = file.read(size)
+        if len(data) < size:
+            if op == _CHUNK and compression == b"none":
+                yield from _chunk(data, True)
+            raise TruncatedBag("it ends within a record")
+        match op:
             case 5:
-                yield from _chunk(_decompressed(data, header.get(b"compression", b"none")))
+                yield from _chunk(_decompressed(data, compression))
             case 7:
                 yield _connection(header, data)
             case 2:  # version 1.2 had no chunks
                 yield _message(header, data)
 
 
-def _chunk(data: bytes) -> Iterator[tuple[int, Connection] | RawMessage]:
-    view, position, end = memoryview(data), 0, len(data)
+def _op(header: dict[bytes, bytes]) -> int:
+    kind = header.get(b"op", b"")
+    if len(kind) != 1:
+        raise DamagedBag("a record is of no kind")
+    return kind[0]
+
+
+def _chunk(data: bytes, is_cut: bool = False) -> Iterator[tuple[int, Connection] | RawMessage]:
+    """The connections in a chunk, then its messages; all that are whole if the chunk `is_cut`."""
     messages: list[RawMessage] = []
+    damage: DamagedBag | None = None
+    try:
+        for op, fields, content in _records_in(data):
+            if op == _MESSAGE:
+                messages.append(_message(fields, content))
+            elif op == _CONNECTION:
+                yield _connection(fields, bytes(content))
+    except DamagedBag as error:
+        damage = error
+    yield from messages
+    if damage is not None and not is_cut:
+        raise damage
+
+
+def _records_in(data: bytes) -> Iterator[tuple[int, dict[bytes, bytes], memoryview]]:
+    view, position, end = memoryview(data), 0, len(data)
     while position < end:
         start = position + 4
         position = start + _at(data, position)
@@ -72,11 +120,7 @@ def _chunk(data: bytes) -> Iterator[tuple[int, Connection] | RawMessage]:
         if position > end:
             raise DamagedBag("a chunk ends within a record")
         fields = _fields(header)
-        if fields.get(b"op") == b"\x02":
-            messages.append(_message(fields, view[content:position]))
-        elif fields.get(b"op") == b"\x07":
-            yield _connection(fields, data[content:position])
-    yield from messages
+        yield _op(fields), fields, view[content:position]
 
 
 def _at(data: bytes, position: int) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 
-from rebsync.roundtrip.conform.recording import Event, Served
+from rebsync.roundtrip.conform.recording import Event, Served, Truncated
 
 AHEAD = 20_000  # observations that are read ahead for one of a rebec that is silent
 
@@ -29,6 +29,7 @@ class Stream:
         self.read = 0
         self.ended = False
         self.horizon = -1  # the greatest model time that was observed
+        self.truncated: Truncated | None = None
 
     def get(self, rebec: int, position: int) -> Served | None:
         """An observation of a rebec by its number; None when none is near, or the end was reached.
@@ -63,17 +64,22 @@ class Stream:
         if event is None:
             self.ended = True
             return
-        self._others(event)
+        self._see(event)
         if isinstance(event, Served):
             self.read += 1
             self._waiting += 1
             self._queues[event.rebec].append(event)
             self.horizon = max(self.horizon, event.now)
 
+    def _see(self, event: Event) -> None:
+        self._others(event)
+        if isinstance(event, Truncated):
+            self.truncated = event
+
     def read_to_end(self) -> None:
         """Reads all that is left, keeping only what is at hand (for statistics of the rest)."""
         while (event := next(self._events, None)) is not None:
-            self._others(event)
+            self._see(event)
             if isinstance(event, Served):
                 self.read += 1
                 self.horizon = max(self.horizon, event.now)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 from pathlib import Path
 from xml.etree import ElementTree
@@ -166,10 +167,63 @@ def damaged(path: Path, how: str) -> None:
 @pytest.mark.parametrize("ending", [".bag", ".mcap", ".db3"])
 def test_what_is_no_bag_cannot_be_read(how: str, ending: str, tmp_path: Path) -> None:
     damaged(tmp_path / f"run{ending}", how)
+    if (how, ending) == ("cut off", ".bag"):  # in the index, after the messages
+        assert_compared_until_damage("run.bag", tmp_path)
+        return
     done = rebsync("conform", MODEL, f"run{ending}", cwd=tmp_path)
     assert done.status == 2
     assert "RS98" in done.err
     assert "Traceback" not in done.err
+
+
+def assert_compared_until_damage(path: str, folder: Path) -> None:
+    """What can be read was compared, and that there was more is told."""
+    done = rebsync("conform", MODEL, path, "--format", "json", cwd=folder)
+    assert done.status == 4, done.err
+    answer = json.loads(done.out)
+    assert answer["verdict"] == "undetermined"
+    assert 10 < answer["compared"] <= 114
+    assert re.match(
+        r"it fits so far, and .* cannot be read after (message|line) \d+: ", answer["reason"]
+    )
+
+
+@pytest.mark.parametrize("wrong", [False, True], ids=["true", "wrong state"])
+@pytest.mark.parametrize("ending", [".bag", ".mcap", ".jsonl"])
+def test_what_is_cut_off_is_compared_until_there(ending: str, wrong: bool, tmp_path: Path) -> None:
+    from tests.roundtrip.conform.bagging import write_bag
+    from tests.roundtrip.conform.faults import wrong_state
+    from tests.roundtrip.conform.test_recordings import of_bag, steps
+
+    run = wrong_state(steps(BAG), robots_step()) if wrong else steps(BAG)
+    path = tmp_path / f"run{ending}"
+    if ending == ".jsonl":
+        log(path, *([(robots_step(), "data", 7)] if wrong else []))
+    else:
+        write_bag(path, of_bag(BAG).observable, run, "mcap" if ending == ".mcap" else "ros1")
+    if path.is_dir():
+        path = next(path.glob("*.mcap"))
+    whole = path.read_bytes()
+    path.write_bytes(whole[: len(whole) * 5 // 8])  # the end of an MCAP has no messages
+    if not wrong:
+        assert_compared_until_damage(str(path), tmp_path)
+        return
+    done = rebsync("conform", MODEL, str(path), cwd=tmp_path)
+    assert done.status == 1, done.out
+    assert "wrong state: " in done.out
+    assert "cannot be read after" in done.out
+
+
+def test_of_several_files_nothing_counts_after_the_end_of_one(tmp_path: Path) -> None:
+    path = log(tmp_path / "run.jsonl")
+    lines = path.read_text().splitlines(keepends=True)
+    own = [line for line in lines if "robot1" in line]
+    others = [line for line in lines if "robot1" not in line]
+    path.write_text("".join(own)[: -len(own[-1]) * 3 // 2])
+    (tmp_path / "others.jsonl").write_text("".join(others))
+    done = rebsync("conform", MODEL, "run.jsonl", "others.jsonl", cwd=tmp_path)
+    assert done.status == 4, done.out
+    assert "it fits so far, and run.jsonl cannot be read after line" in done.out
 
 
 @pytest.mark.parametrize(
