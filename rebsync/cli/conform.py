@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,11 +12,13 @@ import click
 from rebsync.cli.options import refuse_to_overwrite, write_output
 from rebsync.cli.problem import read_problem
 from rebsync.cli.status import Status, worst
+from rebsync.records import dataclass
 
 if TYPE_CHECKING:
     from rebsync.checker.problem import Problem
     from rebsync.config import Config
     from rebsync.roundtrip.conform.conformance import Conformance
+    from rebsync.roundtrip.conform.matching import Subject
     from rebsync.static.cells import CellOf
 
 FORMATS = ("text", "json", "sarif", "github", "junit")
@@ -77,7 +80,7 @@ def command(ctx: click.Context, /, model: str, recordings: tuple[str, ...], **_:
     from rebsync.roundtrip.conform.topics import Topics
 
     given: dict[str, Any] = ctx.params
-    problem, config = _problem(model, given["property_file"])
+    problem, config, package = _problem(model, given["property_file"])
     subject = Subject.of(problem, config)
     for written in filter(None, (given["page"], given["output"])):
         for read in (subject.source.path, *recordings):
@@ -87,6 +90,8 @@ def command(ctx: click.Context, /, model: str, recordings: tuple[str, ...], **_:
     recording = opened(recordings, topics, observable.package, given["namespace"])
     most, keeps = given["max_states"] or REACHED, given["page"] is not None
     found = conform(subject, recording, most=most, keeps_run=keeps)
+    if package is not None:
+        found = _with_code(found, subject, problem, package)
     proposes = given["calibrate"] or given["applies"]
     times = None
     if proposes or given["times"] or given["page"] is not None:
@@ -120,13 +125,34 @@ def command(ctx: click.Context, /, model: str, recordings: tuple[str, ...], **_:
     return worst([_status(found), shown.status if shown else Status.CLEAN])
 
 
-def _problem(model: str, property_file: str | None) -> tuple[Problem, Config]:
+@dataclass(frozen=True, slots=True)
+class _Package:
+    """A package that was generated: its folder, and the names of its files."""
+
+    root: str
+    files: tuple[str, ...]
+
+
+def _with_code(
+    found: Conformance, subject: Subject, problem: Problem, package: _Package
+) -> Conformance:
+    """The answer with the place in the code of what deviates."""
+    from rebsync.roundtrip.conform.code_places import code_place
+
+    if found.deviation is None:
+        return found
+    model = problem.analysis.model
+    place = code_place(found.deviation, model, subject.source, package.root, package.files)
+    return replace(found, deviation=replace(found.deviation, code=place))
+
+
+def _problem(model: str, property_file: str | None) -> tuple[Problem, Config, _Package | None]:
     """A model by its path, or that of a package that was generated from it; with its settings."""
     from rebsync.config import config_of_record, settings_beside
 
     if not Path(model).is_dir():
         _, config = settings_beside(model)
-        return read_problem(model, property_file), config
+        return read_problem(model, property_file), config, None
     from rebsync.roundtrip.package.discovery import find
     from rebsync.roundtrip.package.model_file import model_of
     from rebsync.roundtrip.package.record import read_record
@@ -137,7 +163,8 @@ def _problem(model: str, property_file: str | None) -> tuple[Problem, Config]:
     record = read_record(packages[0].root)
     path = model_of(packages[0], record)
     config = config_of_record(record.options) or settings_beside(path)[1]
-    return read_problem(path, property_file), config
+    package = _Package(packages[0].root, tuple(record.files))
+    return read_problem(path, property_file), config, package
 
 
 def _cells(problem: Problem) -> dict[str, CellOf]:

@@ -42,11 +42,20 @@ class Difference:
 
 
 @dataclass(frozen=True, slots=True)
+class CodePlace:
+    """A line of the code, counted from 1."""
+
+    path: str
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
 class Deviation:
     """The first step that no run of the model has.
 
     `served` is what was recorded, None where a rebec is silent; `rebec` its node; `time` is the
-    model's; `line` the place in the model, 0 for none. `explanation` are sentences.
+    model's; `line` the place in the model, 0 for none, and `code` that in the package, where one
+    was compared. `explanation` are sentences.
     """
 
     kind: Kind
@@ -58,6 +67,7 @@ class Deviation:
     allowed: tuple[Allowed, ...] = ()
     differences: tuple[Difference, ...] = ()
     explanation: tuple[str, ...] = ()
+    code: CodePlace | None = None
 
     @property
     def place(self) -> Place | None:

@@ -46,6 +46,13 @@ def robots_step() -> int:
     return next(n for n, step in enumerate(steps(BAG)) if n > 55 and step.rebec == 1)
 
 
+def assert_is_server(place: re.Match[str] | None, function: str) -> None:
+    """The place in the code is the first line of a function."""
+    assert place is not None
+    lines = Path(place[1]).read_text(encoding="utf-8").splitlines()
+    assert lines[int(place[2]) - 1].startswith(function)
+
+
 def test_a_good_run_conforms(tmp_path: Path) -> None:
     done = rebsync("conform", MODEL, str(BAG), cwd=tmp_path)
     assert done.status == 0, done.err
@@ -67,12 +74,14 @@ def test_what_deviates_is_told_in_every_format(tmp_path: Path) -> None:
     assert "data = 7, not" in text.out
     assert f"{path}, message {at + 1}" in text.out
     assert "  allowed: " in text.out
+    assert_is_server(re.search("  code: (.*):(.*)\n", text.out), "void R1::")
     found = rebsync("conform", MODEL, path, "--format", "json", cwd=tmp_path)
     assert found.status == 1
     answer = json.loads(found.out)
     jsonschema.validate(answer, SCHEMA)
     assert answer["deviation"]["kind"] == "wrong state"
     assert answer["deviation"]["number"] == at + 1
+    assert answer["deviation"]["code"]["path"].endswith("src/r1.cpp")
     sarif = json.loads(rebsync("conform", MODEL, path, "--format", "sarif", cwd=tmp_path).out)
     assert sarif["runs"][0]["results"][0]["ruleId"] == "RS980"
     github = rebsync("conform", MODEL, path, "--format", "github", cwd=tmp_path).out

@@ -65,6 +65,7 @@ def _deviation(deviation: Deviation, subject: Subject, paths: Sequence[str]) -> 
         "time": deviation.time,
         "message": deviation.message,
         "line": deviation.line or None,
+        "code": deviation.code and {"path": deviation.code.path, "line": deviation.code.line},
         "recording": paths[place.file] if place is not None else None,
         "number": place.number if place is not None else None,
         "served": deviation.served and _served(deviation.served, subject),

@@ -82,6 +82,8 @@ def _deviation(deviation: Deviation | None) -> list[Markup]:
     items = [element("li", allowed_line(allowed)) for allowed in deviation.allowed]
     place = element("a", f"line {deviation.line}", href=f"#L{deviation.line}")
     about = [" (", place, " of the model)"] if deviation.line else []
+    if deviation.code is not None:
+        about.append(f" {deviation.code.path}:{deviation.code.line}")
     return [
         element(
             "section",

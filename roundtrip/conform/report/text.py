@@ -44,6 +44,8 @@ def _deviation(
         yield f"  recorded: {paths[deviation.place.file]}, message {deviation.place.number}"
     if deviation.line:
         yield f"  model: {subject.source.path}:{deviation.line}"
+    if deviation.code is not None:
+        yield f"  code: {deviation.code.path}:{deviation.code.line}"
     for allowed in deviation.allowed[:_FEW]:
         yield f"  allowed: {allowed_line(allowed)}"
     if len(deviation.allowed) > _FEW:
@@ -102,6 +104,8 @@ def _diagnostics(found: Conformance, subject: Subject) -> Iterator[Diagnostic]:
             shown = [allowed_line(a) for a in deviation.allowed[:_FEW]]
             hint = "the model allows " + ", or ".join(shown)
         message = f"{deviation.kind}: {deviation.message}"
+        if deviation.code is not None:
+            message += f" (in the code: {deviation.code.path}:{deviation.code.line})"
         yield Diagnostic(code, _line(subject, deviation.line), message, hint)
     elif found.verdict == "undetermined":
         yield Diagnostic("RS984", NOWHERE, found.reason, severity=Severity.WARNING)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from random import Random
 
 import pytest
@@ -128,3 +129,45 @@ def test_a_recording_may_begin_in_a_moment_that_does_not_end(wrong: int, verdict
     subject = Subject(Source("model.rebeca", ENDLESS), model.program, model.observable)
     found = conform(subject, simulated.Recorded(tuple(run)))
     assert (found.verdict, found.compared) == (verdict, 0)
+
+
+HIDDEN_CHOICES = """
+reactiveclass C(2) {
+  statevars { int n; }
+  C() { self.choose(); }
+  msgsrv choose() { self.show(?(1, 2, 3, 4, 5)) after(1); }
+  msgsrv show(int chosen) { n = chosen; }
+}
+main { C a():(); C b():(); C c():(); }
+"""
+
+
+@pytest.mark.parametrize(("limit", "verdict"), [(60, "cut"), (300, "fits")])
+def test_a_search_is_cut_at_its_limit(limit: int, verdict: str) -> None:
+    """Until the choices of three rebecs show, 125 states are possible."""
+    model = simulated.given(HIDDEN_CHOICES)
+    run = simulated.simulate(model, 1)
+    graph = StateGraph(model.program, model.observable)
+    stream = Stream(iter(run), 3, _ignored)
+    begun = start(graph, stream, "constructors")
+    found = Search(graph, stream, limit=limit).run(begun.configs)
+    assert found.verdict == verdict
+    if verdict == "cut":
+        assert found.widest == limit + 1
+        assert found.compared <= 6  # what was served before it shows what was chosen
+        assert found.reason == "more than 60 states of the model are possible"
+    else:
+        assert (found.compared, found.widest >= 125) == (len(run), True)
+
+
+def test_what_is_cut_is_undetermined(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("rebsync.roundtrip.conform.matching.Search", partial(Search, limit=60))
+    model = simulated.given(HIDDEN_CHOICES)
+    run = simulated.simulate(model, 1)
+    wrong = [*run[:-1], run[-1]._replace(cells=(7,))]
+    subject = Subject(Source("model.rebeca", HIDDEN_CHOICES), model.program, model.observable)
+    for recorded in (run, wrong):
+        found = conform(subject, simulated.Recorded(tuple(recorded)))
+        assert found.verdict == "undetermined"
+        assert found.reason == "more than 60 states of the model are possible"
+        assert found.deviation is None
