@@ -12,7 +12,7 @@ from random import Random
 from typing import Any
 
 import pytest
-from hypothesis import assume, event, given, settings
+from hypothesis import Phase, assume, event, given, settings
 from hypothesis import strategies as st
 
 from tests.checker.draw_outlines import Features
@@ -31,6 +31,8 @@ from tests.forward.monitoring import (
     without_beginning,
 )
 
+# To shrink a model takes longer than a test may, and the time limit then hides what was wrong.
+_UNSHRUNK = set(Phase) - {Phase.shrink}
 _STEPS = 8
 _SECONDS = 2
 _FEW, _USUAL = 16, 1024  # hypotheses: to follow more takes long
@@ -85,7 +87,7 @@ def _answer(m: Monitored, seen: Sequence[Seen]) -> _Answer:
 
 
 @pytest.mark.parametrize("family", FAMILIES)
-@settings(max_examples=10)
+@settings(max_examples=10, phases=_UNSHRUNK)
 @given(data=st.data(), seed=st.integers(0, 2**20))
 def test_true_runs_are_accepted(family: str, data: st.DataObject, seed: int) -> None:
     m = monitored(data.draw(systems(FAMILIES[family])).model)
@@ -96,7 +98,7 @@ def test_true_runs_are_accepted(family: str, data: st.DataObject, seed: int) -> 
 
 
 @pytest.mark.parametrize("family", FAMILIES)
-@settings(max_examples=4)
+@settings(max_examples=4, phases=_UNSHRUNK)
 @given(data=st.data(), seed=st.integers(0, 2**20))
 def test_a_beginning_that_was_not_heard_is_filled_in(
     family: str, data: st.DataObject, seed: int
@@ -109,7 +111,7 @@ def test_a_beginning_that_was_not_heard_is_filled_in(
 
 
 @pytest.mark.parametrize("family", FAMILIES)
-@settings(max_examples=10)
+@settings(max_examples=10, phases=_UNSHRUNK)
 @given(data=st.data(), seed=st.integers(0, 2**20))
 def test_mutated_runs_are_judged_as_the_checker_judges_them(
     family: str, data: st.DataObject, seed: int
@@ -170,7 +172,7 @@ def driver(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize("family", FAMILIES)
-@settings(max_examples=3)
+@settings(max_examples=3, phases=_UNSHRUNK)
 @given(data=st.data(), seed=st.integers(0, 2**20))
 def test_both_languages_say_the_same(
     driver: Path, family: str, data: st.DataObject, seed: int
