@@ -163,6 +163,8 @@ def _status(outcome: Outcome) -> Status:
     found = [status_of(outcome.checked.findings)]
     if outcome.proof is not None:
         found.append(_PROVED[outcome.proof.verdict])
+        if any(d.code == "RS956" for f in outcome.findings for d in f.diagnostics):
+            found.append(Status.UNDETERMINED)  # how nodes are joined is not in what was verified
     match verdict_of(outcome):
         case "in step":
             found.append(Status.CLEAN)

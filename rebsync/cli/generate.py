@@ -203,7 +203,7 @@ def _write(folder: Path, steps: tuple[Step, ...], force: bool, before: Stamps) -
     say(f"{folder}: {total} files, {len(own)} of them written")
     for step in steps:
         if step.action is Action.KEEP:
-            say(f"kept your edit of {folder / step.path}")
+            say(f"kept {folder / step.path}, which is not as generated")
         if step.action is Action.MERGE:
             say(f"merged with your edit of {folder / step.path}")
     for step in conflicts:

@@ -115,7 +115,9 @@ def _done(sync: Sync, before: Stamps) -> Status:
         print_report([_open(sync, path) for path in sync.conflicts], sys.stderr)
         return Status.FINDINGS
     status = _status(sync)
-    if status is Status.UNDETERMINED:
+    if sync.is_joined_otherwise:
+        say(f"{named(root)}: nodes are joined otherwise than {sync.checked.model} says")
+    elif status is Status.UNDETERMINED:
         say(f"{named(root)}: as far as the code can be read, in step with {sync.checked.model}")
     else:
         say(f"{named(root)}: in step with {sync.checked.model}")

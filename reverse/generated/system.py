@@ -30,7 +30,7 @@ from rebsync.reverse.generated.ros1_classes import Classes
 from rebsync.reverse.generated.ros1_names import stored_in, variable_name
 from rebsync.reverse.generated.ros2_words import made_in
 from rebsync.reverse.launch.launched import Launch, LaunchedNode
-from rebsync.reverse.launch.misdirected import list_misdirected
+from rebsync.reverse.launch.misdirected import list_misdirected, redirected
 from rebsync.reverse.launch.parameters import Parameter
 from rebsync.reverse.nodes.node_programs import Program
 from rebsync.reverse.syntax.cpp_calls import calls_in, string_of
@@ -136,8 +136,10 @@ class GeneratedSystem:
             for declaration in section.declarations
             for d in declaration.declarators
         ]
-        list_misdirected(node, known, self._nodes(), self.classes.findings, type_)
-        bindings = [self._bound(node, f"knownrebecs/{graph_name(k)}") for k in known]
+        other = {k: to for k in known if (to := self._redirected(node, k, declared)) is not None}
+        told = [k for k in known if k not in other]
+        list_misdirected(node, told, self._nodes(), self.classes.findings, type_)
+        bindings = [self._bound(node, f"knownrebecs/{graph_name(k)}", other.get(k)) for k in known]
         constructors = [c for c in declared[0].members if isinstance(c, m.Constructor)]
         own = self._stored(type_)
         count = len(keys) + len(own)
@@ -183,12 +185,23 @@ class GeneratedSystem:
             return self.python.started(node.type)
         return None
 
-    def _bound(self, node: LaunchedNode, key: str) -> m.Expression | None:
+    def _redirected(
+        self, node: LaunchedNode, known: str, declared: Sequence[m.ReactiveClass]
+    ) -> str | None:
+        """The rebec that gets what is sent to a known rebec, if nothing else is done with that."""
+        parts = [part for c in declared for member in c.members for part in m.walk(member)]
+        sent_to = {id(part.target) for part in parts if isinstance(part, m.Call)}
+        uses = (p for p in parts if isinstance(p, m.Name) and p.name == known)
+        if all(id(use) in sent_to for use in uses):
+            return redirected(node, known, self._nodes())
+        return None
+
+    def _bound(self, node: LaunchedNode, key: str, other: str | None) -> m.Expression | None:
         parameter = node.parameter(key)
         if parameter is None or not isinstance(parameter.value, str):
             return None
         span = parameter.source.within(parameter.span)
-        return m.Name(uncarry(parameter.value, TAKEN_NODES), span)
+        return m.Name(uncarry(other or parameter.value, TAKEN_NODES), span)
 
     def _stored(self, type_: str) -> Sequence[Stored]:
         """The parameters of a node's own that its class stores."""

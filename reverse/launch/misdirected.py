@@ -6,9 +6,35 @@ from collections.abc import Iterable, Sequence
 
 from rebsync.names import graph_name
 from rebsync.reverse.findings import Findings, Unread
-from rebsync.reverse.launch.launched import LaunchedNode
+from rebsync.reverse.launch.launched import LaunchedNode, LaunchedRemap
 
 _HINT = "write the same rebec in the parameter and in the remapping"
+
+
+def redirected(node: LaunchedNode, known: str, nodes: Iterable[LaunchedNode]) -> str | None:
+    """The rebec that all topics for a known rebec lead to, if it is another one of its program.
+
+    The servers must be those of the known rebec, under the names that they are generated with.
+    """
+    key = graph_name(known)
+    told = node.parameter(f"knownrebecs/{key}")
+    remaps = [(_own_name(r), str(r.target)) for r in node.remaps]
+    own = [(p.removeprefix(f"{key}/"), to) for p, to in remaps if p.startswith(f"{key}/")]
+    to = {target.partition("/")[0] for _, target in own}
+    started = {n.name: (n.package, n.type) for n in nodes if isinstance(n.name, str)}
+    if told is None or not isinstance(told.value, str) or len(to) != 1:
+        return None
+    (name,) = to
+    programs = {started.get(told.value), started.get(name)}
+    is_alike = len(programs) == 1 and None not in programs
+    is_plain = all(target in (f"{name}/{p}", f"{name}/port/{p}") for p, target in own)
+    return name if name != told.value and is_alike and is_plain else None
+
+
+def _own_name(remap: LaunchedRemap) -> str:
+    """The name below the node that a remapping is of; empty if it is another one."""
+    private = str(remap.private)
+    return private.removeprefix("~").removeprefix("/") if private.startswith("~") else ""
 
 
 def list_misdirected(

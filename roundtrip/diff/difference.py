@@ -228,6 +228,12 @@ class Comparison:
         """The elements that are different."""
         return frozenset(d.element for d in self.differences)
 
+    @property
+    def renamed_classes(self) -> dict[str, str]:
+        """The classes that have another name in the right model, with that."""
+        found = (d for d in self.differences if isinstance(d, Renamed))
+        return {d.element.path: d.name for d in found if d.element.kind == "reactiveclass"}
+
 
 def explain(difference: Difference) -> str:
     """What is different, without the element."""

@@ -105,14 +105,14 @@ def _file(
             return theirs, None
         return _refusal(path, "this generated file is to change, and it is not there")
     ours = source.text
-    base, theirs = (_as_here(text, ours) for text in (base, theirs))
+    base, theirs = (as_here(t, ours) if t is not None else None for t in (base, theirs))
     if theirs is None:
         if ours == base or favour is Favour.MODEL:
             return None
         if favour is Favour.CODE:
             return ours, None
         return _refusal(path, "this file is generated no more, and it was edited by hand")
-    is_edited = ours != _as_here(recorded, ours)
+    is_edited = recorded is None or ours != as_here(recorded, ours)
     merged = merged_file(name, (ours, base or "", theirs), is_edited, favour)
     stages = Stages(base or "", ours, theirs) if merged.conflicts else None
     return merged.text, stages
@@ -146,10 +146,8 @@ def _with_line_ends(text: str, ours: str) -> str:
     return text.replace("\n", "\r\n") if "\r\n" in ours else text
 
 
-def _as_here(text: str | None, ours: str) -> str | None:
+def as_here(text: str, ours: str) -> str:
     """A generated text with the user's own blocks, and with the line ends of the file."""
-    if text is None:
-        return None
     return with_user_blocks(_with_line_ends(text, ours), user_blocks(ours))
 
 

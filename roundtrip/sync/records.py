@@ -46,15 +46,22 @@ def with_what_holds(sync: Sync) -> Sync:
     with _as_will_be(sync) as package:
         record = read_record(package.root)
         now = package_state(package, record)
-        accepted, left = _odd(package, record, now, {_subject(f) for f in told})
-    findings += tuple(_in(sync.checked.package.root, package.root, f) for f in left)
+        accepted, known, left = _odd(package, record, now, {_subject(f) for f in told})
+    root = sync.checked.package.root
+    findings += tuple(_in(root, package.root, f) for f in (*left, *known))
     is_known = not (findings or sync.is_undetermined)
     before = sync.checked.record.in_step if sync.checked.record is not None else ""
     digest = told_in_step(record, now.told) if is_known else before
     manifest = with_accepted(sync.records[MANIFEST] or "{}", accepted, digest)
     records = {**sync.records, MANIFEST: manifest}
     unknown = sync.is_undetermined or bool(left)
-    return replace(sync, findings=findings, records=records, is_undetermined=unknown)
+    return replace(
+        sync,
+        findings=findings,
+        records=records,
+        is_undetermined=unknown,
+        is_joined_otherwise=bool(known),
+    )
 
 
 def marked(root: str, name: str, text: str) -> str:
@@ -112,31 +119,30 @@ def _as_will_be(sync: Sync) -> Iterator[ManagedPackage]:
 
 def _odd(
     package: ManagedPackage, record: Record, now: PackageState, told: set[str]
-) -> tuple[list[str], list[Findings]]:
+) -> tuple[list[str], list[Findings], list[Findings]]:
     """How nodes are joined that is to be accepted, and what is left to tell of edits.
 
-    `told` is what was told of before; to go on from there is not to accept it. A list of rebecs
-    must name those of a class of which it names others.
+    The latter are those that are known to differ from the model, and those of which that cannot be
+    said. `told` is what was told of before; to go on from there is not to accept it. A list of
+    rebecs must name those of a class of which it names others.
     """
     from rebsync.roundtrip.diff.difference import Comparison
     from rebsync.roundtrip.verdict.missing_files import missing_files
     from rebsync.roundtrip.verdict.runtime import edited
     from rebsync.roundtrip.verdict.wiring.facts import odd_facts
 
-    accepted, left = (
-        set[str](),
-        [*edited(package, record, now), *missing_files(package, record, now)],
-    )
+    accepted, known = set[str](), list[Findings]()
+    left = [*edited(package, record, now), *missing_files(package, record, now)]
     for odd in odd_facts(package, record, now, Comparison(())):
         if _subject(odd.finding) in told or _is_needed(odd, package, now):
-            left.append(odd.finding)
+            (known if odd.is_known else left).append(odd.finding)
         else:
             accepted.add(odd.finding.diagnostics[0].message)
     if accepted:  # which keeps no lost message from being told
         by_then = replace(record, accepted=frozenset(accepted))
         again = odd_facts(package, by_then, now, Comparison(()))
         left += [o.finding for o in again if o.is_lost and o.finding not in left]
-    return sorted(accepted), left
+    return sorted(accepted), known, left
 
 
 def _is_needed(odd: Odd, package: ManagedPackage, now: PackageState) -> bool:

@@ -19,7 +19,8 @@ class Sync:
     file goes), `records` all of `.rebsync/`. `conflicts` are left to decide, by path from the
     package or `""` for the model; then both sides are in the texts, between markers. With `refused`
     nothing is to be written.
-    `findings` are places of the code that are not known exactly.
+    `findings` are places of the code that are not known exactly, or where it `is_joined_otherwise`,
+    which is known to differ and which no model tells.
     """
 
     checked: CheckResult
@@ -31,6 +32,7 @@ class Sync:
     refused: tuple[Findings, ...] = ()
     is_undetermined: bool = False
     properties: str | None = None
+    is_joined_otherwise: bool = False
 
     @property
     def changes(self) -> bool:

@@ -19,6 +19,7 @@ from rebsync.roundtrip.diff.compare import compare
 from rebsync.roundtrip.diff.difference import (
     Comparison,
     Place,
+    Renamed,
     Undetermined,
     finding,
 )
@@ -26,6 +27,7 @@ from rebsync.roundtrip.diff.equivalence import compare_with_code, without_equiva
 from rebsync.roundtrip.diff.operands import SourcedModel
 from rebsync.roundtrip.merge.check import read_with, wrongly_merged
 from rebsync.roundtrip.merge.code import Stages, ancestors, merged_code
+from rebsync.roundtrip.merge.consequences import consequent_files
 from rebsync.roundtrip.merge.models import Compared, Favour, as_code_says, merged_model
 from rebsync.roundtrip.merge.moved_files import moved_files
 from rebsync.roundtrip.package.digests import is_text_of
@@ -61,7 +63,7 @@ def synced(checked: CheckResult, favour: Favour) -> Sync:
         return Sync(checked, findings=checked.findings)
     syncing = _Syncing(checked, record, favour, Compared())
     try:
-        return with_what_holds(syncing.result())
+        return syncing.unless_torn(with_what_holds(syncing.result()))
     except RebsyncError as error:
         if not all(d.code == "RS967" for f in error.findings for d in f.diagnostics):
             raise
@@ -102,6 +104,30 @@ class _Syncing:
         model = SourcedModel(_parsed(source), source)
         result = self._with_code(today, model, base, told, code.given)
         return replace(result, properties=_properties(base, today, model))
+
+    def unless_torn(self, sync: Sync) -> Sync:
+        """The same unless the code has renamed a class and kept its messages and programs.
+
+        These are called after the class, so that those of the new model would not be the code's.
+        """
+        apart = self.compared(read_model(self.checked.model), self._code)
+        renamed = apart.renamed_classes
+        if not (renamed and sync.is_undetermined and sync.changes):
+            return sync
+        places = {d.element.path: d.right for d in apart.differences if isinstance(d, Renamed)}
+        refused = []
+        for old, new in renamed.items():
+            place = places[old] or Place(Source(self.checked.model, ""), NOWHERE)
+            message = f"class {old} is {new} in the code, without its files, messages and topics"
+            hint = (
+                f"call it {old} here again, and {new} in the model: a sync renames all of it then"
+            )
+            refused.append(finding(place, "RS969", message, hint))
+        return Sync(self.checked, findings=self.checked.findings, refused=tuple(refused))
+
+    @property
+    def _code(self) -> SourcedModel:
+        return read_code(self.checked.package, self.checked.state).given
 
     # --- what is known --------------------------------------------------------------------------
 
@@ -191,7 +217,9 @@ class _Syncing:
         of_code = before if is_as_base else self._generated(told, options)
         last = ancestors(recorded, before, of_code)
         moved = moved_files(self.checked.state, self.record)
-        merged = merged_code(self.checked.package.root, last, now, self.favour, moved, recorded)
+        root = self.checked.package.root
+        followed = {p: before[p] for p in consequent_files(root, recorded, before, of_code)}
+        merged = merged_code(root, {**last, **followed}, now, self.favour, moved, recorded)
         findings = tuple(f for f in self.checked.findings if not _is_settled(f))
         if merged.refused:
             return Sync(self.checked, findings=findings, refused=merged.refused)

@@ -19,8 +19,8 @@ from rebsync.roundtrip.verdict.settings import changed_settings
 from rebsync.source import NOWHERE, Source
 
 if TYPE_CHECKING:
-    from rebsync.roundtrip.diff.difference import Comparison, Difference
-    from rebsync.roundtrip.verdict.drift import Mover
+    from rebsync.roundtrip.diff.difference import Changed, Comparison
+    from rebsync.roundtrip.verdict.wiring.facts import Odd
 
 
 def check(package: ManagedPackage, depth: str = "equal") -> CheckResult:
@@ -127,7 +127,7 @@ def finish_proved(begun: StartedCheck, depth: str) -> CheckResult:
 def finish(begun: StartedCheck, depth: str) -> CheckResult:
     """How a package stands, from its models. RebsyncError: one of these cannot be read."""
     from rebsync.roundtrip.verdict.cached import cached_verdict
-    from rebsync.roundtrip.verdict.drift import undetermined
+    from rebsync.roundtrip.verdict.drift import undetermined, with_changes_of_code
     from rebsync.roundtrip.verdict.missing_files import missing_files
     from rebsync.roundtrip.verdict.runtime import edited
 
@@ -139,14 +139,15 @@ def finish(begun: StartedCheck, depth: str) -> CheckResult:
     )
     drift, findings = found.drift, found.findings
     if record is not None:
-        unknown = (*edited(package, record, now), *missing_files(package, record, now))
-        if found.of_code is not None:
-            odd, changes = _odd(begun, record, found.of_code)
-            unknown += odd
-            drift = replace(drift, differences=(*drift.differences, *changes))
+        renamed = found.of_code.renamed_classes if found.of_code is not None else {}
+        unknown = [*edited(package, record, now, renamed), *missing_files(package, record, now)]
+        odd = _odd(begun, record, found.of_code) if found.of_code is not None else []
+        drift = with_changes_of_code(drift, _changes(begun, odd))
+        unknown += [o.finding for o in odd if not o.is_known]
         drift = undetermined(drift) if unknown else drift
         records = (*_about_records(package, model, record), *_edited_base(package, record))
-        findings = (*records, *findings, *unknown)
+        known = (o.finding for o in odd if o.is_known)
+        findings = (*records, *findings, *unknown, *known)
         return _as_sync_says(CheckResult(package, model, record, now, drift, findings), record)
     return CheckResult(package, model, record, now, drift, findings)
 
@@ -178,19 +179,19 @@ def _as_sync_says(checked: CheckResult, record: Record) -> CheckResult:
     return replace(checked, drift=undetermined(drift), findings=findings)
 
 
-def _odd(
-    begun: StartedCheck, record: Record, of_code: Comparison
-) -> tuple[tuple[Findings, ...], tuple[tuple[Difference, Mover], ...]]:
-    """Where nodes are joined otherwise, as findings and as differences, unless that is accepted."""
-    from rebsync.roundtrip.verdict.drift import Mover
+def _odd(begun: StartedCheck, record: Record, of_code: Comparison) -> list[Odd]:
+    """Where nodes are joined otherwise, unless that is accepted."""
     from rebsync.roundtrip.verdict.wiring.facts import odd_facts
 
     found = odd_facts(begun.package, record, begun.state, of_code)
-    odd = [o for o in found if o.finding.diagnostics[0].message not in record.accepted]
+    return [o for o in found if o.finding.diagnostics[0].message not in record.accepted]
+
+
+def _changes(begun: StartedCheck, odd: list[Odd]) -> tuple[Changed, ...]:
+    """The same as differences."""
     if not odd:
-        return (), ()
+        return ()
     from rebsync.roundtrip.package.models import read_model
     from rebsync.roundtrip.verdict.wiring.differences import told
 
-    changes = told(odd, read_model(begun.model))
-    return tuple(o.finding for o in odd), tuple((change, Mover.CODE) for change in changes)
+    return told(odd, read_model(begun.model))

@@ -10,6 +10,7 @@ from typing import TypeAlias
 from rebsync.records import dataclass
 from rebsync.roundtrip.diff.difference import (
     Added,
+    Changed,
     Comparison,
     Difference,
     Element,
@@ -82,6 +83,15 @@ def judge(apart: Comparison, of_model: Comparison | None, of_code: Comparison | 
 def undetermined(drift: Drift) -> Drift:
     """The same where something is in the code that neither model nor comparison sees."""
     return replace(drift, verdict=Verdict.UNDETERMINED)
+
+
+def with_changes_of_code(drift: Drift, changes: tuple[Changed, ...]) -> Drift:
+    """The same with what the code is known to have changed beside all that a model says."""
+    if not changes:
+        return drift
+    moved = {Verdict.IN_STEP: Verdict.CODE_AHEAD, Verdict.MODEL_AHEAD: Verdict.BOTH_MOVED}
+    told = tuple((change, Mover.CODE) for change in changes)
+    return Drift(moved.get(drift.verdict, drift.verdict), (*drift.differences, *told))
 
 
 def _without_base(apart: Comparison) -> Verdict:

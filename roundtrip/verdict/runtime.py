@@ -6,7 +6,9 @@ of the system. Layout and comments do not count, nor does another name of the pa
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
 
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.files import read_source
@@ -26,9 +28,15 @@ _HINT = "take the edit back, or tell of it in the model; `rebsync generate --dif
 
 
 def edited(
-    package: ManagedPackage, record: Record | None, now: PackageState
+    package: ManagedPackage,
+    record: Record | None,
+    now: PackageState,
+    renamed: Mapping[str, str] = MappingProxyType({}),
 ) -> tuple[Findings, ...]:
-    """The places that are not as they were generated."""
+    """The places that are not as they were generated.
+
+    `renamed` are classes of last time with their names in the code, which programs may use.
+    """
     if record is None:
         return ()
     paths = (
@@ -37,7 +45,9 @@ def edited(
     )
     own = frozenset(filter(None, map(package_name, paths)))
     names = sorted({*now.changed, *now.missing} & record.files.keys())
-    return tuple(f for name in names if _may_be(name) for f in _edited(package, now, name, own))
+    return tuple(
+        f for name in names if _may_be(name) for f in _edited(package, now, name, own, renamed)
+    )
 
 
 def _may_be(name: str) -> bool:
@@ -46,7 +56,11 @@ def _may_be(name: str) -> bool:
 
 
 def _edited(
-    package: ManagedPackage, now: PackageState, name: str, own: frozenset[str]
+    package: ManagedPackage,
+    now: PackageState,
+    name: str,
+    own: frozenset[str],
+    renamed: Mapping[str, str],
 ) -> Iterator[Findings]:
     """The place where a file is not as it was generated; `own` are the names of the package."""
     path = now.listing.files.get(name) or _moved(now, name)
@@ -64,8 +78,16 @@ def _edited(
         yield _finding(Source(path, ""), NOWHERE, message)
         return
     span = _difference(name, base, source, own)
-    if span is not None:
+    if span is not None and _difference(name, base, _named_as(source, renamed), own) is not None:
         yield _finding(source, span, "this is not as it was generated, and no model describes it")
+
+
+def _named_as(source: Source, renamed: Mapping[str, str]) -> Source:
+    """A text in which classes have the names that they had."""
+    text = source.text
+    for old, new in renamed.items():
+        text = re.sub(rf"\b{re.escape(new)}\b", old, text)
+    return Source(source.path, text)
 
 
 def _is_python_program(package: ManagedPackage, name: str) -> bool:

@@ -394,4 +394,4 @@ def test_line_ends_are_no_edit(model: Path, capsys: pytest.CaptureFixture[str]) 
     assert b"delay(3);\r\n" in text and b"\n" not in text.replace(b"\r\n", b"")
     Path("patrol/README.md").write_bytes(b"mine\r\n")
     assert generate() == 0
-    assert "kept your edit of patrol/README.md\n" in capsys.readouterr().out
+    assert "kept patrol/README.md, which is not as generated\n" in capsys.readouterr().out

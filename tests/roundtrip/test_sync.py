@@ -52,6 +52,29 @@ def test_edits_of_code_come_into_the_model(name: str, here: Path) -> None:
     assert _files(here) == after, "nothing is left to do"
 
 
+def test_defaults_follow_a_constant_that_was_changed_in_its_file(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What nobody has edited is generated anew, so that no edit of it seems to be kept."""
+    _, root = _made("experiment2", here)
+    params = root / "config" / "params.yaml"
+    params.write_text(params.read_text().replace("e1: 1", "e1: 3"))
+    assert main(["sync", "."]) == 0
+    assert 'param("e1", 3)' in (root / "src" / "r1.cpp").read_text()
+    assert main(["generate", "experiment2.rebeca"]) == 0
+    assert capsys.readouterr().out.endswith("32 files, 0 of them written\n")
+
+
+def test_messages_do_not_follow_a_variable_that_is_not_published(here: Path) -> None:
+    _, root = _made("experiment2", here)
+    header, message = root / "include" / "experiment2" / "r1.h", root / "msg" / "R1State.msg"
+    text = header.read_text()
+    header.write_text(text.replace("  bool stopped_{};", "  int32_t laps_{};\n  bool stopped_{};"))
+    before = message.read_text()
+    assert main(["sync", "."]) == 0
+    assert message.read_text() == before
+
+
 @pytest.mark.parametrize("name", list(EDITS)[::3])
 def test_changes_of_both_sides_are_merged(name: str, here: Path) -> None:
     edit = EDITS[name]

@@ -39,6 +39,10 @@ def _sentence(outcome: Outcome) -> str:
             return "the settings are ahead: `rebsync sync` takes them into the code"
         case "model ahead":
             return f"the model is ahead: `rebsync sync` takes {checked.model} into the code"
+        case "code ahead" if any(
+            d.code == "RS956" for f in checked.findings for d in f.diagnostics
+        ):
+            return "the code joins nodes otherwise, which no model tells: take that back"
         case "code ahead":
             return f"the code is ahead: `rebsync sync` takes its changes into {checked.model}"
         case "both moved":

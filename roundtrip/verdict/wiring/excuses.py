@@ -94,6 +94,14 @@ class Excuses:
             return hand_on_alike(self.base[key], self.today.get(key, ()), self.today)
         return (first.kind == "remap" or first.kind in TOPICS) and self._same_are_joined(key)
 
+    def is_known_to_differ(self, key: tuple[str, str, str]) -> bool:
+        """Whether it is known that messages get elsewhere, where facts of names are other ones."""
+        if self.groups or self.before is None or self.now is None:
+            return False
+        is_one = len({fact.value for fact in self.today.get(key, ())}) < 2
+        is_name = key[0] == "remap" or key[0] in TOPICS
+        return is_name and is_one and not self.now.delivers_as(self.before)
+
     @property
     def _is_in_one_space(self) -> bool:
         """Whether all generated nodes and their parameters are in one namespace."""

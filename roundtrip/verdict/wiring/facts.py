@@ -8,6 +8,7 @@ there they follow the change. A topic may have another name where it still joins
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.records import dataclass
@@ -63,12 +64,14 @@ class Odd:
     """Facts of one key that are not as they were; one of the two may be missing.
 
     Without any, nodes are joined otherwise all the same: `is_lost` says that messages get lost.
+    `is_known` says that messages are known to get elsewhere than the model sends them.
     """
 
     before: tuple[Fact, ...]
     now: tuple[Fact, ...]
     finding: Findings
     is_lost: bool = False
+    is_known: bool = False
 
 
 def odd_facts(
@@ -94,7 +97,7 @@ def odd_facts(
     excuses = Excuses(base, today, of_code, changed_groups(of_code), files, *sides)
     keys = [*base, *(k for k in today if k not in base)]
     found = [
-        odd
+        replace(odd, is_known=excuses.is_known_to_differ(key))
         for key in keys
         if not excuses.hold(key)
         and (odd := _odd(package, base.get(key, []), today.get(key, []))) is not None

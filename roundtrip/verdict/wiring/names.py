@@ -72,6 +72,10 @@ class JoinedTopics:
             return f"what {one.node} sends as {one.message} also gets to {to.name} of {to.node}"
         return None
 
+    def delivers_as(self, other: JoinedTopics) -> bool:
+        """Whether the same messages between nodes get to the same servers."""
+        return self._messages() == other._messages()
+
     def _messages(self) -> set[tuple[_End, _End]]:
         return {(one.plain, to) for one, to in self.pairs if one.kind == "publisher"}
 

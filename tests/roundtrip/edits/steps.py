@@ -11,6 +11,10 @@ def all_steps(trial: Trial) -> None:
         is_listed(trial)
         is_left_alone(trial)
         return
+    if trial.case.elsewhere:
+        is_elsewhere(trial)
+        is_left_alone(trial, 1)
+        return
     is_said(trial)
     comes_back(trial)
     model_goes_into_edited_code(trial)
@@ -24,10 +28,18 @@ def is_listed(trial: Trial) -> None:
         assert any(text in each for each in texts), (text, texts)
 
 
-def is_left_alone(trial: Trial) -> None:
-    """Nothing is written where not all is known."""
+def is_elsewhere(trial: Trial) -> None:
+    """The code is known to differ where messages get elsewhere, and each place is told."""
+    verdict, told, texts = trial.check()
+    assert verdict == "code ahead", (verdict, told, texts)
+    for text in trial.case.elsewhere:
+        assert any(text in each for each in texts), (text, texts)
+
+
+def is_left_alone(trial: Trial, status: int = 4) -> None:
+    """Nothing is written where not all is known, or no model can say what is."""
     before = trial.code()
-    assert trial.status("sync") == 4
+    assert trial.status("sync") == status
     assert trial.code() == before
 
 

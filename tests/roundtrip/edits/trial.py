@@ -29,7 +29,7 @@ FILES = (
     *("python.toml", "rclcpp.toml", "cpp.toml", "mixed.toml"),
     *("harmless.toml", "library.toml", "forms.toml", "posts.toml", "shown.toml"),
     *("messages.toml", "natural.toml", "natural_python.toml"),
-    *("natural_rclpy.toml", "natural_sensors.toml"),
+    *("natural_rclpy.toml", "natural_sensors.toml", "joined.toml"),
 )
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 
@@ -67,6 +67,11 @@ class Case:
     def listed(self) -> list[str]:
         """Texts that the findings begin with, if no model can show the edit."""
         return [str(text) for text in self._of("listed")]
+
+    @property
+    def elsewhere(self) -> list[str]:
+        """Texts that the findings begin with, if messages get elsewhere than in any model."""
+        return [str(text) for text in self._of("elsewhere")]
 
     def edits(self) -> list[list[str]]:
         """End of the path, text, text in its place."""
