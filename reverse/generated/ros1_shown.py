@@ -105,8 +105,16 @@ def _may_fail(store: Node) -> bool:
     divides = any(text_of(part(n, "operator")).rstrip("=") in ("/", "%") for n in found)
     reached = [n for n in inside(store, "field_expression") if "->" in text_of(n)]
     is_foreign = any(text_of(part(n, "argument")) != "this" for n in reached)
-    calls = inside(store, "call_expression", "subscript_expression", "pointer_expression")
-    return divides or is_foreign or bool(calls)
+    looks = inside(store, "subscript_expression", "pointer_expression")
+    calls = [n for n in inside(store, "call_expression") if not _is_number_as_text(n)]
+    return divides or is_foreign or bool(looks) or bool(calls)
+
+
+def _is_number_as_text(call: Node) -> bool:
+    """Whether it is `std::to_string` of a variable, which is one of a number."""
+    given = part(call, "arguments").named_children
+    is_plain = len(given) == 1 and given[0].type in ("identifier", "field_expression")
+    return is_plain and _plain(part(call, "function")) == "std::to_string"
 
 
 def _stores(function: Node, member: str) -> list[Node]:

@@ -21,8 +21,13 @@ from rebsync.reverse.python.runtime_files import is_runtime_file
 
 _INTEGERS = frozenset({"byte", "int", "short"})
 # By the names of messages, the types of variables that their values can be.
-_VALUES = {"Bool": frozenset({"boolean"}), "Int32": _INTEGERS, "Int64": _INTEGERS}
+_VALUES = {
+    **{"Bool": frozenset({"boolean"}), "Int32": _INTEGERS, "Int64": _INTEGERS},
+    "String": frozenset[str](),
+}
 _LITERALS = {"Bool": ("true", "false"), "Int32": ("integer",), "Int64": ("integer",)}
+_IN_TEXTS = _INTEGERS | {"boolean", "float", "double"}
+_QUOTED = re.compile(r"[fF]?[\"']")
 # What says how many messages may wait: without, rospy waits for those who listen.
 _DEPTH = {
     PUBLISHER_OF_ROS_1: re.compile(r"queue_size=[1-9]\d*"),
@@ -55,11 +60,35 @@ class Shown:
         return is_data and self._takes(field(values[0], "value"))
 
     def _takes(self, value: Node) -> bool:
+        if self.type == "String":
+            return self._is_text(value)
         if value.type in _LITERALS[self.type]:
             return value.type != "integer" or int(text_of(value), 0) <= _GREATEST
+        return self._is_of(value, _VALUES[self.type])
+
+    def _is_of(self, value: Node, types: frozenset[str]) -> bool:
+        """Whether a value is a variable of one of some types, and no array."""
         holder, _, name = text_of(value).partition(".")
         type_ = self.variables.get(name) if holder == "self" else None
-        return type_ is not None and not type_.dimensions and type_.name in _VALUES[self.type]
+        return type_ is not None and not type_.dimensions and type_.name in types
+
+    def _is_text(self, value: Node) -> bool:
+        """Whether it is a text that can be sent, put together of plain ones and of variables."""
+        if value.type == "call":
+            _, given = call_parts(value) or ("", [])
+            is_plain = text_of(field(value, "function")) == "str" and len(given) == 1
+            return is_plain and self._is_of(given[0], _IN_TEXTS)
+        if value.type != "string" or _QUOTED.match(text_of(value)) is None:
+            return False
+        parts = [n for n in named(value) if n.type not in ("string_start", "string_end")]
+        return "\\" not in text_of(value) and all(
+            n.type == "string_content" or self._is_put_in(n) for n in parts
+        )
+
+    def _is_put_in(self, part: Node) -> bool:
+        """Whether a part of a text is a variable, as it is."""
+        inside = named(part) if part.type == "interpolation" else []
+        return len(inside) == 1 and self._is_of(inside[0], _IN_TEXTS)
 
 
 def shown_by(
