@@ -42,17 +42,77 @@ def range_loop(
     whole = type_in(reader.scope, array)
     if whole is None or not whole.dimensions:
         raise reader.unread(over, "how many elements this has is not known")
+    loop = _over(reader, (over, array, whole), node, part(node, "body"))
+    reader.scope = outside
+    yield replace(loop, annotations=annotations, span=span)
+
+
+def _over(
+    reader: CppStatementReader, whole: tuple[Node, m.Expression, m.Type], named_by: Node, body: Node
+) -> m.For:
+    """A loop over the indices of an array, whose element has the name of a declaration in it."""
+    over, array, type_ = whole
     index = Variable(reader.fresh("i"), m.Type("int"))
-    reader.meaning(f"for {node.start_byte}", index)
+    reader.meaning(f"for {named_by.start_byte}", index)
     counter = m.Name(index.name)
     element = m.Index(array, counter, reader.cpp.span(over))
-    first = _element(reader, node, element, m.Type(whole.name, whole.dimensions[1:]))
-    body = reader.branch(part(node, "body"))
+    first = _element(reader, named_by, element, m.Type(type_.name, type_.dimensions[1:]))
+    block = reader.branch(body)
     initial = m.Declaration(m.Type("int"), (m.Declarator(index.name, _ZERO),))
-    bound = m.Binary("<", counter, m.IntLiteral(whole.dimensions[0]))
-    inner = m.Block((*first, *body.statements), (), body.span)
+    bound = m.Binary("<", counter, m.IntLiteral(type_.dimensions[0]))
+    inner = m.Block((*first, *block.statements), (), block.span)
+    return m.For(initial, bound, (m.Postfix("++", counter),), inner)
+
+
+def for_each(reader: CppStatementReader, node: Node) -> m.Statement | None:
+    """`std::for_each(a.begin(), a.end(), [&](int x) { ... })`, which is a loop over the array.
+
+    None where the lambda keeps values of its own, or returns.
+    """
+    call = call_of(node)
+    if call is None or call.target is not None or call.name != "std::for_each":
+        return None
+    *bounds, function = call.arguments or (node,)
+    array = whole_array(bounds)
+    type_ = plain_type(reader.expressions, array) if array is not None else None
+    if array is None or type_ is None or function.type != "lambda_expression":
+        return None
+    declarator = function.child_by_field_name("declarator")
+    listed = part(declarator, "parameters") if declarator is not None else None
+    parameters = named(listed) if listed is not None else []
+    body = part(function, "body")
+    if (
+        [p.type for p in parameters] != ["parameter_declaration"]
+        or not _has_only_references(function)
+        or _returns(body)
+    ):
+        return None
+    outside = reader.scope
+    loop = _over(reader, (array, reader.expressions.read(array), type_), parameters[0], body)
     reader.scope = outside
-    yield m.For(initial, bound, (m.Postfix("++", counter),), inner, annotations, span)
+    return replace(loop, span=reader.cpp.span(node))
+
+
+def _has_only_references(function: Node) -> bool:
+    """Whether what a lambda captures is the object, or is what it is outside."""
+    before = ""
+    for child in part(function, "captures").children:
+        if child.type == "lambda_default_capture":
+            is_reference = text_of(child) == "&"
+        else:
+            is_named = child.type == "identifier" and before == "&"
+            is_reference = is_named or child.type in ("[", "]", ",", "&", "this")
+        if not is_reference:
+            return False
+        before = child.type
+    return True
+
+
+def _returns(node: Node) -> bool:
+    """Whether a body may end before its end, or has a body within."""
+    if node.type in ("return_statement", "lambda_expression", "co_return_statement"):
+        return True
+    return any(map(_returns, named(node)))
 
 
 def _listed(reader: CppStatementReader, node: Node, over: Node) -> tuple[m.Expression, m.Statement]:

@@ -314,6 +314,9 @@ class CppStatements(CppStatementReader):
         if (loop := cpp_loops.filled(self, expression)) is not None:
             yield loop
             return
+        if (loop := cpp_loops.for_each(self, expression)) is not None:
+            yield loop
+            return
         read = self.effect(expression)
         if expression.type == "cast_expression" and not is_effect(read) and is_calm(read):
             return  # `(void)x;`, which only people write
