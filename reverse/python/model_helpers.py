@@ -5,6 +5,7 @@ The model has them as methods of each class that calls them.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
@@ -18,6 +19,7 @@ from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_imports import module_named, module_of
 from rebsync.reverse.python.py_index import FUNCTION, PyCode, PyParameter, Scope
 from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.runtime_files import is_runtime_file
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
@@ -79,14 +81,56 @@ def called_in(code: PyCode, functions: list[Scope], taken: set[str]) -> dict[str
         for call in calls_in(function.node):
             called = field(call, "function")
             name = text_of(called)
-            if called.type != "identifier" or name in found or name in taken:
+            if name in found or name in taken:
                 continue
-            helper = _function(code, function.module, name)
-            if helper is None or name in function.names:
+            helper = _called(code, function, called)
+            if helper is None or not _is_free(helper, found, taken):
                 continue
             found[name] = Helper(helper.name, helper, _object(call, helper))
             waiting.append(helper)
     return found
+
+
+def _called(code: PyCode, function: Scope, called: Node) -> Scope | None:
+    """The function that a call names, alone or after its module."""
+    if called.type == "identifier":
+        name = text_of(called)
+        return _function(code, function.module, name) if name not in function.names else None
+    holder = field(called, "object") if called.type == "attribute" else called
+    if holder.type != "identifier" or text_of(holder) in function.names:
+        return None
+    name, module = text_of(field(called, "attribute")), _module(code, function, text_of(holder))
+    if module is None or is_runtime(module):
+        return None
+    stored = re.compile(rf"\.{name}\s*(?::[^=\n]*)?=(?!=)|\bsetattr\b|\b__dict__\b|\bvars\(")
+    own = (m.py.source for m in code.modules.values() if not is_runtime_file(m.py.source))
+    if any(stored.search(source.text) for source in own):
+        return None  # the module may have another function by that name
+    return _function(code, module, name)
+
+
+def _module(code: PyCode, function: Scope, name: str) -> Scope | None:
+    """The module of the package that a name is bound to by the only import of it."""
+    bindings = function.module.names.get(name, [])
+    item = bindings[0].value if len(bindings) == 1 and bindings[0].how == "import" else None
+    if item is None:
+        return None
+    statement = bindings[0].node
+    is_alias = item.type == "aliased_import"
+    wanted = text_of(field(item, "name") if is_alias else item)
+    if statement.type == "import_statement":
+        return module_named(code, wanted, function.module) if is_alias else None
+    source = module_of(statement)
+    package = module_named(code, source, function.module)
+    if package is not None and wanted in package.names:
+        return None
+    return module_named(code, f"{source.rstrip('.')}.{wanted}", function.module)
+
+
+def _is_free(helper: Scope, found: Mapping[str, Helper], taken: set[str]) -> bool:
+    """Whether a class has nothing else by the name of a function."""
+    others = (h.function for h in found.values() if h.name == helper.name)
+    return helper.name not in taken and all(other is helper for other in others)
 
 
 def calls_in(node: Node) -> Iterator[Node]:
