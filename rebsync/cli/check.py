@@ -113,7 +113,7 @@ def _proof(checked: CheckResult, given: dict[str, Any]) -> Proof:
     from rebsync.checker.exploration import Limits
     from rebsync.checker.problem import Options
     from rebsync.config import settings_beside
-    from rebsync.roundtrip.behaviour.proof import prove
+    from rebsync.roundtrip.behaviour.proof import prove, unless_edited
     from rebsync.roundtrip.package.models import read_code, read_model
 
     code = read_code(checked.package, checked.state)
@@ -121,7 +121,10 @@ def _proof(checked: CheckResult, given: dict[str, Any]) -> Proof:
     limits = Limits(given["max_states"], given["max_time"], given["memory"])
     _, settings = settings_beside(checked.model)
     options = Options(limits=limits, allowed=frozenset({*given["allow"], *settings.allow}))
-    return prove(code, today, given["property_file"], options)
+    proof = prove(code, today, given["property_file"], options)
+    edited = [d.code for f in checked.findings for d in f.errors]
+    edited += [each.code for each in checked.accepted]  # the properties do not go by these
+    return unless_edited(proof, edited.count("RS956"))
 
 
 @dataclass(slots=True)
@@ -163,8 +166,6 @@ def _status(outcome: Outcome) -> Status:
     found = [status_of(outcome.checked.findings)]
     if outcome.proof is not None:
         found.append(_PROVED[outcome.proof.verdict])
-        if any(d.code == "RS956" for f in outcome.findings for d in f.diagnostics):
-            found.append(Status.UNDETERMINED)  # how nodes are joined is not in what was verified
     match verdict_of(outcome):
         case "in step":
             found.append(Status.CLEAN)

@@ -69,6 +69,15 @@ def prove(
     return _judged(Proof(result.verdict, reason, model, source, result, places, subject), code)
 
 
+def unless_edited(proof: Proof, count: int) -> Proof:
+    """The same unless places of generated code are edited that no model describes."""
+    if not count:
+        return proof
+    places = f"{count} places are" if count > 1 else "a place is"
+    reason = f"{places} not as generated, and in no model"
+    return replace(proof, verdict="undetermined", reason=reason)
+
+
 def _problem(source: Source, properties: Source | None, model: str) -> Problem | Proof:
     """What is to be verified; or why nothing can be."""
     from rebsync.checker.sizes import check_sizes

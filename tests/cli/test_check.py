@@ -708,6 +708,16 @@ def test_nothing_holds_of_what_cannot_be_read(check: Check) -> None:
     assert "undetermined: 1 place of the code cannot be read" in shown
 
 
+def test_nothing_holds_where_messages_go_elsewhere(check: Check) -> None:
+    """The model of the code has them where they went."""
+    replace(SOURCE, 'subscribe("go"', 'subscribe("come"')
+    status, shown = check()
+    assert (status, "the code joins nodes otherwise" in shown) == (1, True), shown
+    status, shown = check("--verify")
+    assert status == 4
+    assert "undetermined: a place is not as generated, and in no model" in shown
+
+
 def test_a_search_that_is_cut_short_is_undetermined(check: Check) -> None:
     status, shown = check("--verify", "--max-states", "2")
     assert status == 4
