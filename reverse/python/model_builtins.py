@@ -71,8 +71,10 @@ def of_python(
 
 
 def _is_cut_or_plain(node: Node) -> bool:
-    """Whether an expression does nothing, be it cut to the width that the model has."""
+    """Whether an expression does nothing, be it cut to the width that the model has, or clamped."""
     called, arguments = call_parts(node) or ("", [])
+    if called in ("min", "max") and len(arguments) > 1:
+        return all(map(_is_cut_or_plain, arguments))
     return is_plain(node) or (called in _CUTS and all(map(is_plain, arguments)))
 
 
