@@ -220,9 +220,6 @@ def test_what_cannot_be_read_is_undetermined(check: Check) -> None:
         ),
         ("patrol/src/robot_node.cpp", "  reception.start();\n", ""),
         ("patrol/src/robot_node.cpp", "  return 0;", "  rebec.go(4);\n  return 0;"),
-        (SOURCE, 'subscribe("go"', 'subscribe("look"'),
-        (SOURCE, '>("other/go")', '>("other/went")'),
-        ("patrol/launch/patrol.launch", 'to="robot2/go"', 'to="robot1/go"'),
         (
             "patrol/launch/patrol.launch",
             'output="screen" respawn="$(arg respawn)"',
@@ -242,6 +239,27 @@ def test_run_time_code_that_was_edited_is_undetermined(
     status, shown = check()
     assert status == 4
     assert f"{path}:" in shown and "RS956" in shown
+
+
+@pytest.mark.parametrize(
+    ("path", "old", "new", "told"),
+    [
+        (SOURCE, 'subscribe("go"', 'subscribe("look"', "topic changed from go to look"),
+        (SOURCE, '>("other/go")', '>("other/went")', "changed from other/go to other/went"),
+        (
+            "patrol/launch/patrol.launch",
+            'to="robot2/go"',
+            'to="robot1/go"',
+            "binding of other changed from robot2 to robot1",
+        ),
+    ],
+)
+def test_messages_that_get_elsewhere_are_drift(
+    check: Check, path: str, old: str, new: str, told: str
+) -> None:
+    replace(path, old, new)
+    status, shown = check()
+    assert (status, told in shown) == (1, True), shown
 
 
 @pytest.mark.parametrize("told", ["1", "priority(other)", "1 + priority(1)"])
