@@ -142,11 +142,11 @@ def finish(begun: StartedCheck, depth: str) -> CheckResult:
         renamed = found.of_code.renamed_classes if found.of_code is not None else {}
         unknown = [*edited(package, record, now, renamed), *missing_files(package, record, now)]
         odd = _odd(begun, record, found.of_code) if found.of_code is not None else []
-        drift = with_changes_of_code(drift, _changes(begun, odd))
-        unknown += [o.finding for o in odd if not o.is_known]
+        drift = with_changes_of_code(drift, tuple(c for _, changes in odd for c in changes))
+        known = [o.finding for o, changes in odd if o.is_known and changes]
+        unknown += [o.finding for o, _ in odd if o.finding not in known]
         drift = undetermined(drift) if unknown else drift
         records = (*_about_records(package, model, record), *_edited_base(package, record))
-        known = (o.finding for o in odd if o.is_known)
         findings = (*records, *findings, *unknown, *known)
         return _as_sync_says(CheckResult(package, model, record, now, drift, findings), record)
     return CheckResult(package, model, record, now, drift, findings)
@@ -179,19 +179,18 @@ def _as_sync_says(checked: CheckResult, record: Record) -> CheckResult:
     return replace(checked, drift=undetermined(drift), findings=findings)
 
 
-def _odd(begun: StartedCheck, record: Record, of_code: Comparison) -> list[Odd]:
-    """Where nodes are joined otherwise, unless that is accepted."""
+def _odd(
+    begun: StartedCheck, record: Record, of_code: Comparison
+) -> list[tuple[Odd, tuple[Changed, ...]]]:
+    """Where nodes are joined otherwise, unless that is accepted; the differences that each is.
+
+    There are none where the model has no element for it.
+    """
+    from rebsync.roundtrip.package.models import read_model
+    from rebsync.roundtrip.verdict.wiring.differences import told
     from rebsync.roundtrip.verdict.wiring.facts import odd_facts
 
     found = odd_facts(begun.package, record, begun.state, of_code)
-    return [o for o in found if o.finding.diagnostics[0].message not in record.accepted]
-
-
-def _changes(begun: StartedCheck, odd: list[Odd]) -> tuple[Changed, ...]:
-    """The same as differences."""
-    if not odd:
-        return ()
-    from rebsync.roundtrip.package.models import read_model
-    from rebsync.roundtrip.verdict.wiring.differences import told
-
-    return told(odd, read_model(begun.model))
+    left = [o for o in found if o.finding.diagnostics[0].message not in record.accepted]
+    today = read_model(begun.model) if left else None
+    return [(o, told([o], today) if today is not None else ()) for o in left]
