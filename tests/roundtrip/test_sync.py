@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 from pathlib import Path
 from typing import Any
 
@@ -73,6 +74,20 @@ def test_messages_do_not_follow_a_variable_that_is_not_published(here: Path) -> 
     before = message.read_text()
     assert main(["sync", "."]) == 0
     assert message.read_text() == before
+
+
+def test_a_class_that_is_renamed_in_its_code_alone_is_refused(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Its messages are called after it, so that half of a package would have the new name."""
+    _, root = _made("experiment2", here)
+    for path in (*root.glob("include/*/*.h"), *root.glob("src/*.cpp")):
+        path.write_text(re.sub(r"\bR1\b", "Shuttle", path.read_text()))
+    assert main(["check", "."]) == 1
+    before = _files(here)
+    assert main(["sync", "."]) == 1
+    assert _files(here) == before
+    assert "class R1 is Shuttle in the code" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("name", list(EDITS)[::3])
