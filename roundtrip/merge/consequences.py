@@ -18,10 +18,10 @@ def consequent_files(
 
     `recorded` was generated last time, `before` is today's generation of the model of last time,
     `now` that of the model with the changes of the code. There are none unless the edited files
-    have all of what changes in them: where a class does not publish its new variable, the message
-    is to have no field for it.
+    have all of what changes in them, and some does: where a class does not publish its new
+    variable, the message is to have no field for it; and what people say in another way stays so.
     """
-    found = []
+    found, is_written = [], False
     for path in _changing(before, now):
         old, new, source = before.get(path), now.get(path), source_below(root, path)
         if old is None or new is None or source is None or recorded.get(path) != old:
@@ -32,7 +32,9 @@ def consequent_files(
             found.append(path)
         elif merged_source(path, (ours, last, text), LABELS).text != ours:
             return ()
-    return tuple(found)
+        else:
+            is_written = True
+    return tuple(found) if is_written else ()
 
 
 def _changing(before: Mapping[str, str], now: Mapping[str, str]) -> Iterator[str]:
