@@ -7,10 +7,13 @@ from collections.abc import Callable
 from dataclasses import field
 from typing import Protocol
 
+from rebsync.checker.endless import Cut
 from rebsync.checker.graph import Graph
 from rebsync.checker.look import Look, unwatched
 from rebsync.checker.steps import Failure, Semantics
 from rebsync.records import dataclass
+
+INSTRUCTIONS = 1_000_000_000  # after which a search gives up a body, unless told otherwise
 
 
 class Unavailable(Exception):
@@ -22,7 +25,8 @@ class Limits:
     """Bounds of a search; None is no bound. `seconds` is by the wall clock, `until` model time.
 
     `until` bounds the time since the start: steps that would pass it are left out, and the search
-    is then incomplete. `memory` is in bytes, of the whole process. `began` is the moment by
+    is then incomplete. `memory` is in bytes, of the whole process. `instructions` are those of one
+    run of a body. `began` is the moment by
     time.perf_counter from which the seconds count, else they count from the search.
     """
 
@@ -30,6 +34,7 @@ class Limits:
     seconds: float | None = None
     memory: int | None = None
     until: int | None = None
+    instructions: int = INSTRUCTIONS
     began: float | None = None
 
     def out_of_time(self, searched: float) -> str | None:
@@ -91,7 +96,8 @@ class Exploration:
 
     `events` are in the order in which breadth-first search met them, one for each different
     cause (failures: kind and pc and rebec; predicates: number). `reason` says why the search is
-    not complete, or is None. `depth` is the last level that was entered.
+    not complete, or is None; `cut` is the body that it has given up. `depth` is the last level
+    that was entered.
     """
 
     states: int
@@ -106,6 +112,7 @@ class Exploration:
     memory: int
     reason: str | None = None
     notes: tuple[str, ...] = field(default=())
+    cut: Cut | None = None
 
 
 class Search(Protocol):

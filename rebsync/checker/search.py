@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from functools import partial
 from typing import TypeAlias
 
+from rebsync.checker.endless import EndlessBody, endless_reason
 from rebsync.checker.exploration import (
     Covered,
     Event,
@@ -19,7 +20,7 @@ from rebsync.checker.exploration import (
 )
 from rebsync.checker.graph import Graph
 from rebsync.checker.look import Look, Stopped, unwatched
-from rebsync.checker.machine import BUDGET, DEPTH, WAYS, EndlessBody, Failed, Machine
+from rebsync.checker.machine import Failed, Machine
 from rebsync.checker.memory import used_memory
 from rebsync.checker.program import NO_DEADLINE, Program
 from rebsync.checker.standstill import marks_of
@@ -70,7 +71,8 @@ class Interpreted:
         Ends with the reason PAUSED soon after `pause` has become true.
         """
         started = time.perf_counter() - self._spent
-        reason = None
+        reason, cut = None, None
+        self.view.limit(limits.instructions)
         try:
             reason = self._search(limits, report, started, pause)
         except KeyboardInterrupt:
@@ -78,7 +80,8 @@ class Interpreted:
         except Stopped as stopped:
             reason = str(stopped)
         except EndlessBody as endless:
-            reason = endless_reason(self.program, endless.pc)
+            cut = endless.cut
+            reason = endless_reason(self.program, cut)
         except MemoryError:
             reason = NO_MEMORY
         if reason is None and self._until_reached:
@@ -96,6 +99,7 @@ class Interpreted:
             0.0,
             used_memory(),
             reason,
+            cut=cut,
         )
 
     def _covered(self) -> Covered:
@@ -260,11 +264,3 @@ class Interpreted:
             return self.holds(state, predicate)
         except Failed:
             return False
-
-
-def endless_reason(program: Program, pc: int) -> str:
-    """Why a search ends at a body that does not."""
-    return (
-        f"the body of {program.body_at(pc).name} did not end within {BUDGET:,} instructions, "
-        f"{DEPTH:,} calls and {WAYS:,} ways to choose"
-    )

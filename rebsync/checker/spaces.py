@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 
-from rebsync.checker.machine import EndlessBody, Failed
+from rebsync.checker.endless import EndlessBody
+from rebsync.checker.machine import Failed
 from rebsync.checker.search import Interpreted
 from rebsync.checker.show import words
 from rebsync.checker.show.space import SpaceEdge, StateSpace

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from dataclasses import field, replace
 from itertools import islice
 
+from rebsync.checker.endless import endless_reason
 from rebsync.checker.engines import explore
 from rebsync.checker.exploration import Event, Exploration, Progress, Report, Search
 from rebsync.checker.formulas import Atom, NamedFormula
@@ -69,7 +70,11 @@ def _searched(
     search, exploration = explore(
         program, semantics, invariants, first, _counted_from(started, options), report
     )
+    if exploration.cut:
+        reason = endless_reason(program, exploration.cut, problem.source)
+        exploration = replace(exploration, reason=reason)
     view = view_of(program, exploration.semantics, first)
+    view.limit(options.limits.instructions)
     teller = Teller(view, problem.source)
     watch = _watch(exploration, options, report, started)
     answer = _Answer(problem, options, program, formulas, search, exploration, teller, watch)

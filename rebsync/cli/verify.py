@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from rebsync.checker.steps import Semantics
 
 FORMATS = ("text", "json", "svg", "html")
+MOST_INSTRUCTIONS = 10**10  # their delays together stay within 64 bits
 _STATUS = {
     "satisfied": Status.CLEAN,
     "violated": Status.VIOLATED,
@@ -85,6 +86,12 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
 @click.option("--memory", callback=amount, metavar="SIZE", help="Stop at 500M or 2G of memory.")
 @click.option("--until", type=click.IntRange(0), metavar="T", help="Look at times up to T only.")
 @click.option(
+    "--max-instructions",
+    type=click.IntRange(1, MOST_INSTRUCTIONS),
+    metavar="N",
+    help="Give a body up after N instructions (default: 1,000,000,000).",
+)
+@click.option(
     "--hash-compaction",
     is_flag=True,
     help="Keep 64 bits for each state: less memory, and a small risk of missing states.",
@@ -146,7 +153,7 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
 
 def _options(given: dict[str, Any], model: str) -> Options:
     """The options of the command line, and what the settings beside the model allow."""
-    from rebsync.checker.exploration import Limits
+    from rebsync.checker.exploration import INSTRUCTIONS, Limits
     from rebsync.checker.problem import Options
     from rebsync.config import settings_beside
 
@@ -155,7 +162,13 @@ def _options(given: dict[str, Any], model: str) -> Options:
     return Options(
         semantics=view_named(given),
         engine=given["engine"],
-        limits=Limits(given["max_states"], given["max_time"], given["memory"], given["until"]),
+        limits=Limits(
+            given["max_states"],
+            given["max_time"],
+            given["memory"],
+            given["until"],
+            given["max_instructions"] or INSTRUCTIONS,
+        ),
         fairness=given["fairness"],
         allowed=frozenset({*given["allow"], *settings_beside(model)[1].allow}),
         hash_compaction=given["hash_compaction"],

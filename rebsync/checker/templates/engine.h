@@ -121,6 +121,21 @@ struct observed {
     cell *variables;
 };
 
+/* The state of a body that runs long, to be compared with later ones. */
+struct watch {
+    int on;
+    int64_t from, to; /* instructions: when it is kept, and until when it is compared */
+    int32_t pc, head;
+    size_t depth, shallow, base, stack, chosen, sent;
+    cell elapsed;
+    struct vector cells, frames;
+};
+
+/* Where and why a body was given up. */
+struct cut {
+    uint64_t cause, pc, outer;
+};
+
 struct engine {
     const struct model *model;
     enum semantics semantics;
@@ -133,7 +148,9 @@ struct engine {
     struct vector messages, outcomes, sends, events;
     uint32_t *message_table;
     uint64_t message_mask;
-    uint32_t stuck_pc;
+    struct cut cut;
+    struct watch watch;
+    int64_t instructions; /* of one run of a body */
 
     struct field *fields;
     uint32_t words;

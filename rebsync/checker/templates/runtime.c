@@ -8,7 +8,8 @@
 enum end { FINISHED, SLICE, STATES, UNENDING, MEMORY, STOPPED };
 
 struct figures {
-    uint64_t states, transitions, expanded, depth, level, dropped, events, stuck_pc, initials;
+    uint64_t states, transitions, expanded, depth, level, dropped, events, initials;
+    struct cut cut;
 };
 
 /* --- beginning */
@@ -67,6 +68,10 @@ static void make_machine(struct engine *e)
     e->machine.stride = m->stride;
     e->machine.splits = e->semantics == TTS;
     e->machine.message = e->scratch.message;
+    e->machine.engine = e;
+    e->machine.more = more;
+    for (uint32_t r = 0; r < e->rebecs; r++)
+        e->machine.places += m->rebec[r].capacity;
 }
 
 void rebsync_free(struct engine *e)
@@ -89,7 +94,7 @@ void rebsync_free(struct engine *e)
         e->machine.choices, e->machine.options, e->machine.sends, e->text.data, e->messages.data,
         e->outcomes.data, e->sends.data, e->events.data, e->message_table, e->states.data,
         e->parents.data, e->ordinals.data, e->times.data, e->table, e->prints, e->invariants,
-        e->alone};
+        e->alone, e->watch.cells.data, e->watch.frames.data};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         free(parts[i]);
     free(e);
@@ -231,12 +236,15 @@ void rebsync_watch(struct engine *e, void (*look)(int *goes_on))
     e->looked = clock_now();
 }
 
-/* Searches for about so many nanoseconds, until `states` are found, up to the time `until`. */
-int rebsync_search(struct engine *e, uint64_t states, int64_t until, int64_t nanoseconds)
+/* Searches for about so many nanoseconds, until `states` are found, up to the time `until`; a body
+ * may run so many instructions. */
+int rebsync_search(struct engine *e, uint64_t states, int64_t until, int64_t instructions,
+                   int64_t nanoseconds)
 {
     e->looked = clock_now();
     int64_t due = e->looked + nanoseconds;
     e->until = until;
+    e->instructions = instructions;
     int escaped = setjmp(e->escape);
     if (escaped == STUCK_AT_START)
         undo(e);
@@ -268,7 +276,7 @@ void rebsync_figures(struct engine *e, struct figures *f)
     f->depth = e->depth + (e->count > e->level_end);
     f->dropped = e->dropped;
     f->events = e->events.count;
-    f->stuck_pc = e->stuck_pc;
+    f->cut = e->cut;
     f->initials = e->initials;
 }
 

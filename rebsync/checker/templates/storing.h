@@ -49,7 +49,7 @@ static int holds(struct engine *e, int32_t predicate)
     m->clock = m->elapsed = 0;
     m->depth = m->chosen = m->given = m->sent = 0;
     m->exhausted = 0;
-    m->budget = BUDGET;
+    begin_count(e);
     start(e, e->model->predicate[predicate], NULL, 0);
     int status = e->model->run(m);
     m->covered = e->covered;
