@@ -28,12 +28,13 @@ from rebsync.checker.exploration import (
     Progress,
     Report,
     Unavailable,
+    kinds_of,
 )
 from rebsync.checker.graph import Graph
 from rebsync.checker.look import Look, unwatched
 from rebsync.checker.memory import used_memory
 from rebsync.checker.program import Program
-from rebsync.checker.search import NO_MEMORY
+from rebsync.checker.search import FIRST, NO_MEMORY
 from rebsync.checker.steps import Failure, Semantics
 from rebsync.records import dataclass
 
@@ -134,6 +135,11 @@ class CompiledSearch:
         states = _ENDLESS if limits.states is None else min(limits.states, _ENDLESS)
         until = _ENDLESS if limits.until is None else min(limits.until, _ENDLESS)
 
+        if limits.first:
+            faults = native.numbers(sorted(limits.faults.predicates))
+            count, deadlock = len(limits.faults.predicates), limits.faults.deadlock
+            self._library.rebsync_stop_at_first(self._engine, faults, count, deadlock)
+
         def look() -> str | None:
             return self._look(limits, report, time.perf_counter() - started)
 
@@ -152,6 +158,8 @@ class CompiledSearch:
                     return endless_reason(self.program, self._cut)
                 case "memory":
                     return NO_MEMORY
+                case "violated":
+                    return FIRST
                 case "stopped":
                     return answer.reason or "it was stopped"
                 case _:
@@ -193,7 +201,9 @@ class CompiledSearch:
         if report:
             now = self._figures()
             waiting = now.states - now.expanded
-            report(Progress(now.states, now.transitions, now.level, waiting, seconds, memory))
+            found = kinds_of((e.cause for e in self._events(now.events)), limits.faults)
+            known = now.states, now.transitions, now.level, waiting
+            report(Progress(*known, seconds, memory, violations=found))
         if over := limits.out_of_time(seconds):
             return over
         if limits.memory is not None and memory >= limits.memory:

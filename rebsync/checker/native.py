@@ -20,7 +20,7 @@ PARTS = (
     "standstill.h",
 )
 SEMANTICS: tuple[Semantics, ...] = ("tts", "ftts", "core")
-END = ("finished", "slice", "states", "endless", "memory", "stopped")
+END = ("finished", "slice", "states", "endless", "memory", "stopped", "violated")
 NOT_FOUND = -2  # instead of a state: there is no memory, or it was ended
 Question = ctypes.CFUNCTYPE(None, ctypes.POINTER(ctypes.c_int))
 STATES_AT_ONCE = 100_000  # between two chances to interrupt the making of a graph
@@ -113,6 +113,8 @@ def declare(library: ctypes.CDLL) -> None:
     library.rebsync_free.argtypes = [pointer]
     library.rebsync_search.restype = number
     library.rebsync_search.argtypes = [pointer, wide, signed, signed, signed]
+    library.rebsync_stop_at_first.restype = None
+    library.rebsync_stop_at_first.argtypes = [pointer, pointer, number, number]
     library.rebsync_watch.restype = None
     library.rebsync_watch.argtypes = [pointer, Question]
     library.rebsync_figures.restype = None

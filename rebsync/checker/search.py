@@ -17,6 +17,7 @@ from rebsync.checker.exploration import (
     Limits,
     Progress,
     Report,
+    kinds_of,
 )
 from rebsync.checker.graph import Graph
 from rebsync.checker.look import Look, Stopped, unwatched
@@ -30,6 +31,7 @@ from rebsync.checker.views import view_of
 
 PAUSED = "paused"
 NO_MEMORY = "there was no more memory"
+FIRST = "the search was stopped at the first violation: --all looks for all"
 _SLICE = 0.05  # seconds between two looks at the bounds
 
 Pause: TypeAlias = Callable[[], bool]
@@ -58,7 +60,7 @@ class Interpreted:
         self._times: list[int] = []
         self._expanded = 0
         self._transitions = 0
-        self._events: dict[object, Event] = {}
+        self._events: dict[object, Event] = {}  # by cause
         self._until_reached = False
         self._spent = 0.0
         self._look_at_bounds: Look = unwatched
@@ -129,6 +131,7 @@ class Interpreted:
             if not self.states:
                 for ordinal, step in enumerate(self.view.initial_states()):
                     self._reach(step, -1, ordinal, limits)
+                    self._stop_at_first(limits)
             while self._expanded < len(self.states):
                 if limits.states is not None and len(self.states) >= limits.states:
                     return f"the bound of {limits.states} states was reached"
@@ -159,6 +162,7 @@ class Interpreted:
                     len(self.states) - self._expanded,
                     seconds,
                     memory,
+                    violations=kinds_of(self._events, limits.faults),
                 )
             )
         if over := limits.out_of_time(seconds):
@@ -172,6 +176,11 @@ class Interpreted:
         self._expanded += 1
         for ordinal, step in enumerate(steps):
             self._reach(step, number, ordinal, limits)
+            self._stop_at_first(limits)
+
+    def _stop_at_first(self, limits: Limits) -> None:
+        if limits.first and any(map(limits.faults.includes, self._events)):
+            raise Stopped(FIRST)
 
     def _reach(self, step: Step, parent: int, ordinal: int, limits: Limits) -> None:
         reached = step.time + (self._times[parent] if parent >= 0 else 0)

@@ -10,7 +10,7 @@ from itertools import islice
 
 from rebsync.checker.endless import endless_reason
 from rebsync.checker.engines import explore
-from rebsync.checker.exploration import Event, Exploration, Progress, Report, Search
+from rebsync.checker.exploration import Event, Exploration, Faults, Progress, Report, Search
 from rebsync.checker.formulas import Atom, NamedFormula
 from rebsync.checker.graph import Graph
 from rebsync.checker.look import Stopped
@@ -67,9 +67,9 @@ def _searched(
     first: frozenset[int] = frozenset()
     if options.reduce and len(assertions) == len(formulas):
         first = self_driven(program)
-    search, exploration = explore(
-        program, semantics, invariants, first, _counted_from(started, options), report
-    )
+    faults = Faults(frozenset(_predicates(assertions)), "deadlock" not in options.allowed)
+    options = _bounded(options, started, faults)
+    search, exploration = explore(program, semantics, invariants, first, options, report)
     if exploration.cut:
         reason = endless_reason(program, exploration.cut, problem.source)
         exploration = replace(exploration, reason=reason)
@@ -82,9 +82,10 @@ def _searched(
     return limited(problem, answer.result(time.perf_counter() - started))
 
 
-def _counted_from(started: float, options: Options) -> Options:
+def _bounded(options: Options, started: float, faults: Faults) -> Options:
     """The options with bounds that count what was done before the search, too."""
-    return replace(options, limits=replace(options.limits, began=started))
+    limits = replace(options.limits, began=started, faults=faults, first=options.first)
+    return replace(options, limits=limits)
 
 
 def _nothing_found(problem: Problem, options: Options, reason: str, seconds: float) -> Result:
@@ -102,13 +103,17 @@ def _invariants(
     program: Program, assertions: tuple[NamedFormula, ...], formulas: tuple[NamedFormula, ...]
 ) -> tuple[int, ...]:
     """What a search looks at: the predicates of assertions, and all that may have no value."""
-    everywhere = [f.formula.predicate for f in assertions if isinstance(f.formula, Atom)]
+    everywhere = [*_predicates(assertions)]
     for formula in formulas[len(assertions) :]:
         for number in predicates_of(formula):
             body = program.bodies[program.predicates[number]]
             if any(i.op in _MAY_FAIL for i in program.code[body.entry : body.end]):
                 everywhere.append(number)
     return tuple(dict.fromkeys(everywhere))
+
+
+def _predicates(assertions: tuple[NamedFormula, ...]) -> dict[int, None]:
+    return {f.formula.predicate: None for f in assertions if isinstance(f.formula, Atom)}
 
 
 def _watch(found: Exploration, options: Options, report: Report | None, started: float) -> Watch:

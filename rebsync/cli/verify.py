@@ -81,6 +81,12 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
     show_default=True,
     help="Which runs LTL is about.",
 )
+@click.option(
+    "--stop-at",
+    type=click.Choice(["first"]),
+    help="End the search at the first violation (default on a terminal).",
+)
+@click.option("--all", "everything", is_flag=True, help="Look for all violations.")
 @click.option("--max-states", type=click.IntRange(1), metavar="N", help="Stop at N states.")
 @click.option("--max-time", callback=duration, metavar="TIME", help="Stop after 90, 90s, 5m or 1h.")
 @click.option("--memory", callback=amount, metavar="SIZE", help="Stop at 500M or 2G of memory.")
@@ -173,7 +179,18 @@ def _options(given: dict[str, Any], model: str) -> Options:
         allowed=frozenset({*given["allow"], *settings_beside(model)[1].allow}),
         hash_compaction=given["hash_compaction"],
         reduce=given["reduce"],
+        first=_first(given),
     )
+
+
+def _first(given: dict[str, Any]) -> bool:
+    """Whether the search ends at the first violation: by itself where a person waits for it."""
+    if given["stop_at"] and given["everything"]:
+        raise click.UsageError("--stop-at first and --all exclude each other")
+    if given["stop_at"] or given["everything"]:
+        return bool(given["stop_at"])
+    waits = sys.stdout.isatty() and sys.stderr.isatty()
+    return waits and given["style"] == "text" and given["output"] == "-"
 
 
 def view_named(given: dict[str, Any]) -> Semantics | None:

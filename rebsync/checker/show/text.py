@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import PurePath
 from typing import TextIO
 
-from rebsync.checker.result import Coverage, Result, Verdict, Violation
+from rebsync.checker.result import Result, Verdict, Violation
 from rebsync.checker.show import words
 from rebsync.checker.show.flights import departures
 from rebsync.checker.show.pieces import Line, columns, line, print_lines
@@ -40,7 +40,7 @@ def result_lines(result: Result, model: str) -> list[Line]:
         *_remarks(result),
         *_properties(result),
         *(shown for violation in result.violations for shown in _violation(violation)),
-        *_coverage(result.coverage, model),
+        *_coverage(result, model),
         *_figures(result),
     ]
 
@@ -148,10 +148,12 @@ def _loop_start(trace: Trace) -> str:
 # --- coverage and figures ----------------------------------------------------------------------
 
 
-def _coverage(coverage: Coverage, model: str) -> Iterator[Line]:
+def _coverage(result: Result, model: str) -> Iterator[Line]:
+    coverage = result.coverage
+    searched = "" if result.reason is None else " in what was searched"
     if coverage.servers or coverage.branches:
         yield line()
-        yield line(Piece("never happened", "bold"))
+        yield line(Piece(f"never happened{searched}", "bold"))
     for server in coverage.servers:
         yield line(f"  {server} never runs", hang=4)
     for number, what in coverage.branches:

@@ -185,11 +185,15 @@ struct engine {
 
     void (*look)(int *goes_on); /* asked now and then by what takes long */
     int64_t looked, spent; /* when that was; what was done since the clock was read */
+    int first; /* the search ends at the first violation: at one of these predicates, for example */
+    int32_t *faults;
+    uint32_t fault_count;
+    int deadlock_is_fault, violated;
     int stopped; /* a search that was ended in the middle of a step does not go on */
 };
 
 /* Why the engine leaves what it is at in the middle of it. */
-enum escape { NO_MEMORY = 1, STUCK_AT_START, ENDED };
+enum escape { NO_MEMORY = 1, STUCK_AT_START, ENDED, VIOLATED };
 
 static int64_t clock_now(void)
 {

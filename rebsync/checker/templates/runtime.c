@@ -5,7 +5,7 @@
 #include "standstill.h"
 
 /* Why a slice of the search ends. */
-enum end { FINISHED, SLICE, STATES, UNENDING, MEMORY, STOPPED };
+enum end { FINISHED, SLICE, STATES, UNENDING, MEMORY, STOPPED, AT_FIRST };
 
 struct figures {
     uint64_t states, transitions, expanded, depth, level, dropped, events, initials;
@@ -94,7 +94,7 @@ void rebsync_free(struct engine *e)
         e->machine.choices, e->machine.options, e->machine.sends, e->text.data, e->messages.data,
         e->outcomes.data, e->sends.data, e->events.data, e->message_table, e->states.data,
         e->parents.data, e->ordinals.data, e->times.data, e->table, e->prints, e->invariants,
-        e->alone, e->watch.cells.data, e->watch.frames.data};
+        e->alone, e->faults, e->watch.cells.data, e->watch.frames.data};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         free(parts[i]);
     free(e);
@@ -236,6 +236,21 @@ void rebsync_watch(struct engine *e, void (*look)(int *goes_on))
     e->looked = clock_now();
 }
 
+/* From now on the first violation ends the search: a failure, one of these predicates that is false,
+ * or a deadlock if that is one. */
+void rebsync_stop_at_first(struct engine *e, const int32_t *faults, int count, int deadlock)
+{
+    free(e->faults);
+    e->faults = NULL;
+    e->first = e->deadlock_is_fault = 0;
+    if (setjmp(e->escape))
+        return;
+    e->faults = copied(e, faults, (size_t)count);
+    e->fault_count = (uint32_t)count;
+    e->deadlock_is_fault = deadlock;
+    e->first = 1;
+}
+
 /* Searches for about so many nanoseconds, until `states` are found, up to the time `until`; a body
  * may run so many instructions. */
 int rebsync_search(struct engine *e, uint64_t states, int64_t until, int64_t instructions,
@@ -252,6 +267,10 @@ int rebsync_search(struct engine *e, uint64_t states, int64_t until, int64_t ins
         exhaust(e);
     if (escaped == ENDED)
         stop(e);
+    if (escaped == VIOLATED && e->purpose == START)
+        e->level_end = e->initials = e->count;
+    if (e->violated)
+        return AT_FIRST;
     if (e->exhausted)
         return MEMORY;
     if (e->stopped)
