@@ -44,6 +44,16 @@ class Teller:
                 state = step.result
         return Trace(self.source.path, self.view.semantics, tuple(steps), loop)
 
+    def states(self, path: tuple[int, ...]) -> tuple[State, ...]:
+        """The states along ordinals, that after each step."""
+        states: list[State] = []
+        for ordinal in path:
+            steps = self.view.steps(states[-1]) if states else self.view.initial_states()
+            result = steps[ordinal].result
+            assert not isinstance(result, Failure)
+            states.append(result)
+        return tuple(states)
+
     def step(self, number: int, time: int, before: State, step: Step) -> TraceStep:
         """One step, taken at a time since the start in a state (before the first one: ())."""
         action, result = step.action, step.result

@@ -15,6 +15,7 @@ from rebsync.checker.formulas import Atom, NamedFormula
 from rebsync.checker.graph import Graph
 from rebsync.checker.look import Stopped
 from rebsync.checker.lowering import lower
+from rebsync.checker.marking import true_defines
 from rebsync.checker.memory import peak_memory, used_memory
 from rebsync.checker.naming import coverage_of, event_name
 from rebsync.checker.problem import Options, Problem
@@ -254,13 +255,14 @@ class _Answer:
                     what = "divides by zero" if failure.kind == "division" else "has no such index"
                     self.verdicts[entry.name] = "violated"
                     message = f"it {what} in this state"
-                    self._property(failure.kind, entry, message, self._trace(event))
+                    path = self.search.path(event.state)
+                    self._property(failure.kind, entry, message, path, self._trace(event))
 
     def _assertion(self, event: Event, predicate: int) -> None:
         for entry in self._asserted().get(predicate, ()):
             self.verdicts[entry.name] = "violated"
-            message = "it is false in this state"
-            self._property("property", entry, message, self._trace(event))
+            message, path = "it is false in this state", self.search.path(event.state)
+            self._property("property", entry, message, path, self._trace(event))
 
     def _asserted(self) -> dict[int, list[Property]]:
         """The assertions by the predicates that they are."""
@@ -273,11 +275,23 @@ class _Answer:
                     self._assertions.setdefault(formula.formula.predicate, []).append(entry)
         return self._assertions
 
-    def _property(self, kind: ViolationKind, entry: Property, message: str, trace: Trace) -> None:
+    def _property(
+        self,
+        kind: ViolationKind,
+        entry: Property,
+        message: str,
+        path: tuple[int, ...],
+        trace: Trace,
+    ) -> None:
         source = self.problem.property_source
-        path = source.path if source else ""
-        line = source.position(entry.name_span.start).line if source else 0
-        self.violations.append(Violation(kind, entry.name, message, path, line, trace))
+        place, line, formula = "", 0, ""
+        if source:
+            place, line = source.path, source.position(entry.name_span.start).line
+            formula = " ".join(source.slice(entry.formula.span).split())
+        states = self.teller.states(path)
+        true = true_defines(self.problem, entry, states, self.exploration.semantics)
+        found = Violation(kind, entry.name, message, place, line, trace, formula, true)
+        self.violations.append(found)
 
     def _assertions_that_hold(self) -> None:
         for entry in self.problem.properties.assertions:
@@ -322,7 +336,17 @@ class _Answer:
             start = self.search.path(graph.initial[run.prefix[0]])
             path = (*start, *run.prefix[1:], *(run.cycle or ()))
             trace = self.teller.trace(path, loop=len(run.prefix) - 1 if run.cycle else None)
-            self._property("property", entry, found.message, trace)
+            self._property("property", entry, found.message, path, trace)
+            if not branching and run.cycle and self.options.fairness == "none":
+                self._ask_fair(entry, formula)
+
+    def _ask_fair(self, entry: Property, formula: NamedFormula) -> None:
+        """Says whether a refuted formula of LTL holds on the weakly fair runs."""
+        from rebsync.checker.deciding import HOLDS_FAIRLY, refutation
+
+        is_compiled = self.exploration.engine == "compiled"
+        if not refutation(self.graph(), formula.formula, False, "weak", self.watch, is_compiled):
+            self.caveats.append(HOLDS_FAIRLY.format(entry.name))
 
     # --- time that stands still
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import PurePath
 from typing import TextIO
 
@@ -45,8 +45,13 @@ def result_lines(result: Result, model: str) -> list[Line]:
     ]
 
 
-def trace_lines(trace: Trace, ending: str | None = None) -> list[Line]:
-    """The lines that show a run; `ending` is what is wrong after its last step."""
+def trace_lines(
+    trace: Trace, ending: str | None = None, true: Sequence[Sequence[str]] = ()
+) -> list[Line]:
+    """The lines that show a run; `ending` is what is wrong after its last step.
+
+    `true` are the definitions that are true after each step.
+    """
     number = max(4, *(len(str(step.number)) for step in trace.steps))
     time = max(4, *(len(str(step.time)) for step in trace.steps))
     shown = [line(Piece(f"  {'step':>{number}}  {'time':>{time}}", _QUIET))]
@@ -55,6 +60,10 @@ def trace_lines(trace: Trace, ending: str | None = None) -> list[Line]:
         repeats = trace.loop is not None and step.number > trace.loop
         gutter = Piece(">", _WRONG) if wrong else Piece("|" if repeats else " ", "yellow")
         shown += _step(step, gutter, (number, time), trace.model)
+        if true and step.failure is None:
+            names = ", ".join(true[step.number]) or "nothing"
+            blank = " " * (number + time + 5)
+            shown.append(line(gutter, blank, Piece(f"true: {names}", "green"), hang=number + 8))
         if step.number == trace.loop:
             shown.append(line(Piece(_loop_start(trace), "yellow"), hang=2))
     if trace.loop is not None and trace.loop != trace.steps[-1].number:
@@ -95,9 +104,11 @@ def _violation(violation: Violation) -> Iterator[Line]:
         f": {violation.message}",
         hang=2,
     )
+    if violation.formula:
+        yield line("  formula: ", Piece(violation.formula, "cyan"), hang=4)
     failed = any(step.failure is not None for step in violation.trace.steps)
     ending = None if failed or violation.trace.loop is not None else violation.message
-    yield from trace_lines(violation.trace, ending)
+    yield from trace_lines(violation.trace, ending, violation.true)
 
 
 # --- steps -------------------------------------------------------------------------------------
