@@ -1,4 +1,4 @@
-"""The message `initial` of core Rebeca up to 2.0: all rebecs have it in their queues at the start."""
+"""The message `initial` of core Rebeca up to 2.0: each rebec has it in its queue at the start."""
 
 from __future__ import annotations
 
