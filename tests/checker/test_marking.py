@@ -38,7 +38,7 @@ def test_each_step_has_the_definitions_that_are_true() -> None:
     shown = plain(result_lines(answer("Assertion { few: num < 2 ||\n !both; }"), "model.rebeca"))
     assert "  formula: num < 2 || !both\n" in shown
     assert "true: both, on\n" in shown
-    assert "true: nothing\n" in shown
+    assert shown.count("true: ") == 4
 
 
 def test_what_has_no_value_is_not_true() -> None:

@@ -60,9 +60,8 @@ def trace_lines(
         repeats = trace.loop is not None and step.number > trace.loop
         gutter = Piece(">", _WRONG) if wrong else Piece("|" if repeats else " ", "yellow")
         shown += _step(step, gutter, (number, time), trace.model)
-        if true and step.failure is None:
-            names = ", ".join(true[step.number]) or "nothing"
-            blank = " " * (number + time + 5)
+        if true and step.failure is None and true[step.number]:
+            blank, names = " " * (number + time + 5), ", ".join(true[step.number])
             shown.append(line(gutter, blank, Piece(f"true: {names}", "green"), hang=number + 8))
         if step.number == trace.loop:
             shown.append(line(Piece(_loop_start(trace), "yellow"), hang=2))
