@@ -15,7 +15,6 @@ from rebsync.checker.formulas import Atom, NamedFormula
 from rebsync.checker.graph import Graph
 from rebsync.checker.look import Stopped
 from rebsync.checker.lowering import lower
-from rebsync.checker.marking import true_defines
 from rebsync.checker.memory import peak_memory, used_memory
 from rebsync.checker.naming import coverage_of, event_name
 from rebsync.checker.problem import Options, Problem
@@ -283,6 +282,8 @@ class _Answer:
         path: tuple[int, ...],
         trace: Trace,
     ) -> None:
+        from rebsync.checker.marking import true_defines
+
         source = self.problem.property_source
         place, line, formula = "", 0, ""
         if source:
