@@ -24,7 +24,7 @@ from rebsync.static import Analysis
 def limits(model: Model, analysis: Analysis, config: Config, stem: str) -> tuple[Diagnostic, ...]:
     """Errors where generation must stop, warnings where ROS does less than the model says."""
     found = [*_package(config, stem), *_sensors(model, config), *_instances(model, analysis)]
-    found += [*_targets(analysis, config), *_owners(config), *_licences(config)]
+    found += [*_misplaced(model), *_targets(analysis, config), *_owners(config), *_licences(config)]
     topics = Topics(model, analysis)
     for c in model.classes:
         if isinstance(c, ReactiveClass):
@@ -47,6 +47,23 @@ def _package(config: Config, stem: str) -> list[Diagnostic]:
             f'a package cannot be named "{name}": the name belongs to ROS, C or C++',
             "choose another `package` in rebsync.toml",
         )
+    ]
+
+
+def _misplaced(model: Model) -> list[Diagnostic]:
+    """`@Sensor` and `@Port` where they have no meaning: it is open what the node is to do."""
+    instances = model.main.rebecs if model.main else ()
+    annotated = [("a class", annotation) for c in model.classes for annotation in c.annotations]
+    annotated += [("an instance", a) for rebec in instances for a in rebec.annotations]
+    return [
+        Diagnostic(
+            "RS427",
+            annotation.span,
+            f"@{annotation.name} on {of} cannot be generated",
+            "annotate the message server that takes the message",
+        )
+        for of, annotation in annotated
+        if annotation.name in ("Sensor", "Port")
     ]
 
 

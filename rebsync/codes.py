@@ -121,6 +121,7 @@ WARNINGS = {
     "RS518": "a statement without effect",
     "RS519": "a priority where it has no effect",
     "RS520": "a method that can end without returning its value",
+    "RS521": "a cast that older compilers read as one of the whole product",
 }
 
 ROBOTIC = {

@@ -7,7 +7,7 @@ import os
 import re
 import signal
 import stat
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
@@ -42,6 +42,22 @@ def replace_text(path: str, text: str) -> bool:
                 return False
             _replace_all([each])
     return True
+
+
+def replace_pieces(path: str, pieces: Iterable[str]) -> None:
+    """Make a text that comes in pieces the content of a file, which is never whole in memory.
+
+    As `replace_text`, but the old content is not looked at.
+    """
+    data = map(encoded, pieces)
+    with operating_on(path):
+        if not _is_replaceable(path):
+            with open(path, "wb") as file:  # noqa: PTH123
+                file.writelines(data)
+            return
+        above, name = os.path.split(real_path(path))
+        with Folder(above) as folder:
+            _replace_all([_Replacement(path, folder.handle, name, b"", pieces=data)])
 
 
 def _is_replaceable(path: str) -> bool:
@@ -133,7 +149,7 @@ def _elsewhere(texts: Mapping[str, str], folders: ExitStack) -> Iterator[_Replac
 
 @dataclass(slots=True)
 class _Replacement:
-    """One file to be: its new bytes (None to delete it), and what is staged beside it.
+    """One file to be: its new bytes (None to delete it) or pieces, and what is staged beside it.
 
     `folder` is the handle of its directory, in which all happens; `path` is for messages only.
     """
@@ -143,6 +159,7 @@ class _Replacement:
     name: str
     data: bytes | None
     key: str = ""
+    pieces: Iterable[bytes] = ()
     staged: str | None = None
     saved: str | None = None
     existed: bool = False
@@ -189,7 +206,7 @@ def _create_tree(root: Path, texts: Mapping[str, str]) -> None:
                     for name, text in texts.items():
                         place = tree.place(name, [])
                         data = encoded(text)
-                        _write(*place, data, _mode(name, data))
+                        _write(*place, (data,), _mode(name, data))
                 os.rename(stage, root.name, src_dir_fd=above.handle, dst_dir_fd=above.handle)
             except BaseException:
                 above.remove(stage)
@@ -239,7 +256,8 @@ def _stage(each: _Replacement) -> None:
     kept = None
     if found is not None:
         kept = stat.S_IMODE(found.st_mode)
-    _write(each.folder, each.staged, each.data, _mode(each.key, each.data), kept)
+    data = each.pieces or (each.data,)
+    _write(each.folder, each.staged, data, _mode(each.key, each.data), kept)
 
 
 def _save(each: _Replacement) -> None:
@@ -253,7 +271,7 @@ def _save(each: _Replacement) -> None:
         os.link(each.name, each.saved, src_dir_fd=at, dst_dir_fd=at, follow_symlinks=False)
     except OSError:
         data = content_of(open_regular(each.name, each.path, found, at))
-        _write(at, each.saved, data, 0o600, stat.S_IMODE(found.st_mode))
+        _write(at, each.saved, (data,), 0o600, stat.S_IMODE(found.st_mode))
         os.utime(each.saved, ns=(found.st_atime_ns, found.st_mtime_ns), dir_fd=at)
 
 
@@ -332,13 +350,15 @@ def _beside(name: str) -> str:
     return f".{name[:100]}.{os.urandom(4).hex()}.rebsync.tmp"
 
 
-def _write(folder: int, name: str, data: bytes, mode: int, exact: int | None = None) -> None:
+def _write(
+    folder: int, name: str, data: Iterable[bytes], mode: int, exact: int | None = None
+) -> None:
     """A new file, on the disk for good when this returns; `exact` is its mode without umask."""
     handle = os.open(name, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode, dir_fd=folder)
     with os.fdopen(handle, "wb") as file:
         if exact is not None:
             os.fchmod(handle, exact)
-        file.write(data)
+        file.writelines(data)
         file.flush()
         os.fsync(handle)
 

@@ -160,7 +160,9 @@ class _Writer:
             yield f"L{pc}:"
         if self._leads(pc):
             count = self._block(pc)
-            yield f"    if ((m->budget -= {count}) < 0) return endless(m, {pc}, {count});"
+            top = self.body.frame + self.depths[pc]
+            more = f"m->more(m, {pc}, {count}, {top})"
+            yield f"    if ((m->budget -= {count}) < 0 && !{more}) return ENDLESS;"
         yield f"    {self._statement(pc, i)}"
 
     def _goes_on(self, pc: int) -> bool:

@@ -18,7 +18,9 @@ from rebsync.checker import native
 from rebsync.checker.build import Unit, always, header, libraries
 from rebsync.checker.compile_bodies import branches
 from rebsync.checker.compile_model import ModelText
+from rebsync.checker.endless import CAUSES, DEPTH, WAYS, Cut, endless_reason
 from rebsync.checker.exploration import (
+    INSTRUCTIONS,
     Covered,
     Event,
     Exploration,
@@ -26,12 +28,13 @@ from rebsync.checker.exploration import (
     Progress,
     Report,
     Unavailable,
+    kinds_of,
 )
 from rebsync.checker.graph import Graph
 from rebsync.checker.look import Look, unwatched
 from rebsync.checker.memory import used_memory
 from rebsync.checker.program import Program
-from rebsync.checker.search import NO_MEMORY, endless_reason
+from rebsync.checker.search import FIRST, NO_MEMORY
 from rebsync.checker.steps import Failure, Semantics
 from rebsync.records import dataclass
 
@@ -73,6 +76,8 @@ class CompiledSearch:
         self.first = first
         self.hash_compaction = hash_compaction
         self._until: int | None = None
+        self._instructions = INSTRUCTIONS
+        self._cut: Cut | None = None
         self._spent = 0.0
         self._engine: int | None = None
         self._library, self._model = _libraries(program, build, wanted)
@@ -100,7 +105,8 @@ class CompiledSearch:
         started = time.perf_counter() - self._spent
         if self._figures().initials and limits.until != self._until:
             raise ValueError("a search goes on with the bound of time that it began with")
-        self._until = limits.until
+        self._until, self._instructions = limits.until, limits.instructions
+        self._cut = None
         try:
             reason = self._search(limits, report, started)
         except KeyboardInterrupt:
@@ -122,27 +128,38 @@ class CompiledSearch:
             used_memory(),
             reason,
             self._notes(figures.states),
+            self._cut,
         )
 
     def _search(self, limits: Limits, report: Report | None, started: float) -> str | None:
         states = _ENDLESS if limits.states is None else min(limits.states, _ENDLESS)
         until = _ENDLESS if limits.until is None else min(limits.until, _ENDLESS)
 
+        if limits.first:
+            faults = native.numbers(sorted(limits.faults.predicates))
+            count, deadlock = len(limits.faults.predicates), limits.faults.deadlock
+            self._library.rebsync_stop_at_first(self._engine, faults, count, deadlock)
+
         def look() -> str | None:
             return self._look(limits, report, time.perf_counter() - started)
 
         while True:
             with self._asking(look) as answer:
-                ended = self._library.rebsync_search(self._engine, states, until, _SLICE)
+                ended = self._library.rebsync_search(
+                    self._engine, states, until, limits.instructions, _SLICE
+                )
             match native.END[ended]:
                 case "finished":
                     return None
                 case "states":
                     return f"the bound of {limits.states} states was reached"
                 case "endless":
-                    return endless_reason(self.program, self._figures().stuck_pc)
+                    self._cut = self._given_up(limits.instructions)
+                    return endless_reason(self.program, self._cut)
                 case "memory":
                     return NO_MEMORY
+                case "violated":
+                    return FIRST
                 case "stopped":
                     return answer.reason or "it was stopped"
                 case _:
@@ -184,7 +201,9 @@ class CompiledSearch:
         if report:
             now = self._figures()
             waiting = now.states - now.expanded
-            report(Progress(now.states, now.transitions, now.level, waiting, seconds, memory))
+            found = kinds_of((e.cause for e in self._events(now.events)), limits.faults)
+            known = now.states, now.transitions, now.level, waiting
+            report(Progress(*known, seconds, memory, violations=found))
         if over := limits.out_of_time(seconds):
             return over
         if limits.memory is not None and memory >= limits.memory:
@@ -197,6 +216,13 @@ class CompiledSearch:
         figures = native.Figures()
         self._library.rebsync_figures(self._engine, ctypes.byref(figures))
         return figures
+
+    def _given_up(self, instructions: int) -> Cut:
+        """The body that ended the search."""
+        now = self._figures()
+        cause = CAUSES[now.cause]
+        bounds = {"instructions": instructions, "calls": DEPTH, "ways": WAYS, "repeats": 0}
+        return Cut(cause, now.pc, now.outer, bounds[cause])
 
     def _events(self, count: int) -> tuple[Event, ...]:
         found = self._library.rebsync_events(self._engine)
@@ -265,7 +291,8 @@ class CompiledSearch:
         if self.hash_compaction:
             exact = CompiledSearch(self.program, self.semantics, (), self.first)
             stopped = figures.states if figures.expanded < figures.states else None
-            exact.run(Limits(states=stopped, until=self._until))
+            limits = Limits(stopped, until=self._until, instructions=self._instructions)
+            exact.run(limits)
             return exact.graph(look)
         words = max(1, -(-len(self.program.predicates) // 64))
         most = figures.transitions + figures.dropped

@@ -15,6 +15,10 @@ FAIRNESS_CAVEATS = {
     "weak": "LTL is about weakly fair runs: who can always act from some moment on acts in the end",
     "progress": "LTL is about runs on which time goes on for ever, or which end",
 }
+HOLDS_FAIRLY = (
+    "{} is violated by unfair runs only: with --fairness weak it is satisfied, and the official "
+    "checker may say so too"
+)
 EXACT_ONLY = "bounds of time in TCTL have a meaning in the exact view (tts) only"
 
 

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import field
 from typing import Protocol
 
+from rebsync.checker.endless import Cut
 from rebsync.checker.graph import Graph
 from rebsync.checker.look import Look, unwatched
 from rebsync.checker.steps import Failure, Semantics
 from rebsync.records import dataclass
+
+INSTRUCTIONS = 1_000_000_000  # after which a search gives up a body, unless told otherwise
 
 
 class Unavailable(Exception):
@@ -18,11 +21,26 @@ class Unavailable(Exception):
 
 
 @dataclass(frozen=True, slots=True)
+class Faults:
+    """Which events are violations, besides failures: predicates that must hold, and deadlocks."""
+
+    predicates: frozenset[int] = frozenset()
+    deadlock: bool = True
+
+    def includes(self, cause: object) -> bool:
+        """Whether an event with this cause is a violation."""
+        if cause == "deadlock":
+            return self.deadlock
+        return isinstance(cause, Failure) or cause in self.predicates
+
+
+@dataclass(frozen=True, slots=True)
 class Limits:
     """Bounds of a search; None is no bound. `seconds` is by the wall clock, `until` model time.
 
     `until` bounds the time since the start: steps that would pass it are left out, and the search
-    is then incomplete. `memory` is in bytes, of the whole process. `began` is the moment by
+    is then incomplete. `memory` is in bytes, of the whole process. `instructions` are those of one
+    run of a body. With `first` a search ends at the first of the `faults`. `began` is the moment by
     time.perf_counter from which the seconds count, else they count from the search.
     """
 
@@ -30,7 +48,10 @@ class Limits:
     seconds: float | None = None
     memory: int | None = None
     until: int | None = None
+    instructions: int = INSTRUCTIONS
     began: float | None = None
+    faults: Faults = field(default_factory=Faults)
+    first: bool = False
 
     def out_of_time(self, searched: float) -> str | None:
         """Why to stop after so many seconds of searching, if the time is over."""
@@ -44,7 +65,8 @@ class Limits:
 class Progress:
     """How far a search is: `depth` is the breadth-first level, `memory` bytes in use.
 
-    `task` is what is done after the search, while that is done.
+    `task` is what is done after the search, while that is done; `violations` are the kinds of
+    those found so far.
     """
 
     states: int
@@ -54,6 +76,20 @@ class Progress:
     seconds: float
     memory: int
     task: str = ""
+    violations: tuple[str, ...] = ()
+
+
+def kinds_of(causes: Iterable[object], faults: Faults) -> tuple[str, ...]:
+    """The kinds of violations among the causes of events."""
+    return tuple(
+        cause.kind
+        if isinstance(cause, Failure)
+        else "deadlock"
+        if cause == "deadlock"
+        else "property"
+        for cause in causes
+        if faults.includes(cause)
+    )
 
 
 Report = Callable[[Progress], None]
@@ -91,7 +127,8 @@ class Exploration:
 
     `events` are in the order in which breadth-first search met them, one for each different
     cause (failures: kind and pc and rebec; predicates: number). `reason` says why the search is
-    not complete, or is None. `depth` is the last level that was entered.
+    not complete, or is None; `cut` is the body that it has given up. `depth` is the last level
+    that was entered.
     """
 
     states: int
@@ -106,6 +143,7 @@ class Exploration:
     memory: int
     reason: str | None = None
     notes: tuple[str, ...] = field(default=())
+    cut: Cut | None = None
 
 
 class Search(Protocol):

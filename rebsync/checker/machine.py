@@ -15,8 +15,10 @@ from dataclasses import field
 from typing import NamedTuple
 
 from rebsync.checker.course import Course, Delayed, Moved
+from rebsync.checker.endless import BUDGET, DEPTH, WAYS
 from rebsync.checker.look import Look, unwatched
 from rebsync.checker.program import NO_DEADLINE, NULL, Cell, Instruction, Program, RebecInfo
+from rebsync.checker.running import Running
 from rebsync.checker.state import Frame, Local, Message, Point
 from rebsync.checker.steps import Failure, FailureKind
 from rebsync.checker.values import (
@@ -32,22 +34,7 @@ from rebsync.checker.values import (
 )
 from rebsync.records import dataclass
 
-BUDGET = 10_000_000  # instructions that one body may run before it counts as endless
-DEPTH = 10_000  # frames
-_GLANCE = 10_000  # instructions between two looks at the bounds
-WAYS = 2**20  # ways to choose in one run of a body
 FOREVER = 2**31 - 1  # what currentMessageDeadline reads without a deadline, as in RMC
-
-
-class EndlessBody(Exception):
-    """A body ran for BUDGET instructions, called DEPTH methods, or can choose in over WAYS ways.
-
-    `pc` is in that body.
-    """
-
-    def __init__(self, pc: int) -> None:
-        super().__init__(pc)
-        self.pc = pc
 
 
 class Failed(Exception):
@@ -76,10 +63,11 @@ class Coverage:
 
 
 @dataclass
-class Machine:
+class Machine(Running):
     """One run of one body; `choices` are the options to take, beyond them the first ones.
 
-    `room` is how many messages the rebec may still send to itself. After the run `options` has
+    `room` is how many messages the rebec may still send to itself, `budget` how many instructions
+    the body may run. After the run `options` has
     the number of options of each choice that was evaluated, `picked` its instruction, `choices`
     the option taken. `elapsed` is the time that delays took (floating view). `delayed` is the
     delay at which the body was suspended (exact view), or None when it ended. `course` has its
@@ -109,13 +97,14 @@ class Machine:
     running: bool = True
     delayed: int | None = None
     look: Look = unwatched
+    budget: int = BUDGET
 
     def start(self, body: int, arguments: tuple[Cell, ...]) -> None:
         """Runs a body from its beginning."""
         entered = self.program.bodies[body]
         self.pc = entered.entry
         self.stack = [*arguments, *[0] * (entered.frame - len(arguments))]
-        self._run()
+        self.run(_OPERATIONS)
 
     def resume(self, point: Point) -> None:
         """Runs a suspended body from where it stopped."""
@@ -127,7 +116,7 @@ class Machine:
             if position < len(point.frames) - 1:
                 self.frames.append((frame.pc, self.base))
             self.pc = frame.pc
-        self._run()
+        self.run(_OPERATIONS)
 
     def suspended(self) -> Point:
         """Where the body goes on after the delay that has split it."""
@@ -144,18 +133,6 @@ class Machine:
         operands = base + self.program.body_at(pc - 1).frame
         return Frame(pc, (*self.stack[base : base + live], *self.stack[operands:end]))
 
-    def _run(self) -> None:
-        code, run = self.program.code, _OPERATIONS
-        for start in range(0, BUDGET, _GLANCE):
-            for _ in range(min(_GLANCE, BUDGET - start)):
-                instruction = code[self.pc]
-                self.pc += 1
-                run[instruction.op](self, instruction)
-                if not self.running:
-                    return
-            self.look()
-        raise EndlessBody(self.pc)
-
     def fail(self, kind: FailureKind, text: str = "") -> Failed:
         """The failure of the instruction that runs."""
         return Failed(Failure(kind, self.pc - 1, self.index, text))
@@ -163,6 +140,8 @@ class Machine:
     def choose(self, count: int) -> int:
         """The option of the next choice."""
         position = len(self.options)
+        if position == WAYS:
+            raise self.endless("ways", self.pc - 1, WAYS)
         self.options.append(count)
         self.picked.append(self.pc - 1)
         if position == len(self.choices):
@@ -181,7 +160,7 @@ class Machine:
         count = sum(p.size for p in body.parameters)
         self.frames.append((self.pc, self.base))
         if len(self.frames) > DEPTH:
-            raise EndlessBody(self.pc - 1)
+            raise self.endless("calls", self.pc - 1, DEPTH)
         self.base = len(self.stack) - count
         self.stack += [0] * (body.frame - count)
         self.pc = body.entry
@@ -213,6 +192,8 @@ class Machine:
             if self.room == 0:
                 raise self.fail("overflow")
             self.room -= 1
+        if len(self.sends) > self.program.places:  # one of them is too many for its receiver
+            raise self.fail("overflow")
         self.sends.append(Sent(receiver, message, len(self.options), self.pc - 1))
 
     def delay(self) -> None:

@@ -12,6 +12,7 @@ PARTS = (
     "machine.h",
     "engine.h",
     "components.h",
+    "endless.h",
     "outcomes.h",
     "visited.h",
     "storing.h",
@@ -19,14 +20,14 @@ PARTS = (
     "standstill.h",
 )
 SEMANTICS: tuple[Semantics, ...] = ("tts", "ftts", "core")
-END = ("finished", "slice", "states", "endless", "memory", "stopped")
+END = ("finished", "slice", "states", "endless", "memory", "stopped", "violated")
 NOT_FOUND = -2  # instead of a state: there is no memory, or it was ended
 Question = ctypes.CFUNCTYPE(None, ctypes.POINTER(ctypes.c_int))
 STATES_AT_ONCE = 100_000  # between two chances to interrupt the making of a graph
 
 
 class Figures(ctypes.Structure):
-    """How far a search is."""
+    """How far a search is; the last three say where and why a body was given up."""
 
     states: int
     transitions: int
@@ -35,8 +36,10 @@ class Figures(ctypes.Structure):
     level: int
     dropped: int
     events: int
-    stuck_pc: int
     initials: int
+    cause: int
+    pc: int
+    outer: int
     _fields_ = tuple(
         (name, ctypes.c_uint64)
         for name in (
@@ -47,8 +50,10 @@ class Figures(ctypes.Structure):
             "level",
             "dropped",
             "events",
-            "stuck_pc",
             "initials",
+            "cause",
+            "pc",
+            "outer",
         )
     )
 
@@ -107,7 +112,9 @@ def declare(library: ctypes.CDLL) -> None:
     library.rebsync_free.restype = None
     library.rebsync_free.argtypes = [pointer]
     library.rebsync_search.restype = number
-    library.rebsync_search.argtypes = [pointer, wide, signed, signed]
+    library.rebsync_search.argtypes = [pointer, wide, signed, signed, signed]
+    library.rebsync_stop_at_first.restype = None
+    library.rebsync_stop_at_first.argtypes = [pointer, pointer, number, number]
     library.rebsync_watch.restype = None
     library.rebsync_watch.argtypes = [pointer, Question]
     library.rebsync_figures.restype = None

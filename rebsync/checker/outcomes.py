@@ -9,8 +9,9 @@ from bisect import bisect
 from collections.abc import Iterator
 
 from rebsync.checker.course import Course
+from rebsync.checker.endless import BUDGET, WAYS, Cut, EndlessBody
 from rebsync.checker.look import Look, unwatched
-from rebsync.checker.machine import WAYS, Coverage, EndlessBody, Failed, Machine, Sent
+from rebsync.checker.machine import Coverage, Failed, Machine, Sent
 from rebsync.checker.program import NO_DEADLINE, NULL, UNRANKED, Program
 from rebsync.checker.state import Local, Message
 from rebsync.checker.steps import Failure, Semantics
@@ -36,7 +37,8 @@ class Outcome:
 class Actor:
     """One rebec of a program. It remembers its outcomes, and the largest bag that it had.
 
-    What it calls between two of them, `look`, may raise what ends the work.
+    What it calls between two of them, `look`, may raise what ends the work. A body is given up
+    after `budget` instructions.
     """
 
     def __init__(
@@ -49,6 +51,7 @@ class Actor:
         self.coverage = coverage
         self.largest = 0
         self.look: Look = unwatched
+        self.budget = BUDGET
         self._known: dict[Local, tuple[Outcome, ...]] = {}
 
     # --- who may act
@@ -134,10 +137,17 @@ class Actor:
             if not choices:
                 return
             choices[-1] += 1
+        entry = self._entry(local, slot)
+        raise EndlessBody(Cut("ways", entry, entry, WAYS))
+
+    def _entry(self, local: Local, slot: int) -> int:
+        """The instruction at which a run of a body begins, in its outermost frame."""
         if local.point:
-            raise EndlessBody(local.point.frames[0].pc - 1)
-        body = self.program.servers[local.bag[slot].server].body
-        raise EndlessBody(self.program.bodies[body].entry)
+            return local.point.frames[0].pc - 1
+        body = self.rebec.constructor
+        if slot >= 0:
+            body = self.program.servers[local.bag[slot].server].body
+        return self.program.bodies[body].entry
 
     def _once(self, local: Local, slot: int, choices: list[int]) -> tuple[Machine, Outcome]:
         message, bag = self._taken(local, slot)
@@ -155,6 +165,7 @@ class Actor:
             room,
             self.coverage,
             look=self.look,
+            budget=self.budget,
         )
         failure = None
         try:

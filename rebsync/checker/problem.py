@@ -28,7 +28,10 @@ class Problem:
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """How to verify. `semantics` None leaves the view to the model and its properties."""
+    """How to verify. `semantics` None leaves the view to the model and its properties.
+
+    With `first` the search ends at the first violation; what is not decided then is undetermined.
+    """
 
     semantics: Semantics | None = None
     engine: EngineChoice = "auto"
@@ -37,3 +40,4 @@ class Options:
     allowed: frozenset[str] = frozenset()
     hash_compaction: bool = False
     reduce: bool = False
+    first: bool = False

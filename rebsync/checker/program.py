@@ -100,7 +100,10 @@ class RebecInfo:
 
 @dataclass(frozen=True, slots=True)
 class Program:
-    """All of a model; `predicates` are bodies that compute one boolean from the whole state."""
+    """All of a model; `predicates` are bodies that compute one boolean from the whole state.
+
+    All bags together have `places` places.
+    """
 
     code: tuple[Instruction, ...]
     spans: tuple[Span, ...]
@@ -112,6 +115,7 @@ class Program:
     global_ranks: bool
     has_delay: bool
     reads_clock: bool
+    places: int
 
     def body_at(self, pc: int) -> Body:
         """The body that an instruction belongs to."""

@@ -16,7 +16,8 @@ class Violation:
     """Something that goes wrong, with a shortest run to it.
 
     `name` is the property's name, the assertion's text, or `Class.server:line`; `message` is a
-    sentence; `line` and `path` the place in the model or property file (line 0: no place).
+    sentence; `line` and `path` the place in the model or property file (line 0: no place). Of a
+    property there are its `formula` as written, and by step the definitions in it that are `true`.
     """
 
     kind: ViolationKind
@@ -25,6 +26,8 @@ class Violation:
     path: str
     line: int
     trace: Trace
+    formula: str = ""
+    true: tuple[tuple[str, ...], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

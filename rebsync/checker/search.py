@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from functools import partial
 from typing import TypeAlias
 
+from rebsync.checker.endless import EndlessBody, endless_reason
 from rebsync.checker.exploration import (
     Covered,
     Event,
@@ -16,10 +17,11 @@ from rebsync.checker.exploration import (
     Limits,
     Progress,
     Report,
+    kinds_of,
 )
 from rebsync.checker.graph import Graph
 from rebsync.checker.look import Look, Stopped, unwatched
-from rebsync.checker.machine import BUDGET, DEPTH, WAYS, EndlessBody, Failed, Machine
+from rebsync.checker.machine import Failed, Machine
 from rebsync.checker.memory import used_memory
 from rebsync.checker.program import NO_DEADLINE, Program
 from rebsync.checker.standstill import marks_of
@@ -29,6 +31,7 @@ from rebsync.checker.views import view_of
 
 PAUSED = "paused"
 NO_MEMORY = "there was no more memory"
+FIRST = "the search was stopped at the first violation: --all looks for all"
 _SLICE = 0.05  # seconds between two looks at the bounds
 
 Pause: TypeAlias = Callable[[], bool]
@@ -57,7 +60,7 @@ class Interpreted:
         self._times: list[int] = []
         self._expanded = 0
         self._transitions = 0
-        self._events: dict[object, Event] = {}
+        self._events: dict[object, Event] = {}  # by cause
         self._until_reached = False
         self._spent = 0.0
         self._look_at_bounds: Look = unwatched
@@ -70,7 +73,8 @@ class Interpreted:
         Ends with the reason PAUSED soon after `pause` has become true.
         """
         started = time.perf_counter() - self._spent
-        reason = None
+        reason, cut = None, None
+        self.view.limit(limits.instructions)
         try:
             reason = self._search(limits, report, started, pause)
         except KeyboardInterrupt:
@@ -78,7 +82,8 @@ class Interpreted:
         except Stopped as stopped:
             reason = str(stopped)
         except EndlessBody as endless:
-            reason = endless_reason(self.program, endless.pc)
+            cut = endless.cut
+            reason = endless_reason(self.program, cut)
         except MemoryError:
             reason = NO_MEMORY
         if reason is None and self._until_reached:
@@ -96,6 +101,7 @@ class Interpreted:
             0.0,
             used_memory(),
             reason,
+            cut=cut,
         )
 
     def _covered(self) -> Covered:
@@ -125,6 +131,7 @@ class Interpreted:
             if not self.states:
                 for ordinal, step in enumerate(self.view.initial_states()):
                     self._reach(step, -1, ordinal, limits)
+                    self._stop_at_first(limits)
             while self._expanded < len(self.states):
                 if limits.states is not None and len(self.states) >= limits.states:
                     return f"the bound of {limits.states} states was reached"
@@ -155,6 +162,7 @@ class Interpreted:
                     len(self.states) - self._expanded,
                     seconds,
                     memory,
+                    violations=kinds_of(self._events, limits.faults),
                 )
             )
         if over := limits.out_of_time(seconds):
@@ -168,6 +176,11 @@ class Interpreted:
         self._expanded += 1
         for ordinal, step in enumerate(steps):
             self._reach(step, number, ordinal, limits)
+            self._stop_at_first(limits)
+
+    def _stop_at_first(self, limits: Limits) -> None:
+        if limits.first and any(map(limits.faults.includes, self._events)):
+            raise Stopped(FIRST)
 
     def _reach(self, step: Step, parent: int, ordinal: int, limits: Limits) -> None:
         reached = step.time + (self._times[parent] if parent >= 0 else 0)
@@ -260,11 +273,3 @@ class Interpreted:
             return self.holds(state, predicate)
         except Failed:
             return False
-
-
-def endless_reason(program: Program, pc: int) -> str:
-    """Why a search ends at a body that does not."""
-    return (
-        f"the body of {program.body_at(pc).name} did not end within {BUDGET:,} instructions, "
-        f"{DEPTH:,} calls and {WAYS:,} ways to choose"
-    )

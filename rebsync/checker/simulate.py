@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from random import Random
 from typing import TypeAlias
 
-from rebsync.checker.machine import EndlessBody
+from rebsync.checker.endless import EndlessBody
 from rebsync.checker.state import State
 from rebsync.checker.steps import Action, Failure, Step
 from rebsync.checker.telling import Teller

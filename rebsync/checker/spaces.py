@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
+from typing import overload
 
-from rebsync.checker.machine import EndlessBody, Failed
+from rebsync.checker.endless import EndlessBody
+from rebsync.checker.machine import Failed
 from rebsync.checker.search import Interpreted
 from rebsync.checker.show import words
 from rebsync.checker.show.space import SpaceEdge, StateSpace
 from rebsync.checker.state import State
 from rebsync.checker.steps import Failure, Step
 from rebsync.checker.telling import Teller
+from rebsync.checker.trace import ShownRebec
 
 
 def space_of(search: Interpreted, teller: Teller, invariants: Mapping[int, str]) -> StateSpace:
@@ -31,21 +34,50 @@ def space_of(search: Interpreted, teller: Teller, invariants: Mapping[int, str])
         ]
         if _is_deadlock(search, state):
             marks.append((number, "deadlock"))
-    edges = [
-        edge
-        for number, state in enumerate(search.states)
-        for edge in _edges(search, teller, number, state)
-    ]
     initial = [s.result for s in search.view.initial_states() if not isinstance(s.result, Failure)]
     return StateSpace(
         teller.source.path,
         search.semantics,
-        tuple(teller.state(state, 0) for state in search.states),
-        tuple(edges),
+        _States(search, teller),
+        _Edges(search, teller),
         tuple(dict.fromkeys(search.numbers[state] for state in initial if state in search.numbers)),
         tuple(marks),
         holds,
     )
+
+
+class _States(Sequence[tuple[ShownRebec, ...]]):
+    """The states in words, each told when it is asked for."""
+
+    def __init__(self, search: Interpreted, teller: Teller) -> None:
+        self._search = search
+        self._teller = teller
+
+    def __len__(self) -> int:
+        return len(self._search.states)
+
+    @overload
+    def __getitem__(self, index: int) -> tuple[ShownRebec, ...]: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[tuple[ShownRebec, ...]]: ...
+    def __getitem__(
+        self, index: int | slice
+    ) -> tuple[ShownRebec, ...] | list[tuple[ShownRebec, ...]]:
+        if isinstance(index, slice):
+            return [self._teller.state(state, 0) for state in self._search.states[index]]
+        return self._teller.state(self._search.states[index], 0)
+
+
+class _Edges:
+    """The steps in words, told anew each time that they are gone through."""
+
+    def __init__(self, search: Interpreted, teller: Teller) -> None:
+        self._search = search
+        self._teller = teller
+
+    def __iter__(self) -> Iterator[SpaceEdge]:
+        for number, state in enumerate(self._search.states):
+            yield from _edges(self._search, self._teller, number, state)
 
 
 def _holds(search: Interpreted, state: State, predicate: int) -> bool:
@@ -81,7 +113,7 @@ def _edges(search: Interpreted, teller: Teller, number: int, state: State) -> It
 
 
 def _edge(teller: Teller, number: int, state: State, step: Step, target: int | None) -> SpaceEdge:
-    told = teller.step(0, 0, state, step)
+    told = teller.deed(0, state, step)
     chosen = f" ?({', '.join(told.choices)})" if told.choices else ""
     match told.kind, told.message:
         case "time", _:

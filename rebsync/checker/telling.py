@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import product
+from typing import NamedTuple
 
 from rebsync.checker.machine import Sent
 from rebsync.checker.outcomes import Outcome
@@ -14,6 +15,16 @@ from rebsync.checker.values import shown
 from rebsync.checker.views import Views
 from rebsync.records import dataclass
 from rebsync.source import Source, Span
+
+
+class Deed(NamedTuple):
+    """What happens in a step, in the terms of a TraceStep."""
+
+    kind: str
+    rebec: str
+    message: ShownMessage | None
+    choices: tuple[str, ...]
+    failure: str | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +54,30 @@ class Teller:
             if not isinstance(step.result, Failure):
                 state = step.result
         return Trace(self.source.path, self.view.semantics, tuple(steps), loop)
+
+    def states(self, path: tuple[int, ...]) -> tuple[State, ...]:
+        """The states along ordinals, that after each step."""
+        states: list[State] = []
+        for ordinal in path:
+            steps = self.view.steps(states[-1]) if states else self.view.initial_states()
+            result = steps[ordinal].result
+            assert not isinstance(result, Failure)
+            states.append(result)
+        return tuple(states)
+
+    def deed(self, time: int, before: State, step: Step) -> Deed:
+        """What happens in a step, without what it changes."""
+        action, result = step.action, step.result
+        outcome = self._outcome(before, action) if before and action.actor != TIME else None
+        message = self._served(before, action)
+        failed = self.failure(result, before, action, time) if isinstance(result, Failure) else None
+        return Deed(
+            _kind(before, action),
+            self._rebec(action.actor),
+            message and self.message(message, action.actor, time),
+            self._chosen(outcome, action),
+            failed,
+        )
 
     def step(self, number: int, time: int, before: State, step: Step) -> TraceStep:
         """One step, taken at a time since the start in a state (before the first one: ())."""

@@ -8,8 +8,9 @@ from contextlib import contextmanager
 from dataclasses import field, replace
 from itertools import islice
 
+from rebsync.checker.endless import endless_reason
 from rebsync.checker.engines import explore
-from rebsync.checker.exploration import Event, Exploration, Progress, Report, Search
+from rebsync.checker.exploration import Event, Exploration, Faults, Progress, Report, Search
 from rebsync.checker.formulas import Atom, NamedFormula
 from rebsync.checker.graph import Graph
 from rebsync.checker.look import Stopped
@@ -66,10 +67,14 @@ def _searched(
     first: frozenset[int] = frozenset()
     if options.reduce and len(assertions) == len(formulas):
         first = self_driven(program)
-    search, exploration = explore(
-        program, semantics, invariants, first, _counted_from(started, options), report
-    )
+    faults = Faults(frozenset(_predicates(assertions)), "deadlock" not in options.allowed)
+    options = _bounded(options, started, faults)
+    search, exploration = explore(program, semantics, invariants, first, options, report)
+    if exploration.cut:
+        reason = endless_reason(program, exploration.cut, problem.source)
+        exploration = replace(exploration, reason=reason)
     view = view_of(program, exploration.semantics, first)
+    view.limit(options.limits.instructions)
     teller = Teller(view, problem.source)
     watch = _watch(exploration, options, report, started)
     answer = _Answer(problem, options, program, formulas, search, exploration, teller, watch)
@@ -77,9 +82,10 @@ def _searched(
     return limited(problem, answer.result(time.perf_counter() - started))
 
 
-def _counted_from(started: float, options: Options) -> Options:
+def _bounded(options: Options, started: float, faults: Faults) -> Options:
     """The options with bounds that count what was done before the search, too."""
-    return replace(options, limits=replace(options.limits, began=started))
+    limits = replace(options.limits, began=started, faults=faults, first=options.first)
+    return replace(options, limits=limits)
 
 
 def _nothing_found(problem: Problem, options: Options, reason: str, seconds: float) -> Result:
@@ -97,13 +103,17 @@ def _invariants(
     program: Program, assertions: tuple[NamedFormula, ...], formulas: tuple[NamedFormula, ...]
 ) -> tuple[int, ...]:
     """What a search looks at: the predicates of assertions, and all that may have no value."""
-    everywhere = [f.formula.predicate for f in assertions if isinstance(f.formula, Atom)]
+    everywhere = [*_predicates(assertions)]
     for formula in formulas[len(assertions) :]:
         for number in predicates_of(formula):
             body = program.bodies[program.predicates[number]]
             if any(i.op in _MAY_FAIL for i in program.code[body.entry : body.end]):
                 everywhere.append(number)
     return tuple(dict.fromkeys(everywhere))
+
+
+def _predicates(assertions: tuple[NamedFormula, ...]) -> dict[int, None]:
+    return {f.formula.predicate: None for f in assertions if isinstance(f.formula, Atom)}
 
 
 def _watch(found: Exploration, options: Options, report: Report | None, started: float) -> Watch:
@@ -244,13 +254,14 @@ class _Answer:
                     what = "divides by zero" if failure.kind == "division" else "has no such index"
                     self.verdicts[entry.name] = "violated"
                     message = f"it {what} in this state"
-                    self._property(failure.kind, entry, message, self._trace(event))
+                    path = self.search.path(event.state)
+                    self._property(failure.kind, entry, message, path, self._trace(event))
 
     def _assertion(self, event: Event, predicate: int) -> None:
         for entry in self._asserted().get(predicate, ()):
             self.verdicts[entry.name] = "violated"
-            message = "it is false in this state"
-            self._property("property", entry, message, self._trace(event))
+            message, path = "it is false in this state", self.search.path(event.state)
+            self._property("property", entry, message, path, self._trace(event))
 
     def _asserted(self) -> dict[int, list[Property]]:
         """The assertions by the predicates that they are."""
@@ -263,11 +274,25 @@ class _Answer:
                     self._assertions.setdefault(formula.formula.predicate, []).append(entry)
         return self._assertions
 
-    def _property(self, kind: ViolationKind, entry: Property, message: str, trace: Trace) -> None:
+    def _property(
+        self,
+        kind: ViolationKind,
+        entry: Property,
+        message: str,
+        path: tuple[int, ...],
+        trace: Trace,
+    ) -> None:
+        from rebsync.checker.marking import true_defines
+
         source = self.problem.property_source
-        path = source.path if source else ""
-        line = source.position(entry.name_span.start).line if source else 0
-        self.violations.append(Violation(kind, entry.name, message, path, line, trace))
+        place, line, formula = "", 0, ""
+        if source:
+            place, line = source.path, source.position(entry.name_span.start).line
+            formula = " ".join(source.slice(entry.formula.span).split())
+        states = self.teller.states(path)
+        true = true_defines(self.problem, entry, states, self.exploration.semantics)
+        found = Violation(kind, entry.name, message, place, line, trace, formula, true)
+        self.violations.append(found)
 
     def _assertions_that_hold(self) -> None:
         for entry in self.problem.properties.assertions:
@@ -312,7 +337,17 @@ class _Answer:
             start = self.search.path(graph.initial[run.prefix[0]])
             path = (*start, *run.prefix[1:], *(run.cycle or ()))
             trace = self.teller.trace(path, loop=len(run.prefix) - 1 if run.cycle else None)
-            self._property("property", entry, found.message, trace)
+            self._property("property", entry, found.message, path, trace)
+            if not branching and run.cycle and self.options.fairness == "none":
+                self._ask_fair(entry, formula)
+
+    def _ask_fair(self, entry: Property, formula: NamedFormula) -> None:
+        """Says whether a refuted formula of LTL holds on the weakly fair runs."""
+        from rebsync.checker.deciding import HOLDS_FAIRLY, refutation
+
+        is_compiled = self.exploration.engine == "compiled"
+        if not refutation(self.graph(), formula.formula, False, "weak", self.watch, is_compiled):
+            self.caveats.append(HOLDS_FAIRLY.format(entry.name))
 
     # --- time that stands still
 

@@ -71,6 +71,11 @@ class _Bodies:
             Actor(program, i, self.semantics, self.coverage) for i in range(len(program.rebecs))
         ]
 
+    def limit(self, instructions: int) -> None:
+        """From now on a body is given up after so many instructions."""
+        for actor in self.actors:
+            actor.budget = instructions
+
     def initial_states(self) -> tuple[Step, ...]:
         """Constructors run in the order of main; those that fail leave no state."""
         return tuple(self._constructed())

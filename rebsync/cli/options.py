@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, TypeVar
@@ -46,6 +46,13 @@ def refuse_to_overwrite(given: str, output: str) -> None:
     with suppress(OSError):
         if "-" not in (given, output) and Path(output).samefile(given):
             raise RebsyncError.of(output, "RS802", "this file would be overwritten by its output")
+
+
+def write_pieces(output: str, pieces: Iterable[str]) -> None:
+    """Write a text to a file as it is made."""
+    from rebsync.writing import replace_pieces
+
+    replace_pieces(output, pieces)
 
 
 def write_output(output: str, text: str) -> None:

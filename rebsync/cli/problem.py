@@ -74,7 +74,12 @@ def _analysed(source: Source, untimed: bool) -> Analysis:
     from rebsync.static import analyse
 
     parsed = parse_model(source)
-    analysis = analyse(parsed.model, incomplete=not parsed.ok)
+    model = parsed.model
+    if untimed:
+        from rebsync.checker.initial import with_initial
+
+        model = with_initial(model)
+    analysis = analyse(model, incomplete=not parsed.ok)
     _refuse(source, (*parsed.diagnostics, *analysis.diagnostics))
     _refuse(source, check_sizes(analysis))
     if untimed:

@@ -45,8 +45,11 @@ def told(now: Progress) -> str:
             f"{now.states:,} states, {now.task}, {now.seconds:,.0f} s, "
             f"{now.memory / 2**20:,.0f} MiB"
         )
+    found = (
+        f", violated so far: {', '.join(dict.fromkeys(now.violations))}" if now.violations else ""
+    )
     rate = now.states / now.seconds if now.seconds > 0 else 0
     return (
         f"{now.states:,} states, {rate:,.0f}/s, {now.waiting:,} waiting, "
-        f"depth {now.depth}, {now.memory / 2**20:,.0f} MiB"
+        f"depth {now.depth}, {now.memory / 2**20:,.0f} MiB{found}"
     )

@@ -55,6 +55,7 @@ def replay_file(
     problem: Problem, path: str, violation: str | None, style: str, output: str
 ) -> Status:
     """Runs a recorded run through the interpreter again."""
+    from rebsync.checker.exploration import INSTRUCTIONS
     from rebsync.checker.lowering import lower
     from rebsync.checker.show.replay import trace_from_json
     from rebsync.checker.simulate import NotARun, replay
@@ -64,7 +65,9 @@ def replay_file(
     source = read_source(path)
     recorded = trace_from_json(source, violation)
     program, _ = lower(problem.analysis, problem.properties)
-    teller = Teller(view_of(program, recorded.semantics), problem.source)
+    view = view_of(program, recorded.semantics)
+    view.limit(INSTRUCTIONS)
+    teller = Teller(view, problem.source)
     try:
         trace = replay(teller, recorded.actions, recorded.loop)
     except NotARun as different:

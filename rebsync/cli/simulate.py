@@ -51,9 +51,8 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     Without --seed every run is another one; the seed is told on standard error. Exit status: 3 if
     the run ends in a step that fails, 4 if in a body that does not end, else 0.
     """
+    from rebsync.checker.endless import EndlessBody, endless_reason
     from rebsync.checker.lowering import lower
-    from rebsync.checker.machine import EndlessBody
-    from rebsync.checker.search import endless_reason
     from rebsync.checker.simulate import by_chance, run
     from rebsync.checker.telling import Teller
     from rebsync.checker.trace import Trace
@@ -78,7 +77,7 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
         for step in run(teller, choose, until=until, steps=steps):
             told.append(step)
     except EndlessBody as endless:
-        reason = endless_reason(program, endless.pc)
+        reason = endless_reason(program, endless.cut, problem.source)
     if told and not (given["interactive"] and _told_already(given["style"], output)):
         trace = Trace(problem.source.path, semantics, tuple(told))
         write_run(trace, problem, given["style"], output)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from rebsync.cli.options import write_output
+from rebsync.cli.options import write_output, write_pieces
 from rebsync.terminal import say
 
 if TYPE_CHECKING:
@@ -60,7 +61,7 @@ def write_space(
     invariants = {f.formula.predicate: f.name for f in formulas if isinstance(f.formula, Atom)}
     space = space_of(search, Teller(search.view, problem.source), invariants)
     if states is not None:
-        write_output(states, _drawn(space, Path(states).suffix))
+        write_pieces(states, _drawn(space, Path(states).suffix))
     if exported is not None:
         write_output(exported, rmc_xml(space, program))
     if found.reason is not None:
@@ -68,11 +69,11 @@ def write_space(
     return found.reason is None
 
 
-def _drawn(space: StateSpace, suffix: str) -> str:
+def _drawn(space: StateSpace, suffix: str) -> Iterable[str]:
     if suffix == ".svg":
         from rebsync.checker.show.space_svg import space_svg
 
-        return space_svg(space)
-    from rebsync.checker.show.space import space_dot, space_json
+        return (space_svg(space),)
+    from rebsync.checker.show.space import space_dot_pieces, space_json_pieces
 
-    return space_dot(space) if suffix == ".dot" else space_json(space)
+    return space_dot_pieces(space) if suffix == ".dot" else space_json_pieces(space)

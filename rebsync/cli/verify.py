@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from rebsync.checker.steps import Semantics
 
 FORMATS = ("text", "json", "svg", "html")
+MOST_INSTRUCTIONS = 10**10  # their delays together stay within 64 bits
 _STATUS = {
     "satisfied": Status.CLEAN,
     "violated": Status.VIOLATED,
@@ -80,10 +81,22 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
     show_default=True,
     help="Which runs LTL is about.",
 )
+@click.option(
+    "--stop-at",
+    type=click.Choice(["first"]),
+    help="End the search at the first violation (default on a terminal).",
+)
+@click.option("--all", "everything", is_flag=True, help="Look for all violations.")
 @click.option("--max-states", type=click.IntRange(1), metavar="N", help="Stop at N states.")
 @click.option("--max-time", callback=duration, metavar="TIME", help="Stop after 90, 90s, 5m or 1h.")
 @click.option("--memory", callback=amount, metavar="SIZE", help="Stop at 500M or 2G of memory.")
 @click.option("--until", type=click.IntRange(0), metavar="T", help="Look at times up to T only.")
+@click.option(
+    "--max-instructions",
+    type=click.IntRange(1, MOST_INSTRUCTIONS),
+    metavar="N",
+    help="Give a body up after N instructions (default: 1,000,000,000).",
+)
 @click.option(
     "--hash-compaction",
     is_flag=True,
@@ -146,7 +159,7 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
 
 def _options(given: dict[str, Any], model: str) -> Options:
     """The options of the command line, and what the settings beside the model allow."""
-    from rebsync.checker.exploration import Limits
+    from rebsync.checker.exploration import INSTRUCTIONS, Limits
     from rebsync.checker.problem import Options
     from rebsync.config import settings_beside
 
@@ -155,12 +168,29 @@ def _options(given: dict[str, Any], model: str) -> Options:
     return Options(
         semantics=view_named(given),
         engine=given["engine"],
-        limits=Limits(given["max_states"], given["max_time"], given["memory"], given["until"]),
+        limits=Limits(
+            given["max_states"],
+            given["max_time"],
+            given["memory"],
+            given["until"],
+            given["max_instructions"] or INSTRUCTIONS,
+        ),
         fairness=given["fairness"],
         allowed=frozenset({*given["allow"], *settings_beside(model)[1].allow}),
         hash_compaction=given["hash_compaction"],
         reduce=given["reduce"],
+        first=_first(given),
     )
+
+
+def _first(given: dict[str, Any]) -> bool:
+    """Whether the search ends at the first violation: by itself where a person waits for it."""
+    if given["stop_at"] and given["everything"]:
+        raise click.UsageError("--stop-at first and --all exclude each other")
+    if given["stop_at"] or given["everything"]:
+        return bool(given["stop_at"])
+    waits = sys.stdout.isatty() and sys.stderr.isatty()
+    return waits and given["style"] == "text" and given["output"] == "-"
 
 
 def view_named(given: dict[str, Any]) -> Semantics | None:

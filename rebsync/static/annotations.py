@@ -27,6 +27,7 @@ _LEGAL = {
     "an instance": _PRIORITIES,
 }
 _EXCLUSIVE = frozenset(("Robot", "Controller", "Sensor", "Port"))
+_OF_SERVERS = frozenset(("Sensor", "Port"))
 _ASKED = OFFERS | {"Sensor"}  # in one way; a sensor asks itself
 _WANTED = {"Service": (1, 1), "Action": (1, 2)}  # how many servers each names
 
@@ -51,6 +52,11 @@ def _check_place(
     name, span = annotation.name, annotation.span
     if name not in _LEGAL.get(of, ()):
         message = f"@{name} does not belong to {of}"
+        if name in _OF_SERVERS and of in ("a class", "an instance"):
+            # Public models have them there, where the official compiler lets them through.
+            hint = f"it has no meaning there: it belongs to {_PLACES[name]}"
+            facts.warn("RS427", span, message, hint)
+            return
         facts.error("RS427", span, message, f"it belongs to {_PLACES[name]}")
         return
     if name in OFFERS:

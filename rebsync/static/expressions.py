@@ -178,7 +178,23 @@ def _operate(node: Binary, left: Type | None, right: Type | None, body: Body) ->
         return BOOLEAN if node.operator in _BOOLEAN_RESULT else None
     if node.operator in _DIVISION and is_integer(result):
         _check_divisor(node.right, body)
+    if node.operator in _PRODUCTS and isinstance(node.left, Cast):
+        _check_cast(node.left, node.operator, body)
     return result
+
+
+_PRODUCTS = frozenset(("*", "/", "%"))
+
+
+def _check_cast(cast: Cast, operator: str, body: Body) -> None:
+    """`(int) a * b` was `(int) (a * b)` before compiler 2.30: matters where the type changes."""
+    source = body.facts.types.get(id(cast.operand))
+    if source is not None and source != cast.type:
+        message = f"compilers before 2.30 read this cast as one of all that {operator} computes"
+        hint = (
+            f"write what is meant: (({cast.type})a) {operator} b, or ({cast.type})(a {operator} b)"
+        )
+        body.facts.warn("RS521", cast.span, message, hint)
 
 
 _BOOLEAN_RESULT = frozenset(("==", "!=", "<", ">", "<=", ">=", "&&", "||"))

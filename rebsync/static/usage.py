@@ -122,7 +122,9 @@ def _check_callables(facts: Facts, info: ClassInfo, uses: _Uses) -> None:
         if any(a.name in OFFERS for a in server.declaration.annotations):
             continue  # clients from outside do
         message = f'no one sends the message "{server.name}"'
-        facts.warn("RS503", server.declaration.name_span, message)
+        hint = "core Rebeca up to 2.0 sends it at the start: verify --language core does, too"
+        is_initial = server.name == "initial" and not server.declaration.parameters
+        facts.warn("RS503", server.declaration.name_span, message, hint if is_initial else None)
     for method in info.methods:
         if method.owner == info.name and not uses.reaches(method, info):
             message = f'the method "{method.name}" is never called'

@@ -6,11 +6,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import field
 from typing import TypeAlias
 
+from rebsync.checker.endless import EndlessBody, endless_reason
 from rebsync.checker.lowering import lower
-from rebsync.checker.machine import EndlessBody, Sent
+from rebsync.checker.machine import Sent
 from rebsync.checker.outcomes import Outcome
 from rebsync.checker.program import Cell, Program
-from rebsync.checker.search import endless_reason
 from rebsync.checker.state import Local, Message, State
 from rebsync.checker.steps import TIME, Action, Failure, Step
 from rebsync.checker.telling import Teller
@@ -110,7 +110,7 @@ class Transitions:
             try:
                 self.made[state] = tuple(self._steps(state))
             except EndlessBody as endless:
-                self.reason = endless_reason(self.program, endless.pc)
+                self.reason = endless_reason(self.program, endless.cut)
                 self.made[state] = ()
         return self.made[state]
 

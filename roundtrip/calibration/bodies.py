@@ -11,7 +11,8 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from rebsync.checker.course import Delayed
-from rebsync.checker.machine import Coverage, EndlessBody
+from rebsync.checker.endless import EndlessBody
+from rebsync.checker.machine import Coverage
 from rebsync.checker.outcomes import Actor, Outcome
 from rebsync.checker.program import NO_DEADLINE, NULL, Cell, Kind, Program
 from rebsync.checker.state import Local, Message

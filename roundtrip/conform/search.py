@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Literal
 
-from rebsync.checker.machine import EndlessBody
+from rebsync.checker.endless import EndlessBody
 from rebsync.checker.steps import Failure
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.graph import NOTHING, Fitting, Move, StateGraph

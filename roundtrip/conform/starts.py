@@ -6,7 +6,7 @@ from collections import deque
 from dataclasses import replace
 from typing import Literal, TypeAlias
 
-from rebsync.checker.machine import EndlessBody
+from rebsync.checker.endless import EndlessBody
 from rebsync.checker.state import Local, State
 from rebsync.checker.steps import Failure
 from rebsync.records import dataclass

@@ -10,7 +10,6 @@ from pathlib import Path
 
 import pytest
 
-from rebsync.checker import machine
 from rebsync.checker.compiled import CompiledSearch
 from rebsync.checker.exploration import Exploration, Limits, Progress
 from rebsync.checker.program import Program
@@ -148,48 +147,6 @@ def test_states_that_outgrow_their_words(compacted: bool) -> None:
     for state in range(0, found.states, 500):
         assert search.path(state) == interpreted.path(state)
     assert search.graph() == interpreted.graph()
-
-
-ENDLESS = """\
-reactiveclass Endless(5) {
-    msgsrv begin() { self.go(?(true, false)); }
-    msgsrv go(boolean on) { while (on) { } }
-    Endless() { self.begin(); }
-}
-main { Endless e():(); }
-"""
-
-
-@pytest.mark.parametrize(
-    ("model", "body"),
-    [
-        (ENDLESS, "Endless.go"),
-        (
-            ENDLESS.replace("while (on) { }", "deep();").replace(
-                "    Endless()", "    void deep() { deep(); }\n    Endless()"
-            ),
-            "Endless.deep",
-        ),
-        (ENDLESS.replace("self.begin();", "while (true) { }"), "Endless.Endless"),
-    ],
-)
-def test_a_body_that_does_not_end_ends_the_search(model: str, body: str) -> None:
-    search = CompiledSearch(System.of(model).program, "tts")
-    for _ in range(2):
-        assert f"{body} did not end" in str(search.run(Limits()).reason)
-
-
-def test_a_body_that_goes_round_at_its_first_instruction_is_named(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.setattr(machine, "BUDGET", 1000)  # for the interpreter, which is slow
-    model = ENDLESS.replace("while (on) { }", "for (;;) { }")
-    constructor = model.replace("self.begin();", "for (;;) { }")
-    for text, name in ((model, "go"), (constructor, "Endless")):
-        program = System.of(text).program
-        for engine in (CompiledSearch, Interpreted):
-            reason = engine(program, "tts").run(Limits()).reason
-            assert str(reason).startswith(f"the body of Endless.{name} did not end within ")
 
 
 # --- memory --------------------------------------------------------------------------------------

@@ -110,7 +110,7 @@ def test_a_body_that_does_not_end(tmp_path: Path) -> None:
     done = rebsync("simulate", "m.rebeca", "--seed", "1", cwd=tmp_path)
     assert done.status == 4
     assert "the constructors run" in done.out
-    assert "the body of A.f did not end" in done.err
+    assert "the body of A.go did not end within 10,000 calls" in done.err
 
 
 @pytest.mark.parametrize("style", ["text", "json", "svg", "html"])

@@ -45,13 +45,13 @@ class Defines:
 
     def _named(self, formula: p.Formula) -> Iterator[str]:
         """The definitions that stand in a formula, each as often as it stands there."""
-        return (n.name for n in _nodes(formula) if isinstance(n, Name) and n.name in self.values)
+        return (n.name for n in nodes(formula) if isinstance(n, Name) and n.name in self.values)
 
     def _is_total(self, name: str) -> bool:
         """Whether a definition has a value in every state: no division, no computed index."""
         if name not in self._total:
             own = self.values[name]
-            self._total[name] = not any(map(_may_fail, _nodes(own))) and all(
+            self._total[name] = not any(map(_may_fail, nodes(own))) and all(
                 self._is_total(each) for each in set(self._named(own))
             )
         return self._total[name]
@@ -69,7 +69,8 @@ def _may_fail(node: p.Formula) -> bool:
             return False
 
 
-def _nodes(formula: p.Formula) -> Iterator[p.Formula]:
+def nodes(formula: p.Formula) -> Iterator[p.Formula]:
+    """All nodes of a formula without temporal operators."""
     waiting = [formula]
     while waiting:
         node = waiting.pop()

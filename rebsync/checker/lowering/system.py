@@ -72,6 +72,7 @@ def lower(
         any(a.name == "globalPriority" for s, y in servers for a in y.declaration.annotations),
         "DELAY" in ops,
         not ops.isdisjoint(("NOW", "ARRIVAL", "DEADLINE")),
+        sum(rebec.capacity for rebec in rebecs),
     )
     return program, formulas
 

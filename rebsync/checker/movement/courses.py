@@ -10,8 +10,8 @@ from collections.abc import Iterator, Sequence
 from typing import Literal, TypeAlias
 
 from rebsync.checker.course import Course, Delayed, Moved
+from rebsync.checker.endless import EndlessBody
 from rebsync.checker.lowering import lower
-from rebsync.checker.machine import EndlessBody
 from rebsync.checker.outcomes import Outcome
 from rebsync.checker.program import Program
 from rebsync.checker.state import Local, State

@@ -85,6 +85,8 @@ def _violation(violation: Violation, moving: Moving) -> Json:
         "message": violation.message,
         "path": violation.path,
         "line": violation.line,
+        "formula": violation.formula or None,
+        "true": [list(names) for names in violation.true],
         **_trace(violation.trace, moving),
     }
 

@@ -71,7 +71,8 @@ def _shown(
         place = f"L{violation.line}"
     elif violation.line and properties is not None and violation.path == properties.path:
         place = f"P{violation.line}"
-    return Shown(words.title(violation), trace, moving(trace), violation.message, place, ending)
+    message = violation.message + (f": {violation.formula}" if violation.formula else "")
+    return Shown(words.title(violation), trace, moving(trace), message, place, ending)
 
 
 def _page(

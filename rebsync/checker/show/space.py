@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from rebsync.checker.show import words
-from rebsync.checker.show.data import dump, rebec_json
+from rebsync.checker.show.data import Json, rebec_json
 from rebsync.checker.trace import ShownRebec
 from rebsync.records import dataclass
-from rebsync.terminal import printable
+from rebsync.terminal import json_text, printable
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,14 +34,15 @@ class SpaceEdge:
 class StateSpace:
     """All states of a model, by number, with times that count from the present moment.
 
+    States and edges may be made when they are asked for: a large space is gone through once.
     `marks` are states with what is wrong in them; `holds` has for each state the properties that
     hold in it, or is empty.
     """
 
     model: str
     semantics: str
-    states: tuple[tuple[ShownRebec, ...], ...]
-    edges: tuple[SpaceEdge, ...]
+    states: Sequence[tuple[ShownRebec, ...]]
+    edges: Iterable[SpaceEdge]
     initial: tuple[int, ...]
     marks: tuple[tuple[int, str], ...] = ()
     holds: tuple[tuple[str, ...], ...] = ()
@@ -90,7 +91,12 @@ def state_lines(rebecs: tuple[ShownRebec, ...]) -> list[str]:
 
 def space_dot(space: StateSpace) -> str:
     """The state space in the language of Graphviz."""
-    return "\n".join(_dot(space)) + "\n"
+    return "".join(space_dot_pieces(space))
+
+
+def space_dot_pieces(space: StateSpace) -> Iterator[str]:
+    """The same, line by line."""
+    return (f"{line}\n" for line in _dot(space))
 
 
 def _dot(space: StateSpace) -> Iterator[str]:
@@ -131,32 +137,45 @@ def _quoted(*lines: str) -> str:
 
 def space_json(space: StateSpace) -> str:
     """The state space as one object; times count from the moment of each state."""
+    return "".join(space_json_pieces(space))
+
+
+def space_json_pieces(space: StateSpace) -> Iterator[str]:
+    """The same, a state or an edge at a time, each on a line."""
+    head = {"model": space.model, "semantics": space.semantics, "initial": list(space.initial)}
+    for name, value in head.items():
+        yield f"{'{' if name == 'model' else ','}\n  {json_text(name)}: {json_text(value)}"
+    yield ',\n  "states": ['
+    yield from _lines(_states(space))
+    yield '],\n  "edges": ['
+    yield from _lines(map(_edge, space.edges))
+    yield "]\n}\n"
+
+
+def _lines(values: Iterable[Json]) -> Iterator[str]:
+    for number, value in enumerate(values):
+        yield f"{',' if number else ''}\n    {json_text(value)}"
+    yield "\n  "
+
+
+def _states(space: StateSpace) -> Iterator[Json]:
     wrong: dict[int, list[str]] = {}
     for number, what in space.marks:
         wrong.setdefault(number, []).append(what)
-    return dump(
-        {
-            "model": space.model,
-            "semantics": space.semantics,
-            "initial": list(space.initial),
-            "states": [
-                {
-                    "number": number,
-                    "rebecs": [rebec_json(rebec) for rebec in rebecs],
-                    "holds": list(space.holds[number]) if space.holds else [],
-                    "wrong": wrong.get(number, []),
-                }
-                for number, rebecs in enumerate(space.states)
-            ],
-            "edges": [
-                {
-                    "source": edge.source,
-                    "target": edge.target,
-                    "label": edge.label,
-                    "time": edge.time,
-                    "failure": edge.failure,
-                }
-                for edge in space.edges
-            ],
+    for number, rebecs in enumerate(space.states):
+        yield {
+            "number": number,
+            "rebecs": [rebec_json(rebec) for rebec in rebecs],
+            "holds": list(space.holds[number]) if space.holds else [],
+            "wrong": wrong.get(number, []),
         }
-    )
+
+
+def _edge(edge: SpaceEdge) -> Json:
+    return {
+        "source": edge.source,
+        "target": edge.target,
+        "label": edge.label,
+        "time": edge.time,
+        "failure": edge.failure,
+    }

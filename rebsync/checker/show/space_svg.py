@@ -25,7 +25,8 @@ def space_svg(space: StateSpace) -> str:
     left = min((0.0, *(line.at[0] - MARGIN for line in drawing.lines)))
     width = drawing.width - left
     wrong = dict(space.marks)
-    said = f"{words.counted(size, 'state')}, {words.counted(len(space.edges), 'transition')}."
+    edges = sum(1 for _ in space.edges)
+    said = f"{words.counted(size, 'state')}, {words.counted(edges, 'transition')}."
     return (
         element(
             "svg",

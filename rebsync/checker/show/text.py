@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import PurePath
 from typing import TextIO
 
-from rebsync.checker.result import Coverage, Result, Verdict, Violation
+from rebsync.checker.result import Result, Verdict, Violation
 from rebsync.checker.show import words
 from rebsync.checker.show.flights import departures
 from rebsync.checker.show.pieces import Line, columns, line, print_lines
@@ -40,13 +40,18 @@ def result_lines(result: Result, model: str) -> list[Line]:
         *_remarks(result),
         *_properties(result),
         *(shown for violation in result.violations for shown in _violation(violation)),
-        *_coverage(result.coverage, model),
+        *_coverage(result, model),
         *_figures(result),
     ]
 
 
-def trace_lines(trace: Trace, ending: str | None = None) -> list[Line]:
-    """The lines that show a run; `ending` is what is wrong after its last step."""
+def trace_lines(
+    trace: Trace, ending: str | None = None, true: Sequence[Sequence[str]] = ()
+) -> list[Line]:
+    """The lines that show a run; `ending` is what is wrong after its last step.
+
+    `true` are the definitions that are true after each step.
+    """
     number = max(4, *(len(str(step.number)) for step in trace.steps))
     time = max(4, *(len(str(step.time)) for step in trace.steps))
     shown = [line(Piece(f"  {'step':>{number}}  {'time':>{time}}", _QUIET))]
@@ -55,6 +60,9 @@ def trace_lines(trace: Trace, ending: str | None = None) -> list[Line]:
         repeats = trace.loop is not None and step.number > trace.loop
         gutter = Piece(">", _WRONG) if wrong else Piece("|" if repeats else " ", "yellow")
         shown += _step(step, gutter, (number, time), trace.model)
+        if true and step.failure is None and true[step.number]:
+            blank, names = " " * (number + time + 5), ", ".join(true[step.number])
+            shown.append(line(gutter, blank, Piece(f"true: {names}", "green"), hang=number + 8))
         if step.number == trace.loop:
             shown.append(line(Piece(_loop_start(trace), "yellow"), hang=2))
     if trace.loop is not None and trace.loop != trace.steps[-1].number:
@@ -95,9 +103,11 @@ def _violation(violation: Violation) -> Iterator[Line]:
         f": {violation.message}",
         hang=2,
     )
+    if violation.formula:
+        yield line("  formula: ", Piece(violation.formula, "cyan"), hang=4)
     failed = any(step.failure is not None for step in violation.trace.steps)
     ending = None if failed or violation.trace.loop is not None else violation.message
-    yield from trace_lines(violation.trace, ending)
+    yield from trace_lines(violation.trace, ending, violation.true)
 
 
 # --- steps -------------------------------------------------------------------------------------
@@ -148,10 +158,12 @@ def _loop_start(trace: Trace) -> str:
 # --- coverage and figures ----------------------------------------------------------------------
 
 
-def _coverage(coverage: Coverage, model: str) -> Iterator[Line]:
+def _coverage(result: Result, model: str) -> Iterator[Line]:
+    coverage = result.coverage
+    searched = "" if result.reason is None else " in what was searched"
     if coverage.servers or coverage.branches:
         yield line()
-        yield line(Piece("never happened", "bold"))
+        yield line(Piece(f"never happened{searched}", "bold"))
     for server in coverage.servers:
         yield line(f"  {server} never runs", hang=4)
     for number, what in coverage.branches:

@@ -121,6 +121,21 @@ struct observed {
     cell *variables;
 };
 
+/* The state of a body that runs long, to be compared with later ones. */
+struct watch {
+    int on;
+    int64_t from, to; /* instructions: when it is kept, and until when it is compared */
+    int32_t pc, head;
+    size_t depth, shallow, base, stack, chosen, sent;
+    cell elapsed;
+    struct vector cells, frames;
+};
+
+/* Where and why a body was given up. */
+struct cut {
+    uint64_t cause, pc, outer;
+};
+
 struct engine {
     const struct model *model;
     enum semantics semantics;
@@ -133,7 +148,9 @@ struct engine {
     struct vector messages, outcomes, sends, events;
     uint32_t *message_table;
     uint64_t message_mask;
-    uint32_t stuck_pc;
+    struct cut cut;
+    struct watch watch;
+    int64_t instructions; /* of one run of a body */
 
     struct field *fields;
     uint32_t words;
@@ -168,11 +185,15 @@ struct engine {
 
     void (*look)(int *goes_on); /* asked now and then by what takes long */
     int64_t looked, spent; /* when that was; what was done since the clock was read */
+    int first; /* the search ends at the first violation: at one of these predicates, for example */
+    int32_t *faults;
+    uint32_t fault_count;
+    int deadlock_is_fault, violated;
     int stopped; /* a search that was ended in the middle of a step does not go on */
 };
 
 /* Why the engine leaves what it is at in the middle of it. */
-enum escape { NO_MEMORY = 1, STUCK_AT_START, ENDED };
+enum escape { NO_MEMORY = 1, STUCK_AT_START, ENDED, VIOLATED };
 
 static int64_t clock_now(void)
 {

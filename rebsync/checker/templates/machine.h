@@ -13,12 +13,14 @@ typedef int64_t cell;
 
 #define NO_DEADLINE (INT64_C(1) << 62)
 #define FOREVER INT32_MAX
-#define BUDGET 10000000
 #define WAYS (1 << 20)
 #define DEPTH 10000
 
 /* How a run ends; AGAIN: not yet, the body at `pc` goes on. */
 enum status { DONE, AGAIN, DELAYED, FAILED, ENDLESS };
+
+/* Why a body is given up, in the order of endless.py. */
+enum cause { REPEATS, INSTRUCTIONS, CALLS, CHOICES };
 
 /* The order of FailureKind in steps.py, from 1 on. */
 enum failure { ASSERTION = 1, DEADLINE, OVERFLOW, INDEX, DIVISION, NOBODY, TIME };
@@ -41,7 +43,8 @@ struct machine {
     const cell *const *states; /* the variables of each rebec, for predicates */
     unsigned char *covered;    /* for each branch: two bytes, not jumped and jumped */
     cell clock, elapsed, delayed;
-    int64_t budget, room;
+    int64_t budget, slice, left; /* instructions: of this slice, still; at first; after it */
+    int64_t room, places;
     size_t base, top, stack_room;
     struct frame *frames;
     size_t depth, frames_room;
@@ -51,7 +54,9 @@ struct machine {
     size_t sent, sends_room;
     int32_t stride; /* cells of a message */
     int32_t index, pc, failure;
-    int splits, exhausted;
+    int splits, exhausted, cause;
+    void *engine;
+    int (*more)(struct machine *, int32_t pc, int32_t count, size_t top);
 };
 
 struct rebec {

@@ -3,6 +3,7 @@
 #define REBSYNC_OUTCOMES_H
 
 #include "components.h"
+#include "endless.h"
 
 enum { CONSTRUCTS = -2, RESUMES = -1 };
 
@@ -105,7 +106,7 @@ static int run(struct engine *e, uint32_t rebec, const struct local *l, int slot
     m->elapsed = m->delayed = 0;
     m->depth = m->chosen = m->sent = 0;
     m->exhausted = 0;
-    m->budget = BUDGET;
+    begin_count(e);
     m->room = r->capacity - (int64_t)l->messages + (slot >= 0) - (message[SERVER] >= 0);
     if (slot == RESUMES) {
         resume(e, l);
@@ -117,9 +118,9 @@ static int run(struct engine *e, uint32_t rebec, const struct local *l, int slot
         start(e, s->body, message + ARGUMENTS, s->arguments);
     }
     int status = e->model->run(m);
-    if (m->exhausted)
+    if (m->exhausted && m->cause != CHOICES)
         give_up(e);
-    return status;
+    return m->exhausted ? ENDLESS : status;
 }
 
 /* --- what comes of it */
@@ -153,6 +154,26 @@ static void copy_bag(struct engine *e, struct local *to, const struct local *fro
             memcpy(to->bag + to->messages++ * stride, from->bag + i * stride, size);
 }
 
+/* The instruction at which a run begins, in its outermost frame. */
+static uint32_t entry_of(struct engine *e, uint32_t rebec, const struct local *l, int slot)
+{
+    if (slot == RESUMES)
+        return (uint32_t)l->frames[0] - 1;
+    int32_t body = slot == CONSTRUCTS ? e->model->rebec[rebec].constructor
+                                      : e->model->server[e->machine.message[SERVER]].body;
+    return (uint32_t)e->model->body[body].entry;
+}
+
+/* Notes where the body was given up that ran last. */
+static void note_cut(struct engine *e, uint32_t rebec, const struct local *l, int slot)
+{
+    const struct machine *m = &e->machine;
+    uint32_t pc = (uint32_t)m->pc, outer = m->depth ? (uint32_t)m->frames[0].pc - 1 : pc;
+    if (m->cause == CHOICES)
+        pc = outer = entry_of(e, rebec, l, slot);
+    e->cut = (struct cut){(uint64_t)m->cause, pc, outer};
+}
+
 /* One run and its outcome; 0 when the body does not end. The machine's variables are those of
  * e->result. */
 static int act_once(struct engine *e, uint32_t rebec, const struct local *l, int slot, int32_t shared)
@@ -161,7 +182,7 @@ static int act_once(struct engine *e, uint32_t rebec, const struct local *l, int
     struct local *after = &e->result;
     int status = run(e, rebec, l, slot);
     if (status == ENDLESS) {
-        e->stuck_pc = (uint32_t)m->pc;
+        note_cut(e, rebec, l, slot);
         return 0;
     }
     new_outcome(e, shared);
@@ -195,7 +216,7 @@ static int act(struct engine *e, uint32_t rebec, const struct local *l, int slot
     for (int32_t ways = 0; ways < WAYS; ways++) {
         if (!act_once(e, rebec, l, slot, shared))
             return 0;
-        glance(e, BUDGET - m->budget + STORING);
+        glance(e, m->slice - m->budget + STORING);
         size_t last = m->chosen;
         while (last && m->choices[last - 1] + 1 == m->options[last - 1])
             last--;
@@ -205,8 +226,8 @@ static int act(struct engine *e, uint32_t rebec, const struct local *l, int slot
         m->given = last;
         shared = (int32_t)last - 1;
     }
-    e->stuck_pc = slot == RESUMES ? (uint32_t)l->frames[0] - 1
-                                  : e->model->body[e->model->server[m->message[SERVER]].body].entry;
+    m->cause = CHOICES;
+    note_cut(e, rebec, l, slot);
     return 0;
 }
 

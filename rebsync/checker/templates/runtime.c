@@ -5,10 +5,11 @@
 #include "standstill.h"
 
 /* Why a slice of the search ends. */
-enum end { FINISHED, SLICE, STATES, UNENDING, MEMORY, STOPPED };
+enum end { FINISHED, SLICE, STATES, UNENDING, MEMORY, STOPPED, AT_FIRST };
 
 struct figures {
-    uint64_t states, transitions, expanded, depth, level, dropped, events, stuck_pc, initials;
+    uint64_t states, transitions, expanded, depth, level, dropped, events, initials;
+    struct cut cut;
 };
 
 /* --- beginning */
@@ -67,6 +68,10 @@ static void make_machine(struct engine *e)
     e->machine.stride = m->stride;
     e->machine.splits = e->semantics == TTS;
     e->machine.message = e->scratch.message;
+    e->machine.engine = e;
+    e->machine.more = more;
+    for (uint32_t r = 0; r < e->rebecs; r++)
+        e->machine.places += m->rebec[r].capacity;
 }
 
 void rebsync_free(struct engine *e)
@@ -89,7 +94,7 @@ void rebsync_free(struct engine *e)
         e->machine.choices, e->machine.options, e->machine.sends, e->text.data, e->messages.data,
         e->outcomes.data, e->sends.data, e->events.data, e->message_table, e->states.data,
         e->parents.data, e->ordinals.data, e->times.data, e->table, e->prints, e->invariants,
-        e->alone};
+        e->alone, e->faults, e->watch.cells.data, e->watch.frames.data};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         free(parts[i]);
     free(e);
@@ -231,12 +236,30 @@ void rebsync_watch(struct engine *e, void (*look)(int *goes_on))
     e->looked = clock_now();
 }
 
-/* Searches for about so many nanoseconds, until `states` are found, up to the time `until`. */
-int rebsync_search(struct engine *e, uint64_t states, int64_t until, int64_t nanoseconds)
+/* From now on the first violation ends the search: a failure, one of these predicates that is false,
+ * or a deadlock if that is one. */
+void rebsync_stop_at_first(struct engine *e, const int32_t *faults, int count, int deadlock)
+{
+    free(e->faults);
+    e->faults = NULL;
+    e->first = e->deadlock_is_fault = 0;
+    if (setjmp(e->escape))
+        return;
+    e->faults = copied(e, faults, (size_t)count);
+    e->fault_count = (uint32_t)count;
+    e->deadlock_is_fault = deadlock;
+    e->first = 1;
+}
+
+/* Searches for about so many nanoseconds, until `states` are found, up to the time `until`; a body
+ * may run so many instructions. */
+int rebsync_search(struct engine *e, uint64_t states, int64_t until, int64_t instructions,
+                   int64_t nanoseconds)
 {
     e->looked = clock_now();
     int64_t due = e->looked + nanoseconds;
     e->until = until;
+    e->instructions = instructions;
     int escaped = setjmp(e->escape);
     if (escaped == STUCK_AT_START)
         undo(e);
@@ -244,6 +267,10 @@ int rebsync_search(struct engine *e, uint64_t states, int64_t until, int64_t nan
         exhaust(e);
     if (escaped == ENDED)
         stop(e);
+    if (escaped == VIOLATED && e->purpose == START)
+        e->level_end = e->initials = e->count;
+    if (e->violated)
+        return AT_FIRST;
     if (e->exhausted)
         return MEMORY;
     if (e->stopped)
@@ -268,7 +295,7 @@ void rebsync_figures(struct engine *e, struct figures *f)
     f->depth = e->depth + (e->count > e->level_end);
     f->dropped = e->dropped;
     f->events = e->events.count;
-    f->stuck_pc = e->stuck_pc;
+    f->cut = e->cut;
     f->initials = e->initials;
 }
 

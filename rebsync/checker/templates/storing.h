@@ -7,6 +7,19 @@
 
 /* --- what is wrong */
 
+/* Whether an event is a violation. */
+static int is_fault(const struct engine *e, const struct event *found)
+{
+    if (found->kind == DEADLOCK)
+        return e->deadlock_is_fault;
+    if (found->kind != PREDICATE)
+        return 1;
+    for (uint32_t i = 0; i < e->fault_count; i++)
+        if (e->faults[i] == found->pc)
+            return 1;
+    return 0;
+}
+
 /* Notes an event unless its cause is known. */
 static void note(struct engine *e, struct event found)
 {
@@ -15,6 +28,7 @@ static void note(struct engine *e, struct event found)
         if (known[i].kind == found.kind && known[i].pc == found.pc && known[i].rebec == found.rebec)
             return;
     *(struct event *)added(e, &e->events, sizeof found) = found;
+    e->violated |= e->first && is_fault(e, &found);
 }
 
 /* The variables of a rebec as predicates read them. */
@@ -49,7 +63,7 @@ static int holds(struct engine *e, int32_t predicate)
     m->clock = m->elapsed = 0;
     m->depth = m->chosen = m->given = m->sent = 0;
     m->exhausted = 0;
-    m->budget = BUDGET;
+    begin_count(e);
     start(e, e->model->predicate[predicate], NULL, 0);
     int status = e->model->run(m);
     m->covered = e->covered;
@@ -122,8 +136,13 @@ static void flush(struct engine *e)
 {
     uint32_t count = e->pending;
     e->pending = 0;
-    for (uint32_t i = 0; i < count; i++)
+    for (uint32_t i = 0; i < count; i++) {
         settle(e, e->batch + i, e->batch_words + (size_t)i * e->words);
+        if (!e->violated)
+            continue;
+        e->transitions -= e->purpose == SEARCH ? count - i - 1 : 0;
+        longjmp(e->escape, VIOLATED);
+    }
 }
 
 static struct pending *gather(struct engine *e, uint64_t ordinal)

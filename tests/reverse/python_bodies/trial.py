@@ -8,8 +8,9 @@ from random import Random
 from types import SimpleNamespace
 from typing import Any
 
+from rebsync.checker.endless import EndlessBody
 from rebsync.checker.lowering import lower
-from rebsync.checker.machine import Coverage, EndlessBody
+from rebsync.checker.machine import Coverage
 from rebsync.checker.outcomes import Actor, Outcome
 from rebsync.checker.program import NO_DEADLINE, Cell, Program, Slot
 from rebsync.checker.state import Local, Message
